@@ -1,0 +1,1 @@
+"""Vendor maps: strict YAML -> frozen data with positions -> rules across the map. Knows nothing of ST or Jinja."""
