@@ -1,0 +1,283 @@
+"""The data types of IEC 61131-3, second edition (table 10 and clause 2.3), with their sizes.
+
+Types are compared by identity: one elementary type is one object (`INT is ELEMENTARY["INT"]`), one `TYPE` declaration
+makes one object, and an alias (`TYPE A : INT; END_TYPE`) is the very type that it names. Anonymous arrays and sized
+strings of equal shape are equal through `same`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum as PythonEnum
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from driveblocks.st import tree
+
+# The length of a STRING without `[n]`. The standard leaves it to the implementation; 126 is what matiec's runtime has.
+DEFAULT_STRING_LENGTH = 126
+# An enumeration is held in an INT; the standard leaves it to the implementation.
+ENUM_BITS = 16
+
+
+class Kind(PythonEnum):
+    """What a type is made of."""
+
+    BOOL = "bool"
+    BITS = "bits"
+    INTEGER = "integer"
+    REAL = "real"
+    TIME = "time"
+    DATE = "date"
+    TIME_OF_DAY = "time of day"
+    DATE_AND_TIME = "date and time"
+    STRING = "string"
+    ENUM = "enum"
+    ARRAY = "array"
+    STRUCT = "struct"
+    BLOCK = "block"
+    POINTER = "pointer"
+    NONE = "none"
+
+
+@dataclass(slots=True, eq=False)
+class Type:
+    """Any type. `name` is as declared (elementary: upper case; anonymous: as it would be written)."""
+
+    name: str
+    kind: Kind
+
+    @property
+    def size(self) -> int:
+        """Bytes, as the sum of the IEC widths (a BOOL counts 1), without alignment."""
+        return 0
+
+    def __str__(self) -> str:
+        """Print as a person would write the type."""
+        return self.name
+
+
+@dataclass(slots=True, eq=False)
+class Elementary(Type):
+    """A type of table 10. `width` in bits; `signed` for SINT INT DINT LINT and the reals."""
+
+    width: int
+    signed: bool = False
+
+    @property
+    def size(self) -> int:
+        """Bytes; a BOOL takes one."""
+        return max(self.width // 8, 1)
+
+    @property
+    def low(self) -> int:
+        """The least value of a bit string or integer."""
+        return -(1 << (self.width - 1)) if self.signed else 0
+
+    @property
+    def high(self) -> int:
+        """The greatest value of a bit string or integer."""
+        return (1 << (self.width - 1)) - 1 if self.signed else (1 << self.width) - 1
+
+
+@dataclass(slots=True, eq=False)
+class Subrange(Elementary):
+    """`INT(0..9)`: behaves as `base` in every expression; assignments outside `first..last` are errors."""
+
+    base: Elementary = field(kw_only=True)
+    first: int = field(kw_only=True)
+    last: int = field(kw_only=True)
+
+
+@dataclass(slots=True, eq=False)
+class String(Type):
+    """STRING or WSTRING (`wide`) of at most `length` characters; `sized` if the length was written."""
+
+    length: int = DEFAULT_STRING_LENGTH
+    wide: bool = False
+    sized: bool = False
+
+    @property
+    def size(self) -> int:
+        """Bytes of the text and its terminator."""
+        return (self.length + 1) * (2 if self.wide else 1)
+
+
+@dataclass(slots=True, eq=False)
+class Array(Type):
+    """An array; `bounds` holds (low, high) per dimension, both inclusive; row-major, the last index fastest."""
+
+    element: Type
+    bounds: tuple[tuple[int, int], ...]
+    initial: tree.Expression | None = None
+
+    @property
+    def length(self) -> int:
+        """How many elements in all dimensions together."""
+        count = 1
+        for low, high in self.bounds:
+            count *= high - low + 1
+        return count
+
+    @property
+    def size(self) -> int:
+        """Bytes of all elements."""
+        return self.length * self.element.size
+
+
+@dataclass(slots=True, eq=False)
+class Field:
+    """A field of a structure; `initial` is its own initial value, None for the type's."""
+
+    name: str
+    type: Type
+    initial: tree.Expression | None = None
+    declaration: tree.VarDecl | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Struct(Type):
+    """A structure; `fields` by upper-case name in the order of declaration."""
+
+    fields: dict[str, Field] = field(default_factory=dict)
+    initial: tree.Expression | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of all fields."""
+        return sum(each.type.size for each in self.fields.values())
+
+
+@dataclass(slots=True, eq=False)
+class EnumValue:
+    """One value of an enumeration and its number (0, 1, ... or as written)."""
+
+    name: str
+    number: int
+    type: Enum
+
+
+@dataclass(slots=True, eq=False)
+class Enum(Type):
+    """An enumeration; `values` by upper-case name in order. `base` if one was written (third edition)."""
+
+    values: dict[str, EnumValue] = field(default_factory=dict)
+    base: Elementary | None = None
+    initial: tree.Expression | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of the number."""
+        return self.base.size if self.base else ENUM_BITS // 8
+
+
+class Direction(PythonEnum):
+    """Which way a parameter passes."""
+
+    INPUT = "VAR_INPUT"
+    OUTPUT = "VAR_OUTPUT"
+    IN_OUT = "VAR_IN_OUT"
+
+
+@dataclass(slots=True, eq=False)
+class Parameter:
+    """A formal parameter of a function or block. `default` is its declared initial value (None: the type's).
+
+    For a standard function `type` is what the overload resolved to in this very call.
+    """
+
+    name: str
+    type: Type
+    direction: Direction = Direction.INPUT
+    default: tree.Expression | None = None
+    declaration: tree.VarDecl | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Block(Type):
+    """A function block or program as a type. `declaration` is None for a standard block (then `name` says which).
+
+    `parameters` (inputs, outputs, in-outs) by upper-case name in the order of declaration; the variables that are no
+    parameters are in `declaration.symbols`. `size` counts all of its variables, an in-out as the thing it stands for.
+    """
+
+    parameters: dict[str, Parameter] = field(default_factory=dict)
+    declaration: tree.FunctionBlock | tree.Program | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of all variables; of a standard block those of its parameters."""
+        if self.declaration is None:
+            return sum(each.type.size for each in self.parameters.values())
+        return sum(each.type.size for each in self.declaration.symbols.values())
+
+
+@dataclass(slots=True, eq=False)
+class Pointer(Type):
+    """POINTER TO, REF_TO or REFERENCE TO: parsed so that it can be named, never run."""
+
+    target: Type
+
+
+@dataclass(slots=True, eq=False)
+class Builtin:
+    """A standard function as one call resolved it.
+
+    `name` is upper case as called (`ADD`, `INT_TO_REAL`). `family` is what an engine dispatches on: the name itself,
+    or `CONVERT` for every `X_TO_Y` (source is `parameters[0].type`, destination `result`), `TRUNC` for TRUNC and
+    `X_TRUNC_Y`, `BCD_TO` and `TO_BCD`. Extensible functions (ADD, MUL, AND, OR, XOR, MAX, MIN, MUX, CONCAT, GT ... LE)
+    have as many parameters as the call has arguments, named IN1, IN2 ... (MUX: K, IN0, IN1 ...).
+    """
+
+    name: str
+    family: str
+    parameters: tuple[Parameter, ...]
+    result: Type
+
+
+def _table() -> dict[str, Elementary]:
+    rows = [("BOOL", Kind.BOOL, 1, False)]
+    rows += [(name, Kind.BITS, width, False) for name, width in (("BYTE", 8), ("WORD", 16), ("DWORD", 32))]
+    rows += [("LWORD", Kind.BITS, 64, False)]
+    for name, width in (("SINT", 8), ("INT", 16), ("DINT", 32), ("LINT", 64)):
+        rows += [(name, Kind.INTEGER, width, True), ("U" + name, Kind.INTEGER, width, False)]
+    rows += [("REAL", Kind.REAL, 32, True), ("LREAL", Kind.REAL, 64, True), ("TIME", Kind.TIME, 64, True)]
+    rows += [("DATE", Kind.DATE, 64, False), ("TIME_OF_DAY", Kind.TIME_OF_DAY, 64, False)]
+    rows += [("DATE_AND_TIME", Kind.DATE_AND_TIME, 64, False)]
+    return {name: Elementary(name, kind, width, signed) for name, kind, width, signed in rows}
+
+
+# Every elementary type by upper-case name, TOD and DT included.
+ELEMENTARY: dict[str, Elementary] = _table()
+ELEMENTARY["TOD"] = ELEMENTARY["TIME_OF_DAY"]
+ELEMENTARY["DT"] = ELEMENTARY["DATE_AND_TIME"]
+
+BOOL, BYTE, WORD, DWORD, LWORD = (ELEMENTARY[name] for name in ("BOOL", "BYTE", "WORD", "DWORD", "LWORD"))
+SINT, INT, DINT, LINT = (ELEMENTARY[name] for name in ("SINT", "INT", "DINT", "LINT"))
+USINT, UINT, UDINT, ULINT = (ELEMENTARY[name] for name in ("USINT", "UINT", "UDINT", "ULINT"))
+REAL, LREAL, TIME = (ELEMENTARY[name] for name in ("REAL", "LREAL", "TIME"))
+DATE, TIME_OF_DAY, DATE_AND_TIME = (ELEMENTARY[name] for name in ("DATE", "TIME_OF_DAY", "DATE_AND_TIME"))
+STRING = String("STRING", Kind.STRING)
+WSTRING = String("WSTRING", Kind.STRING, wide=True)
+
+# What an expression has before the checker has been there, and after it could not be resolved.
+UNKNOWN = Type("?", Kind.NONE)
+# What a function without result returns (third edition).
+VOID = Type("VOID", Kind.NONE)
+
+
+def plain(each: Type) -> Type:
+    """The type that a value of `each` has in an expression: a subrange counts as its base."""
+    return each.base if isinstance(each, Subrange) else each
+
+
+def same(left: Type, right: Type) -> bool:
+    """Whether a value of `right` may stand where `left` is wanted, without any conversion."""
+    left, right = plain(left), plain(right)
+    if left is right or UNKNOWN in (left, right):
+        return True
+    if isinstance(left, String) and isinstance(right, String):
+        return left.wide == right.wide
+    if isinstance(left, Array) and isinstance(right, Array):
+        return left.bounds == right.bounds and same(left.element, right.element)
+    return False
