@@ -1,0 +1,128 @@
+"""Nodes -> model: every key known, every value in its form, every mistake noted with its place, all at once."""
+
+import difflib
+import re
+from typing import Any
+
+from driveblocks.maps import form
+from driveblocks.maps.form import Form
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of
+
+_NUMERIC = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
+_BAD: Any = object()
+"""Stands for a value that is wrong; what holds it is not built."""
+
+
+def decode(cls: type, node: Node, report: Report) -> Any | None:
+    """Build an instance of a model class from a node, or return None after noting every mistake."""
+    value = _entry(EntryOf(cls), node, report, "the map")
+    return None if value is _BAD else value
+
+
+def _value(shape: Shape, node: Node, report: Report, name: str) -> Any:
+    if isinstance(shape, EntryOf):
+        return _entry(shape, node, report, name)
+    if isinstance(shape, ListOf):
+        return _list(shape, node, report, name)
+    if not isinstance(node, Scalar):
+        report.add(node.at, f"`{name}` is {_kind(node)}", f"it is one value: {_right(shape)}")
+        return _BAD
+    if isinstance(shape, OneOf):
+        return _one_of(shape, node, report, name)
+    return _formed(shape, node, report, name)
+
+
+def _kind(node: Node) -> str:
+    if isinstance(node, Scalar):
+        return "one value" if node.text or not node.plain else "empty"
+    return "a list" if isinstance(node, Items) else "a mapping"
+
+
+def _right(shape: Form | OneOf) -> str:
+    return shape.right if isinstance(shape, Form) else "write one of " + ", ".join(shape.words)
+
+
+def _list(shape: ListOf, node: Node, report: Report, name: str) -> Any:
+    if not isinstance(node, Items):
+        report.add(node.at, f"`{name}` is {_kind(node)}", "it is a list: lines that start with `- `, or [a, b]")
+        return _BAD
+    values = [_value(shape.item, item, report, name) for item in node.items]
+    return _BAD if any(value is _BAD for value in values) else tuple(values)
+
+
+def _one_of(shape: OneOf, node: Scalar, report: Report, name: str) -> Any:
+    if node.text in shape.words:
+        return shape.words[node.text]
+    near = _nearest(node.text, list(shape.words))
+    report.add(node.at, f"`{name}: {_short(node.text)}` is not allowed", near or _right(shape))
+    return _BAD
+
+
+def _formed(shape: Form, node: Scalar, report: Report, name: str) -> Any:
+    if node.plain and not node.text:
+        report.add(node.at, f"`{name}` has no value", shape.right)
+        return _BAD
+    if shape.pattern.fullmatch(node.text) is None:
+        report.add(node.at, f"`{name}: {_short(node.text)}` is not {_article(shape.name)}", shape.right)
+        return _BAD
+    if shape is form.ENGLISH and form.holds_chinese(node.text):
+        report.add(node.at, f"`{name}` holds Chinese: the translation is missing", shape.right)
+        return _BAD
+    if shape in (form.TEXT, form.ENGLISH) and node.plain and _NUMERIC.fullmatch(node.text):
+        report.add(node.at, f"`{name}` is a text, but {node.text} without quotes is a number", f'write "{node.text}"')
+        return _BAD
+    return shape.parse(node.text)
+
+
+def _article(name: str) -> str:
+    return f"an {name}" if name[0] in "aeiouE" else f"a {name}"
+
+
+def _short(text: str) -> str:
+    flat = " ".join(text.split())
+    return flat if len(flat) <= 40 else flat[:37] + "..."
+
+
+def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
+    if not isinstance(node, Entries):
+        keys = ", ".join(key for key, known in keys_of(shape.cls).items() if known.required)
+        report.add(node.at, f"`{name}` is {_kind(node)}", f"it is a mapping with the keys {keys}")
+        return _BAD
+    known = keys_of(shape.cls)
+    _unknown_keys(known, node, report, name)
+    values, places = _values(known, node, report)
+    missing = _missing(known, node, report, name)
+    if missing or any(value is _BAD for value in values.values()):
+        return _BAD
+    return shape.cls(at=node.at, keys=places, **values)
+
+
+def _values(known: dict[str, Key], node: Entries, report: Report) -> tuple[dict[str, Any], dict[str, Place]]:
+    values: dict[str, Any] = {}
+    places: dict[str, Place] = {}
+    for name, (_, value) in node.entries.items():
+        if name in known:
+            values[name] = _value(known[name].shape, value, report, name)
+            places[name] = value.at
+    return values, places
+
+
+def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: str) -> None:
+    for text, (key, _) in node.entries.items():
+        if text not in known:
+            near = _nearest(text, list(known))
+            report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", near or "known keys: " + ", ".join(known))
+
+
+def _missing(known: dict[str, Key], node: Entries, report: Report, name: str) -> bool:
+    missing = [key for key in known.values() if key.required and key.name not in node.entries]
+    for key in missing:
+        report.add(node.at, f"`{name}` has no `{key.name}`", f"add `{key.name}`: {key.doc}, such as {key.example}")
+    return bool(missing)
+
+
+def _nearest(text: str, words: list[str]) -> str | None:
+    near = difflib.get_close_matches(text.lower(), words, 1, 0.6)
+    return f"did you mean `{near[0]}`?" if near else None

@@ -1,0 +1,141 @@
+"""The forms of a single value in a map: how it is written, what it means, and what to say when it is written otherwise."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
+
+_CJK = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]")
+
+
+@dataclass(frozen=True, order=True)
+class Span:
+    """An inclusive range of numbers: addresses, or bits of a word."""
+
+    first: int
+    last: int
+
+    def __iter__(self) -> Any:
+        """Every number of the range."""
+        return iter(range(self.first, self.last + 1))
+
+    def __len__(self) -> int:
+        """How many numbers the range holds."""
+        return self.last - self.first + 1
+
+    def __contains__(self, number: object) -> bool:
+        """Whether a number lies in the range."""
+        return isinstance(number, int) and self.first <= number <= self.last
+
+    def overlaps(self, other: "Span") -> bool:
+        """Whether the ranges share a number."""
+        return self.first <= other.last and other.first <= self.last
+
+
+@dataclass(frozen=True)
+class Form:
+    """One way to write a value: a full-match pattern, its parser, and the words for messages and for the schema."""
+
+    name: str
+    pattern: re.Pattern[str]
+    parse: Callable[[str], Any]
+    right: str
+    numeric: bool = False
+    """Whether an editor's YAML may read a match as a number, so that the schema must allow one."""
+
+
+def address_text(address: int) -> str:
+    """Print an address as the manuals do: 38 -> 0026H."""
+    return f"{address:04X}H"
+
+
+def span_text(span: Span) -> str:
+    """Print an address range as a map does: 0106H-0125H, or one address."""
+    first = address_text(span.first)
+    return first if len(span) == 1 else f"{first}-{address_text(span.last)}"
+
+
+def bits_text(span: Span) -> str:
+    """Print bits as a map does: 3, A, 8-F."""
+    return f"{span.first:X}" if len(span) == 1 else f"{span.first:X}-{span.last:X}"
+
+
+def _number(text: str) -> int:
+    return int(text[:-1], 16) if text.endswith("H") else int(text)
+
+
+def _address(text: str) -> int:
+    return int(text[:-1], 16)
+
+
+def _span(text: str, digit: Callable[[str], int]) -> Span:
+    first, _, last = text.partition("-")
+    return Span(digit(first), digit(last or first))
+
+
+def _ascii_or_hex(text: str) -> bytes:
+    if not text.startswith(":"):
+        return bytes.fromhex(text)
+    body, *ends = text.split(" ")
+    return body.encode("ascii") + b"".join({"CR": b"\r", "LF": b"\n"}[end] for end in ends)
+
+
+def _form(name: str, pattern: str, parse: Callable[[str], Any], right: str, *, numeric: bool = False) -> Form:
+    return Form(name, re.compile(pattern), parse, right, numeric)
+
+
+TEXT = _form("text", r"(?s)\S(.*\S)?", str, "write a text of at least one character, with no space at either end")
+ENGLISH = _form("English text", r"(?s)\S(.*\S)?", str, "write it in English; the manual's own words go to the `zh` key")
+WORD = _form("word", r"[a-z][a-z0-9_]*", str, "write lower-case letters, digits and _, starting with a letter")
+PREFIX = _form(
+    "block prefix", r"[A-Z][A-Z0-9]{0,11}", str, "write 1 to 12 upper-case letters and digits, such as SN300G5"
+)
+ID = _form(
+    "id", r"[^\s,]+(\.\.[^\s,]+)?", str, "write the id as the manual prints it, such as H5-01, or a range A2-01..A2-32"
+)
+ADDRESS = _form("address", r"[0-9A-F]{4}H", _address, "write four upper-case hexadecimal digits and H, such as 0026H")
+ADDRESSES = _form(
+    "address or range",
+    r"[0-9A-F]{4}H(-[0-9A-F]{4}H)?",
+    lambda t: _span(t, _address),
+    "write 0026H, or a range 0106H-0125H",
+)
+BITS = _form(
+    "bit or bits",
+    r"[0-9A-F](-[0-9A-F])?",
+    lambda t: _span(t, lambda d: int(d, 16)),
+    "write one hexadecimal digit 0 to F, or a range 8-F",
+    numeric=True,
+)
+NUMBER = _form(
+    "number",
+    r"-?(0|[1-9][0-9]{0,9})|[0-9A-F]{2,8}H",
+    _number,
+    "write a decimal number such as 500, or hexadecimal such as 1EH",
+    numeric=True,
+)
+COUNT = _form("count", r"[1-9][0-9]{0,5}", int, "write a decimal number from 1 to 999999", numeric=True)
+DECIMAL = _form("decimal", r"-?(0|[1-9][0-9]*)(\.[0-9]+)?", Decimal, "write a decimal number such as 0.1", numeric=True)
+BYTES = _form("bytes", r"[0-9A-F]{2}( [0-9A-F]{2})*", bytes.fromhex, "write bytes as upper-case pairs: 01 03 00 26")
+ADU = _form(
+    "frame",
+    r"[0-9A-F]{2}( [0-9A-F]{2})*|:[0-9A-F]*( CR)?( LF)?",
+    _ascii_or_hex,
+    "write RTU bytes as 01 03 00 26, or ASCII characters as :0103 with CR LF named at the end",
+)
+REGISTER_WORD = _form(
+    "PLC register", r"[0-9A-F]{2}([0-9A-F]{2}|--)?", str, "write 3A30, 0A-- for an empty low byte, or 01 for 8-bit mode"
+)
+REFERENCE = _form(
+    "reference", r"[a-z_]+( \S+)?", str, "write what the entry is about, such as `register 0220H` or `bit 0015H.7`"
+)
+ID_FORM = _form(
+    "id form", r"[A9X\-.]+", str, "write A for a letter, 9 for a digit, X for either: A9-99 stands for H5-01"
+)
+PLC_DEVICE = _form("PLC register name", r"[A-Z]+[0-9]+", str, "write the first register, such as D0")
+
+
+def holds_chinese(text: str) -> bool:
+    """Whether a text has Chinese characters or full-width punctuation."""
+    return _CJK.search(text) is not None

@@ -1,0 +1,773 @@
+"""What a map says, as frozen data. Each class is one kind of entry; each field's text is its documentation.
+
+The classes are the format: the decoder, the JSON schema and the format page's tables are made from them.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from decimal import Decimal
+from typing import Annotated, Any, Literal
+
+from driveblocks.maps import form
+from driveblocks.maps.form import Span
+from driveblocks.maps.problem import Place
+
+Str = Annotated[str, form.TEXT]
+English = Annotated[str, form.ENGLISH]
+Word = Annotated[str, form.WORD]
+Id = Annotated[str, form.ID]
+Address = Annotated[int, form.ADDRESS]
+Addresses = Annotated[Span, form.ADDRESSES]
+Bits = Annotated[Span, form.BITS]
+Number = Annotated[int, form.NUMBER]
+Count = Annotated[int, form.COUNT]
+Factor = Annotated[Decimal, form.DECIMAL]
+Octets = Annotated[bytes, form.BYTES]
+Adu = Annotated[bytes, form.ADU]
+Ref = Annotated[str, form.REFERENCE]
+
+Access = Literal["r", "w", "rw"]
+Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
+Does = Literal[
+    "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
+    "fault_reset", "no_function",
+]  # fmt: skip
+
+
+def fact(doc: str, example: str, *, optional: bool = False, default: Any = None) -> Any:
+    """Declare a key: its meaning, one example as YAML, and whether it may be left out."""
+    metadata = {"doc": doc, "example": example}
+    return field(metadata=metadata, default=default) if optional else field(metadata=metadata)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """Base of all entries: where it stands in the file."""
+
+    at: Place = field(default=(0, 0), compare=False, repr=False)
+    keys: dict[str, Place] = field(default_factory=dict, compare=False, repr=False)
+
+    def place(self, key: str) -> Place:
+        """Line and column of a key's value, or of the entry where the key is absent."""
+        return self.keys.get(key, self.at)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Text(Entry):
+    """A text in English and in the manual's Chinese."""
+
+    en: English = fact("English", "Shanghai SHUEN")
+    zh: Str = fact("Chinese as the manual prints it", "上海数恩")
+    zh_used: Str | None = fact("Chinese as it should read, where the manual misprints it", "超速", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Named(Entry):
+    """Base of entries with a name in both languages."""
+
+    name: English = fact("English name, a short noun phrase; identifiers are made from it", "Output frequency")
+    zh: Str = fact("the manual's own wording, as printed, misprints included", "输出频率")
+    zh_used: Str | None = fact(
+        "the wording to show, where `zh` holds a misprint (needs an erratum)", "超速", optional=True
+    )
+
+    @property
+    def text_zh(self) -> str:
+        """The Chinese to show to a person."""
+        return self.zh_used or self.zh
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corroboration(Entry):
+    """Another public document that says the same, or says what this manual leaves out. Never replaces a value silently."""
+
+    document: Word = fact("id of an entry under `documents`", "modbus_application")
+    page: Str = fact("page or section in that document", "section 7, page 48")
+    reads: English = fact("what it says, in short", "01 is ILLEGAL FUNCTION")
+    value: Number | None = fact("the value that it gives, where it is a number", "1", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Manual(Entry):
+    """The manual that the map was read from."""
+
+    title: Text = fact("title in both languages", "{en: Communication protocol, zh: 通讯协议说明}")
+    publisher: Text = fact("who published it", "{en: Shanghai SHUEN, zh: 上海数恩}")
+    edition: Str | None = fact("edition or date as printed; left out when none is printed", "V20160418", optional=True)
+    covers: English = fact(
+        "which part of the drive's documentation this is", "chapter 11 of the user manual", optional=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Document(Entry):
+    """Another public document that corroborates values."""
+
+    id: Word = fact("short name for references", "modbus_application")
+    title: Str = fact("title as printed", "MODBUS Application Protocol Specification")
+    publisher: Str = fact("who published it", "Modbus Organization")
+    edition: Str | None = fact("edition, revision or date", "V1.1b3", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Value(Named):
+    """One value of an enumeration."""
+
+    value: Number = fact("the number on the wire or on the keypad", "1")
+    note: English | None = fact("what else a person must know", "0 is not a stop", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Range(Entry):
+    """Smallest and greatest allowed number."""
+
+    min: Number = fact("smallest", "-10000")
+    max: Number = fact("greatest", "10000")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Needed(Entry):
+    """What a keypad setting must be before the drive listens."""
+
+    value: Number | None = fact(
+        "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
+    )
+    why: English = fact("what it is for", "run commands come from the bus")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Setting(Named):
+    """A parameter that a person sets on the keypad for communication."""
+
+    id: Id = fact("the manual's id", "H5-02")
+    source: English = fact("where the manual says so", "table of communication parameters")
+    register: Address | None = fact("its register, where the manual lists one", "041DH", optional=True)
+    range: Range | None = fact("allowed numbers", "{min: 0, max: 4}", optional=True)
+    unit_step: Number | None = fact("smallest step", "1", optional=True)
+    default: Str | None = fact("factory setting as printed", '"3"', optional=True)
+    values: tuple[Value, ...] = fact(
+        "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", optional=True, default=()
+    )
+    needed: Needed | None = fact("what it must be before the drive listens", "{value: 2, why: ...}", optional=True)
+    note: English | None = fact("what else a person must know", "takes effect after a power cycle", optional=True)
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeCode(Entry):
+    """A code of the setting that chooses RTU or ASCII."""
+
+    code: Number = fact("number on the keypad", "2")
+    mode: Literal["rtu", "ascii"] = fact("the mode", "rtu")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BaudCode(Entry):
+    """A code of the setting that chooses the bit rate."""
+
+    code: Number = fact("number on the keypad", "3")
+    baud: Count = fact("bits per second", "9600")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormatCode(Entry):
+    """A code of the setting that chooses parity and stop bits; what the manual leaves open stays out."""
+
+    code: Number = fact("number on the keypad", "1")
+    parity: Literal["none", "even", "odd"] = fact("parity bit", "even")
+    data_bits: Literal[7, 8] | None = fact("data bits", "8", optional=True)
+    stop_bits: Literal[1, 2] | None = fact("stop bits", "1", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice(Entry):
+    """Base of a serial property: the setting that chooses it and the factory's choice."""
+
+    source: English = fact("where the manual says so", "table of communication parameters")
+    setting: Id | None = fact("id of the keypad setting", "H5-02", optional=True)
+    default: Number | None = fact("factory setting, as a code of the list", "3", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModeChoice(Choice):
+    """RTU, ASCII or both."""
+
+    modes: tuple[Literal["rtu", "ascii"], ...] = fact("what the drive speaks", "[rtu, ascii]")
+    codes: tuple[ModeCode, ...] = fact("codes of the setting", "[{code: 2, mode: rtu}]", optional=True, default=())
+
+
+@dataclass(frozen=True, kw_only=True)
+class BaudChoice(Choice):
+    """Bit rates."""
+
+    codes: tuple[BaudCode, ...] = fact("codes of the setting", "[{code: 3, baud: 9600}]", optional=True, default=())
+
+
+@dataclass(frozen=True, kw_only=True)
+class FormatChoice(Choice):
+    """Character formats."""
+
+    codes: tuple[FormatCode, ...] = fact(
+        "codes of the setting", "[{code: 1, parity: even, data_bits: 8, stop_bits: 1}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class UnitAddress(Entry):
+    """Unit (slave) addresses."""
+
+    min: Number = fact("smallest", "1")
+    max: Number = fact("greatest", "247")
+    source: English = fact("where the manual says so", "bus structure (3)")
+    setting: Id | None = fact("id of the keypad setting", "H5-01", optional=True)
+    default: Number | None = fact("factory setting", "1", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Silence(Entry):
+    """Silence on the line around a frame."""
+
+    source: English = fact("where the manual says so", "RTU frame structure")
+    characters: Factor | None = fact("silence before and after a frame, in character times", "3.5", optional=True)
+    milliseconds: Factor | None = fact("silence before and after a frame, in ms at any bit rate", "10", optional=True)
+    gap_characters: Factor | None = fact("longest pause inside a frame, in character times", "1.5", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Broadcast(Entry):
+    """Frames to all drives at once."""
+
+    address: Number = fact("the broadcast address", "0")
+    replies: bool = fact("whether drives answer it", "false")
+    source: English = fact("where the manual says so", "bus structure (3)")
+    start_addresses: tuple[Address, ...] = fact(
+        "the only start addresses that a broadcast may use", "[0000H, 0001H]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Serial(Entry):
+    """The line: interface, modes, rates, formats, addresses, pauses."""
+
+    interface: Text = fact("electrical interface", "{en: RS-485 half duplex, zh: RS485}")
+    mode: ModeChoice = fact("RTU or ASCII", "{modes: [rtu], source: ...}")
+    baud: BaudChoice | None = fact(
+        "bit rates", "{setting: H5-02, default: 3, codes: [...], source: ...}", optional=True
+    )
+    format: FormatChoice | None = fact(
+        "character formats", "{setting: H5-03, codes: [...], source: ...}", optional=True
+    )
+    unit: UnitAddress = fact("unit addresses", "{min: 1, max: 247, source: ...}")
+    silence: Silence | None = fact("pauses around frames", "{characters: 3.5, source: ...}", optional=True)
+    broadcast: Broadcast | None = fact("broadcast", "{address: 0, replies: false, source: ...}", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limit(Entry):
+    """One limit and where it stands."""
+
+    value: Count = fact("the number", "16")
+    source: English = fact("where the manual says so", "command 03H")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits(Entry):
+    """What fits into one frame."""
+
+    read_words: Limit | None = fact("words that one 03H may read", "{value: 16, source: ...}", optional=True)
+    write_words: Limit | None = fact("words that one request may write", "{value: 16, source: ...}", optional=True)
+    data_bytes: Limit | None = fact(
+        "bytes of the data field (between function code and checksum) of an RTU frame",
+        "{value: 25, source: ...}",
+        optional=True,
+    )
+    ascii_data_bytes: Limit | None = fact(
+        "bytes of the data field of an ASCII frame, each sent as two characters",
+        "{value: 16, source: ...}",
+        optional=True,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SubFunction(Named):
+    """A sub-function of function 08H."""
+
+    code: Number = fact("sub-function code", "0000H")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Function(Named):
+    """A Modbus function that the drive knows."""
+
+    code: Number = fact("function code", "03H")
+    source: English = fact("where the manual says so", "RTU frame structure")
+    sub_functions: tuple[SubFunction, ...] = fact(
+        "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Condition(Entry):
+    """A register, or a bit of it, that must have a value."""
+
+    register: Address = fact("the register", "000FH")
+    bit: Bits | None = fact("the bit or bits; left out for the whole word", "0", optional=True)
+    equals: Number = fact("the value", "0")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scale(Entry):
+    """Engineering value = raw word x factor, where the manual states or proves it."""
+
+    factor: Factor = fact("engineering units per count", "0.01")
+    source: English = fact("where the manual states or proves it", "000FH bit 0")
+    when: Condition | None = fact(
+        "holds only while this is true", "{register: 000FH, bit: 0, equals: 0}", optional=True
+    )
+    proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedBit(Entry):
+    """How the manual prints a bit, where that is wrong."""
+
+    bit: Str | None = fact("the bit column as printed", "F", optional=True)
+    id: Str | None = fact("the id as printed", "EV", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bit(Entry):
+    """A bit, a field of bits, or a hole in a word."""
+
+    bit: Bits = fact("bit number in hexadecimal, or a range for a field or a hole", "8-F")
+    name: English | None = fact("English name; left out for a hole", "Running", optional=True)
+    zh: Str | None = fact("the manual's wording, as printed", "1: 运行中", optional=True)
+    zh_used: Str | None = fact("the wording to show, where `zh` holds a misprint", "超速", optional=True)
+    id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
+    unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)
+    values: tuple[Value, ...] = fact(
+        "meaning of each value of a field, or of 0 and 1", "[{value: 0, name: ..., zh: ...}]", optional=True, default=()
+    )
+    printed: PrintedBit | None = fact("what the manual prints instead (needs an erratum)", "{bit: F}", optional=True)
+    note: English | None = fact("what else a person must know", "terminals 9 and 10", optional=True)
+
+    @property
+    def text_zh(self) -> str | None:
+        """The Chinese to show to a person."""
+        return self.zh_used or self.zh
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintedRow(Entry):
+    """How the manual prints a register's row, where that is wrong."""
+
+    address: Str | None = fact("the address as printed", "0210H", optional=True)
+    id: Str | None = fact("the id as printed", "B5-05", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Register(Entry):
+    """One row of a register table: a register, or a run of registers that one row describes."""
+
+    address: Addresses = fact("wire address, zero-based, or a range", "0026H")
+    id: Id | None = fact("the manual's parameter id, or a range of ids", "U1-07", optional=True)
+    name: English | None = fact(
+        "English name; left out where the manual gives no name", "DC bus voltage", optional=True
+    )
+    zh: Str | None = fact("the manual's wording, as printed", "直流电压", optional=True)
+    zh_used: Str | None = fact(
+        "the wording to show, where `zh` holds a misprint (needs an erratum)", "输出功率", optional=True
+    )
+    access: Access | None = fact("overrides the section's access", "r", optional=True)
+    unused: bool = fact("the manual says that the address is not used", "true", optional=True, default=False)
+    unit: Unit | None = fact("unit of the engineering value", "Hz", optional=True)
+    scale: Scale | None = fact("factor of the engineering value", "{factor: 0.1, source: ...}", optional=True)
+    signed: bool = fact("the word is a two's complement number", "true", optional=True, default=False)
+    range: Range | None = fact("allowed raw values", "{min: -10000, max: 10000}", optional=True)
+    values: tuple[Value, ...] = fact(
+        "meaning of each value of the word", "[{value: 1, name: ..., zh: ...}]", optional=True, default=()
+    )
+    masks: bool = fact(
+        "the values are single bits; the manual leaves open whether they combine", "true", optional=True, default=False
+    )
+    bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
+    printed: PrintedRow | None = fact(
+        "what the manual prints instead (needs an erratum)", "{address: 0210H}", optional=True
+    )
+    note: English | None = fact("what else a person must know", "write 0 to store", optional=True)
+    source: English | None = fact("overrides the section's source", "page 9", optional=True)
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    )
+
+    @property
+    def text_zh(self) -> str | None:
+        """The Chinese to show to a person."""
+        return self.zh_used or self.zh
+
+
+@dataclass(frozen=True, kw_only=True)
+class Series(Entry):
+    """A run of parameter ids whose registers follow each other: address = base + (number - first number)."""
+
+    ids: Id = fact("first and last id", "U1-01..U1-28")
+    base: Address = fact("address of the first id", "0020H")
+    apart: tuple[Id, ...] = fact("ids that the manual places elsewhere", "[C3-05]", optional=True, default=())
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section(Entry):
+    """One register table of the manual, in the manual's order."""
+
+    id: Word = fact("short name", "monitors_u1")
+    title: Text = fact("heading of the table", "{en: U1 monitors, zh: U1-XX 监测具体内容寄存器}")
+    source: English = fact("where it stands in the manual", "section (II)")
+    access: Access = fact("how its registers may be used: r, w or rw", "r")
+    registers: tuple[Register, ...] = fact(
+        "the rows, in the manual's order", "[{address: 0020H, id: U1-01, name: ..., zh: ...}]"
+    )
+    series: tuple[Series, ...] = fact(
+        "ids whose addresses follow each other; every row is checked against them",
+        "[{ids: U1-01..U1-28, base: 0020H}]",
+        optional=True,
+        default=(),
+    )
+    note: English | None = fact("what else a person must know", "rows are printed out of order", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AreaExample(Entry):
+    """An example of an area's addressing rule, from the manual."""
+
+    id: Id = fact("parameter", "P5.05")
+    number: Number = fact("its number", "58")
+    address: Address = fact("its address", "003AH")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Excluded(Named):
+    """Parameters of an area that must not be touched."""
+
+    ids: Id = fact("which parameters", "PE")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Area(Named):
+    """Parameter registers that the manual gives by a rule: address = base + number."""
+
+    id: Word = fact("short name", "function_codes")
+    addresses: Addresses = fact("the addresses", "0000H-01FFH")
+    numbered_by: Literal["sequence_number", "parameter_number"] = fact("what the number is", "sequence_number")
+    access: Access = fact("r, w or rw", "rw")
+    source: English = fact("where it stands in the manual", "11.6.4 (1)")
+    examples: tuple[AreaExample, ...] = fact("the manual's examples", "[{id: P5.05, number: 58, address: 003AH}]")
+    excluded: tuple[Excluded, ...] = fact(
+        "parameters that must not be read or written", "[{ids: PE, name: ..., zh: ...}]", optional=True, default=()
+    )
+    note: English | None = fact("what else a person must know", "...", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Storage(Entry):
+    """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
+
+    method: Literal["enter_register", "ram_address_bit", "unexplained"] = fact(
+        "`enter_register`: writes go to RAM, a write to a register stores them; `ram_address_bit`: writes are stored unless a "
+        "bit is added to the address; `unexplained`: the manual does not say",
+        "enter_register",
+    )
+    source: English = fact("where the manual says so", "section (VI)")
+    note: English = fact("the rule in one or two sentences", "ENTER stores all parameters")
+    register: Address | None = fact("enter_register: the register to write", "FFFDH", optional=True)
+    value: Number | None = fact("enter_register: the value to write", "0", optional=True)
+    max_writes: Count | None = fact("how often the memory can be written", "100000", optional=True)
+    add: Address | None = fact("ram_address_bit: what to add to an address", "8000H", optional=True)
+    area: Word | None = fact("ram_address_bit: the only area where it may be added", "function_codes", optional=True)
+    readable: bool = fact("ram_address_bit: whether such an address may be read", "false", optional=True, default=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Command(Entry):
+    """What one command is on the wire: a value of the command register, or bits set and cleared in it."""
+
+    does: Does = fact("what it does", "run_forward")
+    register: Address = fact("command register", "1000H")
+    value: Number | None = fact("the whole word", "1", optional=True)
+    set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
+    clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
+    source: English = fact("where the manual says so", "section (I), 0000H")
+    note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference(Entry):
+    """How the speed reference is given."""
+
+    register: Address = fact("reference register", "0001H")
+    means: Literal["frequency", "percent_of_maximum"] = fact("what the word is", "frequency")
+    source: English = fact("where the manual says so", "section (I), 0001H")
+    maximum: Id | None = fact("parameter that holds the 100 % value", "P0.04", optional=True)
+    negative_reverses: bool = fact(
+        "a negative reference turns the motor the other way", "true", optional=True, default=False
+    )
+    verify: tuple[Condition, ...] = fact(
+        "what must be read back before the reference means what it says",
+        "[{register: 000FH, bit: 0, equals: 0}]",
+        optional=True,
+        default=(),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Standstill(Entry):
+    """What proves that the motor stands: all of these at once, read after the stop was acknowledged."""
+
+    all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 0}]")
+    source: English = fact("where the manual says so", "section (I), 0010H; U1-02")
+    why: English = fact("why this proves it", "status and frequency both say so")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Operation(Entry):
+    """Commands, reference, and what proves standstill."""
+
+    commands: tuple[Command, ...] = fact(
+        "what the drive can be told", "[{does: stop, register: 1000H, value: 3, source: ...}]"
+    )
+    reference: Reference = fact("how speed is given", "{register: 0001H, means: frequency, source: ...}")
+    standstill: Standstill = fact("what proves standstill", "{all: [...], source: ..., why: ...}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BitRelation(Entry):
+    """Fault number = 16 x (word - first) + bit + 1, for fault bits with an id."""
+
+    first: Address = fact("first fault word", "0014H")
+    last: Address = fact("last fault word", "0016H")
+    source: English = fact("how it was found", "compared (I) with the table of fault numbers")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fault(Named):
+    """One fault code."""
+
+    code: Number = fact("the number that the drive reports", "1EH")
+    id: Str | None = fact("the drive's short display", "OPR", optional=True)
+    printed_code: Str | None = fact("the code as printed, where that is wrong (needs an erratum)", "OEF", optional=True)
+    note: English | None = fact("what else a person must know", "...", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Faults(Entry):
+    """Fault codes and the registers that report them."""
+
+    source: English = fact("where the table stands", "section (IV), table of fault numbers")
+    registers: tuple[Addresses, ...] = fact("registers that hold a fault code", "[0080H, 0090H-0093H]")
+    codes: tuple[Fault, ...] = fact(
+        "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", optional=True, default=()
+    )
+    bits: BitRelation | None = fact(
+        "relation of codes to fault bits", "{first: 0014H, last: 0016H, source: ...}", optional=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ErrorForm(Entry):
+    """What a refusal looks like on the wire."""
+
+    kind: Literal["exception", "write_reply"] = fact(
+        "`exception`: function + add, one code byte; `write_reply`: a reply of a write function to a fixed address, the word is the code",
+        "exception",
+    )
+    source: English = fact("where the manual says so", "error replies")
+    add: Number | None = fact("exception: what is added to the function code", "80H", optional=True)
+    function: Number | None = fact("write_reply: the function code, whatever was asked", "06H", optional=True)
+    address: Address | None = fact("write_reply: the address", "5001H", optional=True)
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ErrorCode(Named):
+    """One reason for a refusal."""
+
+    code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)
+    meaning: Text | None = fact("the manual's explanation", "{en: ..., zh: ...}", optional=True)
+    causes: tuple[Text, ...] = fact("the manual's list of causes", "[{en: ..., zh: ...}]", optional=True, default=())
+    note: English | None = fact("what else a person must know", "...", optional=True)
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ..., value: 1}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Errors(Entry):
+    """How the drive refuses a request."""
+
+    form: ErrorForm | None = fact(
+        "what a refusal looks like", "{kind: exception, add: 80H, source: ...}", optional=True
+    )
+    source: English = fact("where the table stands", "meaning of error codes")
+    codes: tuple[ErrorCode, ...] = fact("the reasons, in the manual's order", "[{code: 01H, name: ..., zh: ...}]")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Notice(Entry):
+    """A prohibition, warning, hazard or procedure that the manual gives in prose."""
+
+    kind: Literal["prohibition", "warning", "hazard", "procedure"] = fact("what it is", "prohibition")
+    text: Text = fact("the text; the Chinese as printed", "{en: ..., zh: ...}")
+    source: English = fact("where it stands", "notes (2)")
+    about: tuple[Ref, ...] = fact("what it is about", "[register FFFDH]", optional=True, default=())
+    note: English | None = fact("what to make of it", "this hides a lost line", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Quantity(Entry):
+    """An engineering value in an example frame."""
+
+    register: Address = fact("the register", "2000H")
+    value: Factor = fact("the value", "50.0")
+    unit: Unit = fact("its unit", "Hz")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Means(Entry):
+    """What an example frame means, typed by hand from the manual's words, never computed from the bytes."""
+
+    says: English = fact("in one sentence", "reads 2 words from 0026H")
+    unit: Number = fact("unit address", "1")
+    function: Number = fact("function code", "03H")
+    address: Address | None = fact("register address", "0026H", optional=True)
+    words: Number | None = fact("number of words", "2", optional=True)
+    byte_count: Number | None = fact("byte count field", "4", optional=True)
+    values: tuple[Number, ...] = fact("words carried, in order", "[500]", optional=True, default=())
+    sub_function: Number | None = fact("sub-function of 08H", "0000H", optional=True)
+    data: Number | None = fact("data word of 08H", "12ABH", optional=True)
+    error: Number | None = fact("error code", "5", optional=True)
+    quantities: tuple[Quantity, ...] = fact(
+        "engineering values", "[{register: 2000H, value: 50.0, unit: Hz}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlcTable(Entry):
+    """The same frame as a table of PLC registers, one byte (8) or two characters (16) in each."""
+
+    bits: Literal[8, 16] = fact("the serial instruction's mode", "16")
+    first: Annotated[str, form.PLC_DEVICE] = fact("the first register", "D0")
+    registers: tuple[Annotated[str, form.REGISTER_WORD], ...] = fact(
+        "contents in hexadecimal, high byte first; -- is a byte that is not sent", "[3A30, 0A--]"
+    )
+    printed: tuple[Annotated[str, form.REGISTER_WORD], ...] = fact(
+        "the contents as printed, where they are wrong (needs an erratum)", "[3A30, 3631]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Frame(Entry):
+    """An example frame of the manual: the test vector of everything that builds or parses frames."""
+
+    id: Word = fact("short name", "read_dc_bus_request")
+    direction: Literal["request", "reply"] = fact("who sends it", "request")
+    mode: Literal["rtu", "ascii"] = fact("framing", "rtu")
+    source: English = fact("where it stands", "command 03H, RTU request")
+    printed: Adu = fact("as printed", "01 03 00 26 00 02 25 C0")
+    checksum: Literal["right", "wrong"] = fact("verdict on the printed checksum", "right")
+    printed_checksum_of: Octets | None = fact(
+        "wrong checksum: the bytes that it does belong to, where found", "01 03 00 04", optional=True
+    )
+    correct: Adu = fact("the correct bytes", "01 03 00 26 00 02 25 C0")
+    answers: Word | None = fact("reply: id of the request that it answers", "read_dc_bus_request", optional=True)
+    means: Means = fact("what it says", "{says: ..., unit: 1, function: 03H, address: 0026H, words: 2}")
+    plc: PlcTable | None = fact(
+        "the manual's table of PLC registers", "{bits: 16, first: D0, registers: [...]}", optional=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Erratum(Entry):
+    """A misprint or contradiction of the manual and what the map makes of it."""
+
+    about: tuple[Ref, ...] = fact("what it is about; `prose` where no entry of the map is touched", "[register 0220H]")
+    where: English = fact("where it stands in the manual", "section (V), row C7-02")
+    printed: Str = fact("what is printed", "0210H C7-02 防乱系数")
+    used: Str = fact("what the map uses", "0220H")
+    why: English = fact("the reason", "0210H is C3-02; C7-01 is 021FH and C7-03 is 0221H")
+    confidence: Literal["certain", "likely", "open"] = fact("how sure", "certain")
+    measured: bool = fact("whether it was tried on a drive", "false")
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Absence(Entry):
+    """Something that a person needs and the manual does not say."""
+
+    what: English = fact("what is missing", "scale of 1001H")
+    about: tuple[Ref, ...] = fact("what it is about", "[register 1001H]")
+    matters: English = fact("why it matters", "a guessed scale is a tenfold overspeed")
+    find_out: English = fact("how to find out", "write 500 with the motor uncoupled and read the keypad")
+    corroborated: tuple[Corroboration, ...] = fact(
+        "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drive(Entry):
+    """A whole map: one drive family."""
+
+    format: Literal[1] = fact("version of this format", "1")
+    prefix: Annotated[str, form.PREFIX] = fact("what the names of its blocks start with", "SN300G5")
+    vendor: Text = fact("maker", "{en: SHUEN, zh: 数恩}")
+    family: Text = fact("family", "{en: SN300G5 series, zh: SN300G5系列变频器}")
+    manual: Manual = fact("the manual that the map was read from", "{title: ..., publisher: ...}")
+    id_forms: tuple[Annotated[str, form.ID_FORM], ...] = fact(
+        "forms of the manual's parameter ids: A letter, 9 digit, X either", "[A9-99]"
+    )
+    documents: tuple[Document, ...] = fact(
+        "other public documents that corroborate values",
+        "[{id: ..., title: ..., publisher: ...}]",
+        optional=True,
+        default=(),
+    )
+    serial: Serial = fact("the line", "{interface: ..., mode: ..., unit: ...}")
+    limits: Limits = fact("what fits into one frame", "{read_words: {value: 16, source: ...}}")
+    functions: tuple[Function, ...] = fact("Modbus functions", "[{code: 03H, name: ..., zh: ..., source: ...}]")
+    settings: tuple[Setting, ...] = fact(
+        "keypad settings for communication", "[{id: H5-01, name: ..., zh: ..., source: ...}]"
+    )
+    sections: tuple[Section, ...] = fact(
+        "register tables, in the manual's order", "[{id: ..., title: ..., source: ..., access: r, registers: [...]}]"
+    )
+    areas: tuple[Area, ...] = fact(
+        "parameter registers given by a rule", "[{id: function_codes, ...}]", optional=True, default=()
+    )
+    storage: Storage = fact("what happens to written parameters", "{method: unexplained, source: ..., note: ...}")
+    operation: Operation = fact("commands, reference, standstill", "{commands: [...], reference: ..., standstill: ...}")
+    faults: Faults = fact("fault codes", "{source: ..., registers: [...], codes: [...]}")
+    errors: Errors = fact("error replies", "{form: ..., source: ..., codes: [...]}")
+    notices: tuple[Notice, ...] = fact(
+        "prohibitions, warnings, hazards, procedures", "[{kind: warning, text: ..., source: ...}]"
+    )
+    frames: tuple[Frame, ...] = fact("the manual's example frames", "[{id: ..., direction: request, mode: rtu, ...}]")
+    errata: tuple[Erratum, ...] = fact(
+        "every misprint and contradiction", "[{about: [...], where: ..., printed: ..., used: ..., why: ..., ...}]"
+    )
+    absent: tuple[Absence, ...] = fact(
+        "what the manual does not say", "[{what: ..., about: [...], matters: ..., find_out: ...}]"
+    )
+
+    def registers(self) -> Iterator[tuple[Section, Register]]:
+        """Every row of every section, in the manual's order."""
+        for section in self.sections:
+            for register in section.registers:
+                yield section, register
+
+    def register_at(self, address: int) -> Register | None:
+        """The row that describes an address, or None."""
+        return next((row for _, row in self.registers() if address in row.address), None)

@@ -1,0 +1,47 @@
+"""What is wrong with a map: where, what, and what would be right. Collected, so that a file's mistakes come at once."""
+
+from dataclasses import dataclass, field
+
+Place = tuple[int, int]
+"""1-based line and column in the file."""
+
+
+@dataclass(frozen=True, order=True)
+class Problem:
+    """One mistake in one file."""
+
+    file: str
+    line: int
+    column: int
+    wrong: str
+    right: str
+
+    def __str__(self) -> str:
+        """Print as `file:line:col: what is wrong; what would be right`."""
+        return f"{self.file}:{self.line}:{self.column}: {self.wrong}; {self.right}"
+
+
+class MapError(Exception):
+    """A map that cannot be used; `problems` holds every mistake found, in file order."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        """Sort the problems and drop exact repetitions."""
+        self.problems = tuple(sorted(set(problems)))
+        super().__init__("\n".join(map(str, self.problems)))
+
+
+@dataclass
+class Report:
+    """Collects the problems of one file while it is read and checked."""
+
+    file: str
+    problems: list[Problem] = field(default_factory=list)
+
+    def add(self, place: Place, wrong: str, right: str) -> None:
+        """Note a mistake at a 1-based line and column."""
+        self.problems.append(Problem(self.file, place[0], place[1], wrong, right))
+
+    def raise_if_any(self) -> None:
+        """Raise MapError with all that was noted; do nothing when all is well."""
+        if self.problems:
+            raise MapError(self.problems)
