@@ -1,4 +1,4 @@
-"""The forms of a single value in a map: how it is written, what it means, and what to say when it is written otherwise."""
+"""The forms of a single value in a map: how it is written, what it means, what to say when it is not."""
 
 import re
 from collections.abc import Callable

@@ -79,7 +79,7 @@ class Named(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Corroboration(Entry):
-    """Another public document that says the same, or says what this manual leaves out. Never replaces a value silently."""
+    """Another public document that says the same, or what this manual leaves out. Never replaces a value silently."""
 
     document: Word = fact("id of an entry under `documents`", "modbus_application")
     page: Str = fact("page or section in that document", "section 7, page 48")
@@ -474,8 +474,8 @@ class Storage(Entry):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
     method: Literal["enter_register", "ram_address_bit", "unexplained"] = fact(
-        "`enter_register`: writes go to RAM, a write to a register stores them; `ram_address_bit`: writes are stored unless a "
-        "bit is added to the address; `unexplained`: the manual does not say",
+        "`enter_register`: writes go to RAM, writing a register stores them; `ram_address_bit`: writes are stored "
+        "unless a bit is added to the address; `unexplained`: the manual does not say",
         "enter_register",
     )
     source: English = fact("where the manual says so", "section (VI)")
@@ -578,7 +578,8 @@ class ErrorForm(Entry):
     """What a refusal looks like on the wire."""
 
     kind: Literal["exception", "write_reply"] = fact(
-        "`exception`: function + add, one code byte; `write_reply`: a reply of a write function to a fixed address, the word is the code",
+        "`exception`: function + add and one code byte; `write_reply`: a write function, a fixed address, the code "
+        "as its word",
         "exception",
     )
     source: English = fact("where the manual says so", "error replies")

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NoReturn
 
 import yaml
 
@@ -70,7 +71,7 @@ def parse(text: str, report: Report) -> Node | None:
     parser = _LOADER(text)
     try:
         return _document(_Events(parser, report))
-    except _Stop:
+    except _StopError:
         return None
     except yaml.YAMLError as error:
         _syntax(error, report)
@@ -79,7 +80,7 @@ def parse(text: str, report: Report) -> Node | None:
         parser.dispose()
 
 
-class _Stop(Exception):
+class _StopError(Exception):
     """Reading on makes no sense."""
 
 
@@ -92,13 +93,14 @@ class _Events:
         self.nodes = 0
 
     def next(self) -> yaml.Event:
-        event = self.parser.get_event()
+        event: yaml.Event = self.parser.get_event()  # type: ignore[no-untyped-call]
         if isinstance(event, yaml.NodeEvent):
             self._guard(event)
         return event
 
     def place(self, event: yaml.Event) -> Place:
-        return event.start_mark.line + 1, event.start_mark.column + 1
+        mark = event.start_mark
+        return (mark.line + 1, mark.column + 1) if mark else (1, 1)
 
     def _guard(self, event: yaml.NodeEvent) -> None:
         self.nodes += 1
@@ -121,9 +123,9 @@ class _Events:
     def refuse(self, event: yaml.Event, wrong: str, right: str) -> None:
         self.report.add(self.place(event), wrong, right)
 
-    def stop(self, event: yaml.Event, wrong: str, right: str) -> None:
+    def stop(self, event: yaml.Event, wrong: str, right: str) -> NoReturn:
         self.refuse(event, wrong, right)
-        raise _Stop
+        raise _StopError
 
 
 def _document(events: _Events) -> Node | None:

@@ -45,7 +45,7 @@ class Key:
     example: str
 
 
-_BOOL = OneOf({"true": True, "false": False})
+_PLAIN: dict[Any, Shape] = {bool: OneOf({"true": True, "false": False}), str: form.TEXT}
 
 
 @cache
@@ -73,10 +73,8 @@ def shape_of(hint: Any) -> Shape:
         return ListOf(shape_of(get_args(hint)[0]))
     if origin in (Union, types.UnionType):
         return shape_of(next(arg for arg in get_args(hint) if arg is not type(None)))
-    if hint is bool:
-        return _BOOL
     if dataclasses.is_dataclass(hint) and isinstance(hint, type):
         return EntryOf(hint)
-    if hint is str:
-        return form.TEXT
-    raise TypeError(f"a map cannot hold {hint!r}")
+    if hint not in _PLAIN:
+        raise TypeError(f"a map cannot hold {hint!r}")
+    return _PLAIN[hint]

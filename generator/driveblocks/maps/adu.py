@@ -1,0 +1,167 @@
+"""Example frames taken apart, by MODBUS over Serial Line V1.02 and the MODBUS Application Protocol V1.1b3.
+
+Only for judging a map's vectors; blocks and their tests have their own.
+"""
+
+from dataclasses import dataclass, replace
+
+
+class FrameError(Exception):
+    """The bytes are no frame; the text says why, and `right` what a frame looks like."""
+
+    def __init__(self, wrong: str, right: str) -> None:
+        """Keep both halves of the message."""
+        self.right = right
+        super().__init__(wrong)
+
+
+@dataclass(frozen=True)
+class Fields:
+    """What a frame carries; None or () where its function has no such field."""
+
+    unit: int
+    function: int
+    address: int | None = None
+    words: int | None = None
+    byte_count: int | None = None
+    values: tuple[int, ...] = ()
+    sub_function: int | None = None
+    data: int | None = None
+    error: int | None = None
+
+
+def crc16(data: bytes) -> bytes:
+    """CRC-16 of MODBUS (polynomial A001H reflected, start FFFFH) as the two bytes on the wire, low byte first."""
+    crc = 0xFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc >> 1) ^ 0xA001 if crc & 1 else crc >> 1
+    return crc.to_bytes(2, "little")
+
+
+def lrc(data: bytes) -> bytes:
+    """LRC of MODBUS ASCII: two's complement of the sum of the bytes, one byte."""
+    return bytes([-sum(data) & 0xFF])
+
+
+def split(mode: str, frame: bytes) -> tuple[bytes, bytes]:
+    """Return (unit address, function and data; checksum). Raises FrameError."""
+    return _split_ascii(frame) if mode == "ascii" else _split_rtu(frame)
+
+
+def checksum(mode: str, body: bytes) -> bytes:
+    """The checksum that a body needs in a mode."""
+    return lrc(body) if mode == "ascii" else crc16(body)
+
+
+def _split_rtu(frame: bytes) -> tuple[bytes, bytes]:
+    if frame[:1] == b":":
+        raise FrameError("this is an ASCII frame", "write `mode: ascii`, or the bytes in hexadecimal")
+    if len(frame) < 5:
+        raise FrameError(
+            f"an RTU frame of {len(frame)} bytes", "the shortest has 5: address, function, data, two of CRC"
+        )
+    return frame[:-2], frame[-2:]
+
+
+def _split_ascii(frame: bytes) -> tuple[bytes, bytes]:
+    if frame[:1] != b":" or frame[-2:] != b"\r\n":
+        raise FrameError("an ASCII frame without `:` before or CR LF after", "write it as :010320000001DB CR LF")
+    digits = frame[1:-2]
+    if len(digits) % 2:
+        raise FrameError(
+            f"an ASCII frame with {len(digits)} digits", "every byte is two digits, so their number is even"
+        )
+    body = bytes.fromhex(digits.decode("ascii"))
+    if len(body) < 4:
+        raise FrameError(f"an ASCII frame of {len(body)} bytes", "the shortest has 4: address, function, data, LRC")
+    return body[:-1], body[-1:]
+
+
+def fields(body: bytes, direction: str, error_address: int | None, error_function: int | None) -> Fields:
+    """Take a body (without checksum) apart. `error_*` name the drive's error reply by a write, if it has one.
+
+    Raises FrameError when the length does not fit the function.
+    """
+    base = Fields(body[0], body[1])
+    data = body[2:]
+    if direction == "reply" and base.function & 0x80:
+        _need(data, 1, "an exception reply")
+        return replace(base, error=data[0])
+    if direction == "reply" and base.function == error_function and _word(data, 0) == error_address:
+        _need(data, 4, "an error reply")
+        return replace(base, address=_word(data, 0), error=_word(data, 2))
+    reader = _READERS.get((base.function, direction))
+    if reader is None:
+        raise FrameError(
+            f"function {base.function:02X}H is not one that a map's frame may have", "03H, 04H, 06H, 08H or 10H"
+        )
+    return reader(base, data)
+
+
+def _word(data: bytes, at: int) -> int:
+    return int.from_bytes(data[at : at + 2], "big")
+
+
+def _words(data: bytes) -> tuple[int, ...]:
+    return tuple(_word(data, at) for at in range(0, len(data), 2))
+
+
+def _need(data: bytes, length: int, what: str) -> None:
+    if len(data) != length:
+        raise FrameError(f"{what} with {len(data)} data bytes", f"it has {length}")
+
+
+def _read_request(base: Fields, data: bytes) -> Fields:
+    _need(data, 4, "a read request")
+    return replace(base, address=_word(data, 0), words=_word(data, 2))
+
+
+def _read_reply(base: Fields, data: bytes) -> Fields:
+    count = data[0]
+    _need(data, 1 + count, f"a read reply with byte count {count}")
+    if count % 2:
+        raise FrameError(f"a read reply with the odd byte count {count}", "a register is two bytes")
+    return replace(base, byte_count=count, words=count // 2, values=_words(data[1:]))
+
+
+def _write_one(base: Fields, data: bytes) -> Fields:
+    _need(data, 4, "a write of one register")
+    return replace(base, address=_word(data, 0), values=(_word(data, 2),))
+
+
+def _write_request(base: Fields, data: bytes) -> Fields:
+    if len(data) < 5:
+        raise FrameError(
+            f"a write request with {len(data)} data bytes", "it has address, quantity, byte count and words"
+        )
+    words, count = _word(data, 2), data[4]
+    _need(data, 5 + count, f"a write request with byte count {count}")
+    if count != 2 * words:
+        raise FrameError(f"byte count {count} for {words} words", f"it is {2 * words}")
+    return replace(base, address=_word(data, 0), words=words, byte_count=count, values=_words(data[5:]))
+
+
+def _write_reply(base: Fields, data: bytes) -> Fields:
+    _need(data, 4, "a reply to a write")
+    return replace(base, address=_word(data, 0), words=_word(data, 2))
+
+
+def _diagnostics(base: Fields, data: bytes) -> Fields:
+    _need(data, 4, "a diagnostics frame")
+    return replace(base, sub_function=_word(data, 0), data=_word(data, 2))
+
+
+_READERS = {
+    (0x03, "request"): _read_request,
+    (0x03, "reply"): _read_reply,
+    (0x04, "request"): _read_request,
+    (0x04, "reply"): _read_reply,
+    (0x06, "request"): _write_one,
+    (0x06, "reply"): _write_one,
+    (0x08, "request"): _diagnostics,
+    (0x08, "reply"): _diagnostics,
+    (0x10, "request"): _write_request,
+    (0x10, "reply"): _write_reply,
+}

@@ -1,0 +1,82 @@
+"""The maps that are at hand: those that DriveBlocks ships, found by name, and any other by its path."""
+
+import difflib
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+import driveblocks
+
+_PREFIX = re.compile(rb"^prefix: *['\"]?([A-Za-z0-9]+)", re.MULTILINE)
+_HEAD = 8192
+"""Bytes at the start of a map in which its `prefix` is looked for; comments may stand before it."""
+
+
+class UnknownDrive(Exception):  # noqa: N818  (a mistyped name is no error of the program)
+    """A name that stands for no map, or for several; `wrong` and `right` are the two halves of the message."""
+
+    def __init__(self, wrong: str, right: str) -> None:
+        """Keep both halves."""
+        self.wrong = wrong
+        self.right = right
+        super().__init__(f"{wrong}; {right}")
+
+
+def folder() -> Path:
+    """Where the shipped maps are: inside an installed package, else beside `generator/` in a checkout."""
+    package = Path(driveblocks.__file__).resolve().parent
+    packed = package / "vendor_maps"
+    return packed if packed.is_dir() else package.parents[1] / "vendor_maps"
+
+
+def shipped() -> tuple[Path, ...]:
+    """The shipped maps in the order of their names."""
+    return tuple(sorted(folder().glob("*.yaml")))
+
+
+def is_path(name: str) -> bool:
+    """Whether a word of the command line is meant as a file: it has a folder or the ending of a map."""
+    return "/" in name or "\\" in name or name.lower().endswith((".yaml", ".yml"))
+
+
+def resolve(name: str) -> Path:
+    """The map that a word of the command line stands for. Raises UnknownDrive.
+
+    A word is a path, or regardless of case the name of a shipped file, the prefix of its blocks, or a part of
+    one of them that no other shipped map has.
+    """
+    if is_path(name):
+        return Path(name)
+    maps = {path: _names(path) for path in shipped()}
+    for fits in (str.__eq__, str.__contains__):
+        found = [path for path, names in maps.items() if any(fits(known, name.lower()) for known in names)]
+        if name and len(found) == 1:
+            return found[0]
+        if name and found:
+            raise UnknownDrive(f"`{name}` fits several drives", "write one of " + _list(p.stem for p in found))
+    if Path(name).exists():
+        return Path(name)
+    raise _unknown(name, maps)
+
+
+def _names(path: Path) -> tuple[str, ...]:
+    """Lower-case file stem and block prefix; a map that cannot be read keeps its stem."""
+    try:
+        with path.open("rb") as file:
+            match = _PREFIX.search(file.read(_HEAD))
+    except OSError:
+        match = None
+    stem = path.stem.lower()
+    return (stem, match[1].decode("ascii").lower()) if match else (stem,)
+
+
+def _unknown(name: str, maps: dict[Path, tuple[str, ...]]) -> UnknownDrive:
+    stems = {known: path.stem for path, names in maps.items() for known in names}
+    near = difflib.get_close_matches(name.lower(), stems, 3, 0.5)
+    known = f"known drives are {_list(p.stem for p in maps)}, or the path of a .yaml file"
+    guess = f"did you mean {_list(stems[one] for one in near)}? " if near else ""
+    return UnknownDrive(f"there is no drive `{name}`", guess + known)
+
+
+def _list(names: Iterable[str]) -> str:
+    return ", ".join(dict.fromkeys(names))
