@@ -125,7 +125,11 @@ ADU = _form(
     "write RTU bytes as 01 03 00 26, or ASCII characters as :0103 with CR LF named at the end",
 )
 REGISTER_WORD = _form(
-    "PLC register", r"[0-9A-F]{2}([0-9A-F]{2}|--)?", str, "write 3A30, 0A-- for an empty low byte, or 01 for 8-bit mode"
+    "PLC register",
+    r"[0-9A-F]{2}([0-9A-F]{2}|--)?",
+    str,
+    "write 3A30, 0A-- for an empty low byte, or 01 for 8-bit mode",
+    numeric=True,
 )
 REFERENCE = _form(
     "reference", r"[a-z_]+( \S+)?", str, "write what the entry is about, such as `register 0220H` or `bit 0015H.7`"
