@@ -12,4 +12,4 @@ bench:                ## every figure, side by side in one run (some minutes)
 	$(PY) tests/bench/run.py
 
 schema:               ## write vendor_maps/schema.json from the model
-	.venv/bin/driveblocks schema vendor_maps/schema.json
+	.venv/bin/driveblocks schema vendor_maps

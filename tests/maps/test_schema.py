@@ -7,17 +7,17 @@ import jsonschema
 import pytest
 import yaml
 
-from driveblocks.maps import schema
-from driveblocks.maps.model import Drive
-from driveblocks.maps.shape import EntryOf, ListOf, keys_of
+from driveblocks.maps import decode, nodes, page, schema
+from driveblocks.maps.problem import Report
+from driveblocks.maps.shape import Key, keys_of
 
 ROOT = Path(__file__).parents[2]
-MAPS = sorted((ROOT / "vendor_maps").glob("*.yaml")) + [ROOT / "tests/maps/example.yaml"]
+MAPS = [*sorted((ROOT / "vendor_maps").glob("*.yaml")), ROOT / "tests/maps/example.yaml"]
 
 
 def test_the_file_is_current() -> None:
     written = (ROOT / "vendor_maps/schema.json").read_text(encoding="utf-8")
-    assert written == schema.text(), "run: driveblocks schema vendor_maps/schema.json"
+    assert written == schema.text(), "run: driveblocks schema vendor_maps"
 
 
 def test_it_is_a_schema() -> None:
@@ -49,16 +49,29 @@ def test_a_wrong_address_is_refused() -> None:
     assert list(jsonschema.Draft7Validator(schema.schema()).iter_errors(data))
 
 
-def test_every_key_is_documented() -> None:
-    seen: set[type] = set()
-    todo: list[type] = [Drive]
-    while todo:
-        cls = todo.pop()
-        seen.add(cls)
-        for key in keys_of(cls).values():
-            assert key.doc, f"{cls.__name__}.{key.name}"
-            assert key.example, f"{cls.__name__}.{key.name}"
-            shape = key.shape.item if isinstance(key.shape, ListOf) else key.shape
-            if isinstance(shape, EntryOf) and shape.cls not in seen:
-                todo.append(shape.cls)
-    assert len(json.loads(schema.text())["definitions"]) == len(seen)
+KEYS = [(cls, key) for cls in page.classes() for key in keys_of(cls).values()]
+
+
+@pytest.mark.parametrize(("cls", "key"), KEYS, ids=lambda value: getattr(value, "__name__", None) or value.name)
+def test_every_key_has_a_meaning_and_a_sound_example(cls: type, key: Key) -> None:
+    assert key.doc
+    report = Report("example")
+    root = nodes.parse(f"{key.name}: {key.example}", report)
+    assert isinstance(root, nodes.Entries)
+    if "..." not in key.example:
+        decode.build(key.shape, root.entries[key.name][1], report, key.name)
+    assert [str(problem) for problem in report.problems] == []
+
+
+def test_every_class_is_in_the_schema() -> None:
+    assert set(json.loads(schema.text())["definitions"]) == {cls.__name__ for cls in page.classes()}
+
+
+def test_the_format_page_is_current() -> None:
+    text = (ROOT / "vendor_maps/README.md").read_text(encoding="utf-8")
+    assert page.update(text) == text, "run: driveblocks schema vendor_maps"
+
+
+def test_a_page_without_markers_is_refused() -> None:
+    with pytest.raises(ValueError, match="markers"):
+        page.update("no markers here")

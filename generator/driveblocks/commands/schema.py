@@ -1,24 +1,42 @@
-"""`driveblocks schema`: write the JSON Schema of maps, or check that the one in a folder is current."""
+"""`driveblocks schema`: what is made from the model of maps: the JSON Schema, and the tables of the format page."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from driveblocks.maps import schema
+from driveblocks.maps import page, schema
 
 
 def run(
-    file: Annotated[Path | None, typer.Argument(help="Where to write it; without, it is printed.")] = None,
-    check: Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when FILE is not current.")] = False,
+    folder: Annotated[
+        Path | None, typer.Argument(help="Folder with schema.json and README.md; without, the schema is printed.")
+    ] = None,
+    check: Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a file is not current.")] = False,
 ) -> None:
-    """Print or write the JSON Schema of maps, made from the model, for editors."""
-    text = schema.text()
-    if file is None:
-        typer.echo(text, nl=False)
-    elif check:
-        if not file.exists() or file.read_text(encoding="utf-8") != text:
-            typer.echo(f"{file} is not current; run: driveblocks schema {file}", err=True)
-            raise typer.Exit(1)
-    else:
-        file.write_text(text, encoding="utf-8")
+    """Write the JSON Schema of maps and the key tables of the format page, both made from the model.
+
+    Example: driveblocks schema vendor_maps
+    """
+    if folder is None:
+        typer.echo(schema.text(), nl=False)
+        return
+    stale = [path for path, text in _files(folder).items() if _read(path) != text]
+    if check and stale:
+        names = ", ".join(str(path) for path in stale)
+        typer.echo(f"not current: {names}; run: driveblocks schema {folder}", err=True)
+        raise typer.Exit(1)
+    for path, text in _files(folder).items():
+        path.write_text(text, encoding="utf-8")
+
+
+def _files(folder: Path) -> dict[Path, str]:
+    files = {folder / "schema.json": schema.text()}
+    readme = folder / "README.md"
+    if page.BEGIN in _read(readme):
+        files[readme] = page.update(_read(readme))
+    return files
+
+
+def _read(path: Path) -> str:
+    return path.read_text(encoding="utf-8") if path.exists() else ""

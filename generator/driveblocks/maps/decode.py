@@ -21,7 +21,8 @@ def decode(cls: type, node: Node, report: Report) -> Any | None:
     return None if value is _BAD else value
 
 
-def _value(shape: Shape, node: Node, report: Report, name: str) -> Any:
+def build(shape: Shape, node: Node, report: Report, name: str) -> Any:
+    """Build one value of a shape; a wrong one is noted and stands as a mark that nothing accepts."""
     if isinstance(shape, EntryOf):
         return _entry(shape, node, report, name)
     if isinstance(shape, ListOf):
@@ -48,7 +49,7 @@ def _list(shape: ListOf, node: Node, report: Report, name: str) -> Any:
     if not isinstance(node, Items):
         report.add(node.at, f"`{name}` is {_kind(node)}", "it is a list: lines that start with `- `, or [a, b]")
         return _BAD
-    values = [_value(shape.item, item, report, name) for item in node.items]
+    values = [build(shape.item, item, report, name) for item in node.items]
     return _BAD if any(value is _BAD for value in values) else tuple(values)
 
 
@@ -104,7 +105,7 @@ def _values(known: dict[str, Key], node: Entries, report: Report) -> tuple[dict[
     places: dict[str, Place] = {}
     for name, (_, value) in node.entries.items():
         if name in known:
-            values[name] = _value(known[name].shape, value, report, name)
+            values[name] = build(known[name].shape, value, report, name)
             places[name] = value.at
     return values, places
 

@@ -343,7 +343,7 @@ class Bit(Entry):
 
     bit: Bits = fact("bit number in hexadecimal, or a range for a field or a hole", "8-F")
     name: English | None = fact("English name; left out for a hole", "Running", optional=True)
-    zh: Str | None = fact("the manual's wording, as printed", "1: 运行中", optional=True)
+    zh: Str | None = fact("the manual's wording, as printed", '"1: 运行中"', optional=True)
     zh_used: Str | None = fact("the wording to show, where `zh` holds a misprint", "超速", optional=True)
     id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
     unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)

@@ -1,0 +1,56 @@
+"""The reference part of the format page: every key of a map with its meaning and one example, from the model."""
+
+from collections.abc import Iterator
+
+from driveblocks.maps.model import Drive
+from driveblocks.maps.shape import EntryOf, Key, ListOf, keys_of
+
+BEGIN, END = "<!-- keys:begin -->", "<!-- keys:end -->"
+
+
+def update(text: str) -> str:
+    """Return a page's text with the part between the markers made anew. Raises ValueError without markers."""
+    before, begin, rest = text.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
+    return f"{before}{BEGIN}\n{reference()}{END}{after}"
+
+
+def reference() -> str:
+    """Markdown: one table per kind of entry, in the order in which they first appear in a map."""
+    return "".join(_table(cls) for cls in classes())
+
+
+def classes() -> Iterator[type]:
+    """Every model class that a map is made of, parents before parts, each once."""
+    seen: list[type] = [Drive]
+    for cls in seen:
+        yield cls
+        seen.extend(part for part in _parts(cls) if part not in seen)
+
+
+def _parts(cls: type) -> list[type]:
+    shapes = [key.shape.item if isinstance(key.shape, ListOf) else key.shape for key in keys_of(cls).values()]
+    return list(dict.fromkeys(shape.cls for shape in shapes if isinstance(shape, EntryOf)))
+
+
+def _table(cls: type) -> str:
+    purpose = (cls.__doc__ or "").strip().splitlines()[0]
+    rows = "".join(_row(key) for key in keys_of(cls).values())
+    return f"\n### {cls.__name__}\n\n{purpose}\n\n| key | must | meaning | example |\n|---|---|---|---|\n{rows}"
+
+
+def _row(key: Key) -> str:
+    example = f"{key.name}: {key.example}".replace("|", "\\|")
+    link = _link(key)
+    return f"| `{key.name}` | {'yes' if key.required else ''} | {key.doc}{link} | `{example}` |\n"
+
+
+def _link(key: Key) -> str:
+    many = isinstance(key.shape, ListOf)
+    shape = key.shape.item if isinstance(key.shape, ListOf) else key.shape
+    if not isinstance(shape, EntryOf):
+        return " (list)" if many else ""
+    name = shape.cls.__name__
+    return f" ({'list of ' if many else ''}[{name}](#{name.lower()}))"
