@@ -39,7 +39,7 @@ def main(arguments: list[str]) -> int:
     if len(arguments) != 1 or arguments[0] not in jobs:
         print(__doc__, file=sys.stderr)
         return 2
-    if sys.version_info < (3, 11):
+    if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before pip can refuse an old Python)
         print(f"Python 3.11 or newer is needed; this is {sys.version.split()[0]}", file=sys.stderr)
         return 2
     steps, extra = jobs[arguments[0]]
@@ -68,7 +68,9 @@ def set_up(extra: str) -> bool:
 def make_venv() -> bool:
     """Make the virtual environment; say what is missing where Python came without its venv module."""
     if subprocess.run([sys.executable, "-m", "venv", str(VENV)], check=False).returncode:
-        print("Python cannot make a virtual environment; on Debian and Ubuntu: apt install python3-venv", file=sys.stderr)
+        print(
+            "Python cannot make a virtual environment; on Debian and Ubuntu: apt install python3-venv", file=sys.stderr
+        )
         return False
     return True
 
