@@ -1,34 +1,50 @@
-"""The `driveblocks` command: every sub-command is one module of `driveblocks.commands`."""
+"""The `driveblocks` command: every sub-command is the `run` of one module of `driveblocks.commands`."""
 
 import importlib
-import sys
+import pkgutil
+from typing import Annotated
 
 import typer
 
-COMMANDS = ("check", "list", "show", "lint", "doctor")
+from driveblocks import __version__, commands, console
 
 app = typer.Typer(
     help="Structured Text function blocks for variable-frequency drives, from one YAML map per family.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
 
-def _utf8(stream: object) -> None:
-    """Chinese must come out whole under a C locale too, where Python would choose ASCII."""
-    if hasattr(stream, "reconfigure"):
-        stream.reconfigure(encoding="utf-8", errors="replace")
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"driveblocks {__version__}")
+        raise typer.Exit
+
+
+Version = Annotated[
+    bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+]
+
+
+@app.callback()
+def options(version: Version = False) -> None:
+    """Structured Text function blocks for variable-frequency drives, from one YAML map per family.
+
+    Example: driveblocks check my_drive.yaml
+    """
+
+
+for _module in pkgutil.iter_modules(commands.__path__):
+    # A command's module imports little; what it needs to run it imports when it runs.
+    app.command(_module.name)(importlib.import_module(f"{commands.__name__}.{_module.name}").run)
 
 
 def main() -> None:
     """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input."""
-    _utf8(sys.stdout)
-    _utf8(sys.stderr)
-    for name in COMMANDS:
-        module = importlib.import_module(f"driveblocks.commands.{name}")
-        app.command(name)(module.run)
+    console.use_utf8()
     app()
 
 

@@ -1,0 +1,91 @@
+"""`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from driveblocks.maps.model import Drive
+
+Maps = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="[MAP]...", help="Maps by path, or shipped ones by name; all shipped ones without it."),
+]
+
+
+def run(maps: Maps = None) -> None:
+    """Check maps against every rule, and list all mistakes of each as `file:line:col: wrong; right`.
+
+    All maps are checked, whatever is wrong with the first. The exit status is 2 if any is bad.
+
+    Example: driveblocks check my_drive.yaml
+    """
+    from driveblocks.maps import catalog
+
+    names = maps or [_shown(path) for path in catalog.shipped()]
+    if not names:
+        typer.echo(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check", err=True)
+        raise typer.Exit(2)
+    mistakes = [_check(name) for name in names]
+    _summary(mistakes)
+    if any(mistakes):
+        raise typer.Exit(2)
+
+
+def _shown(path: Path) -> str:
+    """A shipped map as short as it can be written from where the user stands."""
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
+
+
+def _check(name: str) -> int:
+    """Check one map, print what came out, and return the number of mistakes."""
+    from driveblocks.maps import catalog
+    from driveblocks.maps.load import load
+    from driveblocks.maps.problem import MapError
+
+    try:
+        path = catalog.resolve(name)
+        drive = load(path)
+    except catalog.UnknownDrive as unknown:
+        typer.echo(f"{name}:1:1: {unknown}", err=True)
+        return 1
+    except MapError as error:
+        typer.echo(error, err=True)
+        return len(error.problems)
+    typer.echo(f"{path if catalog.is_path(name) else name}: good: {_held(drive)}")
+    return 0
+
+
+def _held(drive: "Drive") -> str:
+    """What a good map was checked to hold."""
+    from driveblocks.maps import counts
+
+    held = counts.of_drive(drive)
+    total = held.total
+    kinds = {
+        "registers": total.registers,
+        "bits": total.bits,
+        "enum values": total.enum_values,
+        "settings": held.settings,
+        "faults": held.faults,
+        "errors": held.errors,
+        "frames": held.frames,
+        "errata": held.errata,
+        "absent": held.absent,
+    }
+    return ", ".join(f"{number} {kind}" for kind, number in kinds.items())
+
+
+def _summary(mistakes: list[int]) -> None:
+    good, bad = mistakes.count(0), len(mistakes) - mistakes.count(0)
+    if bad:
+        typer.echo(
+            f"{bad} of {_maps(len(mistakes))} bad, {sum(mistakes)} mistake{'s' * (sum(mistakes) != 1)}", err=True
+        )
+    else:
+        typer.echo(f"{_maps(good)} good")
+
+
+def _maps(number: int) -> str:
+    return f"{number} map{'s' * (number != 1)}"

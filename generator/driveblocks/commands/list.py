@@ -1,0 +1,67 @@
+"""`driveblocks list`: the drives that DriveBlocks ships maps for."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from driveblocks.maps.model import Drive
+
+Json = Annotated[bool, typer.Option("--json", help="Print everything that the maps hold as one JSON array.")]
+
+
+def run(json: Json = False) -> None:
+    """List the drives that there are maps for.
+
+    A map with mistakes is left out, its mistakes go to standard error, and the exit status is 2.
+
+    Example: driveblocks list --json | jq '.[].drive'
+    """
+    from driveblocks.maps import catalog
+
+    loaded = {path: drive for path in catalog.shipped() if (drive := _load(path)) is not None}
+    if json:
+        _print_json(loaded)
+    else:
+        _print_table(loaded)
+    if len(loaded) < max(1, len(catalog.shipped())):
+        raise typer.Exit(2)
+
+
+def _load(path: Path) -> "Drive | None":
+    from driveblocks.maps.load import load
+    from driveblocks.maps.problem import MapError
+
+    try:
+        return load(path)
+    except MapError as error:
+        typer.echo(error, err=True)
+        return None
+
+
+def _print_json(loaded: "dict[Path, Drive]") -> None:
+    from json import dumps
+
+    from driveblocks.maps import counts, view
+
+    drives = [
+        {**view.of_drive(drive, path.stem), "file": str(path), "counts": counts.plain(counts.of_drive(drive))}
+        for path, drive in loaded.items()
+    ]
+    typer.echo(dumps(drives, ensure_ascii=False, indent=2))
+
+
+def _print_table(loaded: "dict[Path, Drive]") -> None:
+    from driveblocks import console
+    from driveblocks.maps import counts
+    from driveblocks.tables.layout import both, table
+
+    kinds = ("registers", "faults", "frames", "errata")
+    made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)
+    for path, drive in loaded.items():
+        held = counts.of_drive(drive)
+        family = both(f"{drive.vendor.en} {drive.family.en}", drive.family.zh_used or drive.family.zh)
+        numbers = (held.total.registers, held.faults, held.frames, held.errata)
+        made.add_row(path.stem, f"{drive.prefix}_*", family, *map(str, numbers))
+    console.write(made, "\n`driveblocks show DRIVE` tells everything about one of them.")

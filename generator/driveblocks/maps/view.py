@@ -1,0 +1,154 @@
+"""The whole of a map as plain dictionaries for JSON: one entry per register, numbers as numbers, nothing left out."""
+
+import re
+from collections.abc import Iterator
+from decimal import Decimal
+from typing import Any
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Section
+from driveblocks.maps.shape import keys_of
+
+Plain = dict[str, Any]
+_NUMBERED = re.compile(r"(.*?)([0-9]+)")
+_FIRST = ("value", "code", "id")
+"""What a named entry is known by; it stands before the name."""
+
+
+def of_drive(drive: Drive, stem: str) -> Plain:
+    """Everything that a map says; `stem` is the name of its file without `.yaml`."""
+    return {
+        "drive": stem,
+        **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
+        **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
+        "registers": [one for section, row in drive.registers() for one in of_row(section, row)],
+        "unused_registers": [one for section, row in drive.registers() for one in _unused_row(section, row)],
+        "sections": [_without(section, "registers") for section in drive.sections],
+        "areas": plain(drive.areas),
+        "faults": [{"code": fault.code, "id": "", **_entry(fault)} for fault in drive.faults.codes],
+        "fault_report": _without(drive.faults, "codes"),
+        "errors": [{"code": None, **_entry(error)} for error in drive.errors.codes],
+        "error_reply": _without(drive.errors, "codes"),
+        "frames": plain(drive.frames),
+        "errata": plain(drive.errata),
+        "absent": plain(drive.absent),
+        "serial": plain(drive.serial),
+        "limits": _limits(drive),
+        **{key: plain(getattr(drive, key)) for key in ("functions", "settings", "operation", "notices")},
+        "storage": _without(drive.storage, *(() if drive.storage.add is not None else ("readable",))),
+    }
+
+
+def of_row(section: Section, row: Register) -> Iterator[Plain]:
+    """The registers that a row describes, each with its own address and id; none where the row is unused."""
+    if row.unused:
+        return
+    rest = _without(
+        row, "address", "id", "name", "zh", "zh_used", "access", "unit", "scale", "values", "bits", "unused"
+    )
+    for address, id_ in zip(row.address, ids(row), strict=True):
+        yield {
+            "address": address,
+            "id": id_,
+            "name": row.name or "",
+            "name_zh": row.zh or "",
+            "text_zh": row.text_zh or "",
+            "access": row.access or section.access,
+            "unit": row.unit,
+            "scale": plain(row.scale.factor) if row.scale else None,
+            "scale_from": _without(row.scale, "factor") if row.scale else None,
+            "bits": [_bit(bit) for bit in named_bits(row)],
+            "unused_bits": [number for bit in row.bits if bit.unused for number in bit.bit],
+            "enum": plain(row.values),
+            "section": section.id,
+            "source": section.source,
+            **rest,
+        }
+
+
+def named_bits(row: Register) -> tuple[Bit, ...]:
+    """The bits and fields of a register without its holes; of a mask register, the bit of each of its values."""
+    bits = tuple(bit for bit in row.bits if not bit.unused)
+    if not row.masks:
+        return bits
+    return bits + tuple(
+        Bit(
+            bit=Span(value.value.bit_length() - 1, value.value.bit_length() - 1),
+            name=value.name,
+            zh=value.zh,
+            zh_used=value.zh_used,
+            note=value.note,
+            at=value.at,
+        )
+        for value in row.values
+    )
+
+
+def ids(row: Register) -> tuple[str, ...]:
+    """The manual's id of each register of a row, "" without one: A2-01..A2-03 -> A2-01, A2-02, A2-03."""
+    first, _, last = (row.id or "").partition("..")
+    match = _NUMBERED.fullmatch(first)
+    if not last or match is None:
+        return (first,) * len(row.address)
+    low, width = int(match[2]), len(match[2])
+    return tuple(f"{match[1]}{low + n:0{width}d}" for n in range(len(row.address)))
+
+
+def plain(value: Any) -> Any:
+    """Any part of the model as JSON has it: spans as first and last, factors as numbers, bytes as upper-case pairs."""
+    if isinstance(value, Entry):
+        return _entry(value)
+    if isinstance(value, Span):
+        return {"first": value.first, "last": value.last}
+    if isinstance(value, bytes):
+        return value.hex(" ").upper()
+    if isinstance(value, Decimal):
+        return int(value) if value == value.to_integral_value() else float(value)
+    return [plain(item) for item in value] if isinstance(value, tuple) else value
+
+
+def _entry(entry: Entry) -> Plain:
+    """An entry under the keys of the map; what it leaves out is left out again, but for true and false.
+
+    A named entry has the manual's wording as `name_zh` and the corrected one as `text_zh`.
+    """
+    cls: type = type(entry)
+    said = {key: value for key in keys_of(cls) if (value := getattr(entry, key)) not in (None, ())}
+    if isinstance(entry, Named):
+        first = {key: said.pop(key) for key in _FIRST if key in said}
+        names = {"name": said.pop("name"), "name_zh": said.pop("zh"), "text_zh": entry.text_zh}
+        said.pop("zh_used", None)
+        said = {**first, **names, **said}
+    return {key: plain(value) for key, value in said.items()}
+
+
+def _without(entry: Entry, *keys: str) -> Plain:
+    return {key: value for key, value in _entry(entry).items() if key not in keys}
+
+
+def _bit(bit: Bit) -> Plain:
+    return {
+        "bit": bit.bit.first,
+        "width": len(bit.bit),
+        "id": bit.id or "",
+        "name": bit.name or "",
+        "name_zh": bit.zh or "",
+        "text_zh": bit.text_zh or "",
+        "values": plain(bit.values),
+        **_without(bit, "bit", "name", "zh", "zh_used", "id", "values", "unused"),
+    }
+
+
+def _unused_row(section: Section, row: Register) -> Iterator[Plain]:
+    if not row.unused:
+        return
+    rest = _without(row, "address", "name", "zh", "zh_used", "access", "unused", "signed", "masks")
+    for address in row.address:
+        yield {"address": address, "name_zh": row.zh or "", "section": section.id, "source": section.source, **rest}
+
+
+def _limits(drive: Drive) -> Plain:
+    cls: type = type(drive.limits)
+    said = {key: limit for key in keys_of(cls) if (limit := getattr(drive.limits, key)) is not None}
+    numbers = {key: limit.value for key, limit in said.items()}
+    return {**numbers, "sources": {key: limit.source for key, limit in said.items()}}

@@ -1,0 +1,102 @@
+"""Fault codes and error replies."""
+
+from collections.abc import Iterator
+
+from rich.console import RenderableType
+
+from driveblocks.maps import references
+from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register
+from driveblocks.tables.errata import corroborated, of_absence, of_erratum
+from driveblocks.tables.layout import both, card, code_text, facts, heading, listed, table
+
+
+def faults(drive: Drive) -> Iterator[RenderableType]:
+    """The registers that report faults, and every fault code."""
+    known = drive.faults
+    yield heading(f"{len(known.codes)} fault codes")
+    relation = known.bits and (
+        f"code = 16 x (word - {address_text(known.bits.first)}) + bit + 1, words {address_text(known.bits.first)} to "
+        f"{address_text(known.bits.last)} ({known.bits.source})"
+    )
+    yield facts(
+        ("reported in", listed(map(span_text, known.registers))), ("fault bits", relation), ("source", known.source)
+    )
+    made = table("code", "display", "name", "中文", "note", wide=("name", "中文", "note"))
+    for fault in known.codes:
+        made.add_row(code_text(fault.code), fault.id or "", fault.name, fault.text_zh, fault.note or "")
+    yield made
+
+
+def of_fault(drive: Drive, fault: Fault) -> Iterator[RenderableType]:
+    """One fault code with its bits, the registers that report it, and what is recorded about it."""
+    bits = [f"{place}  {both(bit.name, bit.text_zh)}" for place, bit in bits_of(drive, fault.id)]
+    printed = fault.zh if fault.zh_used else None
+    yield card(
+        f"{drive.prefix}  fault {code_text(fault.code)} ({fault.code})  {fault.id or ''}".rstrip(),
+        ("name", both(fault.name, fault.text_zh)),
+        ("printed", listed(text for text in (fault.printed_code, printed) if text)),
+        ("bits", "\n".join(bits)),
+        ("reported in", listed(map(span_text, drive.faults.registers))),
+        ("note", fault.note),
+        ("source", drive.faults.source),
+    )
+    yield from recorded(drive, "fault", fault.code)
+
+
+def bits_of(drive: Drive, id_: str | None) -> list[tuple[str, Bit]]:
+    """Every bit that has a fault's short display, with its place such as `0014H.1`."""
+    return [(place, bit) for place, _, bit in all_bits(drive) if id_ is not None and bit.id == id_]
+
+
+def all_bits(drive: Drive) -> Iterator[tuple[str, Register, Bit]]:
+    """Every bit and field of every register, with its place."""
+    for _, row in drive.registers():
+        for bit in row.bits:
+            yield f"{address_text(row.address.first)}.{bits_text(bit.bit)}", row, bit
+
+
+def errors(drive: Drive) -> Iterator[RenderableType]:
+    """What a refusal looks like on the wire, and every reason."""
+    yield heading(f"{len(drive.errors.codes)} error codes")
+    yield facts(("form", _form(drive)), ("source", drive.errors.source))
+    for error in drive.errors.codes:
+        yield of_error(drive, error)
+
+
+def _form(drive: Drive) -> str:
+    form = drive.errors.form
+    if form is None:
+        return "the manual does not say what an error reply looks like"
+    if form.kind == "exception":
+        text = f"function code + {code_text(form.add or 0)}, then one byte with the code"
+    else:
+        where = f"function {code_text(form.function or 0)} at {address_text(form.address or 0)}"
+        text = f"a reply of {where}, whatever was asked; its word is the code"
+    more = corroborated(drive, form.corroborated)
+    return f"{text} ({form.source})" + (f"\n{more}" if more else "")
+
+
+def of_error(drive: Drive, error: ErrorCode) -> RenderableType:
+    """One reason for a refusal."""
+    code = "no code" if error.code is None else code_text(error.code)
+    causes = [f"- {both(cause.en, cause.zh_used or cause.zh)}" for cause in error.causes]
+    meaning = error.meaning
+    return card(
+        f"error {code}  {both(error.name, error.text_zh)}",
+        ("printed", error.zh if error.zh_used else None),
+        ("meaning", both(meaning.en, meaning.zh_used or meaning.zh) if meaning else None),
+        ("causes", "\n".join(causes)),
+        ("note", error.note),
+        ("also says", corroborated(drive, error.corroborated)),
+    )
+
+
+def recorded(drive: Drive, kind: str, key: int | str) -> Iterator[RenderableType]:
+    """Errata and absences that name an entry."""
+    for erratum in drive.errata:
+        if references.any_concerns(erratum.about, kind, key):
+            yield of_erratum(drive, erratum, "erratum: ")
+    for absence in drive.absent:
+        if references.any_concerns(absence.about, kind, key):
+            yield of_absence(drive, absence, "not said: ")

@@ -1,0 +1,140 @@
+"""The serial line: what it speaks, what fits into a frame, and the the keypad settings for it."""
+
+from collections.abc import Iterable, Iterator
+
+from rich.console import RenderableType
+
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
+from driveblocks.tables.errata import corroborated
+from driveblocks.tables.faults import recorded
+from driveblocks.tables.layout import both, card, choices, code_text, facts, heading, listed
+
+_LIMITS = {
+    "read_words": "words in one read",
+    "write_words": "words in one write",
+    "data_bytes": "data bytes in an RTU frame",
+    "ascii_data_bytes": "data bytes in an ASCII frame",
+}
+
+
+def serial(drive: Drive) -> Iterator[RenderableType]:
+    """Everything about the line, with what is recorded about it."""
+    yield from line(drive)
+    yield from settings(drive)
+    yield from recorded(drive, "serial", "")
+
+
+def line(drive: Drive) -> Iterator[RenderableType]:
+    """The line with all its codes, then the limits and the functions."""
+    known = drive.serial
+    yield heading("Serial line")
+    yield facts(
+        ("interface", both(known.interface.en, known.interface.zh_used or known.interface.zh)),
+        ("mode", _choice(known.mode, map(_mode, known.mode.codes), listed(known.mode.modes).upper())),
+        ("bit rate", known.baud and _choice(known.baud, map(_baud, known.baud.codes))),
+        ("format", known.format and _choice(known.format, map(_format, known.format.codes))),
+        ("unit address", _unit(known)),
+        ("silence", _silence(known)),
+        ("broadcast", _broadcast(known)),
+    )
+    yield heading("Limits")
+    yield limits(drive.limits)
+    yield heading("Functions")
+    yield from map(of_function, drive.functions)
+
+
+def _mode(code: ModeCode) -> str:
+    return f"{code.code} = {code.mode.upper()}"
+
+
+def _baud(code: BaudCode) -> str:
+    return f"{code.code} = {code.baud} bit/s"
+
+
+def _format(code: FormatCode) -> str:
+    """Data bits, parity and stop bits as people write them: 8E1; what the manual leaves open is a question mark."""
+    letter = {"none": "N", "even": "E", "odd": "O"}[code.parity]
+    return f"{code.code} = {code.data_bits or '?'}{letter}{code.stop_bits or '?'} (parity {code.parity})"
+
+
+def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:
+    known = listed(codes)
+    setting = f"by {choice.setting}: " if choice.setting else ""
+    default = "" if choice.default is None else f"; factory setting {choice.default}"
+    parts = [always, f"{setting}{known}{default}" if known or setting or default else "", f"({choice.source})"]
+    return "  ".join(part for part in parts if part)
+
+
+def _unit(line: Serial) -> str:
+    unit = line.unit
+    setting = f" by {unit.setting}" if unit.setting else ""
+    default = "" if unit.default is None else f"; factory setting {unit.default}"
+    return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source})"
+
+
+def _silence(line: Serial) -> str | None:
+    silence = line.silence
+    if silence is None:
+        return None
+    parts = [f"{silence.characters} characters around a frame"] if silence.characters is not None else []
+    parts += [f"{silence.milliseconds} ms around a frame"] if silence.milliseconds is not None else []
+    parts += [f"at most {silence.gap_characters} characters inside"] if silence.gap_characters is not None else []
+    return f"{listed(parts)}  ({silence.source})"
+
+
+def _broadcast(line: Serial) -> str | None:
+    cast = line.broadcast
+    if cast is None:
+        return None
+    starts = f", only from {listed(map(address_text, cast.start_addresses))}" if cast.start_addresses else ""
+    return f"address {cast.address}, {'answered' if cast.replies else 'not answered'}{starts}  ({cast.source})"
+
+
+def limits(known: Limits) -> RenderableType:
+    """What fits into one frame."""
+    lines = []
+    for key, meaning in _LIMITS.items():
+        limit = getattr(known, key)
+        if limit is not None:
+            lines.append((f"{limit.value}", f"{meaning}  ({limit.source})"))
+    return facts(*lines) if lines else "the manual gives none"
+
+
+def of_function(function: Function) -> RenderableType:
+    """A Modbus function with its sub-functions."""
+    subs = [(f"  {sub.code:04X}H", both(sub.name, sub.text_zh)) for sub in function.sub_functions]
+    return facts((code_text(function.code), f"{both(function.name, function.text_zh)}  ({function.source})"), *subs)
+
+
+def settings(drive: Drive) -> Iterator[RenderableType]:
+    """Every keypad setting for communication."""
+    needed = sum(setting.needed is not None for setting in drive.settings)
+    yield heading(f"{len(drive.settings)} keypad settings, {needed} of them needed before the drive listens")
+    for setting in drive.settings:
+        yield of_setting(drive, setting)
+
+
+def of_setting(drive: Drive, setting: Setting) -> RenderableType:
+    """One keypad setting."""
+    values = [(str(value.value), value.name, value.text_zh, value.note or "") for value in setting.values]
+    return card(
+        f"{setting.id}  {both(setting.name, setting.text_zh)}",
+        ("needed", _needed(setting)),
+        ("printed", setting.zh if setting.zh_used else None),
+        ("register", address_text(setting.register) if setting.register is not None else None),
+        ("range", f"{setting.range.min} to {setting.range.max}" if setting.range else None),
+        ("step", setting.unit_step),
+        ("factory", setting.default),
+        ("values", choices(values)),
+        ("note", setting.note),
+        ("also says", corroborated(drive, setting.corroborated)),
+        ("source", setting.source),
+    )
+
+
+def _needed(setting: Setting) -> str | None:
+    if setting.needed is None:
+        return None
+    value = "" if setting.needed.value is None else f"{setting.needed.value}: "
+    return f"{value}{setting.needed.why}"

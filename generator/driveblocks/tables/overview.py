@@ -1,0 +1,110 @@
+"""The first page of a drive: what it is, how one talks to it, how it runs and stops, and how much the map holds."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from rich.console import RenderableType
+
+from driveblocks.maps import counts
+from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.model import Command, Drive, Reference, Text
+from driveblocks.tables.layout import both, facts, heading, listed, table
+from driveblocks.tables.line import line, settings
+from driveblocks.tables.register import condition
+from driveblocks.tables.registers import tables
+
+
+KINDS = ("settings", "faults", "errors", "frames", "errata", "absent", "notices")
+"""What a map lists beside registers; each is a topic of `show`."""
+
+
+def pages(drive: Drive, file: str) -> Iterator[RenderableType]:
+    """Everything that one wants to see first, then all register tables."""
+    yield from _identity(drive, file)
+    yield from line(drive)
+    yield from settings(drive)
+    yield from operation(drive)
+    yield from _counts(drive)
+    yield heading("Registers")
+    yield from tables(drive)
+    yield f"\nMore: `driveblocks show {Path(file).stem} TOPIC`, where TOPIC is one of {listed(KINDS)}, or a register."
+
+
+def _text(text: Text) -> str:
+    return both(text.en, text.zh_used or text.zh)
+
+
+def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
+    manual = drive.manual
+    yield heading(f"{drive.prefix}  {_text(drive.vendor)}")
+    yield facts(
+        ("family", _text(drive.family)),
+        ("map", file),
+        ("manual", _text(manual.title)),
+        ("publisher", _text(manual.publisher)),
+        ("edition", manual.edition or "none printed"),
+        ("covers", manual.covers),
+        ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
+    )
+
+
+def operation(drive: Drive) -> Iterator[RenderableType]:
+    """Commands, the speed reference, what proves standstill, and what happens to written parameters."""
+    yield heading("Commands")
+    made = table("command", "register", "write", "set", "clear", "note", wide=("note",))
+    for command in drive.operation.commands:
+        made.add_row(*_command(command))
+    yield made
+    still = drive.operation.standstill
+    yield heading("Reference, standstill, storage")
+    yield facts(
+        ("reference", _reference(drive.operation.reference)),
+        ("standstill", f"{' and '.join(map(condition, still.all))}: {still.why}  ({still.source})"),
+        ("storage", _storage(drive)),
+    )
+
+
+def _reference(reference: Reference) -> str:
+    maximum = f", 100 % is {reference.maximum}" if reference.maximum else ""
+    reverse = ", negative turns the other way" if reference.negative_reverses else ""
+    verify = f"; trusted only after reading {listed(map(condition, reference.verify))}" if reference.verify else ""
+    meaning = reference.means.replace("_", " ")
+    return f"{address_text(reference.register)}, {meaning}{maximum}{reverse}{verify}  ({reference.source})"
+
+
+def _command(command: Command) -> tuple[str, ...]:
+    return (
+        command.does.replace("_", " "),
+        address_text(command.register),
+        "" if command.value is None else str(command.value),
+        listed(map(bits_text, command.set)),
+        listed(map(bits_text, command.clear)),
+        both(command.note, f"({command.source})"),
+    )
+
+
+def _storage(drive: Drive) -> str:
+    storage = drive.storage
+    parts = [storage.method.replace("_", " ") + ": " + storage.note]
+    if storage.register is not None:
+        parts.append(f"write {storage.value} to {address_text(storage.register)}")
+    if storage.max_writes is not None:
+        parts.append(f"at most {storage.max_writes} times")
+    if storage.add is not None:
+        readable = "may" if storage.readable else "must not"
+        parts.append(f"add {address_text(storage.add)} to an address of {storage.area}; it {readable} be read there")
+    return f"{'; '.join(parts)}  ({storage.source})"
+
+
+def _counts(drive: Drive) -> Iterator[RenderableType]:
+    known = counts.of_drive(drive)
+    yield heading("What the map holds")
+    columns = ("registers", "bits", "enums", "values")
+    made = table("section", *columns, wide=("section",), numbers=columns)
+    titles = {section.id: _text(section.title) for section in drive.sections}
+    for id_, tally in known.sections.items():
+        made.add_row(titles[id_], *map(str, vars(tally).values()))
+    made.add_row("keypad settings", *map(str, vars(known.setting_values).values()))
+    made.add_row("all", *map(str, vars(known.total).values()), style="bold")
+    yield made
+    yield "\n" + listed(f"{getattr(known, kind)} {kind}" for kind in KINDS)

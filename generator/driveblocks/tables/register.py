@@ -1,0 +1,130 @@
+"""The page of one register: everything that the map holds about it."""
+
+from collections.abc import Iterator
+
+from rich.console import RenderableType
+
+from driveblocks.maps import view
+from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.model import Area, Condition, Drive, Register, Section, Value
+from driveblocks.tables.errata import corroborated
+from driveblocks.tables.faults import recorded
+from driveblocks.tables.layout import both, card, code_text, listed, table
+from driveblocks.tables.registers import area_facts
+
+_ACCESS = {"r": "read only", "w": "write only", "rw": "read and write"}
+
+
+def page(drive: Drive, section: Section, row: Register, address: int) -> Iterator[RenderableType]:
+    """One register with its bits, values, scale, errata, absences and example frames."""
+    id_ = view.ids(row)[address - row.address.first]
+    run = f"{span_text(row.address)}  {row.id or ''}".rstrip() if len(row.address) > 1 else None
+    yield card(
+        "  ".join(part for part in (drive.prefix, address_text(address), id_) if part),
+        ("name", "(not used)" if row.unused else both(row.name, row.text_zh)),
+        ("printed", _printed(row)),
+        ("one of", run),
+        ("address", f"{address_text(address)} = {address}"),
+        ("use", None if row.unused else _ACCESS[row.access or section.access]),
+        ("unit", _unit(row)),
+        ("scale", _scale(row)),
+        ("signed", "two's complement, -32768 to 32767" if row.signed else None),
+        ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
+        ("commands", "\n".join(_commands(drive, address))),
+        ("note", row.note),
+        ("also says", corroborated(drive, row.corroborated)),
+        ("section", both(section.title.en, section.title.zh_used or section.title.zh)),
+        ("source", row.source or section.source),
+        ("examples", _frames(drive, address)),
+    )
+    yield from _bits(row)
+    yield from _values(row)
+    yield from recorded(drive, "register", address)
+
+
+def area_page(drive: Drive, area: Area, address: int) -> Iterator[RenderableType]:
+    """One address of an area: its number by the area's rule."""
+    stored = address in area.addresses
+    number = address - area.addresses.first - (0 if stored else drive.storage.add or 0)
+    yield card(
+        f"{drive.prefix}  {address_text(address)}",
+        ("is", f"{area.numbered_by.replace('_', ' ')} {number} of: {both(area.name, area.text_zh)}"),
+        ("RAM only", None if stored else drive.storage.note),
+    )
+    yield area_facts(area)
+    yield from recorded(drive, "register", address)
+    yield from recorded(drive, "area", area.id)
+
+
+def _printed(row: Register) -> str | None:
+    parts = [row.printed.address, row.printed.id] if row.printed else []
+    return "  ".join(part for part in (*parts, row.zh if row.zh_used else None) if part) or None
+
+
+def _unit(row: Register) -> str | None:
+    return row.unit if row.unit is None or row.scale else f"{row.unit}; the manual gives no scale"
+
+
+def _scale(row: Register) -> str | None:
+    scale = row.scale
+    if scale is None:
+        return None
+    when = f"\nonly while {condition(scale.when)}" if scale.when else ""
+    proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
+    return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
+
+
+def condition(one: Condition) -> str:
+    """A condition in words: `000FH bit 0 = 0`."""
+    bit = f" bit {bits_text(one.bit)}" if one.bit is not None else ""
+    return f"{address_text(one.register)}{bit} = {one.equals}"
+
+
+def _commands(drive: Drive, address: int) -> Iterator[str]:
+    for command in drive.operation.commands:
+        if command.register == address:
+            parts = [f"write {command.value}"] if command.value is not None else []
+            parts += [f"set bit {listed(map(bits_text, command.set))}"] if command.set else []
+            parts += [f"clear bit {listed(map(bits_text, command.clear))}"] if command.clear else []
+            note = f" ({command.note})" if command.note else ""
+            yield f"{command.does.replace('_', ' ')}: {listed(parts)}{note}"
+
+
+def _frames(drive: Drive, address: int) -> str:
+    """Ids of the example frames that read or write a register."""
+    found = []
+    for frame in drive.frames:
+        start, count = frame.means.address, frame.means.words or 1
+        if start is not None and start <= address < start + count:
+            found.append(frame.id)
+    return listed(found)
+
+
+def _bits(row: Register) -> Iterator[RenderableType]:
+    if not row.bits:
+        return
+    made = table("bit", "id", "name", "中文", "note", wide=("name", "中文", "note"))
+    for bit in row.bits:
+        name = "(not used)" if bit.unused else bit.name or ""
+        printed = f"printed {both(bit.printed.bit, bit.printed.id)}" if bit.printed else None
+        misread = f"printed {bit.zh}" if bit.zh_used else None
+        note = "; ".join(part for part in (bit.note, printed, misread) if part)
+        made.add_row(bits_text(bit.bit), bit.id or "", name, bit.text_zh or "", note)
+        for value in bit.values:
+            made.add_row(f" ={value.value}", "", value.name, value.text_zh, value.note or "")
+    yield made
+
+
+def _values(row: Register) -> Iterator[RenderableType]:
+    if not row.values:
+        return
+    if row.masks:
+        yield "Each value is a single bit; the manual leaves open whether they may combine."
+    made = table("value", "hex", "name", "中文", "note", wide=("name", "中文", "note"))
+    for value in row.values:
+        made.add_row(str(value.value), _hex(value), value.name, value.text_zh, value.note or "")
+    yield made
+
+
+def _hex(value: Value) -> str:
+    return code_text(value.value & 0xFFFF)
