@@ -1,6 +1,5 @@
 """`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -10,7 +9,7 @@ if TYPE_CHECKING:
 
 Maps = Annotated[
     list[str] | None,
-    typer.Argument(metavar="[MAP]...", help="Maps by path, or shipped ones by name; all shipped ones without it."),
+    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
 ]
 
 
@@ -23,7 +22,7 @@ def run(maps: Maps = None) -> None:
     """
     from driveblocks.maps import catalog
 
-    names = maps or [_shown(path) for path in catalog.shipped()]
+    names = maps or [catalog.shown(path) for path in catalog.shipped()]
     if not names:
         typer.echo(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check", err=True)
         raise typer.Exit(2)
@@ -31,11 +30,6 @@ def run(maps: Maps = None) -> None:
     _summary(mistakes)
     if any(mistakes):
         raise typer.Exit(2)
-
-
-def _shown(path: Path) -> str:
-    """A shipped map as short as it can be written from where the user stands."""
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
 
 
 def _check(name: str) -> int:

@@ -18,7 +18,7 @@ Name = Annotated[
 What = Annotated[
     str | None,
     typer.Argument(
-        metavar="[REGISTER|FAULT|TOPIC]",
+        metavar="REGISTER|FAULT|TOPIC",
         help=f"A register by address or id, a fault by display or code, or one of {', '.join(TOPICS)}.",
     ),
 ]
@@ -47,7 +47,7 @@ def run(drive: Name, what: What = None, json: Json = False) -> None:
     if json:
         _print_json(known, path.stem, what, topic)
     else:
-        console.write(*_pages(known, str(path), what, topic))
+        console.write(*_pages(known, catalog.shown(path), what, topic))
 
 
 def _refused(message: str) -> typer.Exit:

@@ -34,6 +34,11 @@ def shipped() -> tuple[Path, ...]:
     return tuple(sorted(folder().glob("*.yaml")))
 
 
+def shown(path: Path) -> str:
+    """A path as short as it can be written from where the user stands."""
+    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
+
+
 def is_path(name: str) -> bool:
     """Whether a word of the command line is meant as a file: it has a folder or the ending of a map."""
     return "/" in name or "\\" in name or name.lower().endswith((".yaml", ".yml"))

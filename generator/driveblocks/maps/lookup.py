@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps import view
-from driveblocks.maps.form import address_text
+from driveblocks.maps.form import address_text, span_text
 from driveblocks.maps.model import (
     Area,
     Bit,
@@ -134,13 +134,16 @@ def near(drive: Drive, word: str, topics: tuple[str, ...] = ()) -> list[str]:
 def _everything(drive: Drive) -> Iterator[tuple[str, str]]:
     for _, row in drive.registers():
         if not row.unused:
-            address = address_text(row.address.first)
-            yield row.id or address, "  ".join(filter(None, (address, row.id, row.name, row.text_zh)))
+            yield row.id or address_text(row.address.first), _words(row)
     for fault in drive.faults.codes:
         shown = "  ".join(filter(None, (f"{fault.code:02X}H", fault.id, "fault", fault.name, fault.text_zh)))
         yield fault.id or f"{fault.code:02X}H", shown
     for frame in drive.frames:
         yield frame.id, f"{frame.id}  example frame"
+
+
+def _words(row: Register) -> str:
+    return "  ".join(filter(None, (span_text(row.address), row.id, row.name, row.text_zh)))
 
 
 def _neighbours(drive: Drive, upper: str) -> list[str]:
@@ -149,4 +152,4 @@ def _neighbours(drive: Drive, upper: str) -> list[str]:
         return []
     rows = [row for _, row in drive.registers() if not row.unused]
     rows.sort(key=lambda row: min(abs(row.address.first - number), abs(row.address.last - number)))
-    return [_register(row, row.address.first).shown for row in rows[:3]]
+    return [_words(row) for row in rows[:3]]

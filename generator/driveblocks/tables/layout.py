@@ -16,7 +16,7 @@ Line = tuple[str, object]
 
 
 def table(*columns: str, wide: Iterable[str] = (), numbers: Iterable[str] = ()) -> Table:
-    """A table with a rule under its head; columns in `wide` share what is left and fold, `numbers` stand to the right."""
+    """A table with a rule under its head; `wide` columns share what is left and fold, `numbers` stand to the right."""
     made = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True, header_style="bold")
     for column in columns:
         if column in wide:

@@ -13,7 +13,6 @@ from driveblocks.tables.line import line, settings
 from driveblocks.tables.register import condition
 from driveblocks.tables.registers import tables
 
-
 KINDS = ("settings", "faults", "errors", "frames", "errata", "absent", "notices")
 """What a map lists beside registers; each is a topic of `show`."""
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from rich.console import RenderableType
+from rich.padding import Padding
 
 from driveblocks.maps import view
 from driveblocks.maps.form import address_text, bits_text, span_text
@@ -112,7 +113,7 @@ def _bits(row: Register) -> Iterator[RenderableType]:
         made.add_row(bits_text(bit.bit), bit.id or "", name, bit.text_zh or "", note)
         for value in bit.values:
             made.add_row(f" ={value.value}", "", value.name, value.text_zh, value.note or "")
-    yield made
+    yield Padding(made, (0, 0, 1, 0))
 
 
 def _values(row: Register) -> Iterator[RenderableType]:
@@ -123,7 +124,7 @@ def _values(row: Register) -> Iterator[RenderableType]:
     made = table("value", "hex", "name", "中文", "note", wide=("name", "中文", "note"))
     for value in row.values:
         made.add_row(str(value.value), _hex(value), value.name, value.text_zh, value.note or "")
-    yield made
+    yield Padding(made, (0, 0, 1, 0))
 
 
 def _hex(value: Value) -> str:

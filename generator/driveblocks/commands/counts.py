@@ -1,0 +1,54 @@
+"""`driveblocks counts`: how much the shipped maps hold, as the table of drives that stands in the READMEs."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from driveblocks.maps.model import Drive
+
+Pages = Annotated[
+    list[Path] | None,
+    typer.Argument(metavar="PAGE", help="Markdown pages to write the table into; it is printed without any."),
+]
+Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a page is not current.")]
+
+
+def run(pages: Pages = None, check: Check = False) -> None:
+    """Count registers, bits, enum values, faults, frames, errata and more, per drive and register table.
+
+    Example: driveblocks counts README.md vendor_maps/README.md
+    """
+    from driveblocks.maps import inventory
+    from driveblocks.maps.problem import MapError
+
+    try:
+        maps = _maps()
+        if not pages:
+            typer.echo(inventory.table(maps, Path.cwd()), nl=False)
+            return
+        current = {page: inventory.update(page.read_text(encoding="utf-8"), maps, page.parent) for page in pages}
+    except MapError as error:
+        raise _refused(str(error)) from None
+    except (OSError, ValueError) as error:
+        raise _refused(f"cannot write the table: {error}") from None
+    stale = [page for page, text in current.items() if page.read_text(encoding="utf-8") != text]
+    if check and stale:
+        names = " ".join(map(str, pages))
+        typer.echo(f"not current: {', '.join(map(str, stale))}; run: driveblocks counts {names}", err=True)
+        raise typer.Exit(1)
+    for page in stale:
+        page.write_text(current[page], encoding="utf-8")
+
+
+def _maps() -> "dict[Path, Drive]":
+    from driveblocks.maps import catalog
+    from driveblocks.maps.load import load
+
+    return {path: load(path) for path in catalog.shipped()}
+
+
+def _refused(message: str) -> typer.Exit:
+    typer.echo(message, err=True)
+    return typer.Exit(2)
