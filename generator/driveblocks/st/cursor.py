@@ -9,7 +9,9 @@ from driveblocks.st.reserved import HARD_KEYWORDS, KEYWORDS
 from driveblocks.st.tree import Comment
 
 # Deeper nesting of parentheses, statements or initialisers is taken for an accident; Python's own stack ends at 1000.
-DEEPEST = 60
+DEEPEST = 40
+# More operators in one statement than anyone writes by hand; several compilers die of some thousands.
+MOST_OPERATORS = 250
 
 
 class SyntaxProblem(Exception):  # noqa: N818 - control flow within the parser, never seen outside
@@ -23,7 +25,7 @@ class TooManyProblemsError(Exception):
 class Cursor:
     """Walks over tokens. `i` is the index of the next one."""
 
-    __slots__ = ("ats", "before", "depth", "i", "kinds", "notes", "problems", "texts", "tokens")
+    __slots__ = ("ats", "before", "depth", "i", "kinds", "notes", "operators", "problems", "texts", "tokens")
 
     def __init__(self, tokens: Tokens) -> None:
         """Stand before the first token."""
@@ -33,6 +35,7 @@ class Cursor:
         self.problems: list[tuple[int, str, str]] = [(at, text, "syntax") for at, text in tokens.problems]
         self.i = 0
         self.depth = 0
+        self.operators = 0
 
     def problem(self, index: int, text: str, rule: str = "syntax") -> None:
         """Note a problem at a token; a second one at the same place is an echo of the first. TooManyProblemsError."""
@@ -101,6 +104,12 @@ class Cursor:
         if self.depth > DEEPEST:
             self.problem(self.i, f"expected at most {DEEPEST} levels of nesting, found more")
             raise SyntaxProblem
+
+    def too_long(self) -> NoReturn:
+        """Tell of an expression with too many operators. Raises SyntaxProblem."""
+        text = f"expected at most {MOST_OPERATORS} operators in one statement: put parts into variables first"
+        self.problem(self.i, text, "long-expression")
+        raise SyntaxProblem
 
     def leading(self) -> tuple[Comment, ...]:
         """Take the comments in front of the next token."""

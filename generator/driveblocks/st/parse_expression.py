@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import NoReturn
 
 from driveblocks.st import literals
-from driveblocks.st.cursor import Cursor, SyntaxProblem
+from driveblocks.st.cursor import MOST_OPERATORS, Cursor, SyntaxProblem
 from driveblocks.st.lexer import END
 from driveblocks.st.reserved import HARD_KEYWORDS, KEYWORDS
 from driveblocks.st.tree import (
@@ -56,6 +56,9 @@ class ExpressionParser(Cursor):
             if power < floor:
                 return left
             self.i += 1
+            self.operators += 1
+            if self.operators > MOST_OPERATORS:
+                self.too_long()
             right = self.expression(power + 1) if power < 8 else self.unary()
             left = Binary(at, "AND" if op == "&" else op, left, right)
 
@@ -211,6 +214,7 @@ class ExpressionParser(Cursor):
     def initial(self) -> Expression:
         """What stands behind `:=` in a declaration: an expression, `[...]` or `(a := 1)`."""
         kind = self.kinds[self.i]
+        self.operators = 0
         if kind == "[":
             return self.array_initial()
         if kind == "(" and self.kinds[self.i + 2] == ":=":

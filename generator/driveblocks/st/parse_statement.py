@@ -77,6 +77,7 @@ class StatementParser(ExpressionParser):
     def statement(self, kind: str) -> Statement:
         """One statement with its comments and its `;`. Raises SyntaxProblem."""
         leading = self.leading() if self.i in self.before else ()
+        self.operators = 0
         start = _STARTS.get(kind)
         if start is None:
             made = self.simple()
@@ -142,6 +143,7 @@ class StatementParser(ExpressionParser):
         """IF or ELSIF, its condition and its statements."""
         at = self.ats[self.i]
         self.i += 1
+        self.operators = 0
         condition = self.expression()
         self.expect("THEN")
         return Branch(at, condition, self.body())

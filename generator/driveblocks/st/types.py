@@ -281,3 +281,37 @@ def same(left: Type, right: Type) -> bool:
     if isinstance(left, Array) and isinstance(right, Array):
         return left.bounds == right.bounds and same(left.element, right.element)
     return False
+
+
+# What a number without prefix has until its context gives it a type; never left behind by a check without errors.
+UNTYPED_INTEGER = Type("an integer literal", Kind.NONE)
+UNTYPED_REAL = Type("a real literal", Kind.NONE)
+_ELEMENTARY_KINDS = frozenset(
+    [Kind.BOOL, Kind.BITS, Kind.INTEGER, Kind.REAL, Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME]
+)
+# The generic types of table 11, as the kinds that they cover.
+ANY_INT = frozenset([Kind.INTEGER])
+ANY_REAL = frozenset([Kind.REAL])
+ANY_NUM = ANY_INT | ANY_REAL
+ANY_MAGNITUDE = ANY_NUM | {Kind.TIME}
+ANY_BIT = frozenset([Kind.BOOL, Kind.BITS])
+ANY_STRING = frozenset([Kind.STRING])
+ANY_ELEMENTARY = _ELEMENTARY_KINDS | ANY_STRING
+ANY_COMPARABLE = ANY_ELEMENTARY | {Kind.ENUM}
+ANY = ANY_COMPARABLE | {Kind.ARRAY, Kind.STRUCT}
+
+
+def untyped(each: Type) -> bool:
+    """Whether a type is that of a number without prefix."""
+    return each is UNTYPED_INTEGER or each is UNTYPED_REAL
+
+
+def convertible(source: Type, wanted: Type) -> bool:
+    """Whether `SOURCE_TO_WANTED` exists and people expect it to happen by itself: between numbers and bit strings."""
+    numeric = (Kind.BITS, Kind.INTEGER, Kind.REAL)
+    return plain(source) is not plain(wanted) and source.kind in numeric and wanted.kind in numeric
+
+
+def conversion(source: Type, wanted: Type) -> str:
+    """The name of the function that converts: INT_TO_REAL."""
+    return f"{plain(source).name}_TO_{plain(wanted).name}"

@@ -1,0 +1,157 @@
+"""Literals without prefix, and whether a value may stand where a type is wanted."""
+
+from __future__ import annotations
+
+import sys
+
+from driveblocks.st.report import Report
+from driveblocks.st.tree import Binary, Call, Expression, Literal, LiteralKind, Unary
+from driveblocks.st.types import (
+    DINT,
+    INT,
+    LINT,
+    LREAL,
+    REAL,
+    ULINT,
+    UNKNOWN,
+    UNTYPED_INTEGER,
+    UNTYPED_REAL,
+    Builtin,
+    Elementary,
+    Kind,
+    Parameter,
+    Subrange,
+    Type,
+    conversion,
+    convertible,
+    plain,
+    same,
+    untyped,
+)
+
+_LITERAL_KINDS = frozenset([Kind.INTEGER, Kind.BITS, Kind.REAL, Kind.BOOL])
+# The largest value that rounds to a finite IEEE single, and the largest double.
+_LARGEST_REAL = 3.4028235677973366e38
+_LARGEST_LREAL = sys.float_info.max
+
+
+class ValueChecker:
+    """Gives numbers without prefix the type of their context."""
+
+    def __init__(self, report: Report) -> None:
+        """Tell problems to this report."""
+        self.report = report
+
+    def fits(self, value: Expression, wanted: Type, rule: str = "type-mismatch") -> None:
+        """Tell if `value`, whose own type is known, may not stand where `wanted` is; settle numbers without prefix."""
+        have = value.type
+        if untyped(have):
+            self.settle(value, wanted)
+        elif not same(wanted, have):
+            self.mismatch(value, wanted, rule)
+        elif isinstance(wanted, Subrange) and isinstance(value, Literal):
+            self.within(value, wanted)
+
+    def mismatch(self, value: Expression, wanted: Type, rule: str = "type-mismatch") -> None:
+        """Tell of a value of another type, and how to convert it."""
+        have = value.type
+        if UNKNOWN in (have, wanted):
+            return
+        if convertible(have, wanted):
+            text = f"expected {plain(wanted)}, found {have}: write {conversion(have, wanted)}(...)"
+            self.report.add(value.at, "implicit-conversion", text)
+        else:
+            self.report.add(value.at, rule, f"expected {wanted}, found {have}")
+
+    def settle(self, value: Expression, wanted: Type) -> None:
+        """Give an expression of numbers without prefix the type `wanted`."""
+        if wanted is UNKNOWN or not untyped(value.type):
+            if untyped(value.type):
+                self.settle(value, self.default(value))
+            return
+        if not self.takes(wanted, value):
+            self.report.add(value.at, "type-mismatch", f"expected {wanted}, found {value.type}")
+            self.settle(value, self.default(value))
+            return
+        self.push(value, wanted)
+
+    def takes(self, wanted: Type, value: Expression) -> bool:
+        """Whether a number without prefix can be of this type at all."""
+        if wanted.kind not in _LITERAL_KINDS or (value.type is UNTYPED_REAL and wanted.kind is not Kind.REAL):
+            return False
+        if isinstance(value, Binary | Unary) and wanted.kind in (Kind.BITS, Kind.BOOL):
+            return False
+        if isinstance(value, Call) and wanted.kind is not Kind.INTEGER:
+            return not self.only_integer(value)
+        return wanted.kind is not Kind.BOOL or (isinstance(value, Literal) and value.value in (0, 1))
+
+    @staticmethod
+    def only_integer(value: Call) -> bool:
+        """Whether a call gives any integer type but no other (LEN, FIND, TRUNC)."""
+        return isinstance(value.target, Builtin) and value.target.family in ("LEN", "FIND", "TRUNC")
+
+    def push(self, value: Expression, wanted: Type) -> None:
+        """Set the type of every part that has none."""
+        if not untyped(value.type):
+            return
+        value.type = plain(wanted)
+        if isinstance(value, Literal):
+            self.within(value, wanted)
+        elif isinstance(value, Unary):
+            self.push(value.operand, plain(wanted))
+        elif isinstance(value, Binary):
+            value.operand_type = plain(wanted)
+            self.push(value.left, plain(wanted))
+            self.push(value.right, plain(wanted))
+        elif isinstance(value, Call) and isinstance(value.target, Builtin):
+            self.push_call(value, value.target, plain(wanted))
+
+    def push_call(self, value: Call, target: Builtin, wanted: Type) -> None:
+        """Set the type of an overloaded call whose arguments are numbers without prefix, or of LEN, FIND and TRUNC."""
+        parameters = tuple(
+            Parameter(each.name, wanted, each.direction) if untyped(each.type) else each for each in target.parameters
+        )
+        value.target = Builtin(target.name, target.family, parameters, wanted)
+        for binding, parameter in zip(value.bindings, parameters, strict=True):
+            binding.parameter = parameter
+            if binding.value is not None:
+                self.push(binding.value, parameter.type)
+
+    def within(self, value: Literal, wanted: Type) -> None:
+        """Tell if a literal is beyond the range of its type; make its Python value fit the type."""
+        if not isinstance(wanted, Elementary) or isinstance(value.value, bytes | str):
+            return
+        if wanted.kind is Kind.REAL:
+            self.real(value, wanted)
+        elif wanted.kind is Kind.BOOL:
+            value.value = bool(value.value)
+        elif wanted.kind in (Kind.INTEGER, Kind.BITS):
+            low, high = (wanted.first, wanted.last) if isinstance(wanted, Subrange) else (wanted.low, wanted.high)
+            if not low <= value.value <= high:
+                shown = value.text if len(value.text) <= 40 else value.text[:37] + "..."
+                text = f"expected a value of {wanted.name}, {low}..{high}, found {shown}"
+                self.report.add(value.at, "literal-range", text)
+
+    def real(self, value: Literal, wanted: Elementary) -> None:
+        """Make a number a float; tell of one beyond the range."""
+        number = value.value
+        if isinstance(number, bytes | str):
+            return
+        limit = _LARGEST_REAL if wanted.width == 32 else _LARGEST_LREAL
+        if not -limit <= number <= limit:
+            self.report.add(value.at, "literal-range", f"expected a value of {wanted.name}, found {value.text[:40]}")
+            number = 0.0
+        value.value = float(number)
+
+    def default(self, value: Expression) -> Type:
+        """The type of a number whose context gives none: the smallest of INT, DINT, LINT, ULINT that holds it; REAL."""
+        if value.type is UNTYPED_REAL:
+            return LREAL if isinstance(value, Literal) and abs(float(value.value)) > _LARGEST_REAL else REAL
+        if not isinstance(value, Literal) or not isinstance(value.value, int):
+            return INT
+        return next((each for each in (INT, DINT, LINT) if each.low <= value.value <= each.high), ULINT)
+
+
+def untyped_of(kind: LiteralKind) -> Type:
+    """The type of a number without prefix before its context is known."""
+    return UNTYPED_REAL if kind is LiteralKind.REAL else UNTYPED_INTEGER
