@@ -1,0 +1,120 @@
+"""The C compiler that turns what iec2c wrote into a shared library."""
+
+import os
+import re
+import shlex
+import shutil
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from driveblocks.host.engine import EngineError, Message
+from driveblocks.host.matiec.errors import BadCError, CompilerCrashError
+from driveblocks.host.matiec.process import Outcome, run
+from driveblocks.host.matiec.text import Listing
+
+VERSION_SECONDS = 20.0
+
+# iec2c writes C that leans on what compilers do, not on the C standard: signed sums wrap, a type is read as another.
+# FMA is off and the language version fixed, so that every machine computes the same.
+_FIXED_FLAGS = ("-std=gnu11", "-fPIC", "-shared", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fcommon")
+
+_MESSAGE = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<kind>[a-z ]+): (?P<text>.*)$")
+_LINKER = re.compile(r"undefined reference to|multiple definition of|Undefined symbols|duplicate symbol")
+
+
+@dataclass(frozen=True)
+class Flags:
+    """How to compile: the -O level and anything more (`-fsanitize=address`, `--coverage`, `-DNAME` ...)."""
+
+    optimise: str = "1"
+    extra: tuple[str, ...] = ()
+
+    @property
+    def arguments(self) -> list[str]:
+        """What to put on the command line."""
+        return [*_FIXED_FLAGS, f"-O{self.optimise}", *self.extra]
+
+
+@dataclass(frozen=True)
+class CCompiler:
+    """A C compiler: the command that runs it and the first line of its `--version`."""
+
+    command: tuple[str, ...]
+    version: str
+    seconds: float = 300.0
+
+    def compile(self, job: "Job") -> list[Message]:
+        """Make the shared library; give the warnings back, those on the ST on lines of the joined text.
+
+        Raises BadCError with the compiler's messages, CompilerCrashError, CompilerTimeoutError, EngineError.
+        """
+        includes = [f"-I{folder}" for folder in job.includes]
+        command = [*self.command, *job.flags.arguments, *includes, "-o", job.output, *job.files, "-lm"]
+        outcome = run(command, job.directory, self.seconds)
+        messages = _messages(outcome.output)
+        if outcome.status == 0 and (job.directory / job.output).is_file():
+            return [message for kind, message in messages if kind == "warning"]
+        errors = job.listing.locate(message for kind, message in messages if kind != "warning")
+        raise self._failure(outcome, errors)
+
+    def _failure(self, outcome: Outcome, errors: list[Message]) -> EngineError:
+        if signal := outcome.signal_name:
+            return CompilerCrashError(f"{self.command[0]} crashed ({signal}): {outcome.output.strip()[:2000]}")
+        if outcome.status == 0:
+            return EngineError(f"{self.command[0]} said that it was done but wrote no library")
+        if errors:
+            return BadCError(errors)
+        return EngineError(f"{self.command[0]} failed with status {outcome.status}: {outcome.output.strip()[:2000]}")
+
+
+@dataclass(frozen=True)
+class Job:
+    """What to compile: files of `directory` into `output`; `listing` leads lines of the ST back to its sources."""
+
+    directory: Path
+    files: Sequence[str]
+    output: str
+    includes: Sequence[Path]
+    flags: Flags
+    listing: Listing
+
+
+def _messages(output: str) -> list[tuple[str, Message]]:
+    found = []
+    for line in output.splitlines():
+        if match := _MESSAGE.match(line):
+            if match["kind"] != "note":
+                found.append((match["kind"], _message(match)))
+        elif _LINKER.search(line):
+            found.append(("error", Message("linker", 0, 0, line.strip())))
+    return found
+
+
+def _message(match: re.Match[str]) -> Message:
+    if match["path"] == Listing.NAME:  # the column is one of the C, and says nothing about the ST
+        return Message(Listing.NAME, int(match["line"]), 0, f"in the C made from this line: {match['text']}")
+    return Message(match["path"], int(match["line"]), int(match["column"] or 0), match["text"])
+
+
+def find_c_compiler(environment: Mapping[str, str] = os.environ) -> CCompiler | None:
+    """CC, else cc, gcc, clang on PATH; None if there is none that tells its version."""
+    named = environment.get("CC", "").strip()
+    for words in [shlex.split(named)] if named else [["cc"], ["gcc"], ["clang"]]:
+        program = shutil.which(words[0], path=environment.get("PATH"))
+        version = _version((program, *words[1:])) if program else None
+        if program and version:
+            return CCompiler((program, *words[1:]), version)
+    return None
+
+
+@lru_cache
+def _version(command: tuple[str, ...]) -> str | None:
+    try:
+        outcome = run([*command, "--version"], Path.cwd(), VERSION_SECONDS)
+    except EngineError:
+        return None
+    first = outcome.output.strip().partition("\n")[0]
+    return f"{first} ({sys.platform})" if outcome.status == 0 and first else None

@@ -1,0 +1,297 @@
+"""A built library in this process: its instances, functions and configuration."""
+
+import ctypes
+import shutil
+import signal
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from driveblocks.host.engine import EngineError, Message, ScanError, Value
+from driveblocks.host.matiec.declarations import Declarations, Unit
+from driveblocks.host.matiec.header import ConfigurationC
+from driveblocks.host.matiec.layout import Memory, RecordNode, Snapshot
+from driveblocks.host.matiec.literal import constant
+from driveblocks.host.matiec.paths import Paths
+from driveblocks.host.matiec.plan import Plan, Signature
+
+_TRAPS = {
+    signal.SIGFPE: "a division by zero, or of the least integer by -1",
+    signal.SIGSEGV: "an access to memory that is not there, as by an array index far out of its bounds",
+}
+
+
+@dataclass
+class Binary:
+    """The shared library and the C functions in it, by name."""
+
+    path: Path
+    handle: ctypes.PyDLL = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Load it. Raises EngineError."""
+        try:
+            self.handle = ctypes.PyDLL(str(self.path))
+        except OSError as error:
+            raise EngineError(f"cannot load the library that the C compiler made: {error}") from error
+        self.handle.dbk_start()
+
+    def function(self, name: str, *arguments: type[ctypes.c_void_p | ctypes.c_int64]) -> Callable[..., int]:
+        """Give a C function that takes `arguments` and gives an int64."""
+        found = self.handle[name]
+        found.argtypes = arguments
+        found.restype = ctypes.c_int64
+        return found
+
+    def sizes(self, count: int) -> list[int]:
+        """Read the table of sizes and offsets."""
+        return list((ctypes.c_int64 * max(count, 1)).in_dll(self.handle, "dbk_sizes"))
+
+    def places(self, count: int) -> list[int | None]:
+        """Read the addresses of what a CONFIGURATION holds."""
+        return list((ctypes.c_void_p * max(count, 1)).in_dll(self.handle, "dbk_places"))
+
+
+@dataclass
+class BlockType:
+    """What all instances of a block share."""
+
+    name: str
+    node: RecordNode
+    path: str
+    line: int
+    init: Callable[..., int]
+    scan: Callable[..., int]
+    many: Callable[..., int]
+
+    @cached_property
+    def paths(self) -> Paths:
+        """Find variables by path."""
+        return Paths(self.node)
+
+    @cached_property
+    def snapshot(self) -> Snapshot:
+        """Read all variables at once."""
+        return Snapshot(self.node)
+
+    def trap(self, number: int) -> ScanError:
+        """Say which signal ended a scan; C does not tell the line."""
+        return ScanError(Message(self.path, self.line, 0, f"{self.name}: the scan was stopped by {_cause(number)}"))
+
+
+def _cause(number: int) -> str:
+    name = signal.Signals(number).name
+    return f"{name}: {_TRAPS[signal.Signals(number)]}" if number in _TRAPS else name
+
+
+class MatiecInstance:
+    """An instance in zeroed memory of its own."""
+
+    def __init__(self, block: BlockType) -> None:
+        """Let the C initialise it."""
+        self._block = block
+        self._memory: Memory = ctypes.create_string_buffer(block.node.size)
+        self._address = ctypes.c_void_p(ctypes.addressof(self._memory))
+        self._scan = block.scan
+        self._now = 0
+        block.init(self._address)
+
+    def __getitem__(self, path: str) -> Value:
+        """Read a variable."""
+        return self._block.paths.find(path).read(self._memory)
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write a variable."""
+        self._block.paths.find(path).write(self._memory, value)
+
+    def scan(self, now_ns: int | None = None) -> None:
+        """Run the body once."""
+        if now_ns is not None:
+            self._now = now_ns
+        trap = self._scan(self._address, self._now)
+        if trap:
+            raise self._block.trap(trap)
+
+    def scan_many(self, count: int, now_ns: int | None = None, step_ns: int = 0) -> None:
+        """Run the body `count` times in one call, the clock `step_ns` later each time. Raises ScanError."""
+        start = self._now if now_ns is None else now_ns
+        trap = self._block.many(self._address, start, step_ns, count)
+        self._now = start + max(count - 1, 0) * step_ns
+        if trap:
+            raise self._block.trap(trap)
+
+    def state(self) -> dict[str, Value]:
+        """Read every variable."""
+        return self._block.snapshot.read(self._memory)
+
+
+class MatiecLibrary:
+    """Compiled sources. `warnings`: what both compilers said; `folder`: the C, as long as the cache has it."""
+
+    def __init__(self, built: "Built") -> None:
+        """Take what the engine has loaded."""
+        self.warnings = built.warnings
+        self.folder = built.folder
+        self._built = built
+        self._binary = built.binary
+        self._types: dict[str, BlockType] = {}
+
+    def blocks(self) -> Iterator[str]:
+        """The function blocks and programs, spelled as declared."""
+        for unit in self._built.declared.units.values():
+            if unit.kind in ("FUNCTION_BLOCK", "PROGRAM"):
+                yield unit.name
+
+    def instance(self, type_name: str) -> MatiecInstance:
+        """Make an instance. KeyError."""
+        return MatiecInstance(self._type(type_name.upper()))
+
+    def _type(self, name: str) -> BlockType:
+        if name not in self._types:
+            node = self._built.plan.blocks.get(name)
+            if node is None:
+                raise KeyError(f"there is no function block or program {name}")
+            self._types[name] = self._bind(name, node)
+        return self._types[name]
+
+    def _bind(self, name: str, node: RecordNode) -> BlockType:
+        unit = self._built.declared.units.get(name)
+        pointer, number = ctypes.c_void_p, ctypes.c_int64
+        return BlockType(
+            unit.name if unit else name,
+            node,
+            *self._built.place(name),
+            self._binary.function(f"dbk_init_{name}", pointer),
+            self._binary.function(f"dbk_scan_{name}", pointer, number),
+            self._binary.function(f"dbk_many_{name}", pointer, number, number, number),
+        )
+
+    def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
+        """Call a function by its formal parameters; one that is left out has its default."""
+        name = function.upper()
+        signature = self._built.plan.functions.get(name)
+        if signature is None:
+            raise KeyError(f"there is no function {function}")
+        given = {each.upper(): value for each, value in arguments.items()}
+        if unknown := [each for each in given if each not in signature.parameters]:
+            raise KeyError(f"{function} has no parameter {', '.join(unknown)}")
+        memories = self._arguments(name, signature, given)
+        result: Memory = ctypes.create_string_buffer(signature.result.size)
+        pointers = (ctypes.c_void_p * max(len(memories), 1))(*map(ctypes.addressof, memories))
+        call = self._binary.function(f"dbk_call_{name}", ctypes.c_void_p, ctypes.c_void_p)
+        trap = call(ctypes.addressof(pointers), ctypes.addressof(result))
+        if trap:
+            path, line = self._built.place(name)
+            raise ScanError(Message(path, line, 0, f"{function}: the call was stopped by {_cause(trap)}"))
+        return signature.result.read(result, 0)
+
+    def _arguments(self, name: str, signature: Signature, given: Mapping[str, Value]) -> list[Memory]:
+        unit = self._built.declared.units.get(name) or Unit("FUNCTION", name)
+        memories: list[Memory] = []
+        for each, node in signature.parameters.items():
+            memory: Memory = ctypes.create_string_buffer(node.size)
+            variable = unit.variables.get(each)
+            if each in given:
+                node.write(memory, 0, given[each])
+            elif variable is not None and variable.initial is not None:
+                node.write(memory, 0, constant(variable.initial))
+            memories.append(memory)
+        return memories
+
+    def configuration(self, name: str | None = None) -> "MatiecConfiguration":
+        """Start the CONFIGURATION with variables of its own. KeyError."""
+        found = self._built.configuration
+        if found is None or (name is not None and name.upper() != found.name):
+            raise KeyError(f"there is no configuration {name}" if name else "there is no configuration")
+        return MatiecConfiguration(self._built, found)
+
+
+@dataclass(frozen=True)
+class Built:
+    """All that is known of a build."""
+
+    folder: Path
+    binary: Binary
+    plan: Plan
+    declared: Declarations
+    configuration: ConfigurationC | None
+    warnings: tuple[Message, ...]
+    places: Mapping[str, tuple[str, int]]
+
+    def place(self, name: str) -> tuple[str, int]:
+        """File and line where a block or function is declared; line 0 if that is not in the sources."""
+        return self.places.get(name, (name, 0))
+
+
+class MatiecConfiguration:
+    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has a library of its own."""
+
+    def __init__(self, built: Built, configuration: ConfigurationC) -> None:
+        """Load a copy of the library and let the C initialise it."""
+        self._binary = _private(built.binary.path)
+        self._name = configuration.name
+        self._place = built.place(configuration.name)
+        self._run = self._binary.function("dbk_config_run", ctypes.c_int64)
+        self._tick = self._binary.function("dbk_config_tick")()
+        self._roots = dict(self._find(built.plan, configuration))
+        self._binary.function("dbk_config_init")()
+
+    def _find(self, plan: Plan, configuration: ConfigurationC) -> Iterator[tuple[str, tuple[Memory, Paths]]]:
+        """Path -> memory of every global and program; those of a resource carry its name."""
+        nodes = [(each.owner, each.name, plan.globals[each.owner, each.name]) for each in configuration.globals]
+        nodes += [(owner, name, plan.blocks[type_name]) for owner, name, type_name in configuration.programs]
+        addresses = self._binary.places(len(nodes))
+        for (owner, name, node), address in zip(nodes, addresses, strict=False):
+            path = name if owner == configuration.name else f"{owner}.{name}"
+            yield path, ((ctypes.c_char * node.size).from_address(address or 0), Paths(node))
+
+    @property
+    def tick_ns(self) -> int:
+        """The common tick."""
+        return self._tick
+
+    def _split(self, path: str) -> tuple[Memory, Paths, str]:
+        """The root that a path starts with, and what is left of the path."""
+        upper = path.upper()
+        for root, (memory, paths) in self._roots.items():
+            if upper == root or (upper.startswith(root) and upper[len(root)] in ".["):
+                rest = path[len(root) :]
+                return memory, paths, rest.removeprefix(".")
+        raise KeyError(path)
+
+    def __getitem__(self, path: str) -> Value:
+        """Read a variable."""
+        memory, paths, rest = self._split(path)
+        return paths.find(rest).read(memory)
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write a variable."""
+        memory, paths, rest = self._split(path)
+        paths.find(rest).write(memory, value)
+
+    def run(self, ticks: int = 1) -> None:
+        """Run so many ticks."""
+        trap = self._run(ticks)
+        if trap:
+            raise ScanError(Message(*self._place, 0, f"{self._name}: the run was stopped by {_cause(trap)}"))
+
+    def state(self) -> dict[str, Value]:
+        """Read every variable."""
+        found: dict[str, Value] = {}
+        for root, (memory, paths) in self._roots.items():
+            found.update((path, leaf.read(memory, offset)) for path, offset, leaf in paths.root.leaves(root, 0))
+        return found
+
+
+def _private(path: Path) -> Binary:
+    """Load a copy of a library; the same file would give the same variables again."""
+    folder = Path(tempfile.mkdtemp(prefix="driveblocks-"))
+    try:
+        copy = Path(shutil.copy(path, folder))
+        return Binary(copy)
+    except OSError as error:
+        raise EngineError(f"cannot copy the library of the configuration: {error.strerror}") from error
+    finally:  # what is loaded stays loaded; Windows keeps the file until the process ends
+        shutil.rmtree(folder, ignore_errors=True)
