@@ -1,0 +1,67 @@
+"""Result codes of the blocks: one number for each way in which a request or a reply can be wrong."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Result:
+    """A result code (ErrorID) with its name in templates and its texts."""
+
+    code: int
+    name: str
+    en: str
+    zh: str
+
+
+RESULTS = (
+    Result(0, "OK", "no error", "无错误"),
+    # building a request
+    Result(1, "UNIT", "unit address out of range", "从机地址超出范围"),
+    Result(2, "FUNCTION", "the drive does not know this function", "变频器不支持此功能码"),
+    Result(3, "QUANTITY", "number of registers out of range", "寄存器个数超出范围"),
+    Result(4, "WRAP", "the registers run past FFFFH", "寄存器地址超过FFFFH"),
+    Result(5, "NOT_READABLE", "an address may not be read", "地址不可读"),
+    Result(6, "NOT_WRITABLE", "an address may not be written", "地址不可写"),
+    Result(7, "NO_BROADCAST", "this request cannot be broadcast", "此请求不可广播"),
+    Result(8, "LENGTH", "frame length out of range", "帧长度超出范围"),
+    Result(9, "ASCII_LIMIT", "too long for an ASCII frame of this drive", "超过ASCII帧长度"),
+    Result(10, "SUB_FUNCTION", "the drive does not know this sub-function", "变频器不支持此子功能码"),
+    # commands and references
+    Result(12, "NOT_A_NUMBER", "the reference is no number", "给定值不是数"),
+    Result(13, "NEGATIVE", "the reference is negative", "给定值为负"),
+    Result(14, "BOTH_DIRECTIONS", "forward and reverse together", "同时给定正转和反转"),
+    Result(15, "NO_SCALE", "the scale of the reference is not set", "未设定给定值比例"),
+    Result(16, "NOT_ABLE", "the drive has no such command", "变频器无此命令"),
+    # receiving a frame
+    Result(20, "SILENCE", "no reply", "无应答"),
+    Result(21, "SHORT", "reply too short", "应答太短"),
+    Result(22, "LONG", "reply too long", "应答太长"),
+    Result(23, "CHECKSUM", "wrong checksum", "校验错误"),
+    Result(24, "NO_START", "no start character", "无起始符"),
+    Result(25, "NO_END", "no end characters", "无结束符"),
+    Result(26, "ODD_DIGITS", "odd number of characters", "字符个数为奇数"),
+    Result(27, "NOT_HEX", "a character is no hexadecimal digit", "字符不是十六进制数"),
+    # comparing it with the request
+    Result(30, "NO_REQUEST", "there is no open request", "无等待应答的请求"),
+    Result(31, "BROADCAST", "a broadcast is not answered", "广播无应答"),
+    Result(32, "OTHER_UNIT", "reply of another unit", "其他从机的应答"),
+    Result(33, "OTHER_FUNCTION", "reply to another function", "其他功能码的应答"),
+    Result(34, "BYTE_COUNT", "byte count does not fit the request", "字节个数不符"),
+    Result(35, "OTHER_ADDRESS", "reply for another address", "地址不符"),
+    Result(36, "OTHER_VALUE", "reply with another value", "数据不符"),
+    Result(37, "OTHER_QUANTITY", "reply for another number of registers", "寄存器个数不符"),
+    Result(38, "OTHER_SUB_FUNCTION", "reply to another sub-function", "子功能码不符"),
+    Result(40, "REFUSED", "refused by the drive", "变频器拒绝"),
+)
+_BY_NAME = {result.name: result for result in RESULTS}
+
+
+def code(name: str) -> int:
+    """The number of a result by its name. Raises KeyError."""
+    return _BY_NAME[name].code
+
+
+def fail(name: str) -> str:
+    """The statement that reports a result, with its text beside the number. Raises KeyError."""
+    result = _BY_NAME[name]
+    return f"ErrorID := {result.code};" + (f" (* {result.en} *)" if result.code else "")
