@@ -7,16 +7,19 @@ from typing import Any
 from driveblocks.maps import form
 from driveblocks.maps.form import Form
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
-from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of
 
 _NUMERIC = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 _BAD: Any = object()
-"""Stands for a value that is wrong; what holds it is not built."""
+"""Stands for a value that is wrong. What cannot do without it is not built; a list goes on without its bad entries."""
 
 
 def decode(cls: type, node: Node, report: Report) -> Any | None:
-    """Build an instance of a model class from a node, or return None after noting every mistake."""
+    """Build an instance of a model class from a node, noting every mistake.
+
+    What could be read is built all the same, so that the rules can be tried on it; None when too little is left.
+    """
     value = _entry(EntryOf(cls), node, report, "the map")
     return None if value is _BAD else value
 
@@ -29,6 +32,8 @@ def build(shape: Shape, node: Node, report: Report, name: str) -> Any:
         return _list(shape, node, report, name)
     if not isinstance(node, Scalar):
         report.add(node.at, f"`{name}` is {_kind(node)}", f"it is one value: {_right(shape)}")
+        return _BAD
+    if node.refused:
         return _BAD
     if isinstance(shape, OneOf):
         return _one_of(shape, node, report, name)
@@ -50,14 +55,20 @@ def _list(shape: ListOf, node: Node, report: Report, name: str) -> Any:
         report.add(node.at, f"`{name}` is {_kind(node)}", "it is a list: lines that start with `- `, or [a, b]")
         return _BAD
     values = [build(shape.item, item, report, name) for item in node.items]
-    return _BAD if any(value is _BAD for value in values) else tuple(values)
+    good = tuple(value for value in values if value is not _BAD)
+    # a list of entries can do without one; words or bytes would move up into its place
+    return good if len(good) == len(values) or isinstance(shape.item, EntryOf) else _BAD
 
 
 def _one_of(shape: OneOf, node: Scalar, report: Report, name: str) -> Any:
     if node.text in shape.words:
         return shape.words[node.text]
+    if node.plain and not node.text:
+        report.add(node.at, f"`{name}` has no value", _right(shape))
+        return _BAD
     near = _nearest(node.text, list(shape.words))
-    report.add(node.at, f"`{name}: {_short(node.text)}` is not allowed", near or _right(shape))
+    right = f"did you mean `{near}`?" if near else _right(shape)
+    report.add(node.at, f"`{name}: {_short(node.text)}` is not allowed", right)
     return _BAD
 
 
@@ -92,38 +103,35 @@ def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
         report.add(node.at, f"`{name}` is {_kind(node)}", f"it is a mapping with the keys {keys}")
         return _BAD
     known = keys_of(shape.cls)
-    _unknown_keys(known, node, report, name)
-    values, places = _values(known, node, report)
-    missing = _missing(known, node, report, name)
-    if missing or any(value is _BAD for value in values.values()):
+    meant = _unknown_keys(known, node, report, name)
+    places = {key: value.at for key, (_, value) in node.entries.items() if key in known}
+    values = {key: build(known[key].shape, node.entries[key][1], report, key) for key in places}
+    _missing([key for key in known.values() if key.name not in meant], node, report, name)
+    good = {key: value for key, value in values.items() if value is not _BAD}
+    if any(key.required and key.name not in good for key in known.values()):
         return _BAD
-    return shape.cls(at=node.at, keys=places, **values)
+    return shape.cls(at=node.at, keys=places, **good)
 
 
-def _values(known: dict[str, Key], node: Entries, report: Report) -> tuple[dict[str, Any], dict[str, Place]]:
-    values: dict[str, Any] = {}
-    places: dict[str, Place] = {}
-    for name, (_, value) in node.entries.items():
-        if name in known:
-            values[name] = build(known[name].shape, value, report, name)
-            places[name] = value.at
-    return values, places
-
-
-def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: str) -> None:
+def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: str) -> set[str]:
+    """Note the keys that the format does not have; return those of the format that were probably meant."""
+    meant: set[str] = set()
     for text, (key, _) in node.entries.items():
-        if text not in known:
-            near = _nearest(text, list(known))
-            report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", near or "known keys: " + ", ".join(known))
+        if text in known:
+            continue
+        near = _nearest(text, [word for word in known if word not in node.entries])
+        right = f"did you mean `{near}`?" if near else "known keys: " + ", ".join(known)
+        report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", right)
+        meant.add(near or "")
+    return meant
 
 
-def _missing(known: dict[str, Key], node: Entries, report: Report, name: str) -> bool:
-    missing = [key for key in known.values() if key.required and key.name not in node.entries]
-    for key in missing:
-        report.add(node.at, f"`{name}` has no `{key.name}`", f"add `{key.name}`: {key.doc}, such as {key.example}")
-    return bool(missing)
+def _missing(keys: list[Key], node: Entries, report: Report, name: str) -> None:
+    for key in keys:
+        if key.required and key.name not in node.entries:
+            report.add(node.at, f"`{name}` has no `{key.name}`", f"add `{key.name}`: {key.doc}, such as {key.example}")
 
 
 def _nearest(text: str, words: list[str]) -> str | None:
-    near = difflib.get_close_matches(text.lower(), words, 1, 0.6)
-    return f"did you mean `{near[0]}`?" if near else None
+    near = difflib.get_close_matches(text[:40].lower(), words, 1, 0.6)
+    return near[0] if near else None

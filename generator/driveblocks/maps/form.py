@@ -1,12 +1,12 @@
 """The forms of a single value in a map: how it is written, what it means, what to say when it is not."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import Any
 
-_CJK = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]")
+_CJK = re.compile(r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\U00020000-\U0003ffff]")
 
 
 @dataclass(frozen=True, order=True)
@@ -16,13 +16,13 @@ class Span:
     first: int
     last: int
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[int]:
         """Every number of the range."""
         return iter(range(self.first, self.last + 1))
 
     def __len__(self) -> int:
-        """How many numbers the range holds."""
-        return self.last - self.first + 1
+        """How many numbers the range holds; none when it runs backwards."""
+        return max(0, self.last - self.first + 1)
 
     def __contains__(self, number: object) -> bool:
         """Whether a number lies in the range."""
@@ -92,7 +92,10 @@ PREFIX = _form(
     "block prefix", r"[A-Z][A-Z0-9]{0,11}", str, "write 1 to 12 upper-case letters and digits, such as SN300G5"
 )
 ID = _form(
-    "id", r"[^\s,]+(\.\.[^\s,]+)?", str, "write the id as the manual prints it, such as H5-01, or a range A2-01..A2-32"
+    "id",
+    r"[^\s,]{1,24}(\.\.[^\s,]{1,24})?",
+    str,
+    "write the id as the manual prints it, such as H5-01, or a range A2-01..A2-32",
 )
 ADDRESS = _form("address", r"[0-9A-F]{4}H", _address, "write four upper-case hexadecimal digits and H, such as 0026H")
 ADDRESSES = _form(
@@ -110,13 +113,19 @@ BITS = _form(
 )
 NUMBER = _form(
     "number",
-    r"-?(0|[1-9][0-9]{0,9})|[0-9A-F]{2,8}H",
+    r"0|-?[1-9][0-9]{0,9}|[0-9A-F]{2,8}H",
     _number,
     "write a decimal number such as 500, or hexadecimal such as 1EH",
     numeric=True,
 )
 COUNT = _form("count", r"[1-9][0-9]{0,5}", int, "write a decimal number from 1 to 999999", numeric=True)
-DECIMAL = _form("decimal", r"-?(0|[1-9][0-9]*)(\.[0-9]+)?", Decimal, "write a decimal number such as 0.1", numeric=True)
+DECIMAL = _form(
+    "decimal",
+    r"-?(0|[1-9][0-9]{0,8})(\.[0-9]{1,9})?",
+    Decimal,
+    "write a decimal number such as 0.1",
+    numeric=True,
+)
 BYTES = _form("bytes", r"[0-9A-F]{2}( [0-9A-F]{2})*", bytes.fromhex, "write bytes as upper-case pairs: 01 03 00 26")
 ADU = _form(
     "frame",

@@ -18,6 +18,7 @@ def loads(text: str, name: str) -> Drive:
     report = Report(name)
     root = nodes.parse(text, report)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
+    report.partial = bool(report.problems)
     if drive is not None:
         check.check(drive, report)
     report.raise_if_any()

@@ -3,9 +3,11 @@
 The classes are the format: the decoder, the JSON schema and the format page's tables are made from them.
 """
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 from driveblocks.maps import form
@@ -769,6 +771,19 @@ class Drive(Entry):
             for register in section.registers:
                 yield section, register
 
+    def row_at(self, address: int) -> tuple[Section, Register] | None:
+        """The row that describes an address, with its section, or None."""
+        firsts, rows = self._by_address
+        index = bisect_right(firsts, address) - 1
+        found = rows[index] if index >= 0 else None
+        return found if found is not None and address in found[1].address else None
+
     def register_at(self, address: int) -> Register | None:
         """The row that describes an address, or None."""
-        return next((row for _, row in self.registers() if address in row.address), None)
+        found = self.row_at(address)
+        return found[1] if found is not None else None
+
+    @cached_property
+    def _by_address(self) -> tuple[list[int], list[tuple[Section, Register]]]:
+        rows = sorted(self.registers(), key=lambda pair: pair[1].address)
+        return [row.address.first for _, row in rows], rows

@@ -1,26 +1,31 @@
 """The strict YAML of maps: mappings, lists and texts, each with its place; everything clever in YAML is refused."""
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NoReturn
 
 import yaml
 
+from driveblocks.maps import syntax, trap
 from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.source import HIDDEN
 
 MAX_DEPTH = 16
-MAX_NODES = 200_000
+MAX_NODES = 60_000
+"""A map of 400 registers has some 6000."""
+MAX_TEXT = 4000
+"""Characters of one value."""
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A text as written; `plain` tells that it stood without quotes."""
+    """A text as written; `plain` tells that it stood without quotes, `refused` that its mistake is noted."""
 
     text: str
     plain: bool
     at: Place
+    refused: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,43 +46,33 @@ class Entries:
 
 Node = Scalar | Items | Entries
 
-_TRAPS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(pattern), reading)
-    for pattern, reading in (
-        (r"(?i:yes|no|on|off|y|n)", "YAML 1.1 reads it as TRUE or FALSE"),
-        (r"(?i:true|false)(?<!true)(?<!false)", "YAML 1.1 reads it as TRUE or FALSE"),
-        (r"~|(?i:null)", "YAML reads it as nothing at all"),
-        (r"[-+]?0[0-7_]+", "YAML 1.1 reads it as an octal number"),
-        (r"[-+]?0[0-9_]+", "some YAML readers take it as octal, some as decimal"),
-        (r"[-+]?0o[0-7_]+", "YAML 1.2 reads it as an octal number"),
-        (r"[-+]?0b[01_]+", "YAML 1.1 reads it as a binary number"),
-        (r"[-+]?0[xX][0-9a-fA-F_]+", "YAML reads it as a number and the manual's digits are lost"),
-        (r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?", "YAML 1.1 reads it as a number to base 60"),
-        (r"[-+]?([0-9][0-9_]*\.?[0-9_]*|\.[0-9_]+)[eE][-+]?[0-9]+", "YAML reads it as a number with an exponent"),
-        (r"[-+]?(\.[0-9_]+|[0-9][0-9_]*\.)", "YAML reads it as a number, though a digit is missing beside the point"),
-        (r"[-+]?[0-9]+(_[0-9]*)+(\.[0-9_]*)?", "YAML 1.1 drops the underscore and reads a number"),
-        (r"[-+]?\.(?i:inf)|\.(?i:nan)", "YAML reads it as infinity or not-a-number"),
-        (r"[0-9]{4}-[0-9]{1,2}-[0-9]{1,2}([Tt ].*)?", "YAML reads it as a date"),
-        (r"=", "YAML 1.1 reads it as the default value marker"),
-        (r"<<", "it is YAML's merge key"),
-        (r"\+[0-9]+(\.[0-9]+)?", "YAML drops the plus sign"),
-    )
-)
-_FIRST = re.compile(r"[-+.~=<0-9yYnNoOtTfF]")
-
 
 def parse(text: str, report: Report) -> Node | None:
     """Return the root node, or None where the text is not YAML; mistakes go to the report."""
+    if "\t" in text:
+        _tabs(text, report)
+        return None
     parser = _LOADER(text)
     try:
-        return _document(_Events(parser, report))
+        return _document(_Events(parser, text, report))
     except _StopError:
         return None
     except yaml.YAMLError as error:
-        _syntax(error, report)
+        report.add(*syntax.explain(error, text))
+        return None
+    except (ValueError, OverflowError):  # PyYAML without libyaml: an escape beyond Unicode, a version of 5000 digits
+        report.add((1, 1), "not YAML: a number in it is out of all bounds", "write plain characters, no \\U escapes")
         return None
     finally:
         parser.dispose()
+
+
+def _tabs(text: str, report: Report) -> None:
+    for number, line in enumerate(text.split("\n"), 1):
+        if "\t" in line:
+            report.add(
+                (number, line.index("\t") + 1), "a tab stands here", "YAML is indented with spaces; write spaces"
+            )
 
 
 class _StopError(Exception):
@@ -87,8 +82,9 @@ class _StopError(Exception):
 class _Events:
     """The event stream with the limits on depth and number of nodes."""
 
-    def __init__(self, parser: yaml.SafeLoader, report: Report) -> None:
+    def __init__(self, parser: yaml.SafeLoader, text: str, report: Report) -> None:
         self.parser = parser
+        self.text = text
         self.report = report
         self.nodes = 0
 
@@ -107,18 +103,15 @@ class _Events:
         if self.nodes > MAX_NODES:
             self.stop(event, f"more than {MAX_NODES} values in one file", "a map describes one drive family")
         if isinstance(event, yaml.AliasEvent):
-            self.stop(
-                event,
-                f"alias *{event.anchor} is not allowed in a map",
-                "write the value out, so each line stands alone",
-            )
+            wrong = f"alias *{_short(event.anchor)} is not allowed in a map"
+            self.stop(event, wrong, "write the value out, so each line stands alone")
         if event.anchor is not None:
-            self.refuse(
-                event, f"anchor &{event.anchor} is not allowed in a map", "write the value out where it is used"
-            )
+            wrong = f"anchor &{_short(event.anchor)} is not allowed in a map"
+            self.refuse(event, wrong, "write the value out where it is used")
         tag = getattr(event, "tag", None)
         if tag is not None:
-            self.refuse(event, f"tag {tag} is not allowed in a map", "remove it; the key decides the type")
+            wrong = f"tag {_short(tag.replace('tag:yaml.org,2002:', '!!'))} is not allowed in a map"
+            self.refuse(event, wrong, "remove it; the key decides the type")
 
     def refuse(self, event: yaml.Event, wrong: str, right: str) -> None:
         self.report.add(self.place(event), wrong, right)
@@ -128,19 +121,30 @@ class _Events:
         raise _StopError
 
 
+def _short(text: str | None) -> str:
+    text = text or ""
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
 def _document(events: _Events) -> Node | None:
     events.next()  # the stream
     start = events.next()
     if isinstance(start, yaml.StreamEndEvent):
         events.stop(start, "the file is empty", "a map starts with `format: 1`")
-    if getattr(start, "version", None) or getattr(start, "tags", None):
-        events.refuse(start, "YAML directives (%) are not allowed in a map", "remove the line that starts with %")
+    _directives(events, start)
     root = _node(events, events.next(), 0)
     events.next()  # the document's end
     more = events.next()
     if not isinstance(more, yaml.StreamEndEvent):
         events.stop(more, "a second YAML document starts here", "one file holds one map")
     return root
+
+
+def _directives(events: _Events, start: yaml.Event) -> None:
+    # an unknown directive shows only in the text: parsers skip it
+    line = events.text.split("\n", events.place(start)[0])[events.place(start)[0] - 1]
+    if getattr(start, "explicit", False) and line.startswith("%"):
+        events.refuse(start, "YAML directives (%) are not allowed in a map", "remove the line that starts with %")
 
 
 def _node(events: _Events, event: yaml.Event, depth: int) -> Node:
@@ -167,41 +171,33 @@ def _entries(events: _Events, start: yaml.Event, depth: int) -> Entries:
         value = _node(events, events.next(), depth + 1)
         if key.text in entries:
             first = entries[key.text][0].at[0]
-            events.report.add(
-                key.at, f"key `{key.text}` stands twice; the first is in line {first}", "keep one of them"
-            )
+            wrong = f"key `{_short(key.text)}` stands twice; the first is in line {first}"
+            events.report.add(key.at, wrong, "keep one of them")
         else:
             entries[key.text] = (key, value)
     return Entries(entries, events.place(start))
 
 
 def _scalar(events: _Events, event: yaml.ScalarEvent) -> Scalar:
+    text: str = event.value
     plain = event.style is None or event.style == ""
-    scalar = Scalar(event.value, plain, events.place(event))
-    if plain and _FIRST.match(event.value):
-        _refuse_trap(scalar, events.report)
-    return scalar
+    refused = _refuse_trap(events, event, text) if plain else _refuse_escape(events, event, text)
+    if len(text) > MAX_TEXT:
+        events.refuse(event, f"a value of {len(text)} characters", f"one value has at most {MAX_TEXT}")
+        return Scalar(text[:MAX_TEXT], plain, events.place(event), refused=True)
+    return Scalar(text, plain, events.place(event), refused)
 
 
-def _refuse_trap(scalar: Scalar, report: Report) -> None:
-    for pattern, reading in _TRAPS:
-        if pattern.fullmatch(scalar.text):
-            report.add(scalar.at, f"`{scalar.text}` without quotes is a trap: {reading}", _instead(scalar.text))
-            return
+def _refuse_trap(events: _Events, event: yaml.ScalarEvent, text: str) -> bool:
+    found = trap.find(text)
+    if found is not None:
+        events.refuse(event, f"`{text}` without quotes is a trap: {found.reading}", found.instead(text))
+    return found is not None
 
 
-def _instead(text: str) -> str:
-    if re.fullmatch(r"0[xX][0-9a-fA-F]{1,4}", text):
-        return f"write {text[2:].upper().zfill(4)}H for an address, or quote it"
-    if re.fullmatch(r"[-+]?0[0-9]+", text):
-        return f"write {int(text)}, or {text}H for hexadecimal, or quote it"
-    return f'write "{text}" for a text; a number is written in plain decimal or with a trailing H'
-
-
-def _syntax(error: yaml.YAMLError, report: Report) -> None:
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "unreadable"
-    context = getattr(error, "context", None)
-    said = f"{context}, {problem}" if context else str(problem)
-    report.add(place, f"not YAML: {said}", "check the indentation, colons and quotes near here")
+def _refuse_escape(events: _Events, event: yaml.ScalarEvent, text: str) -> bool:
+    hidden = HIDDEN.search(text) if event.style == '"' else None
+    if hidden is not None:
+        wrong = f"an escape puts the invisible character U+{ord(hidden[0]):04X} into this text"
+        events.refuse(event, wrong, "write what can be seen")
+    return hidden is not None

@@ -5,6 +5,9 @@ from dataclasses import dataclass, field
 Place = tuple[int, int]
 """1-based line and column in the file."""
 
+MAX_PROBLEMS = 1000
+"""Nobody reads more, and each costs time: a hostile file can hold a mistake in every byte."""
+
 
 @dataclass(frozen=True, order=True)
 class Problem:
@@ -36,10 +39,21 @@ class Report:
 
     file: str
     problems: list[Problem] = field(default_factory=list)
+    partial: bool = False
+    """Set when a part of the file could not be read: what seems to be missing may stand in that part."""
 
     def add(self, place: Place, wrong: str, right: str) -> None:
-        """Note a mistake at a 1-based line and column."""
+        """Note a mistake at a 1-based line and column. Raises MapError when there are more than anyone reads."""
         self.problems.append(Problem(self.file, place[0], place[1], wrong, right))
+        if len(self.problems) >= MAX_PROBLEMS:
+            wrong = f"more than {MAX_PROBLEMS} mistakes, of which the first are shown"
+            self.problems.append(Problem(self.file, place[0], place[1], wrong, "correct these and check again"))
+            self.raise_if_any()
+
+    def miss(self, place: Place, wrong: str, right: str) -> None:
+        """Note that something is missing, unless it may stand in a part of the file that could not be read."""
+        if not self.partial:
+            self.add(place, wrong, right)
 
     def raise_if_any(self) -> None:
         """Raise MapError with all that was noted; do nothing when all is well."""

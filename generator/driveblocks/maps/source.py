@@ -1,14 +1,21 @@
 """The text of a map file, read so that no file can hang, flood or confuse the loader."""
 
+import os
+import re
 import stat
 from pathlib import Path
 
 from driveblocks.maps.problem import MapError, Problem
 
-MAX_BYTES = 1 << 20
+MAX_BYTES = 512 << 10
 """A map of 400 registers takes some 60 kB; a file above this limit is not a map."""
 
-_BOMS = ((b"\xff\xfe", "UTF-16 or UTF-32"), (b"\xfe\xff", "UTF-16"), (b"\x00\x00\xfe\xff", "UTF-32"))
+_BOMS = (
+    (b"\xff\xfe\x00\x00", "UTF-32"),
+    (b"\x00\x00\xfe\xff", "UTF-32"),
+    (b"\xff\xfe", "UTF-16"),
+    (b"\xfe\xff", "UTF-16"),
+)
 _KINDS = (
     (stat.S_ISDIR, "a directory"),
     (stat.S_ISFIFO, "a named pipe"),
@@ -16,6 +23,12 @@ _KINDS = (
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
 )
+HIDDEN = re.compile(
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters but tab and line ends
+    "\xa0\xad\u1680\u180e\u2000-\u200f\u2028-\u202f\u205f-\u206f\ufeff"  # unusual spaces, marks without a shape
+    "\ud800-\udfff\ufff0-\uffff\U000e0000-\U000effff]"
+)
+"""Characters that nobody sees in an editor, and that a terminal or a compiler may take for something else."""
 
 
 def read(path: Path) -> str:
@@ -24,36 +37,47 @@ def read(path: Path) -> str:
         data = _bytes(path)
     except OSError as error:
         raise _refused(path, f"cannot be read: {error.strerror}", "name a readable file") from None
+    except ValueError:  # a path with a NUL in it
+        raise _refused(path, "has no possible name", "name a readable file") from None
     return _text(path, data)
 
 
 def _bytes(path: Path) -> bytes:
-    mode = path.stat().st_mode
+    _regular(path, path.stat().st_mode)
+    # without O_NONBLOCK a pipe that took the file's place meanwhile would wait for a writer
+    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    try:
+        _regular(path, os.fstat(handle).st_mode)
+        with open(handle, "rb", closefd=False) as file:
+            data = file.read(MAX_BYTES + 1)
+    finally:
+        os.close(handle)
+    if len(data) > MAX_BYTES:
+        wrong = f"is larger than {MAX_BYTES // 1024} KiB"
+        raise _refused(path, wrong, "a map describes one drive family in a few dozen KiB")
+    return data
+
+
+def _regular(path: Path, mode: int) -> None:
     for is_kind, kind in _KINDS:
         if is_kind(mode):
             raise _refused(path, f"is {kind}", "name a map file, such as my_drive.yaml")
-    with path.open("rb") as file:
-        data = file.read(MAX_BYTES + 1)
-    if len(data) > MAX_BYTES:
-        raise _refused(
-            path, f"is larger than {MAX_BYTES // 1024} KiB", "a map describes one drive family in a few dozen KiB"
-        )
-    return data
 
 
 def _text(path: Path, data: bytes) -> str:
     for mark, name in _BOMS:
         if data.startswith(mark):
             raise _refused(path, f"is {name} text", "save it as UTF-8")
+    data = data.removeprefix(b"\xef\xbb\xbf")
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        good = data[: error.start].decode("utf-8-sig")
+        good = data[: error.start].decode("utf-8")
         raise _refused(path, f"is not UTF-8: byte {data[error.start]:02X}H", "save it as UTF-8", good) from None
-    position = next((i for i, c in enumerate(text) if c < " " and c not in "\t\n\r"), None)
-    if position is not None:
-        wrong = f"holds the control character {ord(text[position]):02X}H"
-        raise _refused(path, wrong, "a map is plain text; remove it", text[:position])
+    hidden = HIDDEN.search(text)
+    if hidden is not None:
+        wrong = f"holds the invisible character U+{ord(hidden[0]):04X}"
+        raise _refused(path, wrong, "a map is plain text; remove it, or type a space", text[: hidden.start()])
     return text
 
 
