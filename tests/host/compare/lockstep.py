@@ -4,6 +4,7 @@ import struct
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
+from math import isnan
 
 from tests.host.compare.cases import Case, Stimulus
 from tests.host.compare.scenarios import Inputs
@@ -60,7 +61,7 @@ def alike(left: Value, right: Value) -> bool:
     if type(left) is not type(right):
         return False
     if isinstance(left, float) and isinstance(right, float):
-        return left != left and right != right or struct.pack("<d", left) == struct.pack("<d", right)
+        return (isnan(left) and isnan(right)) or struct.pack("<d", left) == struct.pack("<d", right)
     return left == right
 
 

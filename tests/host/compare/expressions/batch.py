@@ -1,0 +1,178 @@
+"""Many expressions in one source, their values on an engine, and what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from tests.host.compare.draws import Draws, single
+from tests.host.compare.expressions.grammar import BITS, REALS, TYPES, VARIABLES, WHOLE, Grammar, limits, variable
+from tests.host.compare.expressions.terms import Term
+from tests.host.compare.lockstep import alike
+
+from driveblocks.host.engine import Engine, ScanError, Source, Value
+
+# Statements per function block: C compilers take more than twice as long for twice as many.
+PER_BLOCK = 100
+FIRST_LINE = 2 + len(TYPES)
+
+Inputs = dict[str, Value]
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Expressions and the inputs to evaluate each of them with."""
+
+    terms: tuple[Term, ...]
+    vectors: tuple[Inputs, ...]
+
+    @property
+    def text(self) -> str:
+        """The source: blocks E0, E1 ... with one statement per expression and line."""
+        blocks = [self.terms[at : at + PER_BLOCK] for at in range(0, len(self.terms), PER_BLOCK)]
+        return "".join(_block(number, terms) for number, terms in enumerate(blocks))
+
+    def place(self, line: int) -> int:
+        """The number of the expression on a line of the text."""
+        for number in range(len(self.terms)):
+            if self._line(number) == line:
+                return number
+        raise ValueError(f"no expression on line {line}")
+
+    def _line(self, number: int) -> int:
+        before = number // PER_BLOCK
+        head = HEAD_LINES * (before + 1) + before * (2 * PER_BLOCK + TAIL_LINES)
+        own = min(PER_BLOCK, len(self.terms) - before * PER_BLOCK)
+        return head + own + 1 + number % PER_BLOCK + 1
+
+
+HEAD_LINES = 1 + 1 + len(TYPES) + 1 + 1  # FUNCTION_BLOCK, VAR_INPUT, one line per type, END_VAR, VAR_OUTPUT
+TAIL_LINES = 2  # END_VAR between outputs and statements, END_FUNCTION_BLOCK
+
+
+def _block(number: int, terms: Sequence[Term]) -> str:
+    inputs = [f"  {', '.join(variable(kind, n) for n in range(VARIABLES))} : {kind};" for kind in TYPES]
+    outputs = [f"  o{n} : {term.type};" for n, term in enumerate(terms)]
+    body = [f"  o{n} := {term.text};" for n, term in enumerate(terms)]
+    lines = [f"FUNCTION_BLOCK E{number}", "VAR_INPUT", *inputs, "END_VAR", "VAR_OUTPUT", *outputs, "END_VAR", *body]
+    return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
+
+
+def make_batch(seed: object, count: int, vectors: int, without: Sequence[str] = ()) -> Batch:
+    """So many random expressions with so many random inputs."""
+    draws = Draws("expressions", seed)
+    grammar = Grammar(draws, without)
+    terms = tuple(grammar.expression(draws.one_of(TYPES), draws.whole(1, 4)) for _ in range(count))
+    return Batch(terms, tuple(dict(_vector(draws)) for _ in range(vectors)))
+
+
+def _vector(draws: Draws) -> Iterator[tuple[str, Value]]:
+    for kind in TYPES:
+        for number in range(VARIABLES):
+            yield variable(kind, number), _value(draws, kind)
+
+
+def _value(draws: Draws, kind: str) -> Value:
+    if kind == "BOOL":
+        return draws.chance(0.5)
+    if kind in WHOLE or kind in BITS:
+        return _integer(draws, *limits(kind))
+    if kind in REALS:
+        number = _number(draws)
+        return single(number) if kind == "REAL" else number
+    if kind == "TIME":
+        return _duration(draws)
+    return _text(draws)
+
+
+def _integer(draws: Draws, low: int, high: int) -> int:
+    if draws.chance(0.4):
+        return draws.one_of([0, 1, high, high - 1, low, low + 1, high // 2, *([-1, -2] if low else [])])
+    if draws.chance(0.5):
+        return draws.whole(max(low, -20), 40)
+    return draws.whole(low, high)
+
+
+def _number(draws: Draws) -> float:
+    if draws.chance(0.3):
+        special = [0.0, -0.0, 0.5, -0.5, 1.5, 2.5, 1.0, float("nan"), float("inf"), float("-inf"), 1e30, -1e30, 1e-30]
+        return draws.one_of(special)
+    return draws.between(-10.0, 10.0) if draws.chance(0.6) else draws.between(-1e10, 1e10)
+
+
+def _duration(draws: Draws) -> int:
+    """Nanoseconds: whole milliseconds, seconds, or anything up to some days."""
+    unit = draws.one_of([1, 1_000_000, 1_000_000_000])
+    return unit * draws.one_of([0, 1, 500, draws.whole(-1000, 100_000)])
+
+
+def _text(draws: Draws) -> bytes:
+    if draws.chance(0.3):
+        return draws.one_of([b"", b"a", b"TRUE", b"false", b"1", b"-12", b"16#FF", b"2#101", b"8#17", b"3.75", b"abc"])
+    return bytes(draws.whole(32, 126) for _ in range(draws.one_of([1, 2, 3, 5, 10, 60, 126])))
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """An expression on which two engines differ, with the inputs that show it."""
+
+    term: Term
+    inputs: Inputs
+    values: Mapping[str, Value]
+
+    def __str__(self) -> str:
+        """Print the expression, its values and the inputs that it reads."""
+        values = ", ".join(f"{engine}: {value!r}" for engine, value in self.values.items())
+        used = {name: value for name, value in self.inputs.items() if name in self.term.text}
+        return f"{self.term.type} {self.term.text}\n  {values}\n  with {used}"
+
+
+class Trap(Exception):  # noqa: N818 - not an error of the test, but of one expression
+    """The processor would stop at an expression; `number` says which."""
+
+    def __init__(self, number: int) -> None:
+        """Keep the number."""
+        super().__init__(number)
+        self.number = number
+
+
+def evaluate(engine: Engine, batch: Batch) -> list[list[Value]]:
+    """The values of all expressions, one list per vector. Raises Trap, BuildError."""
+    library = engine.build([Source("expressions.st", batch.text)])
+    instances = [library.instance(f"E{number}") for number in range(-(-len(batch.terms) // PER_BLOCK))]
+    results = []
+    for vector in batch.vectors:
+        values: list[Value] = []
+        for instance in instances:
+            for name, value in vector.items():
+                instance[name] = value
+            try:
+                instance.scan(0)
+            except ScanError as error:
+                raise Trap(batch.place(error.message.line)) from error
+            state = instance.state()
+            values += [state[f"O{n}"] for n in range(min(PER_BLOCK, len(batch.terms) - len(values)))]
+        results.append(values)
+    return results
+
+
+def without_traps(engine: Engine, batch: Batch) -> tuple[Batch, list[list[Value]]]:
+    """The batch less the expressions at which the embedded engine stops, and the values of the others."""
+    while True:
+        try:
+            return batch, evaluate(engine, batch)
+        except Trap as trap:
+            kept = batch.terms[: trap.number] + batch.terms[trap.number + 1 :]
+            batch = Batch(kept, batch.vectors)
+
+
+def mismatches(
+    batch: Batch, names: tuple[str, str], left: list[list[Value]], right: list[list[Value]]
+) -> list[Mismatch]:
+    """Every expression whose values differ, once each, with the first inputs that show it."""
+    found: dict[int, Mismatch] = {}
+    for vector, first, second in zip(batch.vectors, left, right, strict=True):
+        for number, (one, other) in enumerate(zip(first, second, strict=True)):
+            if not alike(one, other) and number not in found:
+                found[number] = Mismatch(batch.terms[number], vector, {names[0]: one, names[1]: other})
+    return list(found.values())

@@ -1,0 +1,283 @@
+"""The productions: operators, standard functions and conversions, with the types that they make."""
+
+from __future__ import annotations
+
+from tests.host.compare.expressions.grammar import (
+    BITS,
+    NUMBERS,
+    REALS,
+    SIGNED,
+    TYPES,
+    UNSIGNED,
+    WHOLE,
+    Grammar,
+    Production,
+)
+from tests.host.compare.expressions.terms import UNARY, Term, atom, call, unary
+
+MAGNITUDES = (*BITS, *NUMBERS)  # what can be ordered and is no BOOL, TIME or STRING
+
+
+def _leaf(g: Grammar, kind: str, depth: int) -> Term:
+    return g.leaf(kind)
+
+
+# ------------------------------------------------------------ operators
+
+
+def _arithmetic(g: Grammar, kind: str, depth: int) -> Term:
+    left, right = g.pair(kind, depth)
+    return g.join(kind, "arithmetic", left, g.draws.one_of("+-*"), right)
+
+
+def _division(g: Grammar, kind: str, depth: int) -> Term:
+    if kind in REALS:
+        # matiec refuses a literal zero behind the stroke; a variable may well be zero.
+        return g.join(kind, "division", g.expression(kind, depth), "/", g.anchored(kind, depth))
+    return g.join(kind, "division", g.anchored(kind, depth), "/", g.divisor(kind, depth))
+
+
+def _modulo(g: Grammar, kind: str, depth: int) -> Term:
+    right = g.anchored(kind, depth) if kind in UNSIGNED else g.divisor(kind, depth)
+    return g.join(kind, "modulo", g.anchored(kind, depth), "MOD", right)
+
+
+def _power(g: Grammar, kind: str, depth: int) -> Term:
+    exponent = g.anchored(g.draws.one_of([kind, "SINT", "USINT"]), 0)
+    if g.draws.chance(0.5):
+        return call(kind, "power", "EXPT", g.anchored(kind, depth), exponent)
+    return g.join(kind, "power", g.anchored(kind, depth), "**", exponent)
+
+
+def _minus(g: Grammar, kind: str, depth: int) -> Term:
+    return unary(kind, "minus", "-", g.anchored(kind, depth))
+
+
+def _logic(g: Grammar, kind: str, depth: int) -> Term:
+    left, right = g.pair(kind, depth)
+    operators = ["AND", "OR", "XOR", "&"]
+    return g.join(kind, "logic", left, g.draws.one_of(operators), right)
+
+
+def _not(g: Grammar, kind: str, depth: int) -> Term:
+    return unary(kind, "not", "NOT", g.anchored(kind, depth))
+
+
+def _comparison_of(rule: str, kinds: tuple[str, ...], operators: tuple[str, ...]) -> Production:
+    def make(g: Grammar, kind: str, depth: int) -> Term:
+        left, right = g.pair(g.draws.one_of(kinds), depth)
+        return g.join(kind, rule, left, g.draws.one_of(operators), right)
+
+    return make
+
+
+# ------------------------------------------------------------ functions
+
+
+def _arithmetic_function(g: Grammar, kind: str, depth: int) -> Term:
+    name = g.draws.one_of(["ADD", "MUL", "SUB"])
+    if name == "SUB":
+        return call(kind, "arithmetic-function", name, *g.pair(kind, depth))
+    return call(kind, "arithmetic-function", name, *g.several(kind, depth))
+
+
+def _division_function(g: Grammar, kind: str, depth: int) -> Term:
+    name = g.draws.one_of(["DIV", "MOD"])
+    return call(kind, "division-function", name, g.anchored(kind, depth), g.divisor(kind, depth))
+
+
+def _logic_function(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "logic-function", g.draws.one_of(["AND", "OR", "XOR"]), *g.several(kind, depth))
+
+
+def _not_function(g: Grammar, kind: str, depth: int) -> Term:
+    # To a parser this is the operator with parentheses behind it, so it must not follow a NOT either.
+    return Term(kind, "not-function", ("NOT(", g.anchored(kind, depth), ")"), UNARY)
+
+
+def _comparison_function_of(rule: str, kinds: tuple[str, ...]) -> Production:
+    def make(g: Grammar, kind: str, depth: int) -> Term:
+        operand = g.draws.one_of(kinds)
+        name = g.draws.one_of(["EQ", "NE", "GT", "GE", "LT", "LE"])
+        arguments = g.pair(operand, depth) if name == "NE" else g.several(operand, depth)
+        return call(kind, rule, name, *arguments)
+
+    return make
+
+
+def _extreme(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "extreme", g.draws.one_of(["MAX", "MIN"]), *g.several(kind, depth))
+
+
+def _limit(g: Grammar, kind: str, depth: int) -> Term:
+    low, high = g.expression(kind, depth), g.expression(kind, depth)
+    return call(kind, "limit", "LIMIT", low, g.anchored(kind, depth), high)
+
+
+def _select(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "select", "SEL", g.anchored("BOOL", depth), *g.pair(kind, depth))
+
+
+def _multiplex(g: Grammar, kind: str, depth: int) -> Term:
+    selector = g.anchored(g.draws.one_of(list(WHOLE)), depth - 1)
+    return call(kind, "multiplex", "MUX", selector, *g.several(kind, depth))
+
+
+def _move(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "move", "MOVE", g.anchored(kind, depth))
+
+
+def _absolute(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "absolute", "ABS", g.anchored(kind, depth))
+
+
+def _mathematics(g: Grammar, kind: str, depth: int) -> Term:
+    names = ["SQRT", "LN", "LOG", "EXP", "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN"]
+    return call(kind, "mathematics", g.draws.one_of(names), g.anchored(kind, depth))
+
+
+def _shift(g: Grammar, kind: str, depth: int) -> Term:
+    if g.draws.chance(0.6):
+        places = atom("SINT", "literal", str(g.draws.whole(0, 31)))
+    else:
+        places = g.anchored(g.draws.one_of(list(WHOLE)), 0)
+    return call(kind, "shift", g.draws.one_of(["SHL", "SHR"]), g.anchored(kind, depth), places)
+
+
+def _rotation(g: Grammar, kind: str, depth: int) -> Term:
+    if g.draws.chance(0.6):
+        places = atom("SINT", "literal", str(g.draws.whole(0, 31)))
+    else:
+        places = g.anchored(g.draws.one_of(list(UNSIGNED)), 0)
+    return call(kind, "rotation", g.draws.one_of(["ROL", "ROR"]), g.anchored(kind, depth), places)
+
+
+# ------------------------------------------------------------ conversions
+
+
+def _conversion_from(rule: str, sources: tuple[str, ...]) -> Production:
+    def make(g: Grammar, kind: str, depth: int) -> Term:
+        source = g.draws.one_of([each for each in sources if each != kind])
+        return call(kind, rule, f"{source}_TO_{kind}", g.anchored(source, depth))
+
+    return make
+
+
+def _truncation(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "truncation", "TRUNC", g.anchored(g.draws.one_of(REALS), depth))
+
+
+def _from_bcd(g: Grammar, kind: str, depth: int) -> Term:
+    source = g.draws.one_of(list(BITS))
+    return call(kind, "bcd", f"{source}_BCD_TO_{kind}", g.anchored(source, depth))
+
+
+def _to_bcd(g: Grammar, kind: str, depth: int) -> Term:
+    source = g.draws.one_of(list(UNSIGNED))
+    return call(kind, "bcd", f"{source}_TO_BCD_{kind}", g.anchored(source, depth))
+
+
+# ------------------------------------------------------------ TIME and STRING
+
+
+def _time_sum(g: Grammar, kind: str, depth: int) -> Term:
+    left, right = g.pair(kind, depth)
+    if g.draws.chance(0.3):
+        return call(kind, "time-sum", g.draws.one_of(["ADD_TIME", "SUB_TIME"]), left, right)
+    return g.join(kind, "time-sum", left, g.draws.one_of("+-"), right)
+
+
+def _time_product(g: Grammar, kind: str, depth: int) -> Term:
+    factor = g.anchored(g.draws.one_of(NUMBERS), depth)
+    return g.join(kind, "time-product", g.anchored(kind, depth), g.draws.one_of("*/"), factor)
+
+
+def _string_part(g: Grammar, kind: str, depth: int) -> Term:
+    count = atom("INT", "literal", str(g.draws.whole(0, 12)))
+    if g.draws.chance(0.5):
+        return call(kind, "string-part", g.draws.one_of(["LEFT", "RIGHT"]), g.anchored(kind, depth), count)
+    place = atom("INT", "literal", str(g.draws.whole(1, 12)))
+    return call(kind, "string-part", "MID", g.anchored(kind, depth), count, place)
+
+
+def _string_join(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "string-join", "CONCAT", *g.several(kind, depth))
+
+
+def _string_edit(g: Grammar, kind: str, depth: int) -> Term:
+    name = g.draws.one_of(["INSERT", "DELETE", "REPLACE"])
+    text, other = g.pair(kind, depth)
+    count, place = (atom("INT", "literal", str(g.draws.whole(1, 12))) for _ in range(2))
+    if name == "INSERT":
+        return call(kind, "string-edit", name, text, other, place)
+    if name == "DELETE":
+        return call(kind, "string-edit", name, g.anchored(kind, depth), count, place)
+    return call(kind, "string-edit", name, text, other, count, place)
+
+
+def _string_length(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "string-length", "LEN", g.anchored("STRING", depth))
+
+
+def _string_find(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "string-find", "FIND", *g.pair("STRING", depth))
+
+
+_EQUALITY = ("=", "<>")
+_ORDER = ("<", ">", "<=", ">=", "=", "<>")
+_BOOL = ("BOOL",)
+_INTO_WHOLE = (*BITS, *WHOLE)
+
+# Rule name, the types that it makes, the production. A rule that is there twice comes up twice as often.
+PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
+    ("leaf", TYPES, _leaf),
+    ("arithmetic", NUMBERS, _arithmetic),
+    ("arithmetic", NUMBERS, _arithmetic),
+    ("division", NUMBERS, _division),
+    ("modulo", tuple(WHOLE), _modulo),
+    ("power", REALS, _power),
+    ("minus", (*SIGNED, *REALS), _minus),
+    ("logic", ("BOOL", *BITS), _logic),
+    ("logic", ("BOOL", *BITS), _logic),
+    ("not", ("BOOL", *BITS), _not),
+    ("comparison", _BOOL, _comparison_of("comparison", MAGNITUDES, _ORDER)),
+    ("comparison", _BOOL, _comparison_of("comparison", MAGNITUDES, _ORDER)),
+    ("comparison", _BOOL, _comparison_of("comparison", _BOOL, _ORDER)),
+    ("time-comparison", _BOOL, _comparison_of("time-comparison", ("TIME",), _ORDER)),
+    ("string-comparison", _BOOL, _comparison_of("string-comparison", ("STRING",), _ORDER)),
+    ("arithmetic-function", NUMBERS, _arithmetic_function),
+    ("division-function", tuple(WHOLE), _division_function),
+    ("logic-function", ("BOOL", *BITS), _logic_function),
+    ("not-function", ("BOOL", *BITS), _not_function),
+    ("comparison-function", _BOOL, _comparison_function_of("comparison-function", MAGNITUDES)),
+    ("time-comparison", _BOOL, _comparison_function_of("time-comparison", ("TIME",))),
+    ("string-comparison", _BOOL, _comparison_function_of("string-comparison", ("STRING",))),
+    ("extreme", (*MAGNITUDES, "TIME"), _extreme),
+    ("limit", (*MAGNITUDES, "TIME"), _limit),
+    ("select", TYPES, _select),
+    ("multiplex", TYPES, _multiplex),
+    ("move", TYPES, _move),
+    ("absolute", NUMBERS, _absolute),
+    ("mathematics", REALS, _mathematics),
+    ("shift", tuple(BITS), _shift),
+    ("rotation", tuple(BITS), _rotation),
+    ("conversion", (*_INTO_WHOLE, *REALS), _conversion_from("conversion", (*_INTO_WHOLE, "BOOL"))),
+    ("conversion", (*_INTO_WHOLE, *REALS), _conversion_from("conversion", (*_INTO_WHOLE, "BOOL"))),
+    ("conversion", _BOOL, _conversion_from("conversion", _INTO_WHOLE)),
+    ("real-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("real-conversion", REALS)),
+    ("time-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("time-conversion", ("TIME",))),
+    ("time-conversion", ("TIME",), _conversion_from("time-conversion", (*_INTO_WHOLE, *REALS))),
+    ("string-from", ("STRING",), _conversion_from("string-from", (*_INTO_WHOLE, "BOOL"))),
+    ("string-from-real", ("STRING",), _conversion_from("string-from-real", REALS)),
+    ("string-to", (*_INTO_WHOLE, "BOOL"), _conversion_from("string-to", ("STRING",))),
+    ("truncation", tuple(WHOLE), _truncation),
+    ("bcd", tuple(UNSIGNED), _from_bcd),
+    ("bcd", tuple(BITS), _to_bcd),
+    ("time-sum", ("TIME",), _time_sum),
+    ("time-product", ("TIME",), _time_product),
+    ("string-part", ("STRING",), _string_part),
+    ("string-join", ("STRING",), _string_join),
+    ("string-edit", ("STRING",), _string_edit),
+    ("string-length", tuple(WHOLE), _string_length),
+    ("string-find", tuple(WHOLE), _string_find),
+]
