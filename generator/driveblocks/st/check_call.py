@@ -9,6 +9,8 @@ from driveblocks.st.tree import Argument, Binding, Call, Expression, Function, F
 from driveblocks.st.types import (
     ANY,
     BOOL,
+    DINT,
+    REAL,
     UNKNOWN,
     UNTYPED_INTEGER,
     UNTYPED_REAL,
@@ -208,6 +210,8 @@ class CallChecker(ExpressionChecker):
             if each.value is not None:
                 self.infer(each.value)
         shared = self.shared_type(given, formals, signature.group, name)
+        if untyped(shared) and signature.result is BOOL:
+            shared = REAL if shared is UNTYPED_REAL else DINT
         result = shared if signature.result == "T" else signature.result
         made: list[Parameter] = []
         for parameter, (_, wanted) in zip(parameters, formals, strict=True):
@@ -251,9 +255,7 @@ class CallChecker(ExpressionChecker):
         if UNKNOWN in typed or not types:
             return UNKNOWN
         if not typed:
-            shared = UNTYPED_REAL if UNTYPED_REAL in types else UNTYPED_INTEGER
-            fitting = Kind.INTEGER in group or Kind.REAL in group
-            return shared if fitting else self.settled(values)
+            return self.untyped_shared(values, group, name)
         shared = plain(typed[0])
         if shared.kind not in group and group != ANY:
             at = next(each.at for each in values if each is not None)
@@ -261,11 +263,14 @@ class CallChecker(ExpressionChecker):
             return UNKNOWN
         return shared
 
-    def settled(self, values: list[Expression | None]) -> Type:
-        """Give numbers without prefix a type where the function is not for numbers."""
-        for each in values:
-            if each is not None:
-                self.settle(each, self.default(each))
+    def untyped_shared(self, values: list[Expression | None], group: Group, name: str) -> Type:
+        """What numbers without prefix share; told if the function is not for numbers."""
+        given = [each for each in values if each is not None]
+        if group & {Kind.INTEGER, Kind.REAL, Kind.BITS}:
+            return UNTYPED_REAL if any(each.type is UNTYPED_REAL for each in given) else UNTYPED_INTEGER
+        self.report.add(given[0].at, "type-mismatch", f"expected another type for {name}, found {given[0].type}")
+        for each in given:
+            self.settle(each, self.default(each))
         return UNKNOWN
 
     @staticmethod

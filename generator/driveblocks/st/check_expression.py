@@ -47,7 +47,6 @@ from driveblocks.st.types import (
     TIME_OF_DAY,
     UNKNOWN,
     UNTYPED_INTEGER,
-    UNTYPED_REAL,
     VOID,
     WORD,
     WSTRING,
@@ -291,6 +290,9 @@ class ExpressionChecker(ValueChecker):
             return self.operand(value.operand, ANY_BIT, "NOT", inner)
         if untyped(inner):
             return inner
+        if value.op == "-" and isinstance(inner, Elementary) and inner.kind is Kind.INTEGER and not inner.signed:
+            self.report.add(value.at, "type-mismatch", f"expected a signed number behind -, found {inner}")
+            return UNKNOWN
         return self.operand(value.operand, ANY_NUM | {Kind.TIME}, value.op, inner)
 
     def operand(self, value: Expression, kinds: frozenset[Kind], op: str, have: Type) -> Type:
@@ -351,13 +353,24 @@ class ExpressionChecker(ValueChecker):
         """The type that both operands can have; UNKNOWN, and told, if there is none."""
         left, right = value.left.type, value.right.type
         if untyped(left) and untyped(right):
-            return UNTYPED_REAL if UNTYPED_REAL in (left, right) else UNTYPED_INTEGER
+            if left is not right:
+                self.mixed(value)
+                return UNKNOWN
+            return left
         if untyped(left) or untyped(right):
             return plain(right if untyped(left) else left)
         if same(left, right):
             return plain(left)
         self.unlike(value)
         return UNKNOWN
+
+    def mixed(self, value: Binary) -> None:
+        """Tell of an integer beside a real, both without prefix."""
+        integer = value.left if value.left.type is UNTYPED_INTEGER else value.right
+        for each in (value.left, value.right):
+            self.settle(each, REAL)
+        if not isinstance(integer, Literal):
+            self.report.add(value.at, "type-mismatch", f"expected reals on both sides of {value.op}, found an integer")
 
     def unlike(self, value: Binary) -> None:
         """Tell of operands of two types."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from driveblocks.st.report import Report
+from driveblocks.st.standard import FUNCTIONS
 from driveblocks.st.tree import Binary, Call, Expression, Literal, LiteralKind, Unary
 from driveblocks.st.types import (
     DINT,
@@ -70,25 +71,38 @@ class ValueChecker:
                 self.settle(value, self.default(value))
             return
         if not self.takes(wanted, value):
-            self.report.add(value.at, "type-mismatch", f"expected {wanted}, found {value.type}")
-            self.settle(value, self.default(value))
+            self.unsuitable(value, wanted)
             return
         self.push(value, wanted)
 
+    def unsuitable(self, value: Expression, wanted: Type) -> None:
+        """Tell of a number without prefix that cannot be of the wanted type."""
+        if wanted.kind is Kind.REAL and isinstance(value, Literal):
+            text = f"expected {wanted}, found the integer {value.text}: write {value.text}.0"
+            self.report.add(value.at, "integer-for-real", text)
+        else:
+            self.report.add(value.at, "type-mismatch", f"expected {wanted}, found {value.type}")
+        self.settle(value, self.default(value))
+
     def takes(self, wanted: Type, value: Expression) -> bool:
         """Whether a number without prefix can be of this type at all."""
-        if wanted.kind not in _LITERAL_KINDS or (value.type is UNTYPED_REAL and wanted.kind is not Kind.REAL):
+        if wanted.kind not in _LITERAL_KINDS or (value.type is UNTYPED_REAL) != (wanted.kind is Kind.REAL):
             return False
         if isinstance(value, Binary | Unary) and wanted.kind in (Kind.BITS, Kind.BOOL):
             return False
-        if isinstance(value, Call) and wanted.kind is not Kind.INTEGER:
-            return not self.only_integer(value)
+        if isinstance(value, Call):
+            return self.call_takes(value, wanted)
         return wanted.kind is not Kind.BOOL or (isinstance(value, Literal) and value.value in (0, 1))
 
     @staticmethod
-    def only_integer(value: Call) -> bool:
-        """Whether a call gives any integer type but no other (LEN, FIND, TRUNC)."""
-        return isinstance(value.target, Builtin) and value.target.family in ("LEN", "FIND", "TRUNC")
+    def call_takes(value: Call, wanted: Type) -> bool:
+        """Whether an overloaded call of numbers without prefix can give this type; LEN, FIND, TRUNC give integers."""
+        if not isinstance(value.target, Builtin) or wanted.kind is Kind.BOOL:
+            return False
+        signature = FUNCTIONS.get(value.target.family)
+        if signature is None or signature.result is UNTYPED_INTEGER:
+            return wanted.kind is Kind.INTEGER
+        return wanted.kind in signature.group
 
     def push(self, value: Expression, wanted: Type) -> None:
         """Set the type of every part that has none."""
