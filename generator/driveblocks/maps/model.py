@@ -27,6 +27,7 @@ Factor = Annotated[Decimal, form.DECIMAL]
 Octets = Annotated[bytes, form.BYTES]
 Adu = Annotated[bytes, form.ADU]
 Ref = Annotated[str, form.REFERENCE]
+Symbol = Annotated[str, form.SYMBOL]
 
 Access = Literal["r", "w", "rw"]
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
@@ -116,6 +117,11 @@ class Value(Named):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
+    symbol: Symbol | None = fact(
+        "identifier in Structured Text, where the one made from the name is too long or taken",
+        "InputTerminals",
+        optional=True,
+    )
     note: English | None = fact("what else a person must know", "0 is not a stop", optional=True)
 
 
@@ -353,6 +359,11 @@ class Bit(Entry):
         "meaning of each value of a field, or of 0 and 1", "[{value: 0, name: ..., zh: ...}]", optional=True, default=()
     )
     printed: PrintedBit | None = fact("what the manual prints instead (needs an erratum)", "{bit: F}", optional=True)
+    symbol: Symbol | None = fact(
+        "identifier in Structured Text, where the one made from the name is too long or taken",
+        "InputTerminals",
+        optional=True,
+    )
     note: English | None = fact("what else a person must know", "terminals 9 and 10", optional=True)
 
     @property
@@ -397,6 +408,11 @@ class Register(Entry):
     bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
     printed: PrintedRow | None = fact(
         "what the manual prints instead (needs an erratum)", "{address: 0210H}", optional=True
+    )
+    symbol: Symbol | None = fact(
+        "identifier in Structured Text, where the one made from the name is too long or taken",
+        "InputTerminals",
+        optional=True,
     )
     note: English | None = fact("what else a person must know", "write 0 to store", optional=True)
     source: English | None = fact("overrides the section's source", "page 9", optional=True)
@@ -721,6 +737,17 @@ class Absence(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Tolerance(Entry):
+    """A departure from the standard that replies of this drive are allowed."""
+
+    kind: Literal["two_byte_count"] = fact(
+        "`two_byte_count`: the byte count of a read reply may be a word instead of a byte", "two_byte_count"
+    )
+    source: English = fact("what the manual shows", "11.6.1, CRC of the RTU reply")
+    why: English = fact("why it is allowed", "the printed CRC is that of such a reply")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Drive(Entry):
     """A whole map: one drive family."""
 
@@ -754,6 +781,12 @@ class Drive(Entry):
     operation: Operation = fact("commands, reference, standstill", "{commands: [...], reference: ..., standstill: ...}")
     faults: Faults = fact("fault codes", "{source: ..., registers: [...], codes: [...]}")
     errors: Errors = fact("error replies", "{form: ..., source: ..., codes: [...]}")
+    tolerances: tuple[Tolerance, ...] = fact(
+        "departures from the standard that replies are allowed",
+        "[{kind: two_byte_count, source: ..., why: ...}]",
+        optional=True,
+        default=(),
+    )
     notices: tuple[Notice, ...] = fact(
         "prohibitions, warnings, hazards, procedures", "[{kind: warning, text: ..., source: ...}]"
     )

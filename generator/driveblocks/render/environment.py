@@ -37,7 +37,9 @@ def render(template: str, **context: object) -> str:
     return environment().get_template(template).render(**context)
 
 
-def head(name: str, title: str, *, purpose: str, source: str, call: str, loops: str) -> str:
+def head(  # noqa: PLR0913  (the five parts of every head)
+    name: str, title: str, *, purpose: str, source: str, call: str, loops: str
+) -> str:
     """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs."""
     parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops)]
     return _comment(f"{name}: {title}", parts)

@@ -26,6 +26,7 @@ RESULTS = (
     Result(8, "LENGTH", "frame length out of range", "帧长度超出范围"),
     Result(9, "ASCII_LIMIT", "too long for an ASCII frame of this drive", "超过ASCII帧长度"),
     Result(10, "SUB_FUNCTION", "the drive does not know this sub-function", "变频器不支持此子功能码"),
+    Result(11, "MODE", "the drive does not speak this mode", "变频器不支持此通讯模式"),
     # commands and references
     Result(12, "NOT_A_NUMBER", "the reference is no number", "给定值不是数"),
     Result(13, "NEGATIVE", "the reference is negative", "给定值为负"),

@@ -1,0 +1,90 @@
+"""What a drive allows on the wire, derived from its map: words per frame, readable and writable addresses."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Drive, Limit
+
+READ_WORDS, WRITE_WORDS = 125, 123
+"""MODBUS Application Protocol V1.1b3, 6.3 and 6.12: registers that fit into a PDU of 253 bytes."""
+
+READ_OVERHEAD, WRITE_OVERHEAD = 1, 5
+"""Data bytes beside the words: byte count of a read reply; address, quantity and byte count of a 10H request."""
+
+
+@dataclass(frozen=True)
+class Words:
+    """Most registers per frame in one mode; 0 where the drive lacks the function or the mode."""
+
+    read: int
+    write: int
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What may be sent to a drive."""
+
+    functions: frozenset[int]
+    sub_functions: tuple[int, ...]
+    rtu: Words
+    ascii: Words
+    readable: tuple[Span, ...]
+    writable: tuple[Span, ...]
+    ram_only: Span | None
+    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
+
+
+def plan(drive: Drive) -> Plan:
+    """Derive the plan of a checked map."""
+    functions = {function.code: function for function in drive.functions}
+    ram_only = _ram_only(drive)
+    return Plan(
+        functions=frozenset(functions),
+        sub_functions=tuple(sub.code for sub in functions[8].sub_functions) if 8 in functions else (),
+        rtu=_words(drive, "rtu", drive.limits.data_bytes),
+        ascii=_words(drive, "ascii", drive.limits.ascii_data_bytes),
+        readable=_merged(_allowed(drive, "r")),
+        writable=_merged([*_allowed(drive, "w"), *([ram_only] if ram_only else [])]),
+        ram_only=ram_only,
+    )
+
+
+def _words(drive: Drive, mode: str, size: Limit | None) -> Words:
+    codes = {function.code for function in drive.functions}
+    if mode not in drive.serial.mode.modes:
+        return Words(0, 0)
+    room = size.value if size else 2 * READ_WORDS + READ_OVERHEAD
+    read = min(_value(drive.limits.read_words, READ_WORDS), (room - READ_OVERHEAD) // 2)
+    write = min(_value(drive.limits.write_words, WRITE_WORDS), (room - WRITE_OVERHEAD) // 2, WRITE_WORDS)
+    return Words(read if codes & {3, 4} else 0, write if 16 in codes else 0)
+
+
+def _value(limit: Limit | None, default: int) -> int:
+    return limit.value if limit else default
+
+
+def _ram_only(drive: Drive) -> Span | None:
+    area = next((area for area in drive.areas if area.id == drive.storage.area), None)
+    if area is None or drive.storage.add is None:
+        return None
+    return Span(area.addresses.first + drive.storage.add, area.addresses.last + drive.storage.add)
+
+
+def _allowed(drive: Drive, use: str) -> list[Span]:
+    """Address spans that may be read (`r`) or written (`w`); an unused one may be read in a block, never written."""
+    spans = [area.addresses for area in drive.areas if use in area.access]
+    for section, row in drive.registers():
+        if use in (row.access or section.access) and not (row.unused and use == "w"):
+            spans.append(row.address)
+    return spans
+
+
+def _merged(spans: Iterable[Span]) -> tuple[Span, ...]:
+    merged: list[Span] = []
+    for span in sorted(spans):
+        if merged and span.first <= merged[-1].last + 1:
+            merged[-1] = Span(merged[-1].first, max(merged[-1].last, span.last))
+        else:
+            merged.append(span)
+    return tuple(merged)
