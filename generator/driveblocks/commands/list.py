@@ -54,14 +54,14 @@ def _print_json(loaded: "dict[Path, Drive]") -> None:
 
 def _print_table(loaded: "dict[Path, Drive]") -> None:
     from driveblocks import console
-    from driveblocks.maps import counts
+    from driveblocks.maps import counts, view
     from driveblocks.tables.layout import both, table
 
     kinds = ("registers", "faults", "frames", "errata")
     made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)
     for path, drive in loaded.items():
         held = counts.of_drive(drive)
-        family = both(f"{drive.vendor.en} {drive.family.en}", drive.family.zh_used or drive.family.zh)
+        family = both(view.title(drive), drive.family.zh_used or drive.family.zh)
         numbers = (held.total.registers, held.faults, held.frames, held.errata)
         made.add_row(path.stem, f"{drive.prefix}_*", family, *map(str, numbers))
     console.write(made, "\n`driveblocks show DRIVE` tells everything about one of them.")

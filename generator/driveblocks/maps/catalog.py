@@ -59,7 +59,7 @@ def resolve(name: str) -> Path:
             return found[0]
         if name and found:
             raise UnknownDrive(f"`{name}` fits several drives", "write one of " + _list(p.stem for p in found))
-    if Path(name).exists():
+    if name and Path(name).exists():
         return Path(name)
     raise _unknown(name, maps)
 

@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from driveblocks.maps import counts
+from driveblocks.maps import counts, view
 from driveblocks.maps.counts import Counts, Tally
 from driveblocks.maps.model import Drive
 
@@ -38,7 +38,7 @@ def table(maps: Mapping[Path, Drive], folder: Path) -> str:
 
 def _drive(drive: Drive, link: Path) -> Iterator[tuple[str, ...]]:
     held = counts.of_drive(drive)
-    name = f"[**{drive.prefix}**]({link.as_posix()}) {drive.vendor.en} {drive.family.en}"
+    name = f"[**{drive.prefix}**]({link.as_posix()}) {view.title(drive)}"
     yield name, *_numbers(held.total), *_kinds(held)
     blank = ("",) * len(_kinds(held))
     for section in drive.sections:

@@ -41,7 +41,7 @@ class Match:
 def find(drive: Drive, word: str) -> list[Match]:
     """Everything that a word may mean, best first; regardless of case. Empty when nothing fits."""
     upper = word.upper()
-    found = [*_by_id(drive, upper)]
+    found = [*_by_id(drive, upper)] if word else []
     number = _number(upper)
     if number is not None:
         address = upper.startswith("0X") or len(upper.rstrip("H")) == 4

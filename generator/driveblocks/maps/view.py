@@ -39,6 +39,12 @@ def of_drive(drive: Drive, stem: str) -> Plain:
     }
 
 
+def title(drive: Drive) -> str:
+    """Maker and family in English, the maker once."""
+    vendor, family = drive.vendor.en, drive.family.en
+    return family if family.startswith(vendor) else f"{vendor} {family}"
+
+
 def of_row(section: Section, row: Register) -> Iterator[Plain]:
     """The registers that a row describes, each with its own address and id; none where the row is unused."""
     if row.unused:
