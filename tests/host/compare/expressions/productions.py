@@ -87,7 +87,11 @@ def _division_function(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _logic_function(g: Grammar, kind: str, depth: int) -> Term:
-    return call(kind, "logic-function", g.draws.one_of(["AND", "OR", "XOR"]), *g.several(kind, depth))
+    return call(kind, "logic-function", g.draws.one_of(["AND", "OR"]), *g.several(kind, depth))
+
+
+def _xor_function(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "xor-function", "XOR", *g.several(kind, depth))
 
 
 def _not_function(g: Grammar, kind: str, depth: int) -> Term:
@@ -248,6 +252,8 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("arithmetic-function", NUMBERS, _arithmetic_function),
     ("division-function", tuple(WHOLE), _division_function),
     ("logic-function", ("BOOL", *BITS), _logic_function),
+    ("xor-function", tuple(BITS), _xor_function),
+    ("xor-function-of-bool", _BOOL, _xor_function),
     ("not-function", ("BOOL", *BITS), _not_function),
     ("comparison-function", _BOOL, _comparison_function_of("comparison-function", MAGNITUDES)),
     ("time-comparison", _BOOL, _comparison_function_of("time-comparison", ("TIME",))),
