@@ -51,8 +51,8 @@ class MatiecEngine:
     def build(self, sources: Sequence[Source]) -> MatiecLibrary:
         """Compile the sources, or take them from the cache.
 
-        Raises BuildError with the messages of iec2c, or (BadCError) of the C compiler; EngineError if either is missing,
-        crashes, hangs or prints what nobody understands, or if the cache cannot be written.
+        Raises BuildError with the messages of iec2c, or (BadCError) of the C compiler; EngineError if either is
+        missing, crashes, hangs or prints what nobody understands, or if the cache cannot be written.
         """
         listing = Listing(sources)
         folder = self.cache.entry(self.key(listing.text), lambda making: self._make(listing, making))

@@ -121,7 +121,7 @@ class Floating(Scalar):
         if not isinstance(value, int | float):
             raise ValueError(f"{value!r} is no number")
         try:
-            struct.pack(self.code, value)
+            struct.pack("=" + self.code, value)
         except OverflowError as error:
             raise ValueError(f"{value!r} is too large for a REAL") from error
         return (value,)

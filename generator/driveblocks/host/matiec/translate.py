@@ -34,8 +34,8 @@ class Translator:
     def run(self, listing: Listing, directory: Path) -> list[Message]:
         """Translate; the C is then in `directory`. Give the warnings back, on lines of the joined text.
 
-        Raises BuildError with iec2c's messages on our files; CompilerCrashError, CompilerTimeoutError; EngineError if it cannot
-        run, says what nobody understands or writes no C.
+        Raises BuildError with iec2c's messages on our files; CompilerCrashError, CompilerTimeoutError; EngineError
+        if it cannot run, says what nobody understands or writes no C.
         """
         (directory / listing.NAME).write_text(listing.text, encoding="utf-8")
         program = str(self.installation.iec2c)

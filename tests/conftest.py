@@ -1,0 +1,81 @@
+"""Run engine tests on every engine found; say at the top which run, and why another does not.
+
+`DRIVEBLOCKS_REQUIRE=matiec` (or `matiec-beremiz`, `matiec-openplc`; several with commas) makes a missing one a failure
+of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
+skipped, with the reason, where there is none.
+"""
+
+import functools
+import os
+
+import pytest
+
+from driveblocks.host.discovery import MATIEC_NAMES, Candidate, survey
+from driveblocks.host.engine import Engine
+
+REQUIRE = "DRIVEBLOCKS_REQUIRE"
+
+
+@functools.cache
+def candidates() -> tuple[Candidate, ...]:
+    """Every engine by name, found or not; looked for once."""
+    return tuple(survey().candidates())
+
+
+def missing(required: str) -> list[str]:
+    """What a list such as `matiec-beremiz,matiec-openplc` asks for and is not there, each with the reason."""
+    found = {each.name: each for each in candidates()}
+    complaints = []
+    for name in (word.strip() for word in required.split(",") if word.strip()):
+        group = MATIEC_NAMES if name == "matiec" else (name,)
+        if unknown := [each for each in group if each not in found]:
+            complaints.append(f"{REQUIRE} knows no engine {unknown[0]!r}: matiec, {', '.join(found)}")
+        elif not any(found[each].engine for each in group):
+            complaints.append(f"{name} is required, but: {found[group[0]].note}")
+    return complaints
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Refuse to run where a required engine is missing: a green run would claim what was not tested."""
+    if not hasattr(config, "workerinput") and (complaints := missing(os.environ.get(REQUIRE, ""))):
+        raise pytest.UsageError("\n".join(complaints))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Print the engines; as a header it would be left out of a quiet run, and this must be seen."""
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if reporter is None or hasattr(session.config, "workerinput"):
+        return
+    for each in candidates():
+        reporter.write_line(f"engine {each.name}: {'runs' if each.engine else 'does not run'}, {each.note}")
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Run a test that takes `engine` or `matiec` on each such engine."""
+    for fixture in ("engine", "matiec"):
+        if fixture in metafunc.fixturenames:
+            chosen = [each for each in candidates() if fixture == "engine" or each.name in MATIEC_NAMES]
+            metafunc.parametrize(fixture, _parameters(chosen), indirect=True)
+
+
+def _parameters(chosen: list[Candidate]) -> list[object]:
+    found = [pytest.param(each.engine, id=each.name) for each in chosen if each.engine is not None]
+    if found:
+        return list(found)
+    reason = "; ".join(sorted({each.note for each in chosen}))
+    return [pytest.param(None, id="none", marks=pytest.mark.skip(reason=f"needs matiec: {reason}"))]
+
+
+@pytest.fixture
+def engine(request: pytest.FixtureRequest) -> Engine:
+    """Each engine found, the embedded one first."""
+    found: Engine = request.param
+    return found
+
+
+@pytest.fixture
+def matiec(request: pytest.FixtureRequest) -> Engine:
+    """Each line of matiec found."""
+    found: Engine = request.param
+    return found
