@@ -87,7 +87,7 @@ def test_the_overview_tells_the_line_the_commands_and_the_registers() -> None:
         "1: the PLC speaks RTU",
         "run forward 0000H 0 1, 2, 3",
         "0010H bit 0 = 0 and 0020H = 0",
-        "write 0 to FFFDH; at most 100000 times",
+        "write 0 to FFFDH at most 100000 times",
         "all 26 17 5 13",
         "8 errata, 2 absent",
         "0023H U1-04 r DC bus voltage 直流电压 0.1 V E",
@@ -166,6 +166,9 @@ def test_what_is_several_things_is_told_as_all_of_them() -> None:
         ("run_request", "printed instead: D12=0D44"),
         ("monitors", "series U1-01..U1-04 from 0020H, apart from U1-03"),
         ("0003H", "name (not used)"),
+        ("FFFDH", "prohibition: Do not use ENTER often 中文 请勿频繁使用存储命令"),
+        ("0001H", "one count is 0.01 % only while 000FH bit 0 = 0"),
+        ("registers", "0001H rw Frequency reference 频率给定 0.01 % * N"),
         ("frames", "WRONG; the printed one belongs to 01 06 00 01 13 80"),
         ("FRAMES", "fields unit 1, function 03H, words 1, byte count 2, values 5488, 0023H = 548.8 V"),
         ("errors", "function code + 80H, then one byte with the code"),
@@ -238,7 +241,11 @@ def _run(*words: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
 
 
 def _environment(more: dict[str, str]) -> dict[str, str]:
-    kept = {key: os.environ[key] for key in ("PATH", "PYTHONPATH", "SYSTEMROOT", "COVERAGE_PROCESS_START") if key in os.environ}
+    kept = {
+        key: os.environ[key]
+        for key in ("PATH", "PYTHONPATH", "SYSTEMROOT", "COVERAGE_PROCESS_START")
+        if key in os.environ
+    }
     return {**kept, **more}
 
 

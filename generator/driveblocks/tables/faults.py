@@ -7,7 +7,7 @@ from rich.console import RenderableType
 from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register
-from driveblocks.tables.errata import corroborated, of_absence, of_erratum
+from driveblocks.tables.errata import corroborated, of_absence, of_erratum, of_notice
 from driveblocks.tables.layout import both, card, code_text, facts, heading, listed, table
 
 
@@ -93,10 +93,13 @@ def of_error(drive: Drive, error: ErrorCode) -> RenderableType:
 
 
 def recorded(drive: Drive, kind: str, key: int | str) -> Iterator[RenderableType]:
-    """Errata and absences that name an entry."""
+    """Errata, absences and notices that name an entry."""
     for erratum in drive.errata:
         if references.any_concerns(erratum.about, kind, key):
             yield of_erratum(drive, erratum, "erratum: ")
     for absence in drive.absent:
         if references.any_concerns(absence.about, kind, key):
             yield of_absence(drive, absence, "not said: ")
+    for notice in drive.notices:
+        if references.any_concerns(notice.about, kind, key):
+            yield of_notice(notice)

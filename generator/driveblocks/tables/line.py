@@ -53,9 +53,13 @@ def _baud(code: BaudCode) -> str:
 
 
 def _format(code: FormatCode) -> str:
-    """Data bits, parity and stop bits as people write them: 8E1; what the manual leaves open is a question mark."""
+    """As people write it, 8E1, where the manual gives all three parts; else each part, with what it leaves open."""
+    if code.data_bits is None or code.stop_bits is None:
+        return (
+            f"{code.code} = parity {code.parity}, {code.data_bits or '?'} data bits, {code.stop_bits or '?'} stop bits"
+        )
     letter = {"none": "N", "even": "E", "odd": "O"}[code.parity]
-    return f"{code.code} = {code.data_bits or '?'}{letter}{code.stop_bits or '?'} (parity {code.parity})"
+    return f"{code.code} = {code.data_bits}{letter}{code.stop_bits}"
 
 
 def _choice(choice: Choice, codes: Iterable[str], always: str = "") -> str:
@@ -110,7 +114,7 @@ def of_function(function: Function) -> RenderableType:
 def settings(drive: Drive) -> Iterator[RenderableType]:
     """Every keypad setting for communication."""
     needed = sum(setting.needed is not None for setting in drive.settings)
-    yield heading(f"{len(drive.settings)} keypad settings, {needed} of them needed before the drive listens")
+    yield heading(f"Keypad settings: {len(drive.settings)}, of which the drive needs {needed} before it listens")
     for setting in drive.settings:
         yield of_setting(drive, setting)
 

@@ -92,7 +92,7 @@ def _storage(drive: Drive) -> str:
     if storage.add is not None:
         readable = "may" if storage.readable else "must not"
         parts.append(f"add {address_text(storage.add)} to an address of {storage.area}; it {readable} be read there")
-    return f"{'; '.join(parts)}  ({storage.source})"
+    return "\n".join([*parts, f"({storage.source})"])
 
 
 def _counts(drive: Drive) -> Iterator[RenderableType]:

@@ -52,7 +52,7 @@ def area_page(drive: Drive, area: Area, address: int) -> Iterator[RenderableType
         ("is", f"{area.numbered_by.replace('_', ' ')} {number} of: {both(area.name, area.text_zh)}"),
         ("RAM only", None if stored else drive.storage.note),
     )
-    yield area_facts(area)
+    yield Padding(area_facts(area), (0, 0, 1, 0))
     yield from recorded(drive, "register", address)
     yield from recorded(drive, "area", area.id)
 

@@ -11,8 +11,10 @@ from driveblocks.maps.model import Area, Drive, Register, Section, Value
 from driveblocks.tables.layout import both, facts, heading, listed, table
 
 LEGEND = (
-    "use: r read, w write.  unit: 0.1 V = one count is 0.1 V; V ? = the manual gives no scale.\n"
-    "see: E erratum, A something the manual does not say, N note; `driveblocks show DRIVE ADDRESS` tells them."
+    "use: r read, w write\n"
+    "unit: 0.1 V = one count is 0.1 V, * = only under a condition, ? = no scale given\n"
+    "see: E erratum, A something the manual does not say, N note\n"
+    "`driveblocks show DRIVE ADDRESS` tells all of these"
 )
 
 
@@ -110,10 +112,12 @@ def _value(mark: str, value: Value) -> tuple[str, ...]:
 
 
 def unit(row: Register) -> str:
-    """The unit of a register as `0.1 V` for one count, or `V ?` where the manual gives no scale."""
+    """The unit of a register as `0.1 V` for one count, `V ?` where the manual gives no scale, `*` with a condition."""
     if row.unit is None:
         return ""
-    return f"{row.scale.factor} {row.unit}" if row.scale else f"{row.unit} ?"
+    if row.scale is None:
+        return f"{row.unit} ?"
+    return f"{row.scale.factor} {row.unit}{' *' if row.scale.when else ''}"
 
 
 def _ends(text: str, between: str) -> str:
