@@ -30,6 +30,37 @@ class Fields:
     error: int | None = None
 
 
+@dataclass(frozen=True)
+class Refusal:
+    """How a drive refuses: by a function code with something added, or by a write reply to a fixed address."""
+
+    add: int = 0x80
+    function: int | None = None
+    address: int | None = None
+
+
+def octets(data: bytes) -> str:
+    """Bytes as a map writes them: 25 C0."""
+    return data.hex(" ").upper()
+
+
+def shown(value: object) -> str:
+    """A field of a frame as messages print it: 03H, or words as 0001H 1388H."""
+    if isinstance(value, tuple):
+        return " ".join(f"{word:04X}H" for word in value) or "nothing"
+    return f"{value:02X}H" if isinstance(value, int) else "nothing"
+
+
+def number(word: int, signed: bool) -> int:
+    """A word of 16 bits as the number that it is."""
+    return word - 0x10000 if signed and word & 0x8000 else word
+
+
+def refused(request: Fields, refusal: Refusal) -> Fields:
+    """Unit and function of an exception reply to a request."""
+    return Fields(request.unit, request.function + refusal.add)
+
+
 def crc16(data: bytes) -> bytes:
     """CRC-16 of MODBUS (polynomial A001H reflected, start FFFFH) as the two bytes on the wire, low byte first."""
     crc = 0xFFFF
@@ -79,17 +110,14 @@ def _split_ascii(frame: bytes) -> tuple[bytes, bytes]:
     return body[:-1], body[-1:]
 
 
-def fields(body: bytes, direction: str, error_address: int | None, error_function: int | None) -> Fields:
-    """Take a body (without checksum) apart. `error_*` name the drive's error reply by a write, if it has one.
-
-    Raises FrameError when the length does not fit the function.
-    """
+def fields(body: bytes, direction: str, refusal: Refusal) -> Fields:
+    """Take a body (without checksum) apart. Raises FrameError when the length does not fit the function."""
     base = Fields(body[0], body[1])
     data = body[2:]
-    if direction == "reply" and base.function & 0x80:
+    if direction == "reply" and (base.function & 0x80 or base.function - refusal.add in _FUNCTIONS):
         _need(data, 1, "an exception reply")
         return replace(base, error=data[0])
-    if direction == "reply" and base.function == error_function and _word(data, 0) == error_address:
+    if direction == "reply" and base.function == refusal.function and _word(data, 0) == refusal.address:
         _need(data, 4, "an error reply")
         return replace(base, address=_word(data, 0), error=_word(data, 2))
     reader = _READERS.get((base.function, direction))
@@ -165,3 +193,4 @@ _READERS = {
     (0x10, "request"): _write_request,
     (0x10, "reply"): _write_reply,
 }
+_FUNCTIONS = frozenset(function for function, _ in _READERS)

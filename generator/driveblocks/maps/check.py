@@ -2,10 +2,12 @@
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules import line, operation, parameter, record, register, vector
+from driveblocks.maps.rules import area, fault, line, name, operation, parameter, record, register, setting, vector
+
+_PARTS = (register, name, parameter, area, line, setting, operation, fault, vector, record)
 
 
 def check(drive: Drive, report: Report) -> None:
     """Note every rule that the map breaks, in every part of it."""
-    for part in (register, parameter, line, operation, vector, record):
+    for part in _PARTS:
         part.check(drive, report)

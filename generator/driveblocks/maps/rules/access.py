@@ -1,0 +1,49 @@
+"""What an address is good for: reading, writing, or nothing."""
+
+from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.model import Area, Drive, Register
+from driveblocks.maps.problem import Place, Report
+
+_VERBS = {"r": "read", "w": "written"}
+
+
+def known(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
+    """The row of an address that is to be read (`r`) or written (`w`); notes what stands against it."""
+    found = drive.row_at(address)
+    if found is None:
+        report.miss(place, f"{address_text(address)} is in no register table", "name a listed register")
+        return None
+    section, row = found
+    if row.unused:
+        report.add(place, f"{address_text(address)} is unused", "name a register in use")
+    elif use not in (row.access or section.access):
+        wrong = f"{address_text(address)} cannot be {_VERBS[use]}"
+        report.add(place, wrong, "name another register, or correct its `access`")
+    else:
+        return row
+    return None
+
+
+def ram_span(drive: Drive, area: Area) -> Span | None:
+    """The RAM-only addresses of an area, or None where it has none."""
+    storage = drive.storage
+    if storage.add is None or storage.area != area.id:
+        return None
+    return Span(area.addresses.first + storage.add, area.addresses.last + storage.add)
+
+
+def carried(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
+    """The row of an address that a frame reads or writes, None in an area; notes what stands against it."""
+    for area in drive.areas:
+        ram = ram_span(drive, area)
+        if ram is not None and address in ram:
+            if use == "r" and not drive.storage.readable:
+                wrong = f"{address_text(address)} is a RAM-only address, which cannot be read"
+                report.add(place, wrong, "correct the frame, or `readable` under `storage`")
+            return None
+        if address in area.addresses:
+            if use not in area.access:
+                wrong = f"{address_text(address)} cannot be {_VERBS[use]}"
+                report.add(place, wrong, f"correct the frame, or the access of area `{area.id}`")
+            return None
+    return known(drive, address, use, place, report)

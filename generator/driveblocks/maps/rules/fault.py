@@ -1,0 +1,125 @@
+"""Rules on faults, the registers and bits that report them, and on error replies."""
+
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorForm, Fault, Value
+from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.rules.access import known
+from driveblocks.maps.rules.unique import unique
+
+_ERROR_KEYS = {"exception": ("add",), "write_reply": ("function", "address")}
+_MOST_WORDS = 64
+"""Fault words of one drive; more is a slip in an address."""
+
+
+def check(drive: Drive, report: Report) -> None:
+    """Note every rule that faults or errors break."""
+    codes = unique(drive.faults.codes, "code", "fault code", report, "{:02X}H".format)
+    ids = unique(drive.faults.codes, "id", "fault", report)
+    for code, fault in codes.items():
+        if not 1 <= code <= 0xFFFF:
+            report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes lie within 1 to FFFFH")
+    _fault_registers(drive, codes, report)
+    if drive.faults.bits is not None:
+        _fault_bits(drive, drive.faults.bits, ids, report)
+    _errors(drive, report)
+
+
+def _fault_registers(drive: Drive, codes: dict[int, Fault], report: Report) -> None:
+    place = drive.faults.place("registers")
+    if not drive.faults.registers:
+        report.miss(place, "no register reports a fault", "name the register that holds the fault code")
+    for span in drive.faults.registers:
+        if not span or len(span) > _MOST_WORDS:
+            wrong = f"fault registers from {address_text(span.first)} to {address_text(span.last)}"
+            report.add(place, wrong, f"write the smaller first, and at most {_MOST_WORDS} in a range")
+            continue
+        for address in span:
+            row = known(drive, address, "r", place, report)
+            if row is not None and row.values and codes:
+                _fault_values(row.values, address, codes, report)
+
+
+def _fault_values(values: tuple[Value, ...], address: int, codes: dict[int, Fault], report: Report) -> None:
+    for value in values:
+        fault = codes.get(value.value)
+        if value.value and (fault is None or fault.name != value.name or fault.zh != value.zh):
+            wrong = f"value {value.value} `{value.name}` of {address_text(address)} is not in the table of faults"
+            report.miss(value.at, wrong, "a fault register's values and `faults.codes` say the same")
+    listed = {value.value for value in values}
+    for code, fault in codes.items():
+        if code not in listed:
+            wrong = f"fault {code} is not among the values of {address_text(address)}"
+            report.miss(fault.place("code"), wrong, "list it there too")
+
+
+def _fault_bits(drive: Drive, relation: BitRelation, ids: dict[str, Fault], report: Report) -> None:
+    if not relation.first <= relation.last < relation.first + _MOST_WORDS:
+        wrong = f"fault words from {address_text(relation.first)} to {address_text(relation.last)}"
+        report.add(relation.at, wrong, f"write the first and the last, at most {_MOST_WORDS} words")
+        return
+    due: dict[str, int] = {}
+    for address in range(relation.first, relation.last + 1):
+        row = known(drive, address, "r", relation.at, report)
+        for bit in row.bits if row else ():
+            if bit.id is not None:
+                number = 16 * (address - relation.first) + bit.bit.first + 1
+                _fault_bit(bit, number, due, ids, report)
+                due.setdefault(bit.id, number)
+    for id_, fault in ids.items():
+        if id_ not in due:
+            right = "correct the id, or the bits' ids"
+            report.miss(fault.place("id"), f"fault {id_} is no bit of the fault words", right)
+
+
+def _fault_bit(bit: Bit, number: int, due: dict[str, int], ids: dict[str, Fault], report: Report) -> None:
+    fault = ids.get(bit.id or "")
+    if bit.id in due:
+        wrong = f"fault bit {bit.id} stands twice in the fault words"
+        report.add(
+            bit.place("id"), wrong, f"as bit of the words it has the numbers {due[bit.id]:02X}H and {number:02X}H"
+        )
+    elif fault is None:
+        right = f"by 16 x word + bit + 1 it is {number:02X}H"
+        report.miss(bit.place("id"), f"fault bit {bit.id} has no fault code", right)
+    elif fault.code != number:
+        wrong = f"fault {bit.id} has code {fault.code:02X}H, but its bit makes it {number:02X}H"
+        report.add(fault.place("code"), wrong, "code = 16 x (word - first) + bit + 1")
+
+
+def _errors(drive: Drive, report: Report) -> None:
+    codes = unique(drive.errors.codes, "code", "error code", report, "{:02X}H".format)
+    form = drive.errors.form
+    most = 0xFF if form is not None and form.kind == "exception" else 0xFFFF
+    for code, error in codes.items():
+        if not 1 <= code <= most:
+            report.add(error.place("code"), f"error code {code}", f"codes lie within 1 to {most}")
+    if form is not None:
+        _error_form(form, report)
+        if form.address is not None:
+            names = {code: error.name for code, error in codes.items()}
+            _error_register(drive, form.address, form.place("address"), names, report)
+
+
+def _error_form(form: ErrorForm, report: Report) -> None:
+    needed = _ERROR_KEYS[form.kind]
+    for key in ("add", "function", "address"):
+        if getattr(form, key) is None and key in needed:
+            report.miss(form.at, f"`kind: {form.kind}` has no `{key}`", f"it needs {' and '.join(needed)}")
+        if getattr(form, key) is not None and key not in needed:
+            report.add(
+                form.place(key), f"`kind: {form.kind}` must not have `{key}`", f"it needs {' and '.join(needed)}"
+            )
+    if form.add is not None and not 1 <= form.add <= 0x80:
+        report.add(form.place("add"), f"{form.add:02X}H cannot be added to a function", "write 80H, as Modbus does")
+    if form.function is not None and form.function not in (0x05, 0x06):
+        wrong = f"function {form.function:02X}H has no reply with one address and one word"
+        report.add(form.place("function"), wrong, "write 06H")
+
+
+def _error_register(drive: Drive, address: int, place: Place, codes: dict[int, str], report: Report) -> None:
+    row = known(drive, address, "r", place, report)
+    values = {value.value: value.name for value in row.values if value.value} if row else {}
+    odd = sorted(code for code in values.keys() | codes.keys() if values.get(code) != codes.get(code))
+    if values and odd:
+        wrong = f"the values of {address_text(address)} and `errors.codes` differ in {', '.join(map(str, odd))}"
+        report.miss(place, wrong, "they have the same codes and names")

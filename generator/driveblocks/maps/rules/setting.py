@@ -1,0 +1,162 @@
+"""Rules on keypad settings: their values, their registers, and the codes of the serial line that they choose."""
+
+import re
+from collections.abc import Iterator, Sequence
+
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import (
+    BaudCode,
+    Choice,
+    Drive,
+    FormatCode,
+    ModeCode,
+    Serial,
+    Setting,
+    UnitAddress,
+    Value,
+)
+from driveblocks.maps.problem import Report
+from driveblocks.maps.rules.parameter import of_form
+from driveblocks.maps.rules.unique import unique
+
+Code = ModeCode | BaudCode | FormatCode
+_NOTATION = re.compile(r"\b([78])\W{0,3}([NEO])\W{0,3}([12])\b")
+_PARITIES = {"N": "none", "E": "even", "O": "odd"}
+_RATE = re.compile(r"[0-9]{3,}")
+_MODE = re.compile(r"\b(rtu|ascii)\b", re.IGNORECASE)
+_PARITY_WORDS = (("无校验", "none"), ("偶校验", "even"), ("奇校验", "odd"))
+
+
+def check(drive: Drive, report: Report) -> None:
+    """Note every rule that a setting breaks, or a choice of the serial line that rests on it."""
+    settings = unique(drive.settings, "id", "setting", report)
+    registers = {row.id: row.address.first for _, row in drive.registers() if row.id is not None}
+    for setting in drive.settings:
+        of_form(drive, setting, setting.id, report)
+        _values(setting, report)
+        _numbers(setting, report)
+        _register(drive, setting, registers.get(setting.id), report)
+    for name, choice, codes in _choices(drive.serial):
+        _choice(name, choice, codes, report)
+        if choice.setting is not None:
+            _chosen(name, choice, codes, settings.get(choice.setting), report)
+    unit = drive.serial.unit
+    if unit.setting is not None:
+        _chosen("unit", unit, (), settings.get(unit.setting), report)
+
+
+def _values(setting: Setting, report: Report) -> None:
+    unique(setting.values, "value", f"value of {setting.id}", report, str)
+    allowed = setting.range
+    for value in setting.values:
+        if allowed and not allowed.min <= value.value <= allowed.max:
+            wrong = f"value {value.value} of {setting.id} is outside its range"
+            report.add(value.place("value"), wrong, "widen `range`, or note an erratum")
+    if allowed and allowed.min > allowed.max:
+        wrong = f"the range of {setting.id} runs backwards"
+        report.add(setting.place("range"), wrong, "write the smaller number as `min`")
+
+
+def _numbers(setting: Setting, report: Report) -> None:
+    """What the setting must be, and its factory setting where that is printed in plain decimal."""
+    needed = setting.needed
+    if needed is not None and needed.value is not None:
+        wrong = _impossible(setting, needed.value)
+        if wrong:
+            report.miss(needed.place("value"), f"needed is {needed.value}, but {wrong}", "correct one of them")
+    default = _decimal(setting.default)
+    if default is not None:
+        wrong = _impossible(setting, default)
+        if wrong:
+            report.miss(setting.place("default"), f"default is {default}, but {wrong}", "correct one of them")
+
+
+def _impossible(setting: Setting, number: int) -> str:
+    codes = [value.value for value in setting.values]
+    if codes and number not in codes:
+        return f"the values of {setting.id} are {_list(codes)}"
+    allowed = setting.range
+    if allowed and not allowed.min <= number <= allowed.max:
+        return f"the range of {setting.id} is {allowed.min} to {allowed.max}"
+    return ""
+
+
+def _register(drive: Drive, setting: Setting, listed: int | None, report: Report) -> None:
+    if setting.register is None:
+        if listed is not None:
+            wrong = f"setting {setting.id} has no `register`, but a table lists it at {address_text(listed)}"
+            report.add(setting.place("id"), wrong, f"add `register: {address_text(listed)}`")
+        return
+    row = drive.register_at(setting.register)
+    if row is None or row.id != setting.id:
+        held = f"belongs to {row.id or 'a register without id'}" if row else "is in no register table"
+        wrong = f"{address_text(setting.register)} {held}"
+        report.miss(setting.place("register"), wrong, f"name the register of {setting.id}")
+
+
+def _list(numbers: Sequence[int]) -> str:
+    return ", ".join(map(str, numbers))
+
+
+def _choices(serial: Serial) -> Iterator[tuple[str, Choice, Sequence[Code]]]:
+    yield "mode", serial.mode, serial.mode.codes
+    if serial.baud:
+        yield "baud", serial.baud, serial.baud.codes
+    if serial.format:
+        yield "format", serial.format, serial.format.codes
+
+
+def _choice(name: str, choice: Choice, codes: Sequence[Code], report: Report) -> None:
+    unique(codes, "code", f"code of `{name}`", report, str)
+    numbers = [code.code for code in codes]
+    if choice.default is not None and numbers and choice.default not in numbers:
+        wrong = f"default {choice.default} is not a code of `{name}`"
+        report.miss(choice.place("default"), wrong, f"its codes are {_list(numbers)}")
+
+
+def _chosen(
+    name: str, choice: Choice | UnitAddress, codes: Sequence[Code], setting: Setting | None, report: Report
+) -> None:
+    if setting is None:
+        wrong = f"there is no setting `{choice.setting}`"
+        report.miss(choice.place("setting"), wrong, "name an entry of `settings`")
+        return
+    values = {value.value: value for value in setting.values}
+    if values and codes and sorted(values) != sorted({code.code for code in codes}):
+        wrong = f"the codes of `{name}` are not the values of {setting.id}"
+        report.miss(choice.place("codes"), wrong, f"its values are {_list(list(values))}")
+    for code in codes:
+        if code.code in values:
+            _same(code, values[code.code], setting, report)
+    _same_default(name, choice, setting, report)
+
+
+def _same_default(name: str, choice: Choice | UnitAddress, setting: Setting, report: Report) -> None:
+    printed = _decimal(setting.default)
+    if None not in (choice.default, printed) and choice.default != printed:
+        wrong = f"default {choice.default} of `{name}`, but {setting.id} has {printed}"
+        report.add(choice.place("default"), wrong, "the manual's table decides which of the two is wrong")
+
+
+def _decimal(printed: str | None) -> int | None:
+    """A number printed in plain decimal; a factory setting may also be text, or hexadecimal."""
+    return int(printed[:9]) if printed is not None and printed.isascii() and printed.isdecimal() else None
+
+
+def _same(code: Code, value: Value, setting: Setting, report: Report) -> None:
+    """Note a code that says something else than the words of the setting's value."""
+    for key, said in _said(value.zh) | _said(value.name):
+        own = getattr(code, key, None)
+        if own is not None and own != said:
+            wrong = f"`{key}: {own}`, but value {value.value} of {setting.id} says {said}"
+            report.add(code.place(key), wrong, "the manual's table decides which of the two is wrong")
+
+
+def _said(words: str) -> set[tuple[str, str | int]]:
+    """What the words for a code say in a notation that leaves no doubt: 9600 bit/s, RTU, <8, N, 1>, 偶校验."""
+    said: set[tuple[str, str | int]] = {("baud", int(rate[:9])) for rate in _RATE.findall(words)}
+    said |= {("mode", mode.lower()) for mode in _MODE.findall(words)}
+    said |= {("parity", parity) for word, parity in _PARITY_WORDS if word in words}
+    for data_bits, parity, stop_bits in _NOTATION.findall(words):
+        said |= {("data_bits", int(data_bits)), ("parity", _PARITIES[parity]), ("stop_bits", int(stop_bits))}
+    return said
