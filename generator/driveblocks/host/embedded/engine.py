@@ -1,0 +1,70 @@
+"""The embedded engine: ST compiled to Python in this process, with no tool but Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from driveblocks.host.embedded.compiler import Compiler
+from driveblocks.host.embedded.library import EmbeddedLibrary
+from driveblocks.host.embedded.scope import Options
+from driveblocks.host.engine import BuildError, Message, Overflow, Source
+from driveblocks.st.checker import check
+from driveblocks.st.parser import parse
+from driveblocks.st.problems import ParseError, Problem, SourceError
+from driveblocks.st.tree import Unit
+
+# Turns of loops in one scan. A frame of 256 bytes needs hundreds; a scan of a million takes some 0.1 s here.
+LOOP_LIMIT = 1_000_000
+
+
+class EmbeddedEngine:
+    """Runs ST in this process.
+
+    `model`: what happens when an intermediate result leaves its type: `standard` wraps in the operand's type, `c`
+    goes on as C does after matiec, `fail` raises ScanError wherever the two could differ.
+    `line`: with model `c`, follow `beremiz` or `openplc` where the lines of matiec differ; empty: the standard.
+    `loop_limit`: turns of loops that one scan may take. `coverage`: count the lines that run.
+    """
+
+    name = "embedded"
+
+    def __init__(
+        self, model: Overflow = "fail", *, line: str = "", loop_limit: int = LOOP_LIMIT, coverage: bool = False
+    ) -> None:
+        """Choose. ValueError for what there is not."""
+        if model not in ("standard", "c", "fail"):
+            raise ValueError(f"there is no model of overflow {model!r}; there are standard, c and fail")
+        if line not in ("", "beremiz", "openplc") or (line and model != "c"):
+            raise ValueError(f"line {line!r}: model c can follow beremiz or openplc")
+        self.options = Options(model, line, coverage)
+        self.loop_limit = loop_limit
+
+    def build(self, sources: Sequence[Source]) -> EmbeddedLibrary:
+        """Compile the sources as one text in the given order. Raises BuildError."""
+        units = _parsed(sources)
+        try:
+            checked = check(units)
+        except SourceError as error:
+            raise BuildError([_message(each) for each in error.problems]) from error
+        compiler = Compiler(checked, self.options)
+        if compiler.messages:
+            raise BuildError(compiler.messages)
+        return EmbeddedLibrary(compiler, self.loop_limit)
+
+
+def _parsed(sources: Sequence[Source]) -> list[Unit]:
+    """Parse all sources, so that the errors of all are told at once. Raises BuildError."""
+    units: list[Unit] = []
+    problems: list[Problem] = []
+    for source in sources:
+        try:
+            units.append(parse(source.text, source.path))
+        except ParseError as error:
+            problems += error.problems
+    if problems:
+        raise BuildError([_message(each) for each in problems])
+    return units
+
+
+def _message(problem: Problem) -> Message:
+    return Message(problem.path, problem.line, problem.column, problem.text)

@@ -1,0 +1,158 @@
+"""Integers and bit strings at run time: what wraps, what fails, and division as ST and C have it."""
+
+from __future__ import annotations
+
+from driveblocks.host.embedded.faults import FaultError
+from driveblocks.host.embedded.terms import CInteger
+from driveblocks.st.types import Elementary
+
+
+def wrap(number: int, width: int, signed: bool) -> int:
+    """The value that `width` bits of two's complement keep."""
+    number &= (1 << width) - 1
+    return number - (1 << width) if signed and number >> (width - 1) else number
+
+
+def divide(left: int, right: int) -> int:
+    """Divide towards zero (IEC 61131-3 table 24; ISO C 6.5.5). ZeroDivisionError."""
+    return left // right if (left >= 0) == (right > 0) else -(-left // right)
+
+
+def remainder(left: int, right: int) -> int:
+    """What `divide` leaves, with the sign of the dividend. ZeroDivisionError."""
+    return left % right if left >= 0 and right > 0 else left - right * divide(left, right)
+
+
+def remainder_or_zero(left: int, right: int) -> int:
+    """MOD as table 24 defines it: zero for a divisor of zero."""
+    return remainder(left, right) if right else 0
+
+
+def c_divide(left: int, right: int, low: int) -> int:
+    """Divide as the processor does: a quotient that does not fit stops the program like a division by zero."""
+    if right == -1 and left == low:
+        raise FaultError(f"{left} / -1 does not fit: the processor traps")
+    return divide(left, right)
+
+
+def c_remainder(left: int, right: int, low: int) -> int:
+    """MOD as matiec has it: zero for a divisor of zero, and the processor's trap of `c_divide`."""
+    if right == -1 and left == low:
+        raise FaultError(f"{left} MOD -1 does not fit: the processor traps")
+    return remainder_or_zero(left, right)
+
+
+def leaves_type(number: int, name: str, width: int, signed: bool) -> int:
+    """Fail: an intermediate result left its type and what comes next depends on it."""
+    wrapped = wrap(number, width, signed)
+    raise FaultError(
+        f"the intermediate result {number} leaves {name}: the standard goes on with {wrapped}, C with {number};"
+        " store it first, or compute in a wider type"
+    )
+
+
+def leaves_c(number: int, name: str) -> int:
+    """Fail: a signed result left the type in which C computes it."""
+    raise FaultError(f"the result {number} leaves {name}: C does not define what happens then")
+
+
+def leaves_range(number: int, first: int, last: int) -> int:
+    """Fail: a value outside its subrange (IEC 61131-3 2.3.3.1)."""
+    raise FaultError(f"{number} is outside the subrange {first}..{last}")
+
+
+def c_name(each: CInteger) -> str:
+    """What C calls the type, for messages."""
+    return f"C's {'' if each.signed else 'unsigned '}{each.width}-bit integer"
+
+
+# ------------------------------------------------------------ shifts and rotations
+
+
+def shift_left(number: int, places: int, width: int) -> int:
+    """SHL; the standard makes negative places an error. FaultError."""
+    if places < 0:
+        raise FaultError(f"a shift by {places} places: the number of places must not be negative")
+    return (number << places) & ((1 << width) - 1) if places < width else 0
+
+
+def shift_right(number: int, places: int, width: int) -> int:
+    """SHR; the standard makes negative places an error. FaultError."""
+    if places < 0:
+        raise FaultError(f"a shift by {places} places: the number of places must not be negative")
+    return number >> places if places < width else 0
+
+
+def careful_shift_left(number: int, places: int, width: int) -> int:
+    """SHL where C and the standard agree: C leaves a shift by its own width or more undefined. FaultError."""
+    return shift_left(number, _defined(places, width), width)
+
+
+def careful_shift_right(number: int, places: int, width: int) -> int:
+    """SHR where C and the standard agree. FaultError."""
+    return shift_right(number, _defined(places, width), width)
+
+
+def _defined(places: int, width: int) -> int:
+    if places >= max(width, 32):
+        raise FaultError(f"a shift by {places} places: C does not define a shift by {max(width, 32)} or more")
+    return places
+
+
+def c_shift_left(number: int, places: int, width: int) -> int:
+    """SHL on x86-64, which counts places modulo the register."""
+    return (number << places % max(width, 32)) & ((1 << width) - 1)
+
+
+def c_shift_right(number: int, places: int, width: int) -> int:
+    """SHR on x86-64."""
+    return number >> places % max(width, 32)
+
+
+def rotate_left(number: int, places: int, width: int) -> int:
+    """ROL; negative places turn the other way."""
+    places %= width
+    return ((number << places) | (number >> (width - places))) & ((1 << width) - 1)
+
+
+def rotate_right(number: int, places: int, width: int) -> int:
+    """ROR; negative places turn the other way."""
+    return rotate_left(number, -places, width)
+
+
+def careful_rotate_left(number: int, places: int, width: int) -> int:
+    """ROL; the standard makes negative places an error. FaultError."""
+    if places < 0:
+        raise FaultError(f"a rotation by {places} places: the number of places must not be negative")
+    return rotate_left(number, places, width)
+
+
+def careful_rotate_right(number: int, places: int, width: int) -> int:
+    """ROR; the standard makes negative places an error. FaultError."""
+    return careful_rotate_left(number, width - places % width if places >= 0 else places, width)
+
+
+# ------------------------------------------------------------ BCD
+
+
+def from_bcd(number: int, width: int, strict: bool) -> int:
+    """BCD_TO: decimal digits of four bits each. A digit above nine: FaultError if `strict`, else 0 as on matiec."""
+    digits = f"{number:0{width // 4}x}"
+    if digits.isdecimal():
+        return int(digits)
+    if strict:
+        raise FaultError(f"16#{digits.upper()} is no BCD number")
+    return 0
+
+
+def to_bcd(number: int, width: int, strict: bool) -> int:
+    """TO_BCD. A number with more digits than fit: FaultError if `strict`, else its low digits."""
+    packed = int(str(number), 16)
+    if strict and packed >> width:
+        raise FaultError(f"{number} does not fit into {width // 4} BCD digits")
+    return packed & ((1 << width) - 1)
+
+
+def fits(number: int, target: Elementary) -> bool:
+    """Whether an integer is a value of an integer type or bit string."""
+    return target.low <= number <= target.high

@@ -1,0 +1,148 @@
+"""What a build gives: instances, function calls, configurations, and the lines that were run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import repeat
+from typing import Any
+
+from driveblocks.host.embedded import times
+from driveblocks.host.embedded.calls import returned
+from driveblocks.host.embedded.compiler import Compiler
+from driveblocks.host.embedded.configuration import EmbeddedConfiguration, globals_of
+from driveblocks.host.embedded.faults import FAULTS, scan_error
+from driveblocks.host.embedded.paths import Paths
+from driveblocks.host.embedded.values import Values
+from driveblocks.host.engine import Value
+from driveblocks.st import tree
+from driveblocks.st.standard import BLOCKS
+from driveblocks.st.types import Block, Direction
+
+
+class EmbeddedInstance:
+    """An instance of a function block or program; `scan` is made for it alone, to cost one call."""
+
+    __slots__ = ("_paths", "_root", "scan")
+
+    scan: Callable[..., None]
+
+    def __init__(self, paths: Paths, root: Any, scan: Callable[..., None]) -> None:
+        """Take the inner instance and the function that runs it."""
+        self._paths = paths
+        self._root = root
+        self.scan = scan
+
+    def __getitem__(self, path: str) -> Value:
+        """Read a variable. KeyError."""
+        return self._paths.read(self._root, path)
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write a variable. KeyError, ValueError."""
+        self._paths.write(self._root, path, value)
+
+    def state(self) -> dict[str, Value]:
+        """Every scalar, path in upper case -> value, in the order of declaration."""
+        return self._paths.state(self._root)
+
+
+class EmbeddedLibrary:
+    """Compiled sources."""
+
+    def __init__(self, compiler: Compiler, loop_limit: int) -> None:
+        """Take what the compiler has made; a scan may take `loop_limit` turns of loops."""
+        self.compiler = compiler
+        self.loop_limit = loop_limit
+        self.values = Values(compiler.options.model)
+        self._paths: dict[Block, Paths] = {}
+
+    def blocks(self) -> Iterator[str]:
+        """The function blocks and programs in source order, spelled as declared."""
+        for unit in self.compiler.checked.units:
+            for each in unit.elements:
+                if isinstance(each, tree.FunctionBlock | tree.Program):
+                    yield each.name
+
+    def instance(self, type_name: str) -> EmbeddedInstance:
+        """Make an instance of a block or program of the sources, or of a standard block. KeyError."""
+        block = self._block(type_name.upper())
+        root = self.compiler.instance(block, globals_of(self.compiler))
+        return EmbeddedInstance(self.paths(block), root, self._scanner(block, root))
+
+    def paths(self, block: Block) -> Paths:
+        """The paths of a block."""
+        if block not in self._paths:
+            self._paths[block] = Paths(block, self.values)
+        return self._paths[block]
+
+    def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
+        """Call a function by its formal parameters; one that is left out has its default. KeyError, ScanError.
+
+        Arrays and structures that are bound to in-outs are copies: the caller's list stays as it was.
+        """
+        found = self.compiler.checked.functions.get(function.upper())
+        if found is None:
+            raise KeyError(f"there is no function {function}")
+        given = {name.upper(): value for name, value in arguments.items()}
+        if unknown := [each for each in given if each not in found.parameters]:
+            raise KeyError(f"{function} has no parameter {', '.join(unknown)}")
+        inner = [
+            self._argument(each, given)
+            for name, each in found.parameters.items()
+            if each.direction is not Direction.OUTPUT
+        ]
+        run = self.compiler.run
+        run.budget = repeat(None, self.loop_limit)
+        try:
+            result = self.compiler.function(found)(*inner)
+        except FAULTS as error:
+            raise scan_error(error, self.compiler.accesses) from error
+        return self.values.read(found.type, result[0] if returned(found) else result)
+
+    def configuration(self, name: str | None = None) -> EmbeddedConfiguration:
+        """Start the CONFIGURATION of that name, or the only one. KeyError."""
+        known = self.compiler.checked.configurations
+        if name is None and len(known) != 1:
+            raise KeyError(f"there are {len(known)} configurations: say which")
+        found = next(iter(known.values())) if name is None else known.get(name.upper())
+        if found is None:
+            raise KeyError(f"there is no configuration {name}")
+        return EmbeddedConfiguration(self.compiler, found, self.paths, self.loop_limit)
+
+    def coverage(self) -> dict[str, dict[int, int]]:
+        """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
+        prefix = "hits_"
+        found = {name: each for name, each in self.compiler.objects.items() if name.startswith(prefix)}
+        return {name.removeprefix(prefix): dict(sorted(hits.items())) for name, hits in found.items()}
+
+    # ------------------------------------------------------------ in detail
+
+    def _block(self, name: str) -> Block:
+        pou = self.compiler.checked.blocks.get(name) or self.compiler.checked.programs.get(name)
+        block = pou.type if pou else BLOCKS.get(name)
+        if block is None:
+            raise KeyError(f"there is no function block or program {name}")
+        return block
+
+    def _argument(self, parameter: Any, given: dict[str, Value]) -> Any:
+        value = self.compiler.shapes.maker(parameter.type, parameter.default)(None)
+        name = parameter.name.upper()
+        return self.values.write(parameter.type, value, given[name]) if name in given else value
+
+    def _scanner(self, block: Block, root: Any) -> Callable[..., None]:
+        """The `scan` of an instance: clock, budget, body, and the way from an exception to a ScanError."""
+        run, body, accesses = self.compiler.run, self.compiler.body(block), self.compiler.accesses
+        limit = self.loop_limit if block in self.compiler.looping else 0
+        pairs = self.values.pairs
+
+        def scan(now_ns: int | None = None) -> None:
+            """Run the body once with the clock at `now_ns` nanoseconds (None: as it stands). Raises ScanError."""
+            if now_ns is not None:
+                run.now = times.pair(now_ns) if pairs else now_ns
+            if limit:
+                run.budget = repeat(None, limit)
+            try:
+                body(root)
+            except FAULTS as error:
+                raise scan_error(error, accesses) from error
+
+        return scan

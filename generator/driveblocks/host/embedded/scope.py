@@ -1,0 +1,102 @@
+"""The one thing that all parts of the compiler share while they work on one POU."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass, field
+from typing import Any
+
+from driveblocks.host.embedded.faults import Access, Accesses
+from driveblocks.host.embedded.ranges import Ranges
+from driveblocks.host.embedded.shapes import Shapes
+from driveblocks.host.embedded.syntax import Pen
+from driveblocks.host.engine import Overflow
+from driveblocks.st import tree
+from driveblocks.st.tree import VarKind
+
+# The Python variable that holds the instance in a block's body, and the slot of an instance that holds the globals.
+SELF = "s"
+GLOBALS = "globals_"
+
+
+class UnsupportedError(Exception):
+    """A construct that the engine does not run, with its offset in the source."""
+
+    def __init__(self, at: int, text: str) -> None:
+        """Keep the place."""
+        self.at = at
+        super().__init__(text)
+
+
+@dataclass(slots=True)
+class Options:
+    """What the compiler is asked for."""
+
+    model: Overflow = "fail"
+    line: str = ""
+    coverage: bool = False
+
+
+@dataclass(slots=True)
+class Scope:
+    """The state of compiling one POU."""
+
+    pou: tree.Pou | None
+    options: Options
+    pen: Pen
+    shapes: Shapes
+    accesses: Accesses
+    ranges: Ranges
+    objects: dict[str, Any]
+    hoisted: set[tree.VarDecl] = field(default_factory=set)
+    temporaries: int = 0
+    rehearsals: int = 0
+
+    @property
+    def model(self) -> Overflow:
+        """The model of overflow."""
+        return self.options.model
+
+    def fresh(self) -> str:
+        """A name for a temporary variable."""
+        self.temporaries += 1
+        return f"t{self.temporaries}"
+
+    def is_function(self) -> bool:
+        """Whether variables live in Python variables rather than in an instance."""
+        return isinstance(self.pou, tree.Function)
+
+    def is_local(self, variable: tree.VarDecl) -> bool:
+        """Whether a variable is, here and now, a Python variable."""
+        return self.is_function() or variable.kind is VarKind.TEMP or bool(variable.edge) or variable in self.hoisted
+
+    def slot(self, variable: tree.VarDecl) -> ast.expr:
+        """Where an instance keeps a variable."""
+        if variable.kind is VarKind.EXTERNAL:
+            assert variable.target is not None
+            instance = self.pen.attribute(self.pen.name(SELF), GLOBALS)
+            return self.pen.attribute(instance, self.shapes.global_slot(variable.target))
+        return self.pen.attribute(self.pen.name(SELF), variable.name.upper())
+
+    def variable(self, variable: tree.VarDecl) -> ast.expr:
+        """A variable, to be read or turned into a target."""
+        if self.is_local(variable):
+            return self.pen.name(variable.name.upper())
+        return self.slot(variable)
+
+    def object(self, prefix: str, value: Any) -> str:
+        """The global name under which compiled ST finds a Python object."""
+        name = f"{prefix}_{len(self.objects)}"
+        self.objects[name] = value
+        return name
+
+    def hits(self, line: int) -> str:
+        """The global name of the counters of this source's lines; the line is entered among them."""
+        name = f"hits_{self.pen.unit.path}"
+        self.objects.setdefault(name, {}).setdefault(line, 0)
+        return name
+
+    def note_access(self, name: str, low: int, high: int, offset: ast.expr) -> None:
+        """Remember an array access that stands where the pen is, for the message if it fails."""
+        key = self.pen.unit.path, self.pen.line, self.pen.column
+        self.accesses.table[key] = Access(name, low, high, offset)

@@ -1,0 +1,163 @@
+"""Statements of ST as Python statements."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable
+
+from driveblocks.host.embedded.calls import returned
+from driveblocks.host.embedded.invocation import Invocation
+from driveblocks.host.embedded.ranges import Ranges
+from driveblocks.host.embedded.scope import Scope, UnsupportedError
+from driveblocks.host.embedded.syntax import place_of
+from driveblocks.host.embedded.terms import Whole
+from driveblocks.st import tree
+from driveblocks.st.types import Block
+
+
+class Statements(Invocation):
+    """Compiles the statements of one POU."""
+
+    def __init__(self, scope: Scope) -> None:
+        """Compile within a scope."""
+        super().__init__(scope)
+        self._kinds: dict[type[tree.Statement], Callable[..., list[ast.stmt]]] = {
+            tree.Assign: self._assign,
+            tree.CallStatement: self._call_statement,
+            tree.If: self._if,
+            tree.Case: self._case,
+            tree.While: self.while_loop,
+            tree.RepeatUntil: self.repeat_loop,
+            tree.For: self.for_loop,
+            tree.Exit: lambda _: self.leave_loop(),
+            tree.Continue: lambda _: self.next_turn(),
+            tree.Return: self._return,
+            tree.Empty: lambda _: [],
+        }
+
+    def body(self, statements: list[tree.Statement]) -> list[ast.stmt]:
+        """A list of statements; each stands at its ST line and, if asked for, counts itself. UnsupportedError."""
+        written: list[ast.stmt] = []
+        for each in statements:
+            self.pen.move(each.at)
+            if self.scope.options.coverage and not isinstance(each, tree.Empty):
+                written.append(self._count())
+            written += self._kinds[type(each)](each)
+        return written or [self.pen.nothing()]
+
+    def _count(self) -> ast.stmt:
+        name = self.scope.hits(self.pen.line)
+        return self.pen.increment(self.pen.item(self.pen.name(name), self.pen.constant(self.pen.line)))
+
+    def _assign(self, statement: tree.Assign) -> list[ast.stmt]:
+        if statement.op != ":=":
+            raise UnsupportedError(statement.at, f"the embedded engine does not run {statement.op}")
+        target = statement.target
+        value = self.stored(statement.value, target.type)
+        place = self.term(target).node
+        self.pen.move(statement.at)
+        self.forget(target)
+        if isinstance(value, Whole) and isinstance(target, tree.Name) and isinstance(target.symbol, tree.VarDecl):
+            self.scope.ranges.set(target.symbol, value.low, value.high)
+        return [self.copy(target.type, place, value.node)]
+
+    def _call_statement(self, statement: tree.CallStatement) -> list[ast.stmt]:
+        call = statement.call
+        if isinstance(call.target, Block):
+            return self.invoke(call, call.target)
+        return [self.pen.statement(self.call(call).node)]
+
+    def _return(self, statement: tree.Return) -> list[ast.stmt]:
+        if statement.value is not None:
+            raise UnsupportedError(statement.at, "the embedded engine does not run RETURN with a value")
+        leave = self.pen.leave(self.returned_value())
+        self.scope.ranges.dead = True
+        return [leave]
+
+    def returned_value(self) -> ast.expr | None:
+        """What the Python function of this POU returns."""
+        function = self.scope.pou
+        if not isinstance(function, tree.Function):
+            return None
+        result = self.pen.constant(0) if function.result is None else self.pen.name(function.result.name.upper())
+        handed = [self.pen.name(each.name.upper()) for each in returned(function)]
+        return self.pen.row(result, *handed) if handed else result
+
+    # ------------------------------------------------------------ choices
+
+    def _if(self, statement: tree.If) -> list[ast.stmt]:
+        return self._branches(statement.branches, statement.otherwise)
+
+    def _branches(self, branches: list[tree.Branch], otherwise: list[tree.Statement] | None) -> list[ast.stmt]:
+        """IF with its first branch, the rest as what stands behind ELSE."""
+        ranges = self.scope.ranges
+        first = branches[0]
+        self.pen.move(first.condition.at)
+        test = self.truth(first.condition)
+        refuted = self.supposing(first.condition, False)
+        ranges.assume(first.condition, True, self.interval)
+        body = self.body(first.body)
+        taken = ranges.copy()
+        ranges.become(refuted)
+        rest: list[ast.stmt] = []
+        if len(branches) > 1:
+            rest = self._branches(branches[1:], otherwise)
+        elif otherwise:
+            rest = self.body(otherwise)
+        ranges.join(taken)
+        self.pen.move(first.at)
+        return [self.pen.branch(test, body, rest)]
+
+    def _case(self, statement: tree.Case) -> list[ast.stmt]:
+        selector = self.term(statement.selector)
+        if isinstance(selector, Whole):
+            selector = self.widths.exact(selector)
+        self.pen.move(statement.at)
+        name = self.scope.fresh()
+        kept = self.pen.assign(self.pen.name(name), selector.node)
+        before = self.scope.ranges.copy()
+        ends: list[Ranges] = []
+        tests = []
+        for branch in statement.branches:
+            tests.append(self._case_branch(statement, branch, name, before))
+            ends.append(self.scope.ranges.copy())
+        self.scope.ranges.become(before)
+        rest = self.body(statement.otherwise) if statement.otherwise else []
+        for each in ends:
+            self.scope.ranges.join(each)
+        for test, body in reversed(tests):
+            rest = [ast.If(test, body, rest, **place_of(test))]
+        return [kept, *rest]
+
+    def _case_branch(
+        self, statement: tree.Case, branch: tree.CaseBranch, name: str, before: Ranges
+    ) -> tuple[ast.expr, list[ast.stmt]]:
+        """The test of a branch and its statements, compiled from what is known before the CASE."""
+        self.scope.ranges.become(before)
+        self.pen.move(branch.at)
+        bounds = [self._label(each, statement.selector) for each in branch.labels]
+        if isinstance(statement.selector, tree.Name):
+            lows, highs = zip(*bounds, strict=True)
+            self._narrow_selector(statement.selector, min(lows), max(highs))
+        tests = [self._matches(name, low, high) for low, high in bounds]
+        return self.pen.junction(ast.Or(), *tests), self.body(branch.body)
+
+    def _narrow_selector(self, selector: tree.Name, low: int, high: int) -> None:
+        if isinstance(self.term(selector), Whole):
+            self.scope.ranges.narrow(selector, ">=", (low, low))
+            self.scope.ranges.narrow(selector, "<=", (high, high))
+
+    def _matches(self, name: str, low: int, high: int) -> ast.expr:
+        pen = self.pen
+        if low == high:
+            return pen.compare(pen.name(name), (ast.Eq(), pen.constant(low)))
+        return pen.compare(pen.constant(low), (ast.LtE(), pen.name(name)), (ast.LtE(), pen.constant(high)))
+
+    def _label(self, label: tree.Expression | tree.LabelRange, selector: tree.Expression) -> tuple[int, int]:
+        """The values that a label stands for."""
+        evaluate = self.scope.shapes.evaluate
+        assert evaluate is not None
+        if isinstance(label, tree.LabelRange):
+            return evaluate(label.low, selector.type), evaluate(label.high, selector.type)
+        value = evaluate(label, selector.type)
+        return value, value

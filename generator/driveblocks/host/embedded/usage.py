@@ -1,0 +1,97 @@
+"""Which variables a piece of ST reads and writes."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from typing import Any
+
+from driveblocks.st import tree
+from driveblocks.st.types import Block, Builtin, Direction, EnumValue, Type
+
+# What hangs in the tree without being a part of it.
+_FOREIGN = (tree.VarDecl, tree.Pou, tree.Unit, Type, EnumValue, Builtin)
+
+
+def walk(node: tree.Node) -> Iterator[tree.Node]:
+    """A node and all nodes in it, in source order; declarations that it refers to are left out."""
+    yield node
+    for each in dataclasses.fields(node):
+        for child in _children(getattr(node, each.name)):
+            yield from walk(child)
+
+
+def _children(value: Any) -> Iterator[tree.Node]:
+    if isinstance(value, list):
+        for each in value:
+            yield from _children(each)
+    elif isinstance(value, tree.Node) and not isinstance(value, _FOREIGN):
+        yield value
+
+
+def reads(nodes: list[tree.Statement]) -> list[tree.VarDecl]:
+    """Every variable that is named, each once, in source order."""
+    found: dict[tree.VarDecl, None] = {}
+    for node in nodes:
+        for each in walk(node):
+            if isinstance(each, tree.Name) and isinstance(each.symbol, tree.VarDecl):
+                found[each.symbol] = None
+    return list(found)
+
+
+def writes(nodes: list[tree.Statement]) -> list[tree.VarDecl]:
+    """Every variable that is assigned as a whole: by `:=`, FOR, an output, an in-out or ENO."""
+    found: dict[tree.VarDecl, None] = {}
+    for node in nodes:
+        for each in walk(node):
+            for target in _targets(each):
+                if isinstance(target, tree.Name) and isinstance(target.symbol, tree.VarDecl):
+                    found[target.symbol] = None
+    return list(found)
+
+
+def _targets(node: tree.Node) -> Iterator[tree.Expression | None]:
+    if isinstance(node, tree.Assign):
+        yield node.target
+    elif isinstance(node, tree.For):
+        yield node.variable
+    elif isinstance(node, tree.Call):
+        yield node.eno
+        for binding in node.bindings:
+            if binding.parameter.direction is not Direction.INPUT:
+                yield binding.value
+
+
+def root(expression: tree.Expression) -> tree.VarDecl | None:
+    """The variable in which a field or element lies."""
+    while isinstance(expression, tree.Member | tree.Index):
+        expression = expression.base
+    symbol = expression.symbol if isinstance(expression, tree.Name) else None
+    return symbol if isinstance(symbol, tree.VarDecl) else None
+
+
+def touched(nodes: list[tree.Statement]) -> set[tree.VarDecl]:
+    """Every variable of which any part may be written."""
+    found = set()
+    for node in nodes:
+        for each in walk(node):
+            for target in _targets(each):
+                owner = None if target is None else root(target)
+                if owner is not None:
+                    found.add(owner)
+    return found
+
+
+def has_loop(nodes: list[tree.Statement]) -> bool:
+    """Whether there is a loop anywhere."""
+    return any(isinstance(each, tree.For | tree.While | tree.RepeatUntil) for node in nodes for each in walk(node))
+
+
+def callees(nodes: list[tree.Statement]) -> set[tree.Function | Block]:
+    """Every function in ST and every block that is called."""
+    found: set[tree.Function | Block] = set()
+    for node in nodes:
+        for each in walk(node):
+            if isinstance(each, tree.Call) and isinstance(each.target, tree.Function | Block):
+                found.add(each.target)
+    return found
