@@ -8,7 +8,7 @@ from driveblocks.maps import form
 from driveblocks.maps.form import Form
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import Report
-from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of, required_of
 
 _NUMERIC = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 _BAD: Any = object()
@@ -106,30 +106,24 @@ def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
     meant = _unknown_keys(known, node, report, name)
     places = {key: value.at for key, (_, value) in node.entries.items() if key in known}
     values = {key: build(known[key].shape, node.entries[key][1], report, key) for key in places}
-    _missing([key for key in known.values() if key.name not in meant], node, report, name)
     good = {key: value for key, value in values.items() if value is not _BAD}
-    if any(key.required and key.name not in good for key in known.values()):
-        return _BAD
-    return shape.cls(at=node.at, keys=places, **good)
+    lacking = [key for key in required_of(shape.cls) if key.name not in good]
+    for key in lacking:
+        if key.name not in meant and key.name not in places:
+            report.add(node.at, f"`{name}` has no `{key.name}`", f"add `{key.name}`: {key.doc}, such as {key.example}")
+    return _BAD if lacking else shape.cls(at=node.at, keys=places, **good)
 
 
 def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: str) -> set[str]:
     """Note the keys that the format does not have; return those of the format that were probably meant."""
     meant: set[str] = set()
-    for text, (key, _) in node.entries.items():
-        if text in known:
-            continue
+    for text in node.entries.keys() - known.keys():
+        key = node.entries[text][0]
         near = _nearest(text, [word for word in known if word not in node.entries])
         right = f"did you mean `{near}`?" if near else "known keys: " + ", ".join(known)
         report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", right)
         meant.add(near or "")
     return meant
-
-
-def _missing(keys: list[Key], node: Entries, report: Report, name: str) -> None:
-    for key in keys:
-        if key.required and key.name not in node.entries:
-            report.add(node.at, f"`{name}` has no `{key.name}`", f"add `{key.name}`: {key.doc}, such as {key.example}")
 
 
 def _nearest(text: str, words: list[str]) -> str | None:

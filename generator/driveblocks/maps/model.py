@@ -816,6 +816,13 @@ class Drive(Entry):
         found = self.row_at(address)
         return found[1] if found is not None else None
 
+    def rows_in(self, span: Span) -> list[Register]:
+        """The rows that describe any address of a span, by address."""
+        firsts, rows = self._by_address
+        low = max(bisect_right(firsts, span.first) - 1, 0)
+        high = bisect_right(firsts, span.last)
+        return [row for _, row in rows[low:high] if row.address.overlaps(span)]
+
     @cached_property
     def _by_address(self) -> tuple[list[int], list[tuple[Section, Register]]]:
         rows = sorted(self.registers(), key=lambda pair: pair[1].address)

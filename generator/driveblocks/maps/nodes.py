@@ -1,8 +1,8 @@
 """The strict YAML of maps: mappings, lists and texts, each with its place; everything clever in YAML is refused."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 import yaml
 
@@ -18,8 +18,7 @@ MAX_TEXT = 4000
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-@dataclass(frozen=True, slots=True)
-class Scalar:
+class Scalar(NamedTuple):
     """A text as written; `plain` tells that it stood without quotes, `refused` that its mistake is noted."""
 
     text: str
@@ -83,25 +82,27 @@ class _Events:
     """The event stream with the limits on depth and number of nodes."""
 
     def __init__(self, parser: yaml.SafeLoader, text: str, report: Report) -> None:
-        self.parser = parser
+        self.get: Callable[[], yaml.Event] = parser.get_event
         self.text = text
         self.report = report
         self.nodes = 0
 
     def next(self) -> yaml.Event:
-        event: yaml.Event = self.parser.get_event()  # type: ignore[no-untyped-call]
+        event: yaml.Event = self.get()
         if isinstance(event, yaml.NodeEvent):
-            self._guard(event)
+            self.nodes += 1
+            if self.nodes > MAX_NODES:
+                self.stop(event, f"more than {MAX_NODES} values in one file", "a map describes one drive family")
+            if event.anchor is not None or getattr(event, "tag", None) is not None:
+                self._clever(event)
         return event
 
     def place(self, event: yaml.Event) -> Place:
         mark = event.start_mark
         return (mark.line + 1, mark.column + 1) if mark else (1, 1)
 
-    def _guard(self, event: yaml.NodeEvent) -> None:
-        self.nodes += 1
-        if self.nodes > MAX_NODES:
-            self.stop(event, f"more than {MAX_NODES} values in one file", "a map describes one drive family")
+    def _clever(self, event: yaml.NodeEvent) -> None:
+        """Refuse what a person does not see by reading one line: aliases, anchors, tags."""
         if isinstance(event, yaml.AliasEvent):
             wrong = f"alias *{_short(event.anchor)} is not allowed in a map"
             self.stop(event, wrong, "write the value out, so each line stands alone")
@@ -142,8 +143,8 @@ def _document(events: _Events) -> Node | None:
 
 def _directives(events: _Events, start: yaml.Event) -> None:
     # an unknown directive shows only in the text: parsers skip it
-    line = events.text.split("\n", events.place(start)[0])[events.place(start)[0] - 1]
-    if getattr(start, "explicit", False) and line.startswith("%"):
+    line = events.place(start)[0]
+    if getattr(start, "explicit", False) and events.text.split("\n", line)[line - 1].startswith("%"):
         events.refuse(start, "YAML directives (%) are not allowed in a map", "remove the line that starts with %")
 
 

@@ -62,6 +62,12 @@ def keys_of(cls: type) -> dict[str, Key]:
     return keys
 
 
+@cache
+def required_of(cls: type) -> tuple[Key, ...]:
+    """The keys of a model class that may not be left out."""
+    return tuple(key for key in keys_of(cls).values() if key.required)
+
+
 def shape_of(hint: Any) -> Shape:
     """The shape that a type hint stands for. Raises TypeError."""
     origin = get_origin(hint)

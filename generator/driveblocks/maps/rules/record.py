@@ -1,148 +1,146 @@
-"""Rules on what is recorded about the manual: errata, absences, documents, and what every entry refers to."""
+"""Rules on what is recorded about the manual: misprints, errata, absences, documents."""
 
-import re
 from collections.abc import Iterator
 
-from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Absence, Corroboration, Drive, Entry, Notice, Register
+from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.model import (
+    Bit,
+    Corroboration,
+    Drive,
+    Entry,
+    Erratum,
+    ErrorCode,
+    Register,
+    Section,
+    Text,
+    Value,
+)
 from driveblocks.maps.problem import Place, Report
-
-_SINGLE = ("prose", "serial", "storage", "operation", "broadcast", "errors", "faults", "limits", "manual", "silence")
-_NUMBER = re.compile(r"-?[0-9]+|[0-9A-F]+H")
-_ADDRESSES = re.compile(r"([0-9A-F]{4})H(?:-([0-9A-F]{4})H)?")
-_BIT = re.compile(r"([0-9A-F]{4})H\.([0-9A-F])(?:-([0-9A-F]))?")
+from driveblocks.maps.rules.reference import Known
+from driveblocks.maps.rules.unique import unique
 
 
 def check(drive: Drive, report: Report) -> None:
     """Note every misprint without erratum, every reference into nothing, every unused document."""
-    known = _Known(drive)
-    covered: set[str] = set()
-    for erratum in drive.errata:
-        _twice(erratum.about, erratum.place("about"), report)
-        for ref in erratum.about:
-            covered.update(known.resolve(ref, erratum.place("about"), report))
-    others: tuple[Absence | Notice, ...] = (*drive.absent, *drive.notices)
-    for entry in others:
-        for ref in entry.about:
-            known.resolve(ref, entry.place("about"), report)
-    _uncovered(drive, covered, report)
-    _repeated(drive, report)
+    covered = _references(drive, report)
+    for name, place in _misprints(drive):
+        if name not in covered:
+            wrong = f"{name} departs from the manual (or lacks its name), but no erratum names it"
+            report.miss(place, wrong, f"add an entry to `errata` with `about: [{name}]`")
+    _printed(drive, report)
+    _errata(drive, report)
+    unique(drive.absent, "what", "absence", report)
     _documents(drive, report)
 
 
-class _Known:
-    """What references may name: `kind name` -> whether it exists."""
-
-    def __init__(self, drive: Drive) -> None:
-        self.drive = drive
-        self.rows: dict[int, Register] = {a: row for _, row in drive.registers() for a in row.address}
-        self.names = {
-            "frame": {frame.id for frame in drive.frames},
-            "setting": {setting.id for setting in drive.settings},
-            "section": {section.id for section in drive.sections},
-            "area": {area.id for area in drive.areas},
-            "limit": {"read_words", "write_words", "data_bytes", "ascii_data_bytes"},
-        }
-        self.numbers: dict[str, set[int | None]] = {
-            "fault": {fault.code for fault in drive.faults.codes},
-            "error": {error.code for error in drive.errors.codes},
-            "function": {function.code for function in drive.functions},
-        }
-
-    def resolve(self, ref: str, place: Place, report: Report) -> list[str]:
-        """The canonical names that a reference covers; notes one that names nothing."""
-        kind, _, name = ref.partition(" ")
-        found = self._of(kind, name)
-        if not found:
-            kinds = ("register", "bit", *self.numbers, *self.names, *_SINGLE)
-            if kind not in kinds:
-                report.add(place, f"`{ref}` is no reference", "start it with one of " + ", ".join(kinds))
-            else:
-                report.add(place, f"`{ref}` names nothing in this map", f"name an existing {kind}, as `{kind} ...`")
-        return found
-
-    def _of(self, kind: str, name: str) -> list[str]:
-        if kind in _SINGLE:
-            return [kind] if not name else []
-        if kind == "register":
-            return self._registers(name)
-        if kind == "bit":
-            return self._bits(name)
-        if kind in self.numbers and _NUMBER.fullmatch(name):
-            number = int(name[:-1], 16) if name.endswith("H") else int(name)
-            return [f"{kind} {number}"] if number in self.numbers[kind] else []
-        return [f"{kind} {name}"] if name in self.names.get(kind, set()) else []
-
-    def _registers(self, name: str) -> list[str]:
-        match = _ADDRESSES.fullmatch(name)
-        if match is None:
-            return []
-        first, last = int(match[1], 16), int(match[2] or match[1], 16)
-        found = [self.rows[address] for address in range(first, last + 1) if address in self.rows]
-        missing = first not in self.rows and not any(first in area.addresses for area in self.drive.areas)
-        if missing or last < first:
-            return []
-        return [f"register {address_text(row.address.first)}" for row in found] or [f"register {name}"]
-
-    def _bits(self, name: str) -> list[str]:
-        match = _BIT.fullmatch(name)
-        row = self.rows.get(int(match[1], 16)) if match else None
-        if match is None or row is None:
-            return []
-        low, high = int(match[2], 16), int(match[3] or match[2], 16)
-        spans = [bit.bit for bit in row.bits if bit.bit.first <= high and low <= bit.bit.last]
-        return [f"bit {match[1]}H.{bits_text(span)}" for span in spans]
-
-
-def _twice(refs: tuple[str, ...], place: Place, report: Report) -> None:
-    for ref in sorted({ref for ref in refs if refs.count(ref) > 1}):
-        report.add(place, f"`{ref}` stands twice in one list", "keep one of them")
-    if not refs:
-        report.add(place, "an erratum about nothing", "name what it is about, or write `[prose]`")
+def _references(drive: Drive, report: Report) -> set[str]:
+    """Resolve every reference; return the canonical names that the errata cover."""
+    known = Known(drive)
+    covered: set[str] = set()
+    for erratum in drive.errata:
+        covered.update(known.resolve(erratum.about, erratum.place("about"), report))
+    for notice in drive.notices:
+        known.resolve(notice.about, notice.place("about"), report)
+    for absence in drive.absent:
+        known.resolve(absence.about, absence.place("about"), report)
+    about = (("an erratum", drive.errata), ("an absence", drive.absent))
+    for what, entries in about:
+        for entry in entries:
+            if not entry.about:
+                right = "name what it is about, or write `[prose]`"
+                report.add(entry.place("about"), f"{what} about nothing", right)
+    return covered
 
 
 def _misprints(drive: Drive) -> Iterator[tuple[str, Place]]:
     """Every entry that departs from what is printed, by canonical name."""
-    for _, row in drive.registers():
-        yield from _row_misprints(row)
+    for section in drive.sections:
+        yield from _section_misprints(section)
     for fault in drive.faults.codes:
         if fault.printed_code is not None or fault.zh_used is not None:
-            yield f"fault {fault.code}", fault.at
+            yield f"fault {fault.code:02X}H", fault.at
     for error in drive.errors.codes:
-        if error.zh_used is not None and error.code is not None:
-            yield f"error {error.code}", error.at
-    for setting in drive.settings:
-        if setting.zh_used is not None:
-            yield f"setting {setting.id}", setting.at
+        yield from _error_misprints(error)
     for frame in drive.frames:
         if frame.printed != frame.correct or (frame.plc is not None and frame.plc.printed):
             yield f"frame {frame.id}", frame.at
+    yield from _other_misprints(drive)
+
+
+def _other_misprints(drive: Drive) -> Iterator[tuple[str, Place]]:
+    for setting in drive.settings:
+        if setting.zh_used is not None or _any_used(setting.values):
+            yield f"setting {setting.id}", setting.at
+    for function in drive.functions:
+        if function.zh_used is not None or any(sub.zh_used is not None for sub in function.sub_functions):
+            yield f"function {function.code:02X}H", function.at
+    for area in drive.areas:
+        if area.zh_used is not None:
+            yield f"area {area.id}", area.at
+
+
+def _any_used(values: tuple[Value, ...]) -> bool:
+    return any(value.zh_used is not None for value in values)
+
+
+def _section_misprints(section: Section) -> Iterator[tuple[str, Place]]:
+    if section.title.zh_used is not None:
+        yield f"section {section.id}", section.title.at
+    for row in section.registers:
+        yield from _row_misprints(row)
 
 
 def _row_misprints(row: Register) -> Iterator[tuple[str, Place]]:
     address = address_text(row.address.first)
     nameless = not row.name and not row.unused
-    if row.printed is not None or row.zh_used is not None or nameless:
+    if row.printed is not None or row.zh_used is not None or nameless or _any_used(row.values):
         yield f"register {address}", row.at
     for bit in row.bits:
-        if bit.printed is not None or bit.zh_used is not None:
+        if bit.printed is not None or bit.zh_used is not None or _any_used(bit.values):
             yield f"bit {address}.{bits_text(bit.bit)}", bit.at
 
 
-def _uncovered(drive: Drive, covered: set[str], report: Report) -> None:
-    for name, place in _misprints(drive):
-        if name not in covered:
-            wrong = f"{name} departs from the manual (or lacks its name), but no erratum names it"
-            report.add(place, wrong, f"add an entry to `errata` with `about: [{name}]`")
+def _error_misprints(error: ErrorCode) -> Iterator[tuple[str, Place]]:
+    texts = (error.meaning, *error.causes)
+    if error.zh_used is not None or any(isinstance(text, Text) and text.zh_used is not None for text in texts):
+        yield ("errors" if error.code is None else f"error {error.code:02X}H"), error.at
 
 
-def _repeated(drive: Drive, report: Report) -> None:
-    seen: dict[tuple[tuple[str, ...], str], Entry] = {}
+def _printed(drive: Drive, report: Report) -> None:
+    """Note what is given as misprinted and is printed as used."""
+    for place, printed, used in _pairs(drive):
+        if printed is not None and printed == used:
+            report.add(place, f"`{printed}` is given as misprinted, but it is what the map uses", "remove the key")
+
+
+def _pairs(drive: Drive) -> Iterator[tuple[Place, str | None, str | None]]:
+    for _, row in drive.registers():
+        if row.printed is not None:
+            yield row.printed.place("address"), row.printed.address, span_text(row.address)
+            yield row.printed.place("id"), row.printed.id, row.id
+        for bit in row.bits:
+            yield from _bit_pairs(bit)
+    for fault in drive.faults.codes:
+        if fault.printed_code in (str(fault.code), f"{fault.code:02X}H"):
+            yield fault.place("printed_code"), fault.printed_code, fault.printed_code
+
+
+def _bit_pairs(bit: Bit) -> Iterator[tuple[Place, str | None, str | None]]:
+    if bit.printed is not None:
+        yield bit.printed.place("bit"), bit.printed.bit, bits_text(bit.bit)
+        yield bit.printed.place("id"), bit.printed.id, bit.id
+
+
+def _errata(drive: Drive, report: Report) -> None:
+    seen: dict[tuple[tuple[str, ...], str, str], Erratum] = {}
     for erratum in drive.errata:
-        key = (erratum.about, erratum.printed)
-        if key in seen:
-            report.add(erratum.at, f"this erratum repeats the one in line {seen[key].at[0]}", "keep one of them")
-        seen[key] = erratum
+        first = seen.setdefault((erratum.about, erratum.where, erratum.printed), erratum)
+        if first is not erratum:
+            wrong = f"this erratum repeats the one in line {first.at[0]}"
+            report.add(erratum.at, wrong, "keep one of them")
+        if erratum.printed == erratum.used and erratum.confidence == "certain":
+            wrong = "this erratum uses what is printed, and is certain of it"
+            report.add(erratum.place("used"), wrong, "correct `used`, or write `confidence: open`")
 
 
 def _corroborations(drive: Drive) -> Iterator[Corroboration]:
@@ -157,19 +155,14 @@ def _corroborations(drive: Drive) -> Iterator[Corroboration]:
 
 
 def _documents(drive: Drive, report: Report) -> None:
-    ids = [document.id for document in drive.documents]
-    for document in drive.documents:
-        if ids.count(document.id) > 1:
-            report.add(document.place("id"), f"document `{document.id}` stands twice", "one entry per document")
+    documents = unique(drive.documents, "id", "document", report)
     used = set()
     for item in _corroborations(drive):
         used.add(item.document)
-        if item.document not in ids:
-            report.add(item.place("document"), f"there is no document `{item.document}`", "add it to `documents`")
-    for document in drive.documents:
-        if document.id not in used:
-            report.add(
-                document.at,
-                f"nothing refers to document `{document.id}`",
-                "remove it, or add `corroborated:` where it serves",
-            )
+        if item.document not in documents:
+            wrong = f"there is no document `{item.document}`"
+            report.miss(item.place("document"), wrong, "add it to `documents`")
+    for id_, document in documents.items():
+        if id_ not in used:
+            right = "remove it, or add `corroborated:` where it serves"
+            report.miss(document.at, f"nothing refers to document `{id_}`", right)
