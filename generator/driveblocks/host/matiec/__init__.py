@@ -10,7 +10,7 @@ small C file of our own around it), `ccompiler` (-> shared library), `cache`, `l
 
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, find_c_compiler
 from driveblocks.host.matiec.engine import MatiecEngine
-from driveblocks.host.matiec.errors import BadCError, CompilerCrashError, CompilerTimeoutError
+from driveblocks.host.matiec.errors import BadCError, CompilerCrashError, CompilerTimeoutError, RefusedWithCrashError
 from driveblocks.host.matiec.installation import Installation, find_installations
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "Flags",
     "Installation",
     "MatiecEngine",
+    "RefusedWithCrashError",
     "find_c_compiler",
     "find_installations",
 ]

@@ -11,8 +11,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from driveblocks.host.engine import EngineError, Message
+from driveblocks.host.matiec.c_lines import LineTable
 from driveblocks.host.matiec.errors import BadCError, CompilerCrashError
 from driveblocks.host.matiec.process import Outcome, run
+from driveblocks.host.matiec.runtime import POUS_MOVED
 from driveblocks.host.matiec.text import Listing
 
 VERSION_SECONDS = 20.0
@@ -51,10 +53,10 @@ class CCompiler:
 
         Raises BadCError with the compiler's messages, CompilerCrashError, CompilerTimeoutError, EngineError.
         """
-        includes = [f"-I{folder}" for folder in job.includes]
+        includes = ["-I.", "-isystem", str(job.headers)]  # warnings about matiec's own headers help nobody here
         command = [*self.command, *job.flags.arguments, *includes, "-o", job.output, *job.files, "-lm"]
         outcome = run(command, job.directory, self.seconds)
-        messages = _messages(outcome.output)
+        messages = _messages(outcome.output, job.lines)
         if outcome.status == 0 and (job.directory / job.output).is_file():
             return [message for kind, message in messages if kind == "warning"]
         errors = job.listing.locate(message for kind, message in messages if kind != "warning")
@@ -72,30 +74,32 @@ class CCompiler:
 
 @dataclass(frozen=True)
 class Job:
-    """What to compile: files of `directory` into `output`; `listing` leads lines of the ST back to its sources."""
+    """What to compile: files of `directory` into `output`; `lines` and `listing` lead messages back to the ST."""
 
     directory: Path
     files: Sequence[str]
     output: str
-    includes: Sequence[Path]
+    headers: Path
     flags: Flags
     listing: Listing
+    lines: LineTable
 
 
-def _messages(output: str) -> list[tuple[str, Message]]:
+def _messages(output: str, lines: LineTable) -> list[tuple[str, Message]]:
     found = []
     for line in output.splitlines():
         if match := _MESSAGE.match(line):
             if match["kind"] != "note":
-                found.append((match["kind"], _message(match)))
+                found.append((match["kind"], _message(match, lines)))
         elif _LINKER.search(line):
             found.append(("error", Message("linker", 0, 0, line.strip())))
     return found
 
 
-def _message(match: re.Match[str]) -> Message:
-    if match["path"] == Listing.NAME:  # the column is one of the C, and says nothing about the ST
-        return Message(Listing.NAME, int(match["line"]), 0, f"in the C made from this line: {match['text']}")
+def _message(match: re.Match[str], lines: LineTable) -> Message:
+    line = lines.line(int(match["line"])) if Path(match["path"]).name == POUS_MOVED else 0
+    if line:  # the column is one of the C, and says nothing about the ST
+        return Message(Listing.NAME, line, 0, f"in the C made from this line: {match['text']}")
     return Message(match["path"], int(match["line"]), int(match["column"] or 0), match["text"])
 
 

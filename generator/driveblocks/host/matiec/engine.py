@@ -9,6 +9,7 @@ from pathlib import Path
 
 from driveblocks.host.engine import EngineError, Message, Source
 from driveblocks.host.matiec import runtime
+from driveblocks.host.matiec.c_lines import LineTable, take_lines
 from driveblocks.host.matiec.cache import Cache, cache_folder
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, Job
 from driveblocks.host.matiec.declarations import Declarations, Unit, read_declarations
@@ -88,11 +89,18 @@ class MatiecEngine:
         text = runtime.unit(planner.plan.blocks, functions, expressions.found, configuration, read_locations(folder))
         (folder / runtime.UNIT).write_text(text, encoding="utf-8")
         (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
-        (folder / "POUS.c").rename(folder / runtime.POUS_MOVED)
-        (folder / "POUS.c").touch()
+        lines = self._move_pous(folder, c_sources.declared)
         files = [runtime.UNIT, *(configuration.files if configuration else ())]
-        includes = (folder, self.installation.headers)
-        return self.compiler.compile(Job(folder, files, LIBRARY, includes, self.flags, listing))
+        return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
+
+    @staticmethod
+    def _move_pous(folder: Path, declared: Declarations) -> LineTable:
+        old = folder / "POUS.c"
+        c_text = old.read_text(encoding="utf-8", errors="replace")
+        text, lines = take_lines(c_text, {name: unit.line for name, unit in declared.units.items()})
+        (folder / runtime.POUS_MOVED).write_text(text, encoding="utf-8")
+        old.write_text("", encoding="utf-8")
+        return lines
 
     def _load(self, listing: Listing, folder: Path) -> Built:
         c_sources = _CSources.read(folder, self.installation, listing)
