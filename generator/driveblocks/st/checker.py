@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from driveblocks.st.check_declaration import DeclarationChecker
 from driveblocks.st.checked import Checked
+from driveblocks.st.collector import paused
 from driveblocks.st.library import Library
 from driveblocks.st.problems import CheckError, Problem
 from driveblocks.st.report import Report
@@ -48,7 +49,8 @@ def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
     """As `check`, but give what could be typed together with the problems, for those who go on nevertheless."""
     report = Report()
     checker = _Checker(Library(list(units), report), report)
-    checked = checker.run()
+    with paused():
+        checked = checker.run()
     return checked, report.problems()
 
 

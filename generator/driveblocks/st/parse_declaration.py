@@ -55,7 +55,8 @@ class DeclarationParser(StatementParser):
         block.leading = leading
         self.declarations(block.variables, kind, block.qualifiers, "END_VAR")
         block.end = self.end_of_last()
-        self.accept(";")
+        if self.accept(";"):
+            self.notes.append(("stray-semicolon", self.ats[self.i - 1]))
         return block
 
     def declarations(self, into: list[VarDecl], kind: VarKind, words: tuple[str, ...], close: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from driveblocks.st.collector import paused
 from driveblocks.st.cursor import SyntaxProblem, TooManyProblemsError
 from driveblocks.st.lexer import END, tokenize
 from driveblocks.st.parse_configuration import ConfigurationParser
@@ -27,6 +28,12 @@ _MODIFIERS = frozenset(["ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED", "
 
 def parse(text: str, path: str) -> Unit:
     """Parse a file that messages name by `path`. Raises ParseError with every problem found, in order of place."""
+    with paused():
+        return _parsed(text, path)
+
+
+def _parsed(text: str, path: str) -> Unit:
+    """As `parse`."""
     tokens = tokenize(text)
     parser = _Parser(tokens)
     elements: list[Element] = []

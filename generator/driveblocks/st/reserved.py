@@ -44,3 +44,29 @@ ELEMENTARY_NAMES = _words(
     TIME DATE TIME_OF_DAY TOD DATE_AND_TIME DT STRING WSTRING
     """
 )
+
+# Keywords of the second edition that no position of this grammar needs, of its instruction list where a compiler
+# keeps them, and of the third edition; as a name each of them stops at least one compiler.
+OTHER_KEYWORDS = _words(
+    """
+    ANY ANY_BIT ANY_DATE ANY_DERIVED ANY_ELEMENTARY ANY_INT ANY_MAGNITUDE ANY_NUM ANY_REAL ANY_STRING
+    CONSTANT CONTINUE D EN ENO F_EDGE FROM L N NON_RETAIN NULL ON P PRIORITY R_EDGE READ_ONLY READ_WRITE RETAIN
+    SD SINGLE INTERVAL SL DS T VOID REF_TO POINTER REFERENCE THIS SUPER EXTENDS IMPLEMENTS
+    LTIME LDATE LTOD LDT CHAR WCHAR
+    """
+)
+
+# Names of standard functions and blocks beside those that are typed here.
+STANDARD_NAMES = _words(
+    """
+    TRUNC ADD_TIME SUB_TIME CONCAT_DATE_TOD DERIVATIVE HYSTERESIS INTEGRAL PID RAMP
+    """
+)
+
+# What the C headers behind matiec define without an underscore in front, and names it puts into every structure.
+C_MACROS = _words(
+    """
+    BIG_ENDIAN BUFSIZ BYTE_ORDER CHAR_BIT DECIMAL_DIG EN_ENO EN_ENO_PARAMS EOF EPOCH_YEAR EXIT_FAILURE EXIT_SUCCESS
+    FD_SETSIZE FILENAME_MAX FOPEN_MAX HUGE_VAL HUGE_VALF HUGE_VALL INFINITY LITTLE_ENDIAN NAN NULL
+    """
+)

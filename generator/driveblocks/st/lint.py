@@ -1,0 +1,96 @@
+"""The portability linter: what some compiler refuses, crashes on or compiles to something else, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from driveblocks.st import lint_declaration, lint_expression, lint_literal, lint_statement, lint_text
+from driveblocks.st.checked import Checked
+from driveblocks.st.checker import analyse
+from driveblocks.st.lint_scope import Scope
+from driveblocks.st.parser import parse
+from driveblocks.st.problems import ParseError, Problem
+from driveblocks.st.report import Report, nearest
+from driveblocks.st.rules import CODES, RULES
+from driveblocks.st.tree import Function, FunctionBlock, Pou, Program, Unit
+
+
+class UnknownRuleError(ValueError):
+    """A rule name or code that does not exist; the text names the nearest one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """Which rules to tell: all those named by `select` (empty: every rule) but not those named by `ignore`."""
+
+    select: frozenset[str] = frozenset()
+    ignore: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(cls, select: Iterable[str], ignore: Iterable[str]) -> Selection:
+        """From names, codes, or beginnings of codes (`ST3`), in any case of letters. Raises UnknownRuleError."""
+        return cls(
+            frozenset(name for each in select for name in _named(each)),
+            frozenset(name for each in ignore for name in _named(each)),
+        )
+
+    def takes(self, rule: str) -> bool:
+        """Whether problems of this rule are told."""
+        return rule not in self.ignore and (not self.select or rule in self.select)
+
+
+def _named(word: str) -> list[str]:
+    """The rules that a word on the command line means. Raises UnknownRuleError."""
+    if word.lower() in RULES:
+        return [word.lower()]
+    upper = word.upper()
+    found = [rule.name for code, rule in CODES.items() if upper.startswith("ST") and code.startswith(upper)]
+    if not found:
+        hint = nearest(word, [*RULES, *CODES])
+        raise UnknownRuleError(f"no rule is called {word}{hint}; `driveblocks lint --list` shows all")
+    return found
+
+
+def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Problem]:
+    """Everything that the rules say about files that belong together, in order of place. Never raises for their text.
+
+    A unit can be linted or checked once only: its tree is completed in place.
+    """
+    checked, problems = analyse(units)
+    report = Report()
+    for unit in units:
+        report.unit = unit
+        lint_text.unit(unit, report)
+        lint_declaration.unit(unit, report)
+    for pou in _pous(units):
+        report.unit = pou.unit
+        _pou(pou, checked, report)
+    chosen = selection or Selection()
+    return sorted({each for each in [*problems, *report.problems()] if chosen.takes(each.rule)})
+
+
+def lint_sources(sources: Iterable[tuple[str, str]], selection: Selection | None = None) -> list[Problem]:
+    """As `lint`, from (path, text). Syntax errors are told too, whatever the selection, and end it."""
+    units: list[Unit] = []
+    broken: list[Problem] = []
+    for path, text in sources:
+        try:
+            units.append(parse(text, path))
+        except ParseError as error:
+            broken.extend(error.problems)
+    return sorted(broken) if broken else lint(units, selection)
+
+
+def _pous(units: Sequence[Unit]) -> list[Pou]:
+    """Every POU of the files, those of doubled names too."""
+    return [each for unit in units for each in unit.elements if isinstance(each, Function | FunctionBlock | Program)]
+
+
+def _pou(pou: Pou, checked: Checked, report: Report) -> None:
+    """All rules about one POU."""
+    scope = Scope(pou, checked, report)
+    lint_declaration.pou(scope)
+    lint_statement.pou(scope)
+    lint_expression.pou(scope)
+    lint_literal.pou(scope)
