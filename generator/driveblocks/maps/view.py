@@ -22,7 +22,6 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
         **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
         "registers": [one for section, row in drive.registers() for one in of_row(section, row)],
-        "unused_registers": [one for section, row in drive.registers() for one in _unused_row(section, row)],
         "sections": [_without(section, "registers") for section in drive.sections],
         "areas": plain(drive.areas),
         "faults": [{"code": fault.code, "id": "", **_entry(fault)} for fault in drive.faults.codes],
@@ -46,9 +45,7 @@ def title(drive: Drive) -> str:
 
 
 def of_row(section: Section, row: Register) -> Iterator[Plain]:
-    """The registers that a row describes, each with its own address and id; none where the row is unused."""
-    if row.unused:
-        return
+    """The registers that a row describes, each with its own address and id; `unused` marks those not in use."""
     rest = _without(
         row, "address", "id", "name", "zh", "zh_used", "access", "unit", "scale", "values", "bits", "unused"
     )
@@ -56,7 +53,7 @@ def of_row(section: Section, row: Register) -> Iterator[Plain]:
         yield {
             "address": address,
             "id": id_,
-            "name": row.name or "",
+            "name": row.name or ("Not used" if row.unused else ""),
             "name_zh": row.zh or "",
             "text_zh": row.text_zh or "",
             "access": row.access or section.access,
@@ -66,6 +63,7 @@ def of_row(section: Section, row: Register) -> Iterator[Plain]:
             "bits": [_bit(bit) for bit in named_bits(row)],
             "unused_bits": [number for bit in row.bits if bit.unused for number in bit.bit],
             "enum": plain(row.values),
+            "unused": row.unused,
             "section": section.id,
             "source": section.source,
             **rest,
@@ -143,14 +141,6 @@ def _bit(bit: Bit) -> Plain:
         "values": plain(bit.values),
         **_without(bit, "bit", "name", "zh", "zh_used", "id", "values", "unused"),
     }
-
-
-def _unused_row(section: Section, row: Register) -> Iterator[Plain]:
-    if not row.unused:
-        return
-    rest = _without(row, "address", "name", "zh", "zh_used", "access", "unused", "signed", "masks")
-    for address in row.address:
-        yield {"address": address, "name_zh": row.zh or "", "section": section.id, "source": section.source, **rest}
 
 
 def _limits(drive: Drive) -> Plain:

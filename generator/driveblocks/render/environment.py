@@ -4,7 +4,8 @@ from functools import cache
 
 import jinja2
 
-from driveblocks.render import literal, names, results
+from driveblocks.maps import form
+from driveblocks.render import literal, results
 
 ABI = 1
 """Version of the shared types; blocks of one ABI number fit together."""
@@ -27,7 +28,12 @@ def environment() -> jinja2.Environment:
         head=head, type_head=type_head, crc_table=crc_table, result=results.code, fail=results.fail, abi=ABI
     )
     made.filters.update(
-        word=literal.word, byte=literal.byte, comment=literal.comment, string=literal.string, pascal=names.pascal
+        word=literal.word,
+        byte=literal.byte,
+        comment=literal.comment,
+        span=form.span_text,
+        address=form.address_text,
+        assign=assign,
     )
     return made
 
@@ -56,6 +62,11 @@ def _comment(title: str, parts: list[tuple[str, str]]) -> str:
         "Made by", "DriveBlocks; written by the generator, so changes belong into its template or map."
     )
     return f"(* {literal.comment(title)}\n{_RULE}\n{body}\n{last} *)"
+
+
+def assign(name: str) -> str:
+    """A formal parameter in the example call of a head comment."""
+    return f"{name} := ..."
 
 
 def crc_table() -> str:

@@ -2,7 +2,7 @@
 
 import re
 
-from driveblocks.st.reserved import KEYWORDS
+from driveblocks.st.names import reserved
 
 MAX_LENGTH = 31
 """Longest identifier that every target takes."""
@@ -22,6 +22,14 @@ def identifier(name: str) -> str:
         raise ValueError(f"`{name}` makes no identifier: it must start with a letter")
     if len(made) > MAX_LENGTH:
         raise ValueError(f"`{name}` makes the identifier {made} of {len(made)} characters; {MAX_LENGTH} are allowed")
-    if made.upper() in KEYWORDS:
-        raise ValueError(f"`{name}` makes the identifier {made}, which is reserved by a compiler")
+    if why := reserved(made):
+        raise ValueError(f"`{name}` makes the identifier {made}, which is {why}")
+    return made
+
+
+def block(prefix: str, name: str) -> str:
+    """The name of a drive's block, `SN300G5_DriveStatus`. Raises ValueError when it is too long."""
+    made = f"{prefix}_{name}"
+    if len(made) > MAX_LENGTH:
+        raise ValueError(f"the block name {made} has {len(made)} characters; {MAX_LENGTH} are allowed: give a `symbol`")
     return made
