@@ -40,7 +40,7 @@ def environment() -> jinja2.Environment:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    return environment().get_template(template).render(**context)
+    return literal.aligned(environment().get_template(template).render(**context))
 
 
 def head(  # noqa: PLR0913  (the five parts of every head)

@@ -1,7 +1,11 @@
 """Literals and comments of Structured Text, as every compiler reads them."""
 
+import itertools
+import re
 import textwrap
 from collections.abc import Iterable
+
+_DECLARED = re.compile(r"  (\w+ : [^;]*;) +(\(\*.*\*\))")
 
 
 def word(value: int) -> str:
@@ -38,3 +42,17 @@ def paragraph(label: str, text: str, width: int = 100) -> str:
     """A labelled paragraph of a head comment, wrapped under its label."""
     lead = f"   {label:<9}"
     return textwrap.fill(comment(text), width, initial_indent=lead, subsequent_indent=" " * len(lead))
+
+
+def aligned(text: str) -> str:
+    """The text with the comments behind consecutive declarations in one column."""
+    lines: list[str] = []
+    for declared, group in itertools.groupby(text.split("\n"), lambda line: bool(_DECLARED.fullmatch(line))):
+        lines.extend(_column(list(group)) if declared else group)
+    return "\n".join(lines)
+
+
+def _column(lines: list[str]) -> list[str]:
+    matches = [match for line in lines if (match := _DECLARED.fullmatch(line))]
+    width = max(len(match[1]) for match in matches)
+    return [f"  {match[1]:<{width}} {match[2]}" for match in matches]

@@ -1,0 +1,100 @@
+"""Build the library: maps -> all files in memory -> one folder, exchanged as a whole; or compare with what is there."""
+
+import shutil
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError, Problem, Report
+from driveblocks.render import library
+from driveblocks.render.overview import overview
+from driveblocks.render.text import Language
+from driveblocks.render.vet import vet
+
+PLATFORM = "iec61131"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A checked map and the file that it came from."""
+
+    path: Path
+    drive: Drive
+
+
+def read(paths: Iterable[Path]) -> list[Source]:
+    """Load maps that can become blocks. Raises MapError with the mistakes of all of them."""
+    sources: list[Source] = []
+    problems: list[Problem] = []
+    for path in paths:
+        try:
+            sources.append(Source(path, _vetted(path)))
+        except MapError as error:
+            problems.extend(error.problems)
+    problems.extend(_shared_prefixes(sources))
+    if problems:
+        raise MapError(problems)
+    return sources
+
+
+def _vetted(path: Path) -> Drive:
+    drive = load(path)
+    report = Report(str(path))
+    vet(drive, report)
+    report.raise_if_any()
+    return drive
+
+
+def _shared_prefixes(sources: list[Source]) -> list[Problem]:
+    """Two maps of one prefix would write blocks of one name."""
+    problems = []
+    first: dict[str, Source] = {}
+    for source in sources:
+        other = first.setdefault(source.drive.prefix.upper(), source)
+        if other is not source:
+            line, column = source.drive.place("prefix")
+            wrong = f"prefix {source.drive.prefix} is taken by {other.path}"
+            problems.append(Problem(str(source.path), line, column, wrong, "give each map a prefix of its own"))
+    return problems
+
+
+def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
+    """Every file of the output, path below the output folder -> text. The same input gives the same text."""
+    made = [*library.generic(languages)]
+    for source in sources:
+        made.extend(library.drive(source.path.stem, source.drive, languages))
+    texts = {f"{PLATFORM}/{file.path}": file.text for file in made}
+    order = "".join(f"{file.path}\n" for file in made)
+    return {**texts, f"{PLATFORM}/order.txt": order, "README.md": overview(made, [source.drive for source in sources])}
+
+
+def stale(folder: Path, wanted: dict[str, str]) -> list[str]:
+    """Files that differ, are missing or are left over, as paths below the output folder."""
+    there = {str(path.relative_to(folder)) for path in (folder / PLATFORM).rglob("*") if path.is_file()}
+    wrong = {name for name, text in wanted.items() if _text(folder / name) != text}
+    return sorted(wrong | (there - set(wanted)))
+
+
+def _text(path: Path) -> str | None:
+    return path.read_text(encoding="utf-8") if path.is_file() else None
+
+
+def write(folder: Path, wanted: dict[str, str]) -> None:
+    """Write all files. The platform's folder is exchanged as a whole, so that a failure leaves the old one. OSError."""
+    new, old = folder / f".{PLATFORM}.new", folder / f".{PLATFORM}.old"
+    for path in (new, old):
+        shutil.rmtree(path, ignore_errors=True)
+    for name, text in wanted.items():
+        path = new / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8", newline="\n")
+    if (folder / PLATFORM).exists():
+        (folder / PLATFORM).rename(old)
+    (new / PLATFORM).rename(folder / PLATFORM)
+    for name in wanted:
+        if not name.startswith(f"{PLATFORM}/"):
+            (new / name).replace(folder / name)
+    for path in (new, old):
+        shutil.rmtree(path, ignore_errors=True)

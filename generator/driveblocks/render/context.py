@@ -1,0 +1,316 @@
+"""Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import Any
+
+from driveblocks.maps.form import Span, address_text, bits_text
+from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.plan import Plan, plan
+from driveblocks.render import names
+from driveblocks.render.literal import word
+
+Context = dict[str, Any]
+
+UNIT_NAMES = {
+    "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
+    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
+}  # fmt: skip
+"""A unit as the last part of a name."""
+
+STANDARD_EXCEPTION_ADD = 0x80
+"""MODBUS Application Protocol V1.1b3, 7: what an exception adds to the function code."""
+
+
+@dataclass(frozen=True)
+class Identity:
+    """What every head comment of a drive's block needs."""
+
+    prefix: str
+    family: str
+    manual: str
+
+
+def identity(drive: Drive) -> Identity:
+    """Prefix, family and manual of a drive."""
+    edition = f", edition {drive.manual.edition}" if drive.manual.edition else ""
+    manual = f"{drive.manual.title.en} ({drive.manual.title.zh}), {drive.manual.publisher.en}{edition}."
+    vendor = "" if drive.vendor.en in drive.family.en else f"{drive.vendor.en} "
+    return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
+
+
+def source_of(drive: Drive, source: str) -> str:
+    """The place of a fact: manual and section."""
+    return f"{drive.manual.title.en} ({drive.manual.title.zh}): {source}."
+
+
+def symbol(entry: Register | Bit | Value, fallback: str = "") -> str:
+    """The identifier of an entry: its own symbol, or one made from its name. Raises ValueError."""
+    return entry.symbol or names.identifier(entry.name or fallback)
+
+
+# ---------------------------------------------------------------- requests and replies
+
+
+def access(drive: Drive, use: str) -> Context:
+    """For CanAccess: `use` is r or w."""
+    allowed = plan(drive)
+    spans = allowed.readable if use == "r" else allowed.writable
+    name = f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}"
+    return {"drive": identity(drive), "name": name, "use": use, "spans": spans}
+
+
+def request(drive: Drive) -> Context:
+    """For Request."""
+    allowed: Plan = plan(drive)
+    functions = sorted(allowed.functions & {3, 4, 6, 8, 16})
+    modes = drive.serial.mode.modes
+    return {
+        "drive": identity(drive),
+        "functions": functions,
+        "reads": bool({3, 4} & set(functions)),
+        "rtu": allowed.rtu,
+        "ascii": allowed.ascii,
+        "sub_functions": allowed.sub_functions,
+        "modes": {"rtu": "rtu" in modes, "ascii": "ascii" in modes},
+        "unit": Span(drive.serial.unit.min, drive.serial.unit.max),
+        "broadcast": drive.serial.broadcast,
+        "example_read": allowed.readable[0].first if allowed.readable else 0,
+    }
+
+
+def reply(drive: Drive) -> Context:
+    """For Reply."""
+    form = drive.errors.form
+    if form is None:
+        text = "function code + 80H and one byte, as MODBUS has it; the manual does not say."
+        source = "MODBUS Application Protocol V1.1b3, 7; the manual describes no refusal on the wire."
+        values: Context = {"add": STANDARD_EXCEPTION_ADD, "function": 0, "address": 0}
+    elif form.kind == "exception":
+        text = f"function code + {form.add:02X}H and one byte."
+        source = source_of(drive, form.source)
+        values = {"add": form.add, "function": 0, "address": 0}
+    else:
+        text = f"a reply of function {form.function:02X}H for {address_text(form.address or 0)}, whatever was asked."
+        source = source_of(drive, form.source)
+        values = {"add": 0, "function": form.function, "address": form.address}
+    tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
+    return {"drive": identity(drive), "form": {"text": text, "source": source, **values}, "two_byte_count": tolerant}
+
+
+# ---------------------------------------------------------------- decoders
+
+
+def decoders(drive: Drive) -> Iterator[Context]:
+    """For Decoder: one context per register with bits or values."""
+    for section, row in drive.registers():
+        parts = [*_bit_parts(row), *_value_parts(row)]
+        if parts:
+            yield {**_register(drive, section, row, ""), "parts": parts}
+
+
+def scales(drive: Drive) -> Iterator[Context]:
+    """For Scale: one context per register with a scale."""
+    for section, row in drive.registers():
+        if row.scale is not None and row.unit is not None:
+            yield {
+                **_register(drive, section, row, UNIT_NAMES[row.unit]),
+                "unit": row.unit,
+                "factor": f"{row.scale.factor.normalize():f}",
+                "signed": row.signed,
+                "operation": times(row.scale.factor),
+                "condition": condition_text(row.scale.when) if row.scale.when else "",
+            }
+
+
+def times(factor: Decimal) -> str:
+    """` / 100.0` for 0.01, ` * 2.5` for 2.5: a division by a whole number is exact where the product is not."""
+    inverse = 1 / factor
+    if factor < 1 and inverse == inverse.to_integral_value():
+        return f"/ {int(inverse)}.0"
+    return f"* {real(factor)}"
+
+
+def real(value: Decimal) -> str:
+    """A REAL literal."""
+    text = f"{value.normalize():f}"
+    return text if "." in text else f"{text}.0"
+
+
+def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Context:
+    return {
+        "drive": identity(drive),
+        "name": names.block(drive.prefix, symbol(row) + suffix),
+        "address_text": address_text(row.address.first),
+        "title": (row.name or "")[:1].lower() + (row.name or "")[1:],
+        "zh": row.text_zh,
+        "note": row.note,
+        "source": source_of(drive, row.source or section.source),
+    }
+
+
+def _bit_parts(row: Register) -> Iterator[Context]:
+    for bit in row.bits:
+        if bit.unused or not bit.name:
+            continue
+        where = f"bit{'s' * (len(bit.bit) > 1)} {bits_text(bit.bit)}: {bit.text_zh}"
+        if len(bit.bit) == 1:
+            yield part(symbol(bit), "BOOL", bit_test("Value", bit.bit.first), f"{bit.name}; {where}")
+        else:
+            yield from _field_parts(bit, where)
+
+
+def _field_parts(bit: Bit, where: str) -> Iterator[Context]:
+    low, mask = bit.bit.first, (1 << len(bit.bit)) - 1
+    shifted = f"SHR(Value, {low})" if low else "Value"
+    yield part(symbol(bit), "UINT", f"WORD_TO_UINT({shifted} AND {word(mask)})", f"{bit.name}; {where}")
+    for value in bit.values:
+        test = f"(Value AND {word(mask << low)}) = {word(value.value << low)}"
+        yield part(symbol(value), "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
+
+
+def _value_parts(row: Register) -> Iterator[Context]:
+    known: list[str] = []
+    for value in row.values:
+        test = bit_test("Value", value.value.bit_length() - 1) if row.masks else f"Value = {word(value.value)}"
+        known.append(symbol(value))
+        yield part(known[-1], "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
+    if known:
+        yield part("Unknown", "BOOL", f"NOT ({' OR '.join(known)})", "TRUE: a value that the manual does not list")
+
+
+def part(name: str, type_: str, expression: str, comment: str) -> Context:
+    """One output of a decoder."""
+    return {"name": name, "type": type_, "expression": expression, "comment": comment}
+
+
+def bit_test(variable: str, bit: int) -> str:
+    """An expression that is TRUE when a bit of a WORD is set."""
+    return f"({variable} AND {word(1 << bit)}) = {word(1 << bit)}"
+
+
+# ---------------------------------------------------------------- commands, reference, standstill, faults
+
+
+def condition_text(condition: Condition) -> str:
+    """`000FH bit 0 = 0`."""
+    bits = f" bit{'s' * (len(condition.bit) > 1)} {bits_text(condition.bit)}" if condition.bit else ""
+    return f"{address_text(condition.register)}{bits} = {condition.equals}"
+
+
+def command(drive: Drive) -> Context:
+    """For Command."""
+    commands = {one.does: one for one in drive.operation.commands}
+    moving = [one for one in commands.values() if one.value is None]
+    mask = _mask(moving)
+    printed: dict[str, Context] = {
+        does: {"text": _command_text(one, mask), "word": one.value or 0} for does, one in commands.items()
+    }
+    asked = [
+        ("ResetEdge", printed.get("fault_reset")),
+        ("RunForward", printed.get("run_forward")),
+        ("RunReverse", printed.get("run_reverse")),
+        ("JogForward", printed.get("jog_forward")),
+        ("JogReverse", printed.get("jog_reverse")),
+    ]
+    optional = ("run_reverse", "jog_forward", "jog_reverse", "jog_stop", "quick_stop", "coast_stop", "fault_reset")
+    return {
+        "drive": identity(drive),
+        "source": source_of(drive, commands["stop"].source),
+        "register": commands["stop"].register,
+        "stop": printed["stop"],
+        "keep": mask if moving else None,
+        "asked": asked,
+        **{does: printed.get(does) for does in optional},
+    }
+
+
+def _mask(commands: list[Command]) -> int:
+    """Bits that motion commands set or clear."""
+    return sum(1 << bit for bit in {bit for one in commands for span in (*one.set, *one.clear) for bit in span})
+
+
+def _command_text(one: Command, mask: int) -> str:
+    if one.value is not None:
+        return word(one.value)
+    kept = f"(KeepWord AND {word(~mask)})"
+    bits = sum(1 << bit for span in one.set for bit in span)
+    return f"{kept} OR {word(bits)}" if bits else kept
+
+
+def reference(drive: Drive) -> Context:
+    """For Reference."""
+    spec = drive.operation.reference
+    row = drive.register_at(spec.register)
+    assert row is not None  # noqa: S101  (a checked map lists its reference register)
+    percent = spec.means == "percent_of_maximum"
+    highest, why = (
+        (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
+    )
+    return {
+        "drive": identity(drive),
+        "source": source_of(drive, spec.source),
+        "register": spec.register,
+        "percent": percent,
+        "maximum": spec.maximum or "the maximum frequency",
+        "scale": row.scale,
+        "counts": _counts(row, percent),
+        "highest": highest,
+        "highest_why": f"{why} ends here",
+    }
+
+
+def _counts(row: Register, percent: bool) -> str:
+    if percent and row.scale is not None:
+        return f"Asked / MaximumHz * {real(100 / row.scale.factor)}"
+    if percent:
+        return "Asked / MaximumHz * 100.0 * ReferenceScale"
+    return f"Asked * {real(1 / row.scale.factor)}" if row.scale else "Asked * ReferenceScale"
+
+
+def standstill(drive: Drive) -> Context:
+    """For Standstill."""
+    proof = drive.operation.standstill
+    addresses = list(dict.fromkeys(condition.register for condition in proof.all))
+    words = [_input(drive, address) for address in addresses]
+    named = {one["address"]: one["name"] for one in words}
+    conditions = [{"expression": _test(named[one.register], one), "comment": condition_text(one)} for one in proof.all]
+    return {
+        "drive": identity(drive),
+        "why": proof.why[:1].upper() + proof.why[1:].rstrip(".") + ".",
+        "source": source_of(drive, proof.source),
+        "words": words,
+        "conditions": conditions,
+    }
+
+
+def _input(drive: Drive, address: int) -> Context:
+    row = drive.register_at(address)
+    assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
+    return {
+        "name": symbol(row) + "Word",
+        "address": address,
+        "address_text": address_text(address),
+        "title": row.name or "",
+    }
+
+
+def _test(name: str, condition: Condition) -> str:
+    if condition.bit is None:
+        return f"{name} = {word(condition.equals)}"
+    mask = ((1 << len(condition.bit)) - 1) << condition.bit.first
+    return f"({name} AND {word(mask)}) = {word(condition.equals << condition.bit.first)}"
+
+
+def fault_number(drive: Drive) -> Context | None:
+    """For FaultNumber; None where faults have no relation to bits."""
+    relation = drive.faults.bits
+    if relation is None:
+        return None
+    words = []
+    for index, address in enumerate(range(relation.first, relation.last + 1)):
+        row = drive.register_at(address)
+        mask = sum(1 << bit.bit.first for bit in (row.bits if row else ()) if bit.id is not None)
+        words.append({**_input(drive, address), "mask": mask, "base": 16 * index})
+    return {"drive": identity(drive), "source": source_of(drive, relation.source), "words": words}
