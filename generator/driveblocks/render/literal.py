@@ -48,7 +48,8 @@ def aligned(text: str) -> str:
     """The text with the comments behind consecutive declarations in one column."""
     lines: list[str] = []
     for declared, group in itertools.groupby(text.split("\n"), lambda line: bool(_DECLARED.fullmatch(line))):
-        lines.extend(_column(list(group)) if declared else group)
+        run = list(group)
+        lines.extend(_column(run) if declared else run)
     return "\n".join(lines)
 
 
