@@ -43,7 +43,10 @@ class Stimulus:
 
 @dataclass(frozen=True)
 class Case:
-    """A block or configuration of the corpus. `scans`: in the suite; `trace`: recorded."""
+    """A block or configuration of the corpus. `scans`: in the suite; `trace`: recorded; both in numbers of scans.
+
+    `handed_on` and `library` name paths in upper case, as explained in corpus.yaml.
+    """
 
     name: str
     block: str
@@ -55,6 +58,8 @@ class Case:
     jitter_ns: tuple[int, ...]
     inputs: tuple[Input, ...]
     scenario: str = ""
+    handed_on: tuple[str, ...] = ()
+    library: tuple[str, ...] = ()
     sources: tuple[Source, ...] = field(default=(), repr=False)
 
     def stimuli(self, seed: int) -> Iterator[Stimulus]:
@@ -94,6 +99,8 @@ def _case(name: str, entry: dict[str, Any]) -> Case:
             Input(path, _draw(words), words.get("change", 1.0)) for path, words in entry.get("inputs", {}).items()
         ),
         scenario=entry.get("scenario", ""),
+        handed_on=tuple(path.upper() for path in entry.get("handed_on", [])),
+        library=tuple(path.upper() for path in entry.get("library", [])),
         # Read in binary so that messages and cache keys are the same on every system.
         sources=(Source(f"{name}.st", (CORPUS / f"{name}.st").read_bytes().decode()),),
     )

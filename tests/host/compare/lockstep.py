@@ -9,7 +9,7 @@ from math import isnan
 from tests.host.compare.cases import Case, Stimulus
 from tests.host.compare.scenarios import Inputs
 
-from driveblocks.host.engine import Configuration, Engine, Instance, ScanError, Value
+from driveblocks.host.engine import Configuration, Engine, Instance, Library, ScanError, Value
 
 State = dict[str, Value]
 ABSENT = "(no such variable)"
@@ -33,12 +33,12 @@ class Difference:
 
 
 class Run:
-    """One engine with one case, built and started."""
+    """One engine with one case, built and started; `name` says which engine in a difference."""
 
-    def __init__(self, engine: Engine, case: Case) -> None:
-        """Build the case. Raises BuildError, EngineError."""
-        library = engine.build(case.sources)
-        self.name = engine.name
+    def __init__(self, engine: Engine, case: Case, name: str = "", library: Library | None = None) -> None:
+        """Build the case, or start it from a library that was built from it. Raises BuildError, EngineError."""
+        library = library or engine.build(case.sources)
+        self.name = name or engine.name
         self.subject: Instance | Configuration
         if case.configuration:
             self.subject = library.configuration(case.configuration)
@@ -73,20 +73,24 @@ def first_unlike(left: State, right: State) -> str | None:
     return next((path for path in right if path not in left), None)
 
 
-def lockstep(case: Case, runs: Sequence[Run], scans: int, seed: int) -> Difference | None:
-    """Drive the runs through so many scans; the first difference from the first run, or None."""
+def lockstep(case: Case, runs: Sequence[Run], scans: int, seed: int, but: tuple[str, ...] = ()) -> Difference | None:
+    """Drive the runs through so many scans; the first difference from the first run, or None.
+
+    Paths that begin with one of `but` are not compared.
+    """
     for number, stimulus in enumerate(islice(case.stimuli(seed), scans)):
-        difference = _compare(case, number, stimulus, [_outcome(run, stimulus) for run in runs], runs)
+        difference = _compare(case, number, stimulus, [_outcome(run, stimulus, but) for run in runs], runs)
         if difference:
             return difference
     return None
 
 
-def _outcome(run: Run, stimulus: Stimulus) -> State:
+def _outcome(run: Run, stimulus: Stimulus, but: tuple[str, ...]) -> State:
     try:
-        return run.scan(stimulus)
+        state = run.scan(stimulus)
     except ScanError as error:
         return {"(error)": str(error).encode()}
+    return {path: value for path, value in state.items() if not path.startswith(but)} if but else state
 
 
 def _compare(

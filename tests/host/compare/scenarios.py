@@ -66,7 +66,7 @@ def _summed(draws: Draws, body: bytes) -> bytes:
     frame = body + crc16(body)
     if draws.chance(0.15):
         frame = damaged(draws, frame)
-    if draws.chance(0.05):
+    if draws.chance(0.1):
         changed = damaged(draws, body)
         frame = changed + crc16(changed)
     return frame
@@ -80,7 +80,10 @@ def ascii_line(draws: Draws) -> Iterator[Inputs]:
             waiting += _ascii_frame(draws)
         take = min(draws.whole(0, 16), len(waiting))
         piece, waiting = waiting[:take], waiting[take:]
-        yield {"Received": take if draws.chance(0.98) else 65535, "Chunk": piece}
+        inputs: Inputs = {"Received": take if draws.chance(0.98) else 65535, "Chunk": piece}
+        if draws.chance(0.01):
+            inputs["State"] = 9
+        yield inputs
 
 
 def _ascii_frame(draws: Draws) -> bytes:

@@ -14,6 +14,8 @@ from driveblocks.host.engine import Engine, ScanError, Source, Value
 
 # Statements per function block: C compilers take more than twice as long for twice as many.
 PER_BLOCK = 100
+# Most bugs show in small expressions, and large ones cost the C compiler most of its time.
+DEPTHS = (1, 1, 1, 2, 2, 2, 3, 4)
 FIRST_LINE = 2 + len(TYPES)
 
 Inputs = dict[str, Value]
@@ -62,7 +64,7 @@ def make_batch(seed: object, count: int, vectors: int, without: Sequence[str] = 
     """So many random expressions with so many random inputs."""
     draws = Draws("expressions", seed)
     grammar = Grammar(draws, without)
-    terms = tuple(grammar.expression(draws.one_of(TYPES), draws.whole(1, 4)) for _ in range(count))
+    terms = tuple(grammar.expression(draws.one_of(TYPES), draws.one_of(DEPTHS)) for _ in range(count))
     return Batch(terms, tuple(dict(_vector(draws)) for _ in range(vectors)))
 
 
