@@ -12,7 +12,7 @@ from tests.host.compare.scenarios import Inputs
 from driveblocks.host.engine import Configuration, Engine, Instance, Library, ScanError, Value
 
 State = dict[str, Value]
-ABSENT = "(no such variable)"
+ABSENT = b"(no such variable)"
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,13 @@
 """The embedded engine replays what matiec was recorded to do: a machine without matiec still tests against it."""
 
 import math
+from pathlib import Path
 
 import pytest
 from tests.host.compare.cases import Case, load_cases
-from tests.host.compare.lockstep import State, alike, states
+from tests.host.compare.lockstep import ABSENT, State, alike, states
 from tests.host.compare.models import MODELS
-from tests.host.traces.trace import FOLDER, SEED, path_of, read
+from tests.host.traces.trace import FOLDER, SEED, Trace, path_of, read, write
 
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Engine, Overflow, Value
@@ -41,7 +42,7 @@ def test_matiec_still_does_what_was_recorded(case: Case, matiec: Engine) -> None
         assert _unlike(case, state, recorded) == {}, number
 
 
-def _unlike(case: Case, state: State, recorded: State) -> dict[str, tuple[object, object]]:
+def _unlike(case: Case, state: State, recorded: State) -> dict[str, tuple[Value, Value]]:
     paths = {**recorded, **state}
     both = {path: (state.get(path, ABSENT), recorded.get(path, ABSENT)) for path in paths}
     return {path: pair for path, pair in both.items() if not _same(path in case.library, *pair)}
