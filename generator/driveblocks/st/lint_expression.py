@@ -160,8 +160,17 @@ def _call(scope: Scope, value: Call) -> None:
         scope.add(value.at, "en-eno", "EN and ENO are refused by RuSTy and IronPLC: use IF around the call")
     if isinstance(value.target, Block | Function):
         _aliases(scope, value)
+        _order(scope, value)
     elif isinstance(value.target, Builtin):
         _builtin(scope, value, value.target)
+
+
+def _order(scope: Scope, value: Call) -> None:
+    """A function stands before what calls it."""
+    target = value.target
+    if isinstance(target, Function) and target.unit is scope.pou.unit and target.at > scope.pou.at:
+        text = f"{target.name} is declared further down: order types, functions, inner blocks, outer blocks, programs"
+        scope.add(value.at, "declaration-order", text)
 
 
 def _builtin(scope: Scope, value: Call, target: Builtin) -> None:

@@ -1,7 +1,7 @@
 """What values an integer or bit string can take, as far as a glance at one POU tells.
 
 Not a proof: a variable has the range of all that is ever assigned to it in its POU, whatever the order. Inputs,
-in-outs and what is passed by reference may be anything of their type.
+in-outs, what is passed by reference and what nobody assigns to may be anything of their type.
 """
 
 from __future__ import annotations
@@ -134,9 +134,10 @@ def ranges_of(pou: Pou, body: list[Statement], parts: list[Expression]) -> Range
     for variable in pou.symbols.values():
         if variable.constant or (variable.kind in _OWN and id(variable) not in opened):
             own[id(variable)] = variable
+    written = {key for key, _ in assigned}
     for variable in own.values():
         start = _initial(variable)
-        if start is not None:
+        if start is not None and (variable.constant or id(variable) in written):
             made.known[id(variable)] = start
     for number in range(_ROUNDS):
         if not _round(made, own, assigned, last=number == _ROUNDS - 1):
