@@ -10,7 +10,7 @@ import os
 
 import pytest
 
-from driveblocks.host.discovery import MATIEC_NAMES, Candidate, survey
+from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from driveblocks.host.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
@@ -23,10 +23,13 @@ def candidates() -> tuple[Candidate, ...]:
 
 
 def missing(required: str) -> list[str]:
-    """What a list such as `matiec-beremiz,matiec-openplc` asks for and is not there, each with the reason."""
+    """What a list such as `matiec-beremiz,matiec-openplc` asks for and is not there, each with the reason.
+
+    The embedded engine is part of DriveBlocks, so it is always required.
+    """
     found = {each.name: each for each in candidates()}
     complaints = []
-    for name in (word.strip() for word in required.split(",") if word.strip()):
+    for name in [EMBEDDED, *(word.strip() for word in required.split(",") if word.strip())]:
         group = MATIEC_NAMES if name == "matiec" else (name,)
         if unknown := [each for each in group if each not in found]:
             complaints.append(f"{REQUIRE} knows no engine {unknown[0]!r}: matiec, {', '.join(found)}")

@@ -1,197 +1,59 @@
 """`driveblocks doctor`: what runs on this machine, what is missing, what that costs, and where to get it."""
 
-import importlib.metadata
-import json
-import platform
 import sys
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from driveblocks.host.discovery import EMBEDDED, LINES, NO_COMPILER, Candidate, Examined, Survey, survey
-from driveblocks.host.engine import EngineError, Source
+if TYPE_CHECKING:
+    from driveblocks.host.health import Health
 
-_PROBE = Source(
-    "probe.st",
-    """FUNCTION_BLOCK DoctorProbe
-  VAR_INPUT
-    Add : INT;
-  END_VAR
-  VAR_OUTPUT
-    Sum : INT;
-  END_VAR
-  Sum := Sum + Add;
-END_FUNCTION_BLOCK
-""",
-)
-# The editors that bring iec2c along, and the sources of iec2c itself.
-_HOMES = {
-    "beremiz": "Beremiz (https://beremiz.org) brings it; its sources: https://github.com/beremiz/matiec",
-    "openplc": "OpenPLC Editor (https://autonomylogic.com) brings it;"
-    " its sources: https://github.com/Autonomy-Logic/matiec",
-}
+Json = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
+
+_COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 
 
-@dataclass(frozen=True)
-class Part:
-    """One thing looked for: `state` is `ok`, `missing` or `broken`; `detail` where it is, or why it does not work."""
+def run(json: Json = False) -> None:
+    """Say what DriveBlocks found on this machine, what is missing, what that costs and where to get it.
 
-    name: str
-    state: str
-    detail: str
+    The exit status is 0 if the embedded engine works: then everything can be done, and only matiec may be missing.
 
+    Example: driveblocks doctor --json | jq .missing
+    """
+    from driveblocks.host.discovery import survey
+    from driveblocks.host.health import examine
 
-@dataclass(frozen=True)
-class Advice:
-    """Something missing: what that costs the user, and how to get it."""
+    health = examine(survey())
+    if json:
+        from json import dumps
 
-    missing: str
-    cost: str
-    remedy: str
-
-
-def run(as_json: Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")] = False) -> None:
-    """Say what DriveBlocks found on this machine, what is missing, what that costs and where to get it."""
-    found = survey()
-    parts = list(_parts(found))
-    advice = list(_advice(found))
-    works = any(part.name == EMBEDDED and part.state == "ok" for part in parts)
-    if as_json:
-        typer.echo(json.dumps(_report(found, parts, advice, works), indent=2))
+        typer.echo(dumps(health.plain(), ensure_ascii=False, indent=2))
+    elif sys.stdout.isatty():
+        _print_tables(health)
     else:
-        _print(parts, advice)
-    raise typer.Exit(0 if works else 1)
+        _print_lines(health)
+    raise typer.Exit(0 if health.works else 1)
 
 
-def _parts(found: Survey) -> Iterator[Part]:
-    yield Part("Python", "ok", f"{platform.python_version()} ({sys.executable})")
-    yield _yaml()
-    yield _engine(found.embedded)
-    for line in LINES:
-        yield _line(line, found)
-    yield from _broken(found)
-    compiler = found.compiler
-    if compiler is None:
-        yield Part("C compiler", "missing", NO_COMPILER)
-    else:
-        yield Part("C compiler", "ok", f"{' '.join(compiler.command)}: {compiler.version}")
-    complaint = found.cache.check()
-    yield Part("build cache", "broken" if complaint else "ok", complaint or str(found.cache.root))
+def _print_lines(health: "Health") -> None:
+    for part in health.parts:
+        typer.echo(f"{part.name:<15} {part.state:<8} {part.detail}")
+    for each in health.missing:
+        typer.echo(f"\n{each.missing} is missing: {each.cost}.\n  {each.remedy}")
 
 
-def _yaml() -> Part:
-    import yaml
+def _print_tables(health: "Health") -> None:
+    from rich.text import Text
 
-    with_c = "with libyaml" if yaml.__with_libyaml__ else "without libyaml"
-    return Part("PyYAML", "ok", f"{importlib.metadata.version('pyyaml')}, {with_c}")
+    from driveblocks import console
+    from driveblocks.tables.layout import table
 
-
-def _engine(candidate: Candidate) -> Part:
-    """Try the embedded engine on a small block: whoever has Python has it, so it must work."""
-    if candidate.engine is None:
-        return Part(EMBEDDED, "broken", candidate.note)
-    try:
-        block = candidate.engine.build([_PROBE]).instance("DoctorProbe")
-        block["Add"] = 21
-        block.scan(0)
-        block.scan(1)
-        total = block["Sum"]
-    except (EngineError, KeyError) as error:
-        return Part(EMBEDDED, "broken", str(error))
-    if total != 42:
-        return Part(EMBEDDED, "broken", f"21 + 21 gave {total!r}")
-    return Part(EMBEDDED, "ok", "runs ST in Python, part of DriveBlocks")
-
-
-def _line(line: str, found: Survey) -> Part:
-    name = f"matiec-{line}"
-    here = [each for each in found.examined if each.engine is not None and each.engine.name == name]
-    if not here:
-        return Part(name, "missing", "no iec2c of this line that works")
-    return Part(name, "ok", "; also ".join(_where(each) for each in here))
-
-
-def _where(each: Examined) -> str:
-    mixed = each.behaviour is not None and not each.behaviour.pure
-    return f"{each.iec2c} (library {each.library}{', behaves partly as the other line' if mixed else ''})"
-
-
-def _broken(found: Survey) -> Iterator[Part]:
-    for each in found.examined:
-        if each.problem is not None:
-            yield Part("iec2c", "broken", f"{each.iec2c}: {each.problem}")
-
-
-def _advice(found: Survey) -> Iterator[Advice]:
-    import yaml
-
-    engines = {each.engine.name for each in found.examined if each.engine is not None}
-    untold = any(each.problem == NO_COMPILER for each in found.examined)  # a compiler is all that they lack
-    for line, home in _HOMES.items():
-        if f"matiec-{line}" not in engines and not untold:
-            yield Advice(
-                f"matiec, line of {line.capitalize().replace('plc', 'PLC')}",
-                "tests do not run on this compiler; they compare with traces recorded from it instead",
-                f"{home}. Put the folder of iec2c on PATH, or name it in MATIEC_HOME.",
-            )
-    if found.compiler is None:
-        yield Advice(
-            "C compiler",
-            "matiec cannot be used, since iec2c writes C",
-            "Debian, Ubuntu: apt install gcc; macOS: xcode-select --install; Windows: gcc of https://www.msys2.org."
-            " Put it on PATH, or name it in CC.",
-        )
-    if not yaml.__with_libyaml__:
-        yield Advice("libyaml", "maps load several times slower", "pip install --force-reinstall pyyaml")
-
-
-def _report(found: Survey, parts: list[Part], advice: list[Advice], works: bool) -> dict[str, Any]:
-    matiec = [
-        {
-            "iec2c": each.iec2c,
-            "library": each.library,
-            "engine": each.engine.name if each.engine else None,
-            "behaviour": asdict(each.behaviour) if each.behaviour else None,
-            "problem": each.problem,
-        }
-        for each in found.examined
-    ]
-    return {
-        "works": works,
-        "parts": [asdict(part) for part in parts],
-        "matiec": matiec,
-        "missing": [asdict(each) for each in advice],
-    }
-
-
-def _print(parts: list[Part], advice: list[Advice]) -> None:
-    from rich.console import Console
-
-    console = Console()
-    rows = [(part.name, part.state, part.detail) for part in parts]
-    wanting = [(each.missing, each.cost, each.remedy) for each in advice]
-    if console.is_terminal:
-        _tables(console, rows, wanting)
-        return
-    for name, state, detail in rows:
-        typer.echo(f"{name:<15} {state:<8} {detail}")
-    for missing, cost, remedy in wanting:
-        typer.echo(f"\n{missing} is missing: {cost}.\n  {remedy}")
-
-
-def _tables(console: Any, rows: list[tuple[str, str, str]], wanting: list[tuple[str, str, str]]) -> None:
-    from rich.markup import escape
-    from rich.table import Table
-
-    colours = {"ok": "green", "missing": "yellow", "broken": "red"}
-    found = Table("part", "state", "what and where", title="Found on this machine", title_justify="left")
-    for name, state, detail in rows:
-        found.add_row(name, f"[{colours[state]}]{state}[/]", escape(detail))
-    console.print(found)
-    if wanting:
-        missing = Table("missing", "what that costs", "where to get it", title="Missing", title_justify="left")
-        for row in wanting:
-            missing.add_row(*map(escape, row))
-        console.print(missing)
+    found = table("part", "state", "what and where", wide=("what and where",))
+    for part in health.parts:
+        found.add_row(part.name, Text(part.state, _COLOURS[part.state]), part.detail)
+    console.write(found)
+    if health.missing:
+        missing = table("missing", "what that costs", "where to get it", wide=("what that costs", "where to get it"))
+        for each in health.missing:
+            missing.add_row(each.missing, each.cost, each.remedy)
+        console.write("", missing)

@@ -249,11 +249,12 @@ def _fold(flat: list[Value], lengths: Sequence[int]) -> list[Value]:
 
 @dataclass(frozen=True)
 class Part:
-    """A member of a record; `listed` if it belongs to the state."""
+    """A member of a record; `listed` if it belongs to the state, `constant` if it is not for writing."""
 
     offset: int
     node: Node
     listed: bool = True
+    constant: bool = False
 
 
 @dataclass(frozen=True)
@@ -276,6 +277,8 @@ class RecordNode:
             part = self.parts.get(name.upper())
             if part is None:
                 raise ValueError(f"there is no member {name!r}")
+            if part.constant:
+                raise ValueError(f"{name} is a CONSTANT")
             part.node.write(memory, offset + part.offset, each)
 
     def leaves(self, path: str, offset: int) -> Iterator[tuple[str, int, Scalar]]:

@@ -86,45 +86,61 @@ def _cause(number: int) -> str:
     return f"{name}: {_TRAPS[signal.Signals(number)]}" if number in _TRAPS else name
 
 
-class MatiecInstance:
-    """An instance in zeroed memory of its own."""
+@dataclass
+class Clock:
+    """Where the time of a library stands; the C has it in a variable that all loads of the same file share."""
 
-    def __init__(self, block: BlockType) -> None:
+    now: int = 0
+
+
+class MatiecInstance:
+    """An instance in zeroed memory of its own, on the clock of its library."""
+
+    def __init__(self, block: BlockType, clock: Clock) -> None:
         """Let the C initialise it."""
         self._block = block
         self._memory: Memory = ctypes.create_string_buffer(block.node.size)
         self._address = ctypes.c_void_p(ctypes.addressof(self._memory))
         self._scan = block.scan
-        self._now = 0
+        self._clock = clock
         block.init(self._address)
 
     def __getitem__(self, path: str) -> Value:
         """Read a variable."""
-        return self._block.paths.find(path).read(self._memory)
+        _refuse_empty(path)
+        return self._block.paths.read(self._memory, path)
 
     def __setitem__(self, path: str, value: Value) -> None:
         """Write a variable."""
-        self._block.paths.find(path).write(self._memory, value)
+        _refuse_empty(path)
+        self._block.paths.write(self._memory, path, value)
 
     def scan(self, now_ns: int | None = None) -> None:
         """Run the body once."""
-        if now_ns is not None:
-            self._now = now_ns
-        trap = self._scan(self._address, self._now)
+        if now_ns is None:
+            now_ns = self._clock.now
+        else:
+            self._clock.now = now_ns
+        trap = self._scan(self._address, now_ns)
         if trap:
             raise self._block.trap(trap)
 
     def scan_many(self, count: int, now_ns: int | None = None, step_ns: int = 0) -> None:
         """Run the body `count` times in one call, the clock `step_ns` later each time. Raises ScanError."""
-        start = self._now if now_ns is None else now_ns
+        start = self._clock.now if now_ns is None else now_ns
         trap = self._block.many(self._address, start, step_ns, count)
-        self._now = start + max(count - 1, 0) * step_ns
+        self._clock.now = start + max(count - 1, 0) * step_ns
         if trap:
             raise self._block.trap(trap)
 
     def state(self) -> dict[str, Value]:
         """Read every variable."""
         return self._block.snapshot.read(self._memory)
+
+
+def _refuse_empty(path: str) -> None:
+    if not path:
+        raise KeyError("an empty path names no variable")
 
 
 class MatiecLibrary:
@@ -137,6 +153,7 @@ class MatiecLibrary:
         self._built = built
         self._binary = built.binary
         self._types: dict[str, BlockType] = {}
+        self._clock = Clock()
 
     def blocks(self) -> Iterator[str]:
         """The function blocks and programs, spelled as declared."""
@@ -146,7 +163,7 @@ class MatiecLibrary:
 
     def instance(self, type_name: str) -> MatiecInstance:
         """Make an instance. KeyError."""
-        return MatiecInstance(self._type(type_name.upper()))
+        return MatiecInstance(self._type(type_name.upper()), self._clock)
 
     def _type(self, name: str) -> BlockType:
         if name not in self._types:
@@ -264,12 +281,12 @@ class MatiecConfiguration:
     def __getitem__(self, path: str) -> Value:
         """Read a variable."""
         memory, paths, rest = self._split(path)
-        return paths.find(rest).read(memory)
+        return paths.read(memory, rest)
 
     def __setitem__(self, path: str, value: Value) -> None:
         """Write a variable."""
         memory, paths, rest = self._split(path)
-        paths.find(rest).write(memory, value)
+        paths.write(memory, rest, value)
 
     def run(self, ticks: int = 1) -> None:
         """Run so many ticks."""

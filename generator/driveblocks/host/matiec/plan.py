@@ -177,7 +177,8 @@ class Planner:
         offset = self.measure(f"offsetof({owner}, {member.name}{_VALUE[member.storage]})")
         # Inside a standard block each engine may keep what it likes; a VAR_TEMP does not outlive the scan.
         listed = variable.section != "VAR_TEMP" if variable else member.interface and unit is None
-        return member.name, Part(offset, node, listed and member.name not in IMPLICIT)
+        constant = variable is not None and "CONSTANT" in variable.section
+        return member.name, Part(offset, node, listed and member.name not in IMPLICIT, constant)
 
     def _held(self, type_name: str, storage: Storage, spec: Spec | None) -> Node:
         if storage is Storage.BLOCK:

@@ -1,0 +1,175 @@
+"""`driveblocks doctor`: what is there, what is missing, what that costs, where to get it."""
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+import yaml
+from typer.testing import CliRunner, Result
+
+from driveblocks.cli import app
+from driveblocks.host import discovery
+from driveblocks.host.discovery import Candidate, survey
+from driveblocks.host.engine import Engine
+from driveblocks.host.matiec import MatiecEngine
+
+NOWHERE = {"PATH": "", "HOME": "/nonexistent"}
+
+
+@pytest.fixture
+def bare(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, str]:
+    """The environment of a machine that has Python and nothing else."""
+    monkeypatch.setattr("driveblocks.host.matiec.installation._usual_homes", lambda _: iter(()))
+    return {**NOWHERE, "MATIEC_HOME": "", "CC": "", "DRIVEBLOCKS_CACHE": str(tmp_path / "cache")}
+
+
+def run(*words: str, **environment: str) -> Result:
+    """Run the command as the command line does."""
+    return CliRunner().invoke(app, ["doctor", *words], env=environment)
+
+
+def parts(report: dict[str, Any]) -> dict[str, str]:
+    return {part["name"]: part["state"] for part in report["parts"]}
+
+
+def test_bare_machine_works_on_the_embedded_engine(bare: dict[str, str]) -> None:
+    result = run(**bare)
+    assert result.exit_code == 0
+    lines = {line.split()[0]: line for line in result.output.splitlines() if line and line[0] != " "}
+    assert "ok" in lines["embedded"]
+    assert "missing" in lines["matiec-beremiz"]
+    assert "missing" in lines["matiec-openplc"]
+    for place in (
+        "https://beremiz.org",
+        "https://autonomylogic.com",
+        "https://github.com/beremiz/matiec",
+        "apt install",
+    ):
+        assert place in result.output
+    assert "\x1b" not in result.output
+
+
+def test_json_says_the_same(bare: dict[str, str]) -> None:
+    result = run("--json", **bare)
+    report = json.loads(result.output)
+    assert result.exit_code == 0
+    assert report["works"] is True
+    assert parts(report) == {
+        "Python": "ok",
+        "PyYAML": "ok",
+        "embedded": "ok",
+        "matiec-beremiz": "missing",
+        "matiec-openplc": "missing",
+        "C compiler": "missing",
+        "build cache": "ok",
+    }
+    assert report["matiec"] == []
+    expected = ["matiec, line of Beremiz", "matiec, line of OpenPLC", "C compiler"]
+    assert [each["missing"] for each in report["missing"]][:3] == expected
+    assert all(each["cost"] and each["remedy"] for each in report["missing"])
+
+
+def test_matiec_found_is_named_with_its_place(bare: dict[str, str], matiec: MatiecEngine) -> None:
+    found = matiec.installation
+    cache = str(matiec.cache.root)
+    environment = {
+        **bare,
+        "MATIEC_HOME": str(found.iec2c),
+        "CC": matiec.compiler.command[0],
+        "DRIVEBLOCKS_CACHE": cache,
+    }
+    environment["PATH"] = "/usr/bin:/bin"  # the assembler and the linker
+    report = json.loads(run("--json", **environment).output)
+    assert parts(report)[matiec.name] == "ok"
+    (entry,) = report["matiec"]
+    assert (entry["engine"], entry["iec2c"], entry["library"]) == (matiec.name, str(found.iec2c), str(found.library))
+    assert entry["behaviour"]["for_turns"] in (0, 1)
+    assert len([each for each in report["missing"] if each["missing"].startswith("matiec")]) == 1
+
+
+def test_matiec_without_a_c_compiler_lacks_the_compiler_only(bare: dict[str, str], matiec: MatiecEngine) -> None:
+    result = run("--json", **bare | {"MATIEC_HOME": str(matiec.installation.iec2c)})
+    report = json.loads(result.output)
+    assert [each["missing"] for each in report["missing"]] == ["C compiler"]
+    assert parts(report)["iec2c"] == "broken"
+
+
+def test_cache_that_cannot_be_written_is_said(bare: dict[str, str], tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    result = run(**bare | {"DRIVEBLOCKS_CACHE": str(tmp_path / "file" / "x")})
+    assert result.exit_code == 0
+    assert "cannot write the build cache" in result.output
+
+
+@pytest.mark.usefixtures("bare")
+def test_embedded_engine_that_does_not_work_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = replace(survey(NOWHERE), embedded=Candidate("embedded", None, "cannot be imported: gone"))
+    monkeypatch.setattr(discovery, "survey", lambda: found)
+    result = run()
+    assert result.exit_code == 1
+    assert "gone" in result.output
+
+
+class WrongEngine:
+    """An engine whose additions are one too much."""
+
+    name = "embedded"
+
+    def build(self, _: object) -> "WrongEngine":
+        return self
+
+    def instance(self, _: str) -> "WrongEngine":
+        return self
+
+    def __setitem__(self, path: str, value: object) -> None:
+        """Take anything."""
+
+    def __getitem__(self, path: str) -> int:
+        """Give what is wrong."""
+        return 43
+
+    def scan(self, _: int) -> None:
+        """Do nothing."""
+
+
+@pytest.mark.usefixtures("bare")
+def test_embedded_engine_that_computes_wrongly_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong = cast(Engine, WrongEngine())
+    found = replace(survey(NOWHERE), embedded=Candidate("embedded", wrong, ""))
+    monkeypatch.setattr(discovery, "survey", lambda: found)
+    result = run()
+    assert result.exit_code == 1
+    assert "21 + 21 gave 43" in result.output
+
+
+def test_libyaml_missing_is_said(bare: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(yaml, "__with_libyaml__", False)
+    result = run(**bare)
+    assert "without libyaml" in result.output
+    assert "slower" in result.output
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals of this kind")
+def test_tables_on_a_terminal(bare: dict[str, str]) -> None:
+    import pty
+
+    inner, outer = pty.openpty()
+    command = [sys.executable, "-m", "driveblocks.cli", "doctor"]
+    environment = {**os.environ, **bare, "TERM": "xterm-256color", "COLUMNS": "120"}
+    environment.pop("NO_COLOR", None)
+    with subprocess.Popen(command, stdout=outer, stderr=outer, env=environment) as child:
+        os.close(outer)
+        output = b""
+        with contextlib.suppress(OSError):  # a closed pseudo-terminal is an error on Linux
+            while chunk := os.read(inner, 65536):
+                output += chunk
+    os.close(inner)
+    assert child.returncode == 0
+    assert b"where to get it" in output
+    assert b"\x1b[32mok" in output
