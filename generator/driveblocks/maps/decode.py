@@ -99,7 +99,7 @@ def _short(text: str) -> str:
 
 def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
     if not isinstance(node, Entries):
-        keys = ", ".join(key for key, known in keys_of(shape.cls).items() if known.required)
+        keys = ", ".join(key.name for key in required_of(shape.cls)) or "among " + ", ".join(keys_of(shape.cls))
         report.add(node.at, f"`{name}` is {_kind(node)}", f"it is a mapping with the keys {keys}")
         return _BAD
     known = keys_of(shape.cls)
@@ -119,6 +119,8 @@ def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: st
     meant: set[str] = set()
     for text in node.entries.keys() - known.keys():
         key = node.entries[text][0]
+        if key.refused:
+            continue
         near = _nearest(text, [word for word in known if word not in node.entries])
         right = f"did you mean `{near}`?" if near else "known keys: " + ", ".join(known)
         report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", right)

@@ -126,7 +126,9 @@ DECIMAL = _form(
     "write a decimal number such as 0.1",
     numeric=True,
 )
-BYTES = _form("bytes", r"[0-9A-F]{2}( [0-9A-F]{2})*", bytes.fromhex, "write bytes as upper-case pairs: 01 03 00 26")
+BYTES = _form(
+    "row of bytes", r"[0-9A-F]{2}( [0-9A-F]{2})*", bytes.fromhex, "write bytes as upper-case pairs: 01 03 00 26"
+)
 ADU = _form(
     "frame",
     r"[0-9A-F]{2}( [0-9A-F]{2})*|:[0-9A-F]*( CR)?( LF)?",

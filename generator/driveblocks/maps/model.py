@@ -132,6 +132,10 @@ class Range(Entry):
     min: Number = fact("smallest", "-10000")
     max: Number = fact("greatest", "10000")
 
+    def holds(self, number: int) -> bool:
+        """Whether a number is allowed; a range that runs backwards is a mistake of its own and allows all."""
+        return self.min > self.max or self.min <= number <= self.max
+
 
 @dataclass(frozen=True, kw_only=True)
 class Needed(Entry):

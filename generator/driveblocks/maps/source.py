@@ -3,9 +3,10 @@
 import os
 import re
 import stat
+from itertools import islice
 from pathlib import Path
 
-from driveblocks.maps.problem import MapError, Problem
+from driveblocks.maps.problem import MapError, Place, Problem
 
 MAX_BYTES = 512 << 10
 """A map of 400 registers takes some 60 kB; a file above this limit is not a map."""
@@ -74,14 +75,21 @@ def _text(path: Path, data: bytes) -> str:
     except UnicodeDecodeError as error:
         good = data[: error.start].decode("utf-8")
         raise _refused(path, f"is not UTF-8: byte {data[error.start]:02X}H", "save it as UTF-8", good) from None
-    hidden = HIDDEN.search(text)
-    if hidden is not None:
-        wrong = f"holds the invisible character U+{ord(hidden[0]):04X}"
-        raise _refused(path, wrong, "a map is plain text; remove it, or type a space", text[: hidden.start()])
+    hidden = [_hidden(path, match) for match in islice(HIDDEN.finditer(text), 100)]
+    if hidden:
+        raise MapError(hidden)
     return text
 
 
+def _hidden(path: Path, match: re.Match[str]) -> Problem:
+    wrong = f"this file holds the character U+{ord(match[0]):04X}, which has no place in a map"
+    line, column = _place(match.string[: match.start()])
+    return Problem(str(path), line, column, wrong, "remove it, or type a plain one")
+
+
+def _place(before: str) -> Place:
+    return before.count("\n") + 1, len(before) - before.rfind("\n")
+
+
 def _refused(path: Path, wrong: str, right: str, before: str = "") -> MapError:
-    line = before.count("\n") + 1
-    column = len(before) - before.rfind("\n")
-    return MapError([Problem(str(path), line, column, f"this file {wrong}", right)])
+    return MapError([Problem(str(path), *_place(before), f"this file {wrong}", right)])

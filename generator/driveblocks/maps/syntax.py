@@ -33,7 +33,7 @@ class _Words:
     """Whether the mistake stands where the reading began."""
 
 
-_QUOTE_IT = "quote a text that holds , : {{ }} [ ]"
+_QUOTE_IT = "quote a text that holds , : {{ }} [ ] and close every quote"
 _BAD_ESCAPE = (
     "this text holds an escape that YAML does not know",
     "write two backslashes for one, or put the text in single quotes",

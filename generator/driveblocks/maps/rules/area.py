@@ -62,7 +62,7 @@ def _example(drive: Drive, area: Area, example: AreaExample, report: Report) -> 
     if example.address != due + (offset or 0):
         wrong = f"{example.id} has number {example.number} and address {address_text(example.address)}"
         report.add(example.place("address"), wrong, f"by the area's rule it is {address_text(due)}")
-    if example.address - (offset or 0) not in area.addresses:
+    if area.addresses and example.address - (offset or 0) not in area.addresses:
         wrong = f"{address_text(example.address)} lies outside the area"
         report.add(example.place("address"), wrong, f"the area has {span_text(area.addresses)}")
 
@@ -84,7 +84,7 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
     if storage.register is not None:
         row = known(drive, storage.register, "w", storage.place("register"), report)
         allowed = row.range if row is not None else None
-        if allowed is not None and storage.value is not None and not allowed.min <= storage.value <= allowed.max:
+        if allowed is not None and storage.value is not None and not allowed.holds(storage.value):
             wrong = f"{storage.value} is outside the range of {address_text(storage.register)}"
             report.add(storage.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
     areas = {area.id: area for area in drive.areas}

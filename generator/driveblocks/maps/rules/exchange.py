@@ -91,21 +91,21 @@ def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fie
 
 def _quantity(drive: Drive, frame: Frame, quantity: Quantity, carrier: adu.Fields, report: Report) -> None:
     row = drive.register_at(quantity.register)
-    if row is None or row.scale is None or row.unit is None:
-        wrong = f"a quantity of {address_text(quantity.register)}, which has no scale and unit"
+    if row is None or row.scale is None:
+        wrong = f"a quantity of {address_text(quantity.register)}, which has no scale"
         report.miss(quantity.at, wrong, "add the scale that this frame proves, or remove the quantity")
         return
     index = quantity.register - carrier.address if carrier.address is not None else -1
     if not 0 <= index < len(frame.means.values):
         wrong = f"the frame carries no word of {address_text(quantity.register)}"
-        report.add(quantity.place("register"), wrong, "name a register whose value it carries")
+        report.miss(quantity.place("register"), wrong, "name a register whose value it carries")
         return
     raw = adu.number(frame.means.values[index] & 0xFFFF, row.signed)
     due = Decimal(raw) * row.scale.factor
     if due != quantity.value:
-        wrong = f"{quantity.value} {quantity.unit}, but {raw} x {row.scale.factor} is {due} {row.unit}"
+        wrong = f"{quantity.value} {quantity.unit}, but {raw} x {row.scale.factor} is {due}"
         report.add(quantity.place("value"), wrong, "correct the scale or the quantity")
-    if quantity.unit != row.unit:
+    if row.unit is not None and quantity.unit != row.unit:
         wrong = f"a quantity in {quantity.unit}, but {address_text(quantity.register)} has {row.unit}"
         report.add(quantity.place("unit"), wrong, "correct one of them")
 

@@ -19,6 +19,7 @@ def check(drive: Drive, report: Report) -> None:
         _broadcast(drive, drive.serial.broadcast, report)
     _limits(drive, report)
     _functions(drive, report)
+    unique(drive.tolerances, "kind", "tolerance", report)
 
 
 def _modes(serial: Serial, report: Report) -> None:
@@ -26,7 +27,7 @@ def _modes(serial: Serial, report: Report) -> None:
     if not modes or len(set(modes)) != len(modes):
         report.add(serial.mode.place("modes"), "`modes` is empty or names one twice", "write [rtu], [ascii] or both")
     for code in serial.mode.codes:
-        if code.mode not in modes:
+        if modes and code.mode not in modes:
             wrong = f"mode {code.mode} is not among `modes`"
             report.add(code.place("mode"), wrong, "add it there, or remove this code")
 
@@ -35,7 +36,7 @@ def _unit(serial: Serial, report: Report) -> None:
     unit = serial.unit
     if not 0 <= unit.min <= unit.max <= 247:
         report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "they lie within 1 to 247")
-    if unit.default is not None and not unit.min <= unit.default <= unit.max:
+    elif unit.default is not None and not unit.min <= unit.default <= unit.max:
         wrong = f"default {unit.default} is no unit address of this drive"
         report.add(unit.place("default"), wrong, f"it has {unit.min} to {unit.max}")
 

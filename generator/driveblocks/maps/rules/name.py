@@ -55,13 +55,13 @@ def _identifiers(row: Register, report: Report) -> None:
     seen: dict[str, Bit] = {}
     named: tuple[Register | Bit, ...] = (row, *row.bits)
     for entry in named:
-        if entry.name and not identifier(entry.name)[:1].isalpha():
+        if entry.name and not entry.symbol and not identifier(entry.name)[:1].isalpha():
             wrong = f"`{entry.name}` cannot become an identifier"
-            report.add(entry.place("name"), wrong, "start the name with a letter A to Z")
+            report.add(entry.place("name"), wrong, "start the name with a letter A to Z, or add a `symbol`")
     for bit in row.bits:
         if not bit.name:
             continue
-        other = seen.setdefault(identifier(bit.name), bit)
+        other = seen.setdefault(identifier(bit.symbol or bit.name), bit)
         if other is not bit:
             wrong = f"`{bit.name}` makes the same identifier as line {other.at[0]} of {address_text(row.address.first)}"
-            report.add(bit.place("name"), wrong, "give each bit of a register its own name")
+            report.add(bit.place("name"), wrong, "give each bit of a register its own name or `symbol`")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Bit, Command, Condition, Does, Drive, Operation, Reference, Register
+from driveblocks.maps.model import Bit, Command, Condition, Does, Drive, Operation, Range, Reference, Register
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.parameter import of_form
@@ -71,13 +71,13 @@ def _command(drive: Drive, command: Command, report: Report) -> None:
 def _command_value(command: Command, row: Register, report: Report) -> None:
     if command.value is None:
         return
-    low, high = (row.range.min, row.range.max) if row.range else (0, 0xFFFF)
+    allowed = row.range or Range(min=0, max=0xFFFF)
     if row.values and command.value not in {value.value for value in row.values}:
         wrong = f"{command.value} is no value of {address_text(command.register)}"
         report.miss(command.place("value"), wrong, "write one of the listed values")
-    elif not low <= command.value <= high:
+    elif not allowed.holds(command.value):
         wrong = f"{command.value} is outside the range of {address_text(command.register)}"
-        report.add(command.place("value"), wrong, f"it holds {low} to {high}")
+        report.add(command.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
 
 
 def _command_bits(command: Command, row: Register, report: Report) -> None:

@@ -15,6 +15,9 @@ _NUMBERED = re.compile(r"(.*?)([0-9]+)")
 
 def check(drive: Drive, report: Report) -> None:
     """Note every rule that the ids of registers or series break."""
+    if not drive.id_forms:
+        right = "write the form of the manual's ids, such as A9-99 for H5-01"
+        report.add(drive.place("id_forms"), "`id_forms` is empty", right)
     for _, row in drive.registers():
         if row.id is not None:
             of_form(drive, row, row.id, report)
@@ -33,8 +36,8 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
 
 def of_form(drive: Drive, entry: Entry, id_: str, report: Report, key: str = "id") -> None:
     """Note an id, or an end of a range of ids, that has none of the manual's forms."""
-    if not all(_pattern(drive.id_forms).fullmatch(part) for part in id_.split("..")):
-        forms = ", ".join(drive.id_forms) or "not given: `id_forms` is empty"
+    if drive.id_forms and not all(_pattern(drive.id_forms).fullmatch(part) for part in id_.split("..")):
+        forms = ", ".join(drive.id_forms)
         wrong = f"id `{id_}` has none of the manual's forms"
         report.add(entry.place(key), wrong, f"the forms are {forms}; `printed:` keeps a misprint")
 

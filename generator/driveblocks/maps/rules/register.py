@@ -51,7 +51,7 @@ def _words_of(row: Register, report: Report) -> None:
         if row.masks and (value.value <= 0 or value.value & (value.value - 1)):
             wrong = f"{value.value} is not a single bit"
             report.add(value.place("value"), wrong, "with `masks: true` each value is 1, 2, 4, 8 ...")
-        if row.range is not None and not row.range.min <= value.value <= row.range.max:
+        if row.range is not None and not row.range.holds(value.value):
             wrong = f"value {value.value} is outside the register's range"
             report.add(value.place("value"), wrong, f"it holds {row.range.min} to {row.range.max}")
     if row.masks and not row.values:

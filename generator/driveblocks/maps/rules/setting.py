@@ -46,10 +46,10 @@ def check(drive: Drive, report: Report) -> None:
 
 
 def _values(setting: Setting, report: Report) -> None:
-    unique(setting.values, "value", f"value of {setting.id}", report, str)
+    unique(setting.values, "value", f"{setting.id}: value", report, str)
     allowed = setting.range
     for value in setting.values:
-        if allowed and not allowed.min <= value.value <= allowed.max:
+        if allowed and not allowed.holds(value.value):
             wrong = f"value {value.value} of {setting.id} is outside its range"
             report.add(value.place("value"), wrong, "widen `range`, or note an erratum")
     if allowed and allowed.min > allowed.max:
@@ -76,7 +76,7 @@ def _impossible(setting: Setting, number: int) -> str:
     if codes and number not in codes:
         return f"the values of {setting.id} are {_list(codes)}"
     allowed = setting.range
-    if allowed and not allowed.min <= number <= allowed.max:
+    if allowed and not allowed.holds(number):
         return f"the range of {setting.id} is {allowed.min} to {allowed.max}"
     return ""
 
@@ -107,7 +107,7 @@ def _choices(serial: Serial) -> Iterator[tuple[str, Choice, Sequence[Code]]]:
 
 
 def _choice(name: str, choice: Choice, codes: Sequence[Code], report: Report) -> None:
-    unique(codes, "code", f"code of `{name}`", report, str)
+    unique(codes, "code", f"`{name}`: code", report, str)
     numbers = [code.code for code in codes]
     if choice.default is not None and numbers and choice.default not in numbers:
         wrong = f"default {choice.default} is not a code of `{name}`"

@@ -33,7 +33,8 @@ def check(drive: Drive, report: Report) -> None:
 
 
 def _take_apart(drive: Drive, frame: Frame, report: Report) -> adu.Fields | None:
-    if frame.mode not in drive.serial.mode.modes:
+    modes = drive.serial.mode.modes
+    if modes and frame.mode not in modes:
         wrong = f"the drive does not speak {frame.mode}"
         report.add(frame.place("mode"), wrong, "correct the mode, or add it to `serial`")
     try:
@@ -107,7 +108,7 @@ def _refused(drive: Drive, frame: Frame, fields: adu.Fields, known: set[int], re
 def _unit(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> None:
     unit, cast = drive.serial.unit, drive.serial.broadcast
     if cast is None or fields.unit != cast.address:
-        if not unit.min <= fields.unit <= unit.max:
+        if unit.min <= unit.max and not unit.min <= fields.unit <= unit.max:
             wrong = f"unit {fields.unit} is no unit address of this drive"
             report.add(frame.means.place("unit"), wrong, f"it has {unit.min} to {unit.max}")
         return
@@ -156,7 +157,7 @@ def _value(row: Register, word: int, frame: Frame, report: Report) -> None:
     if row.values and number not in {one.value for one in row.values}:
         wrong = f"{number} is no value of {address_text(row.address.first)}"
         report.miss(frame.means.place("values"), wrong, "correct the frame, or list the value")
-    if row.range and not row.range.min <= number <= row.range.max:
+    if row.range and not row.range.holds(number):
         wrong = f"{number} is outside the range of {address_text(row.address.first)}"
         report.add(frame.means.place("values"), wrong, f"it holds {row.range.min} to {row.range.max}")
 
