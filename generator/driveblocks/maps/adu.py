@@ -6,6 +6,9 @@ Only for judging a map's vectors; blocks and their tests have their own.
 from dataclasses import dataclass, replace
 
 
+_WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
+
+
 class FrameError(Exception):
     """The bytes are no frame; the text says why, and `right` what a frame looks like."""
 
@@ -44,11 +47,13 @@ def octets(data: bytes) -> str:
     return data.hex(" ").upper()
 
 
-def shown(value: object) -> str:
-    """A field of a frame as messages print it: 03H, or words as 0001H 1388H."""
+def shown(key: str, value: object) -> str:
+    """A field of a frame as messages print it: addresses and words as 0026H, codes as 03H, counts in decimal."""
     if isinstance(value, tuple):
         return " ".join(f"{word:04X}H" for word in value) or "nothing"
-    return f"{value:02X}H" if isinstance(value, int) else "nothing"
+    if not isinstance(value, int):
+        return "nothing"
+    return f"{value:{_WIDTHS[key]}}H" if key in _WIDTHS else str(value)
 
 
 def number(word: int, signed: bool) -> int:

@@ -29,7 +29,7 @@ def check(drive: Drive, frames: Frames, parsed: Parsed, report: Report) -> None:
         if request is not None and reply is not None:
             _echo(drive, frame, request, reply, report)
             _read_values(drive, frame, request, reply, report)
-        if reply is not None:
+        if reply is not None and (request is not None or frame.answers is None):
             for quantity in frame.means.quantities:
                 _quantity(drive, frame, quantity, request or reply, report)
     for _, row in drive.registers():
@@ -72,7 +72,8 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
         due = adu.refused(request, refusal(drive))
     for key in keys:
         if getattr(due, key) != getattr(reply, key):
-            wrong = f"this reply has {key} {adu.shown(getattr(reply, key))}, its request {adu.shown(getattr(due, key))}"
+            got, asked = (adu.shown(key, getattr(fields, key)) for fields in (reply, due))
+            wrong = f"this reply has {key} {got}, its request makes that {asked}"
             report.add(frame.means.place(key), wrong, "the pair does not fit; check both frames")
 
 

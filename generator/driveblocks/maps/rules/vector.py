@@ -76,9 +76,11 @@ def _meaning(frame: Frame, fields: adu.Fields, report: Report) -> None:
         silent, absent = meant in (None, ()), found in (None, ())
         if silent and not absent:
             wrong = f"`means` does not say `{key}`, which the bytes carry"
-            report.miss(frame.means.at, wrong, f"type it from the manual's words; the bytes say {adu.shown(found)}")
+            report.miss(
+                frame.means.at, wrong, f"type it from the manual's words; the bytes say {adu.shown(key, found)}"
+            )
         elif meant != found and not silent:
-            wrong = f"`means` says {key} {adu.shown(meant)}, the bytes say {adu.shown(found)}"
+            wrong = f"`means` says {key} {adu.shown(key, meant)}, the bytes say {adu.shown(key, found)}"
             report.add(frame.means.place(key), wrong, "the manual's words decide which of the two is wrong")
 
 
