@@ -5,7 +5,6 @@ Only for judging a map's vectors; blocks and their tests have their own.
 
 from dataclasses import dataclass, replace
 
-
 _WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
 
 
