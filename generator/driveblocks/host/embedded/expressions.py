@@ -134,7 +134,7 @@ class Expressions:
             return self.floats.literal(float(literal.value), elementary(kind), typed)
         if is_integral(kind):
             value = int(literal.value)
-            untyped = literal_type(value, literal.base != 10)
+            untyped = literal_type(abs(value), literal.base != 10)
             c = untyped if literal.prefix is None else promoted(elementary(kind))
             return Whole(self.pen.constant(value), value, value, elementary(kind), c)
         if kind.kind in TEMPORAL:
@@ -404,7 +404,7 @@ class Expressions:
     def number(self, term: Term) -> ast.expr:
         """A numeric term as the argument of a function that takes a double."""
         if isinstance(term, Floating):
-            return self.floats.stored(term).node
+            return self.floats.double(term)
         assert isinstance(term, Whole)
         return self.widths.exact(term).node
 

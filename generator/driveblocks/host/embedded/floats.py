@@ -58,6 +58,14 @@ class Floats:
         both = self.pen.call("agree", self._standard(term), self._c_stored(term))
         return Floating(both, REAL, "single")
 
+    def double(self, term: Floating) -> ast.expr:
+        """The value as an operand that is wanted as a double: not rounded first where C has a double already."""
+        if self.model == "c":
+            return self._c(term)
+        if self.model == "standard" or not self._differs(term):
+            return self._standard(term)
+        return self.pen.call("agree", self._standard(term), self._c(term))
+
     def compare(self, left: Floating, operator: ast.cmpop, right: Floating) -> ast.expr:
         """The truth of a comparison."""
         pen = self.pen

@@ -127,7 +127,8 @@ class Functions(Expressions):
         term = arguments[0]
         node = self.pen.call("abs", term.node)
         if isinstance(term, Floating):
-            return Floating(node, term.type, term.c)
+            function = "c_abs" if self.scope.model == "c" else "abs"
+            return Floating(self.pen.call(function, term.node), term.type, term.c)
         assert isinstance(term, Whole)
         if term.low >= 0:
             return term
@@ -185,7 +186,7 @@ class Functions(Expressions):
         name = "from_bcd" if target.family == "BCD_TO" else "to_bcd"
         strict = self.pen.constant(self.scope.model != "c")
         node = self.pen.call(name, arguments[0].node, self.pen.constant(width), strict)
-        return self.widths.stored(Whole(node, 0, (1 << source.width) - 1, result, promoted(result)), result)
+        return self.widths.stored(Whole(node, 0, (1 << width) - 1, result, promoted(result)), result)
 
     # ------------------------------------------------------------ selection
 
@@ -211,7 +212,7 @@ class Functions(Expressions):
         return self.result(node, target.result)
 
     def _limit(self, target: Builtin, arguments: list[Term]) -> Term:
-        node = self.pen.call("limit", *(each.node for each in arguments))
+        node = self.pen.call(self._of_times("limit", target), *(each.node for each in arguments))
         low, value, high = arguments
         if isinstance(low, Whole) and isinstance(value, Whole) and isinstance(high, Whole):
             least = min(max(value.low, low.low), high.low)
@@ -220,8 +221,12 @@ class Functions(Expressions):
         return self.result(node, target.result)
 
     def _extreme(self, target: Builtin, arguments: list[Term]) -> Term:
-        node = self.pen.call(target.family.lower(), *(each.node for each in arguments))
+        node = self.pen.call(self._of_times(target.family.lower(), target), *(each.node for each in arguments))
         return self._between(node, target.result, arguments)
+
+    def _of_times(self, function: str, target: Builtin) -> str:
+        """The variant of a function for pairs of seconds and nanoseconds."""
+        return f"time_{function}" if self.scope.model == "c" and target.result.kind in TEMPORAL else function
 
     # ------------------------------------------------------------ strings
 

@@ -146,11 +146,15 @@ def from_bcd(number: int, width: int, strict: bool) -> int:
 
 
 def to_bcd(number: int, width: int, strict: bool) -> int:
-    """TO_BCD. A number with more digits than fit: FaultError if `strict`, else its low digits."""
+    """TO_BCD. A number with more digits than fit: FaultError if `strict`, else as on matiec.
+
+    There digits are shifted to their places on x86-64, which counts places modulo 64: the seventeenth digit falls on
+    the first.
+    """
     packed = int(str(number), 16)
     if strict and packed >> width:
         raise FaultError(f"{number} does not fit into {width // 4} BCD digits")
-    return packed & ((1 << width) - 1)
+    return (packed | packed >> 64) & ((1 << width) - 1)
 
 
 def fits(number: int, target: Elementary) -> bool:

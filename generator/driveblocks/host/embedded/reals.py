@@ -16,6 +16,10 @@ from driveblocks.host.embedded.faults import FaultError
 _CELL: memoryview[float] = memoryview(bytearray(4)).cast("f")
 _INDEFINITE_32 = -(1 << 31)
 _INDEFINITE_64 = -(1 << 63)
+# What x86-64 makes of an invalid operation: a NaN with its sign set.
+_INVALID = -math.nan
+# The functions of glibc that make a NaN without a sign.
+_POSITIVE_NAN = ("LOG", "ASIN", "ACOS")
 # Whole numbers up to this size are exact in single and in double precision.
 EXACT_SINGLE = 1 << 24
 EXACT_DOUBLE = 1 << 53
@@ -98,12 +102,17 @@ def c_power(base: float, exponent: float) -> float:
         return math.pow(base, exponent)
     except ValueError:
         if base != 0.0:
-            return math.nan
+            return _INVALID
         odd = exponent == int(exponent) and int(exponent) % 2 == 1
         return math.copysign(math.inf, base) if odd else math.inf
     except OverflowError:
         odd = math.isfinite(exponent) and exponent == int(exponent) and int(exponent) % 2 == 1
         return -math.inf if base < 0 and odd else math.inf
+
+
+def c_abs(number: float) -> float:
+    """ABS as matiec has it, which leaves a negative zero alone."""
+    return -number if number < 0.0 else number
 
 
 def divide(left: float, right: float) -> float:
@@ -112,7 +121,7 @@ def divide(left: float, right: float) -> float:
         return left / right
     except ZeroDivisionError:
         if left == 0.0 or math.isnan(left):
-            return math.nan
+            return left if left != 0.0 else _INVALID
         return math.copysign(math.inf, left) * math.copysign(1.0, right)
 
 
@@ -137,7 +146,9 @@ def c_function(name: str, function: Callable[[float], float]) -> Callable[[float
         except OverflowError:
             return math.inf
         except ValueError:
-            return -math.inf if name in ("LN", "LOG") and number == 0.0 else math.nan
+            if name in ("LN", "LOG") and number == 0.0:
+                return -math.inf
+            return math.nan if name in _POSITIVE_NAN else _INVALID
 
     return run
 

@@ -225,6 +225,7 @@ def _careful_limit(low: Any, value: Any, high: Any) -> Any:
 def _c() -> dict[str, Any]:
     table: dict[str, Any] = {name: reals.c_function(name, each) for name, each in reals.MATHEMATICS.items()}
     table |= {
+        "c_abs": reals.c_abs,
         "power": reals.c_power,
         "round_to_whole": _c_round,
         "cut_to_whole": _c_cut,
@@ -238,7 +239,7 @@ def _c() -> dict[str, Any]:
     table |= {"LEFT": strings.c_left, "RIGHT": strings.c_right, "MID": strings.c_mid, "CONCAT": strings.c_concat}
     table |= {"INSERT": strings.c_insert, "DELETE": strings.c_delete, "REPLACE": strings.c_replace}
     table |= {"FIND": strings.c_find, "string_order": strings.order}
-    table |= {"string_from_bits": strings.c_from_bits, "string_from_real": strings.from_real}
+    table |= {"string_from_bits": strings.c_from_bits, "string_from_real": strings.c_from_real}
     table |= {"string_to_bool": strings.c_to_bool, "string_to_real": strings.c_to_real}
     table |= {"string_to_whole": _whole_from_string(strings.c_to_whole, False)}
     table |= _c_times()
@@ -273,6 +274,9 @@ def _c_times() -> dict[str, Any]:
         "time_multiply": times.c_multiply,
         "time_divide": times.c_divide,
         "time_order": times.c_order,
+        "time_min": times.c_least,
+        "time_max": times.c_greatest,
+        "time_limit": times.c_limit,
         "date_of": times.c_date_of,
         "time_of_day": times.c_time_of_day,
         "time_from_number": times.c_from_number,

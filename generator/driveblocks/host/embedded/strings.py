@@ -6,7 +6,10 @@ longer than the maximum (IEC 61131-3 2.5.1.5.5); the `c_` functions clamp instea
 
 from __future__ import annotations
 
+import math
+
 from driveblocks.host.embedded.faults import FaultError
+from driveblocks.host.embedded.integers import wrap
 from driveblocks.st.types import DEFAULT_STRING_LENGTH
 
 
@@ -217,6 +220,11 @@ def from_real(number: float) -> bytes:
     return b"%.10g" % number
 
 
+def c_from_real(number: float) -> bytes:
+    """The same by C's library, which shows the sign of a NaN."""
+    return b"-nan" if math.isnan(number) and math.copysign(1.0, number) < 0 else from_real(number)
+
+
 def from_time(seconds: int, nanoseconds: int) -> bytes:
     """TIME_TO_STRING as matiec writes it: from days down to the last part that is not zero."""
     parts = []
@@ -296,7 +304,8 @@ def _c_based(digits: bytes, bits: int) -> int:
             break
         digit = "0123456789abcdef".find(chr(character).lower())
         if 0 <= digit < 1 << bits:
-            total |= digit << shift
+            # Binary and octal digits are shifted as ints, by places modulo 32 on x86-64.
+            total |= digit << shift if bits == 4 else wrap(digit << shift % 32, 32, True)
             shift += bits
     return total
 

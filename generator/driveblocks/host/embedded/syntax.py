@@ -38,7 +38,7 @@ class Pen:
 
     def constant(self, value: Any) -> ast.expr:
         """Write a Python constant: a number, bytes, text, None or a tuple of these. Negative numbers are written as such, which `compile` accepts in a tree."""
-        return ast.Constant(value, **self.here)
+        return ast.Constant(tuple(value) if isinstance(value, tuple) else value, **self.here)
 
     def attribute(self, base: ast.expr, name: str) -> ast.Attribute:
         """Read `base.name`."""

@@ -35,6 +35,8 @@ C_INT = CInteger(32, True)
 C_UNSIGNED = CInteger(32, False)
 C_LONG = CInteger(64, True)
 C_UNSIGNED_LONG = CInteger(64, False)
+# What gcc and clang take for a decimal constant that no standard type holds.
+C_INT128 = CInteger(128, True)
 
 
 def promoted(each: Elementary) -> CInteger:
@@ -50,11 +52,11 @@ def common(left: CInteger, right: CInteger) -> CInteger:
 
 
 def literal_type(value: int, based: bool) -> CInteger:
-    """The type of an integer constant without suffix (ISO C 6.4.4.1); hexadecimal ones may be unsigned."""
+    """The type of an integer constant without suffix (ISO C 6.4.4.1); only hexadecimal ones may be unsigned."""
     for each in (C_INT, C_UNSIGNED, C_LONG, C_UNSIGNED_LONG):
         if value <= each.high and (based or each.signed):
             return each
-    return C_UNSIGNED_LONG
+    return C_INT128
 
 
 @dataclass(slots=True)

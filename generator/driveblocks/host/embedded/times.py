@@ -13,6 +13,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from driveblocks.host.embedded.faults import FaultError
+from driveblocks.host.embedded.integers import wrap
 from driveblocks.host.embedded.reals import c_cut
 
 SECOND = 1_000_000_000
@@ -42,11 +43,17 @@ def pair(duration: int) -> Span:
 
 def normalised(seconds: int, rest: int) -> Span:
     """Carry or borrow one second, once, and not when the rest is exactly one second: as matiec does."""
+    seconds, rest = _long(seconds), _long(rest)
     if rest < -SECOND or (seconds > 0 and rest < 0):
         seconds, rest = seconds - 1, rest + SECOND
     if rest > SECOND or (seconds < 0 and rest > 0):
         seconds, rest = seconds + 1, rest - SECOND
-    return Span(seconds, rest)
+    return Span(_long(seconds), _long(rest))
+
+
+def _long(number: int) -> int:
+    """Wrap to C's long of 64 bits."""
+    return number if -(1 << 63) <= number < 1 << 63 else wrap(number, 64, True)
 
 
 # ------------------------------------------------------------ arithmetic on pairs
@@ -65,12 +72,34 @@ def c_subtract(left: Span, right: Span) -> Span:
 def c_order(left: Span, right: Span) -> int:
     """Negative, zero or positive, by seconds first, as matiec compares."""
     if left[0] == right[0]:
-        return left[1] - right[1]
-    return left[0] - right[0]
+        return _long(left[1] - right[1])
+    return _long(left[0] - right[0])
+
+
+def c_least(first: Span, *others: Span) -> Span:
+    """MIN as matiec has it, whose order overflows between the ends of the range."""
+    for each in others:
+        first = each if c_order(first, each) > 0 else first
+    return first
+
+
+def c_greatest(first: Span, *others: Span) -> Span:
+    """MAX as matiec has it."""
+    for each in others:
+        first = each if c_order(first, each) < 0 else first
+    return first
+
+
+def c_limit(low: Span, value: Span, high: Span) -> Span:
+    """LIMIT as matiec has it."""
+    if c_order(value, low) <= 0:
+        return low
+    return value if c_order(value, high) < 0 else high
 
 
 def c_multiply(left: Span, factor: float) -> Span:
     """Multiply as matiec does: in doubles, the nanoseconds through a 32-bit int."""
+    factor = float(factor)
     seconds = left[0] * factor
     whole = c_cut(seconds, 64)
     rest = c_cut(left[1] * factor, 32)
@@ -81,6 +110,7 @@ def c_multiply(left: Span, factor: float) -> Span:
 
 def c_divide(left: Span, divisor: float) -> Span:
     """Divide as matiec does: in doubles. By zero the processor's conversion of an infinity shows."""
+    divisor = float(divisor)
     seconds = _quotient(left[0], divisor)
     whole = c_cut(seconds, 64)
     total = _quotient(left[1], divisor) + (seconds - whole) * SECOND
@@ -90,7 +120,7 @@ def c_divide(left: Span, divisor: float) -> Span:
 def c_from_number(number: float) -> Span:
     """A number of seconds as matiec converts it."""
     if isinstance(number, int):
-        return Span(number, 0)
+        return Span(_long(number), 0)
     whole = c_cut(number, 64)
     return Span(whole, c_cut((number - whole) * SECOND, 64))
 
