@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
+from driveblocks.host.matiec import BadCError
 from driveblocks.host.matiec.library import MatiecLibrary
 
 Builder = Callable[[str], MatiecLibrary]
@@ -63,6 +64,31 @@ CONFIGURATION Both
     TASK Beat(INTERVAL := T#20ms, PRIORITY := 0);
     PROGRAM P WITH Beat : Counter;
     PROGRAM Q WITH Beat : Counter;
+  END_RESOURCE
+END_CONFIGURATION
+"""
+
+EDGES = """
+PROGRAM Adder
+  VAR_INPUT
+    Start : INT := 1;
+  END_VAR
+  VAR_OUTPUT
+    Sum : INT;
+  END_VAR
+  Sum := Sum + Start;
+END_PROGRAM
+CONFIGURATION Wires
+  VAR_GLOBAL
+    Go : BOOL;
+    Base : INT := 3;
+  END_VAR
+  RESOURCE Cpu ON PLC
+    TASK Cyclic(INTERVAL := T#20ms, PRIORITY := 0);
+    TASK Edge(SINGLE := Go, PRIORITY := 1);
+    PROGRAM Often WITH Cyclic : Adder;
+    PROGRAM Always : Adder;
+    PROGRAM Rarely WITH Edge : Adder;
   END_RESOURCE
 END_CONFIGURATION
 """
@@ -140,6 +166,23 @@ def test_two_resources(build: Builder) -> None:
     both = build(TWO).configuration()
     both.run(4)
     assert [both[f"{name}.Count"] for name in ("One.P", "Two.P", "Two.Q")] == [4, 2, 2]
+
+
+def test_programs_without_a_task_and_on_an_edge(build: Builder) -> None:
+    wires = build(EDGES).configuration()
+    wires["Cpu.Always.Start"] = 10
+    sums = []
+    for go in (False, True, True, False, True):
+        wires["Go"] = go
+        wires.run()
+        sums.append([wires[f"Cpu.{name}.Sum"] for name in ("Often", "Always", "Rarely")])
+    assert sums == [[1, 10, 0], [2, 20, 1], [3, 30, 1], [4, 40, 1], [5, 50, 2]]
+
+
+def test_wires_of_programs_are_bad_c(build: Builder) -> None:
+    """matiec assigns the global as it holds it, flags and all."""
+    with pytest.raises(BadCError, match=r"Cpu.c:\d+:\d+: incompatible types"):
+        build(EDGES.replace("Often WITH Cyclic : Adder", "Often WITH Cyclic : Adder(Start := Base)"))
 
 
 def test_located_variables_have_places(build: Builder) -> None:

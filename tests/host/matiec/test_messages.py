@@ -70,6 +70,17 @@ def test_warning_of_the_c_compiler_is_kept_with_the_build(fresh: MatiecEngine) -
     assert not fresh.build([GOOD, block(body)]).warnings
 
 
+def test_name_that_the_library_of_matiec_uses_is_explained(matiec: MatiecEngine) -> None:
+    """All that iec2c says then is about its own files."""
+    text = "PROGRAM P\n  VAR\n    X : INT;\n  END_VAR\n  X := 1;\nEND_PROGRAM\n"
+    with pytest.raises(BuildError) as caught:
+        matiec.build([Source("p.st", text)])
+    assert caught.value.messages[0].path.endswith("standard_functions.txt")
+    last = caught.value.messages[-1]
+    assert (last.path, last.line) == ("p.st", 1)
+    assert "give it another name" in last.text
+
+
 def test_nothing_at_all(matiec: MatiecEngine) -> None:
     with pytest.raises(EngineError, match=r"\w"):
         matiec.build([])

@@ -26,10 +26,19 @@ class LineTable:
         return self.lines[place] if place >= 0 else 0
 
 
-def take_lines(c_text: str, unit_lines: Mapping[str, int]) -> tuple[str, LineTable]:
-    """Blank the #line directives (the C keeps its own lines), and make the table.
+_COUNTER = re.compile(r"^dbk_hits\[(\d+)\]\+\+;$", re.MULTILINE)
+
+
+def counted_lines(c_text: str) -> set[int]:
+    """The ST lines whose runs the C counts."""
+    return {int(line) for line in _COUNTER.findall(c_text)}
+
+
+def take_lines(c_text: str, unit_lines: Mapping[str, int], count: bool = False) -> tuple[str, LineTable]:
+    """Take the #line directives out (the C keeps its own lines), and make the table.
 
     What stands in a unit before its first statement belongs to the line of `unit_lines` where the unit is declared.
+    With `count` each directive becomes a counter of its ST line: it stands where a statement begins.
     """
     stretches = {}
     number, at = 1, 0
@@ -41,4 +50,5 @@ def take_lines(c_text: str, unit_lines: Mapping[str, int]) -> tuple[str, LineTab
             stretches[number] = int(groups["line"])
         else:
             stretches[number] = unit_lines.get(groups["block"] or groups["function"], 0)
-    return _DIRECTIVE.sub("", c_text), LineTable(tuple(stretches), tuple(stretches.values()))
+    instead = r"dbk_hits[\g<line>]++;" if count else ""
+    return _DIRECTIVE.sub(instead, c_text), LineTable(tuple(stretches), tuple(stretches.values()))

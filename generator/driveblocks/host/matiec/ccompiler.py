@@ -29,15 +29,18 @@ _LINKER = re.compile(r"undefined reference to|multiple definition of|Undefined s
 
 @dataclass(frozen=True)
 class Flags:
-    """How to compile: the -O level and anything more (`-fsanitize=address`, `--coverage`, `-DNAME` ...)."""
+    """How to compile: the -O level, more options (`-fsanitize=address` ...), whether to count how often lines run."""
 
     optimise: str = "1"
     extra: tuple[str, ...] = ()
+    coverage: bool = False
 
     @property
     def arguments(self) -> list[str]:
         """What to put on the command line."""
-        return [*_FIXED_FLAGS, f"-O{self.optimise}", *self.extra]
+        sanitized = any(each.startswith("-fsanitize") for each in self.extra)
+        whole = ["-Wl,-z,defs"] if sys.platform == "linux" and not sanitized else []
+        return [*_FIXED_FLAGS, *whole, f"-O{self.optimise}", *self.extra]
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from driveblocks.host.engine import EngineError, Message, Source
 from driveblocks.host.matiec import runtime
-from driveblocks.host.matiec.c_lines import LineTable, take_lines
+from driveblocks.host.matiec.c_lines import LineTable, counted_lines, take_lines
 from driveblocks.host.matiec.cache import Cache, cache_folder
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, Job
 from driveblocks.host.matiec.declarations import Declarations, Unit, read_declarations
@@ -66,7 +66,7 @@ class MatiecEngine:
         except OSError as error:
             raise EngineError(f"{self.installation.iec2c} is no longer there: {error.strerror}") from error
         compiler = [*self.compiler.command, self.compiler.version, *self.flags.arguments]
-        parts = json.dumps([FORMAT, runtime.RUNTIME, tools, compiler, text])
+        parts = json.dumps([FORMAT, runtime.RUNTIME, tools, compiler, self.flags.coverage, text])
         return hashlib.sha256(parts.encode("utf-8", "surrogatepass")).hexdigest()
 
     def _make(self, listing: Listing, folder: Path) -> None:
@@ -87,17 +87,20 @@ class MatiecEngine:
         configuration = c_sources.configuration
         functions = c_sources.header.functions.values()
         text = runtime.unit(planner.plan.blocks, functions, expressions.found, configuration, read_locations(folder))
+        if self.flags.coverage:
+            text = f"#define DBK_COVERAGE {listing.text.count(chr(10)) + 1}\n{text}"
         (folder / runtime.UNIT).write_text(text, encoding="utf-8")
         (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
         lines = self._move_pous(folder, c_sources.declared)
         files = [runtime.UNIT, *(configuration.files if configuration else ())]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
-    @staticmethod
-    def _move_pous(folder: Path, declared: Declarations) -> LineTable:
+    def _move_pous(self, folder: Path, declared: Declarations) -> LineTable:
         old = folder / "POUS.c"
         c_text = old.read_text(encoding="utf-8", errors="replace")
-        text, lines = take_lines(c_text, {name: unit.line for name, unit in declared.units.items()})
+        text, lines = take_lines(
+            c_text, {name: unit.line for name, unit in declared.units.items()}, self.flags.coverage
+        )
         (folder / runtime.POUS_MOVED).write_text(text, encoding="utf-8")
         old.write_text("", encoding="utf-8")
         return lines
@@ -111,7 +114,9 @@ class MatiecEngine:
         rows = json.loads((folder / WARNINGS).read_text(encoding="utf-8"))
         warnings = tuple(listing.locate(Message(path, line, column, text) for path, line, column, text in rows))
         places = {name: listing.place(unit.line) for name, unit in c_sources.declared.units.items()}
-        return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places)
+        counted = counted_lines((folder / runtime.POUS_MOVED).read_text("utf-8")) if self.flags.coverage else ()
+        coverage = {line: listing.place(line) for line in sorted(counted)}
+        return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places, coverage)
 
 
 @dataclass(frozen=True)

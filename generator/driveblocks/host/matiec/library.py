@@ -49,6 +49,10 @@ class Binary:
         """Read the table of sizes and offsets."""
         return list((ctypes.c_int64 * max(count, 1)).in_dll(self.handle, "dbk_sizes"))
 
+    def hits(self, last_line: int) -> list[int]:
+        """Read how often each line of the joined text has run."""
+        return list((ctypes.c_uint32 * (last_line + 1)).in_dll(self.handle, "dbk_hits"))
+
     def places(self, count: int) -> list[int | None]:
         """Read the addresses of what a CONFIGURATION holds."""
         return list((ctypes.c_void_p * max(count, 1)).in_dll(self.handle, "dbk_places"))
@@ -217,6 +221,15 @@ class MatiecLibrary:
             memories.append(memory)
         return memories
 
+    def coverage(self) -> dict[str, dict[int, int]]:
+        """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
+        found: dict[str, dict[int, int]] = {}
+        counted = self._built.counted
+        hits = self._binary.hits(max(counted)) if counted else []
+        for line, (path, own) in counted.items():
+            found.setdefault(path, {})[own] = hits[line]
+        return found
+
     def configuration(self, name: str | None = None) -> "MatiecConfiguration":
         """Start the CONFIGURATION with variables of its own. KeyError."""
         found = self._built.configuration
@@ -236,6 +249,7 @@ class Built:
     configuration: ConfigurationC | None
     warnings: tuple[Message, ...]
     places: Mapping[str, tuple[str, int]]
+    counted: Mapping[int, tuple[str, int]]
 
     def place(self, name: str) -> tuple[str, int]:
         """File and line where a block or function is declared; line 0 if that is not in the sources."""

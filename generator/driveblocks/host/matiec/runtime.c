@@ -60,12 +60,19 @@ static void dbk_on_signal(int number, siginfo_t *info, void *context)
 
 void dbk_start(void)
 {
+    static int started;
+    if (started++) /* the same file loaded again is the same library: it would take itself for what was before */
+        return;
     struct sigaction action = {0};
     action.sa_sigaction = dbk_on_signal;
     action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
     for (int i = 0; i < 3; i++)
         sigaction(dbk_signals[i], &action, &dbk_before[i]);
 }
+#endif
+
+#ifdef DBK_COVERAGE
+uint32_t dbk_hits[DBK_COVERAGE];
 #endif
 
 /* The way in to a function block or program: `data` is zeroed memory of sizeof(NAME). */

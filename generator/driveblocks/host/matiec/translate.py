@@ -22,6 +22,10 @@ _INTERNAL = re.compile(r"^Internal compiler error.*$", re.MULTILINE)
 # Said without a place: a limit was reached, a file is not readable ...
 _SUMMARY = re.compile(r"^(\d+ error\(s\) found\. Bailing out!|.*\.(c|h|csv)|)$")
 _QUOTED_LINES = 8
+_COLLISION = (
+    "iec2c stumbled over its own library: a type, function, block or program is named as a parameter there"
+    " (such as P, L, N, G or IN); give it another name"
+)
 
 
 @dataclass(frozen=True)
@@ -42,6 +46,8 @@ class Translator:
         command = [program, *_OPTIONS, "-I", str(self.installation.library), "-T", ".", listing.NAME]
         outcome = run(command, directory, self.seconds)
         errors, warnings = _messages(outcome.output)
+        if errors and all(each.path != listing.NAME for each in errors):
+            errors.append(Message(listing.NAME, 1, 0, _COLLISION))
         if outcome.status != 0 or errors:
             raise self._failure(outcome, listing.locate(errors))
         for name in ("POUS.c", "POUS.h"):
