@@ -6,7 +6,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from tests.host.compare.draws import Draws, single
-from tests.host.compare.expressions.grammar import BITS, REALS, TYPES, VARIABLES, WHOLE, Grammar, limits, variable
+from tests.host.compare.expressions.grammar import (
+    BITS,
+    ELEMENTS,
+    REALS,
+    TYPES,
+    VARIABLES,
+    WHOLE,
+    Grammar,
+    array,
+    elements,
+    function,
+    limits,
+    variable,
+)
 from tests.host.compare.expressions.terms import Term
 from tests.host.compare.lockstep import alike
 
@@ -16,7 +29,6 @@ from driveblocks.host.engine import Engine, ScanError, Source, Value
 PER_BLOCK = 100
 # Most bugs show in small expressions, and large ones cost the C compiler most of its time.
 DEPTHS = (1, 1, 1, 2, 2, 2, 3, 4)
-FIRST_LINE = 2 + len(TYPES)
 
 Inputs = dict[str, Value]
 
@@ -30,34 +42,42 @@ class Batch:
 
     @property
     def text(self) -> str:
-        """The source: blocks E0, E1 ... with one statement per expression and line."""
+        """The source: what every expression may use, then blocks E0, E1 ... with one statement per expression."""
         blocks = [self.terms[at : at + PER_BLOCK] for at in range(0, len(self.terms), PER_BLOCK)]
-        return "".join(_block(number, terms) for number, terms in enumerate(blocks))
+        return PRELUDE + "".join(_block(number, terms) for number, terms in enumerate(blocks))
 
     def place(self, line: int) -> int:
         """The number of the expression on a line of the text."""
-        for number in range(len(self.terms)):
-            if self._line(number) == line:
-                return number
-        raise ValueError(f"no expression on line {line}")
-
-    def _line(self, number: int) -> int:
-        before = number // PER_BLOCK
-        head = HEAD_LINES * (before + 1) + before * (2 * PER_BLOCK + TAIL_LINES)
-        own = min(PER_BLOCK, len(self.terms) - before * PER_BLOCK)
-        return head + own + 1 + number % PER_BLOCK + 1
+        lines = self.text.splitlines()[:line]
+        blocks = sum(each.startswith("FUNCTION_BLOCK ") for each in lines)
+        return (blocks - 1) * PER_BLOCK + int(lines[-1].partition(" := ")[0].strip().removeprefix("o"))
 
 
-HEAD_LINES = 1 + 1 + len(TYPES) + 1 + 1  # FUNCTION_BLOCK, VAR_INPUT, one line per type, END_VAR, VAR_OUTPUT
-TAIL_LINES = 2  # END_VAR between outputs and statements, END_FUNCTION_BLOCK
+def _prelude(kind: str) -> str:
+    """An array type and a function of a type: stores into its parameters cut what they are given."""
+    return f"""TYPE
+  {array(kind)} : ARRAY[0..{ELEMENTS - 1}] OF {kind};
+END_TYPE
+FUNCTION {function(kind)} : {kind}
+VAR_INPUT
+  First : {kind};
+  Second : {kind};
+END_VAR
+  {function(kind)} := Second;
+END_FUNCTION
+"""
+
+
+PRELUDE = "".join(_prelude(kind) for kind in TYPES)
 
 
 def _block(number: int, terms: Sequence[Term]) -> str:
     inputs = [f"  {', '.join(variable(kind, n) for n in range(VARIABLES))} : {kind};" for kind in TYPES]
+    arrays = [f"  {elements(kind)} : {array(kind)};" for kind in TYPES]
     outputs = [f"  o{n} : {term.type};" for n, term in enumerate(terms)]
     body = [f"  o{n} := {term.text};" for n, term in enumerate(terms)]
-    lines = [f"FUNCTION_BLOCK E{number}", "VAR_INPUT", *inputs, "END_VAR", "VAR_OUTPUT", *outputs, "END_VAR", *body]
-    return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
+    lines = [f"FUNCTION_BLOCK E{number}", "VAR_INPUT", *inputs, "END_VAR", "VAR_OUTPUT", *outputs, "END_VAR"]
+    return "\n".join([*lines, "VAR", *arrays, "END_VAR", *body, "END_FUNCTION_BLOCK", ""])
 
 
 def make_batch(seed: object, count: int, vectors: int, without: Sequence[str] = ()) -> Batch:
@@ -72,6 +92,7 @@ def _vector(draws: Draws) -> Iterator[tuple[str, Value]]:
     for kind in TYPES:
         for number in range(VARIABLES):
             yield variable(kind, number), _value(draws, kind)
+        yield elements(kind), [_value(draws, kind) for _ in range(ELEMENTS)]
 
 
 def _value(draws: Draws, kind: str) -> Value:

@@ -21,6 +21,7 @@ REALS = ("REAL", "LREAL")
 NUMBERS = (*WHOLE, *REALS)
 TYPES = ("BOOL", *BITS, *WHOLE, *REALS, "TIME", "STRING")
 VARIABLES = 3  # of each type
+ELEMENTS = 4  # of the array of each type
 WIDTH = {**WHOLE, **BITS}
 
 Production = Callable[["Grammar", str, int], Term]
@@ -35,6 +36,21 @@ def limits(kind: str) -> tuple[int, int]:
 def variable(kind: str, number: int) -> str:
     """The name of one of the input variables of a type."""
     return f"v{kind}{number}"
+
+
+def array(kind: str) -> str:
+    """The name of the array type of a type."""
+    return f"Some{kind}"
+
+
+def elements(kind: str) -> str:
+    """The name of the array variable of a type."""
+    return f"a{kind}"
+
+
+def function(kind: str) -> str:
+    """The name of the function that takes two values of a type and returns the second."""
+    return f"Second{kind}"
 
 
 class Grammar:
@@ -66,14 +82,19 @@ class Grammar:
         term = self.expression(kind, depth)
         return self.variable(kind) if term.rule == "literal" else term
 
+    def typed(self, kind: str, depth: int) -> Term:
+        """An expression whose type does not depend on where it stands."""
+        term = self.expression(kind, depth)
+        return term if is_typed(term) else self.variable(kind)
+
     def pair(self, kind: str, depth: int) -> tuple[Term, Term]:
-        """Two operands of which at least one is no literal."""
-        left, right = self.anchored(kind, depth), self.expression(kind, depth)
+        """Two operands of which at least one says the type of both."""
+        left, right = self.typed(kind, depth), self.expression(kind, depth)
         return (left, right) if self.draws.chance(0.5) else (right, left)
 
     def several(self, kind: str, depth: int) -> list[Term]:
-        """Two to four arguments; the first is no literal."""
-        return [self.anchored(kind, depth), *(self.expression(kind, depth) for _ in range(self.draws.whole(1, 3)))]
+        """Two to four arguments; the first says the type of all."""
+        return [self.typed(kind, depth), *(self.expression(kind, depth) for _ in range(self.draws.whole(1, 3)))]
 
     def join(self, kind: str, rule: str, left: Term, operator: str, right: Term) -> Term:
         """An operation, at times with parentheses that it does not need."""
@@ -107,7 +128,18 @@ class Grammar:
         if self.draws.chance(0.5):
             number = self.draws.one_of([2, 3, 7, 10, 100, high, *([-2, -3, low] if low else [1])])
             return atom(kind, "literal", str(number))
-        return call(kind, "extreme", "MAX", self.anchored(kind, depth), atom(kind, "literal", "1"))
+        return call(kind, "extreme", "MAX", self.typed(kind, depth), atom(kind, "literal", "1"))
+
+
+def is_typed(term: Term) -> bool:
+    """Whether an expression has one type only: not a literal, nor LEN, FIND or TRUNC of whatever the context wants."""
+    if term.rule in ("literal", "string-length", "string-find", "truncation"):
+        return term.type not in (*WHOLE, *BITS, *REALS)
+    if term.rule in ("minus", "absolute", "move", "arithmetic", "division", "modulo", "arithmetic-function"):
+        return any(is_typed(child) for child in term.children)
+    if term.rule in ("select", "multiplex"):
+        return any(is_typed(child) for child in term.children[1:])
+    return True
 
 
 def _edges(kind: str) -> list[int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tests.host.compare.expressions.grammar import (
     BITS,
+    ELEMENTS,
     NUMBERS,
     REALS,
     SIGNED,
@@ -12,14 +13,30 @@ from tests.host.compare.expressions.grammar import (
     WHOLE,
     Grammar,
     Production,
+    elements,
+    function,
 )
-from tests.host.compare.expressions.terms import UNARY, Term, atom, call, unary
+from tests.host.compare.expressions.terms import ATOM, UNARY, Term, atom, call, unary
 
 MAGNITUDES = (*BITS, *NUMBERS)  # what can be ordered and is no BOOL, TIME or STRING
 
 
 def _leaf(g: Grammar, kind: str, depth: int) -> Term:
     return g.leaf(kind)
+
+
+def _element(g: Grammar, kind: str, depth: int) -> Term:
+    index = g.draws.one_of(list(UNSIGNED))
+    last = atom(index, "literal", str(ELEMENTS))
+    inner = g.typed(index, depth)
+    # In C the difference of two UINTs can be negative, and so can what MOD leaves of it; a function's result cannot.
+    whole = inner if inner.level == ATOM else call(index, "move", "MOVE", inner)
+    position = g.join(index, "modulo", whole, "MOD", last)
+    return Term(kind, "element", (f"{elements(kind)}[", position, "]"))
+
+
+def _own_function(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "own-function", function(kind), g.expression(kind, 0), g.expression(kind, depth))
 
 
 # ------------------------------------------------------------ operators
@@ -83,7 +100,7 @@ def _arithmetic_function(g: Grammar, kind: str, depth: int) -> Term:
 
 def _division_function(g: Grammar, kind: str, depth: int) -> Term:
     name = g.draws.one_of(["DIV", "MOD"])
-    return call(kind, "division-function", name, g.anchored(kind, depth), g.divisor(kind, depth))
+    return call(kind, "division-function", name, g.typed(kind, depth), g.divisor(kind, depth))
 
 
 def _logic_function(g: Grammar, kind: str, depth: int) -> Term:
@@ -115,7 +132,7 @@ def _extreme(g: Grammar, kind: str, depth: int) -> Term:
 
 def _limit(g: Grammar, kind: str, depth: int) -> Term:
     low, high = g.expression(kind, depth), g.expression(kind, depth)
-    return call(kind, "limit", "LIMIT", low, g.anchored(kind, depth), high)
+    return call(kind, "limit", "LIMIT", low, g.typed(kind, depth), high)
 
 
 def _select(g: Grammar, kind: str, depth: int) -> Term:
@@ -123,7 +140,7 @@ def _select(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _multiplex(g: Grammar, kind: str, depth: int) -> Term:
-    selector = g.anchored(g.draws.one_of(list(WHOLE)), depth - 1)
+    selector = g.typed(g.draws.one_of(list(WHOLE)), depth - 1)
     return call(kind, "multiplex", "MUX", selector, *g.several(kind, depth))
 
 
@@ -192,16 +209,25 @@ def _time_sum(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _time_product(g: Grammar, kind: str, depth: int) -> Term:
-    factor = g.anchored(g.draws.one_of(NUMBERS), depth)
+    factor = g.typed(g.draws.one_of(NUMBERS), depth)
     return g.join(kind, "time-product", g.anchored(kind, depth), g.draws.one_of("*/"), factor)
 
 
-def _string_part(g: Grammar, kind: str, depth: int) -> Term:
-    count = atom("INT", "literal", str(g.draws.whole(0, 12)))
+def _positions(g: Grammar, *least: int) -> list[Term]:
+    """Numbers of characters or positions of one type; less than `least` makes matiec read beside the string."""
+    kind = g.draws.one_of(["INT", "UINT", "USINT", "DINT"])
     if g.draws.chance(0.5):
-        return call(kind, "string-part", g.draws.one_of(["LEFT", "RIGHT"]), g.anchored(kind, depth), count)
-    place = atom("INT", "literal", str(g.draws.whole(1, 12)))
-    return call(kind, "string-part", "MID", g.anchored(kind, depth), count, place)
+        return [atom("INT", "literal", str(g.draws.whole(low, 12))) for low in least]
+    high = atom(kind, "literal", "12")
+    bounds = [(atom(kind, "literal", str(low)), g.variable(kind), high) for low in least]
+    return [call(kind, "limit", "LIMIT", *each) for each in bounds]
+
+
+def _string_part(g: Grammar, kind: str, depth: int) -> Term:
+    if g.draws.chance(0.5):
+        name = g.draws.one_of(["LEFT", "RIGHT"])
+        return call(kind, "string-part", name, g.anchored(kind, depth), *_positions(g, 0))
+    return call(kind, "string-part", "MID", g.anchored(kind, depth), *_positions(g, 0, 1))
 
 
 def _string_join(g: Grammar, kind: str, depth: int) -> Term:
@@ -210,13 +236,10 @@ def _string_join(g: Grammar, kind: str, depth: int) -> Term:
 
 def _string_edit(g: Grammar, kind: str, depth: int) -> Term:
     name = g.draws.one_of(["INSERT", "DELETE", "REPLACE"])
-    text, other = g.pair(kind, depth)
-    count, place = (atom("INT", "literal", str(g.draws.whole(1, 12))) for _ in range(2))
-    if name == "INSERT":
-        return call(kind, "string-edit", name, text, other, place)
     if name == "DELETE":
-        return call(kind, "string-edit", name, g.anchored(kind, depth), count, place)
-    return call(kind, "string-edit", name, text, other, count, place)
+        return call(kind, "string-edit", name, g.anchored(kind, depth), *_positions(g, 0, 1))
+    counts = _positions(g, 0) if name == "INSERT" else _positions(g, 0, 1)
+    return call(kind, "string-edit", name, *g.pair(kind, depth), *counts)
 
 
 def _string_length(g: Grammar, kind: str, depth: int) -> Term:
@@ -235,6 +258,8 @@ _INTO_WHOLE = (*BITS, *WHOLE)
 # Rule name, the types that it makes, the production. A rule that is there twice comes up twice as often.
 PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("leaf", TYPES, _leaf),
+    ("element", TYPES, _element),
+    ("own-function", TYPES, _own_function),
     ("arithmetic", NUMBERS, _arithmetic),
     ("arithmetic", NUMBERS, _arithmetic),
     ("division", NUMBERS, _division),
