@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.functions import Functions
 from driveblocks.host.embedded.scope import UnsupportedError
 from driveblocks.host.embedded.shapes import is_scalar
@@ -113,7 +114,7 @@ class Calls(Functions):
             return self.copying(target.type, place, value)
         if isinstance(place, ast.Attribute):
             return self.pen.call("setattr", place.value, self.pen.constant(place.attr), value)
-        assert isinstance(place, ast.Subscript)
+        place = known(place, ast.Subscript)
         return self.pen.method(place.value, "__setitem__", place.slice, value)
 
     def forget(self, target: tree.Expression) -> None:

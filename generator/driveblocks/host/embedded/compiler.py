@@ -8,6 +8,7 @@ from typing import Any
 
 from driveblocks.host.embedded import standard_blocks
 from driveblocks.host.embedded.calls import function_name
+from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.expressions import c_moment
 from driveblocks.host.embedded.faults import Accesses
 from driveblocks.host.embedded.invocation import body_name
@@ -20,7 +21,6 @@ from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.embedded.statements import Statements
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import TEMPORAL, is_integral
-from driveblocks.host.embedded.times import Span
 from driveblocks.host.embedded.usage import callees, has_loop, touched
 from driveblocks.host.engine import Message
 from driveblocks.st import tree
@@ -41,7 +41,7 @@ class Compiler:
         self.shapes = Shapes(options.model)
         self.shapes.instances = self.instance
         self.shapes.evaluate = self.evaluate
-        self.run = Run(Span(0, 0) if options.model == "c" else 0)
+        self.run = Run()
         self.objects = namespace(options.model, options.line, self.run)
         self.accesses = Accesses()
         self.messages: list[Message] = []
@@ -106,15 +106,15 @@ class Compiler:
     # ------------------------------------------------------------ POUs
 
     def _attempt(self, pou: tree.Pou) -> None:
-        assert pou.unit is not None
+        unit = present(pou.unit)
         try:
             if isinstance(pou, tree.Function):
                 self._function(pou)
             elif isinstance(pou, tree.FunctionBlock | tree.Program):
                 self._block(pou)
         except UnsupportedError as error:
-            line, column = pou.unit.place(error.at)
-            self.messages.append(Message(pou.unit.path, line, column, str(error)))
+            line, column = unit.place(error.at)
+            self.messages.append(Message(unit.path, line, column, str(error)))
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
         ranges = Ranges(trusted=self.options.model != "c")
@@ -130,9 +130,8 @@ class Compiler:
         exec(compile(module, pen.unit.path, "exec"), self.objects)  # noqa: S102 - our own compiled code
 
     def _function(self, function: tree.Function) -> None:
-        assert function.unit is not None
         self._note_loops(function, function)
-        pen = Pen(function.unit)
+        pen = Pen(present(function.unit))
         scope = self._scope(function, pen)
         statements = Statements(scope)
         written = touched(function.body)
@@ -180,13 +179,12 @@ class Compiler:
     # ------------------------------------------------------------ blocks
 
     def _block(self, pou: tree.FunctionBlock | tree.Program) -> None:
-        assert pou.unit is not None
-        assert pou.type is not None
-        self._note_loops(pou, pou.type)
+        block = present(pou.type)
+        self._note_loops(pou, block)
         slots = [each.name.upper() for each in kept(pou)]
         edges = [edge_slot(each) for each in pou.symbols.values() if each.edge]
-        self.classes[pou.type] = type(pou.name, (Record,), {"__slots__": (*slots, *edges, GLOBALS)})
-        pen = Pen(pou.unit)
+        self.classes[block] = type(pou.name, (Record,), {"__slots__": (*slots, *edges, GLOBALS)})
+        pen = Pen(present(pou.unit))
         scope = self._scope(pou, pen)
         body: list[ast.stmt] = []
         for each in pou.symbols.values():
@@ -197,7 +195,7 @@ class Compiler:
                 body += self._edge(scope, each)
         body += Statements(scope).body(pou.body)
         pen.move(pou.at)
-        self._define(pen, body_name(pou.type), [SELF], body)
+        self._define(pen, body_name(block), [SELF], body)
 
     def _edge(self, scope: Scope, variable: tree.VarDecl) -> list[ast.stmt]:
         """`VAR_INPUT x : BOOL R_EDGE`: the body sees TRUE for one call after x has risen."""

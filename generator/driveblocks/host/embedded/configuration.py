@@ -9,6 +9,7 @@ from math import gcd
 from typing import Any
 
 from driveblocks.host.embedded import times
+from driveblocks.host.embedded.certainty import known, present
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.faults import FAULTS, scan_error
 from driveblocks.host.embedded.paths import Paths
@@ -114,10 +115,9 @@ class EmbeddedConfiguration:
 
     def run(self, ticks: int = 1) -> None:
         """Run so many ticks. ScanError."""
-        run, pairs = self._compiler.run, self._values.pairs
+        run = self._compiler.run
         for _ in range(ticks):
-            now = self._tick * self._interval
-            run.now = times.pair(now) if pairs else now
+            run.now = self._tick * self._interval
             run.budget = repeat(None, self._limit)
             try:
                 self._run_tick()
@@ -198,9 +198,7 @@ class EmbeddedConfiguration:
         return _Task(ticks, single, priority)
 
     def _program(self, resource: tree.Resource, program: tree.ProgramInstance, tasks: dict[int, _Task]) -> _Program:
-        assert program.target is not None
-        block = program.target.type
-        assert block is not None
+        block = present(present(program.target).type)
         root = self._compiler.instance(block, self._globals)
         name = f"{resource.name}.{program.name}" if resource.name else program.name
         self._roots[name.upper()] = block, root
@@ -231,9 +229,8 @@ class EmbeddedConfiguration:
         return lambda: value
 
     def _writer(self, target: tree.Expression) -> Callable[[Any], None]:
-        assert isinstance(target, tree.Name)
-        assert isinstance(target.symbol, tree.VarDecl)
-        slot = self._compiler.shapes.global_slot(target.symbol)
+        variable = known(known(target, tree.Name).symbol, tree.VarDecl)
+        slot = self._compiler.shapes.global_slot(variable)
         return lambda value: setattr(self._globals, slot, value)
 
     def _split(self, path: str) -> tuple[Block, Any, str]:

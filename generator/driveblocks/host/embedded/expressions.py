@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable
 
 from driveblocks.host.embedded import times
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.floats import Floats
 from driveblocks.host.embedded.ranges import Interval, declared
 from driveblocks.host.embedded.scope import Scope, UnsupportedError
@@ -80,9 +81,7 @@ class Expressions:
 
     def whole(self, expression: tree.Expression) -> Whole:
         """An integer or bit string, raw."""
-        term = self.term(expression)
-        assert isinstance(term, Whole)
-        return term
+        return known(self.term(expression), Whole)
 
     def exact(self, expression: tree.Expression) -> Whole:
         """An integer or bit string whose exact value is needed."""
@@ -180,7 +179,7 @@ class Expressions:
     def _read(self, node: ast.expr, kind: Type, interval: Interval | None = None) -> Term:
         """What a variable, field or element of a type gives."""
         if is_integral(kind):
-            assert isinstance(kind, Elementary)
+            kind = known(kind, Elementary)
             low, high = interval or (kind.low, kind.high)
             return Whole(node, low, high, elementary(kind), promoted(elementary(kind)))
         if kind.kind is Kind.REAL:
@@ -194,8 +193,7 @@ class Expressions:
         return self._read(node, kind, (low, high))
 
     def _enumerated(self, name: tree.Name | tree.Qualified | tree.Member) -> Term:
-        assert isinstance(name.symbol, EnumValue)
-        return Plain(self.pen.constant(name.symbol.number), name.type)
+        return Plain(self.pen.constant(known(name.symbol, EnumValue).number), name.type)
 
     def _member(self, member: tree.Member) -> Term:
         if isinstance(member.symbol, EnumValue):
@@ -211,7 +209,7 @@ class Expressions:
     def _index(self, index: tree.Index) -> Term:
         node = self.term(index.base).node
         kind = plain(index.base.type)
-        assert isinstance(kind, Array)
+        kind = known(kind, Array)
         for each, (low, high) in zip(index.indices, kind.bounds, strict=True):
             name = written(index.base)
             offset = self._offset(each, name, low, high)
@@ -286,9 +284,7 @@ class Expressions:
         return Plain(self._logic(left.node, operator, right.node), kind)
 
     def _floating(self, term: Term, kind: Type) -> Floating:
-        fitted = term if isinstance(term, Floating) else self.fitted(term, kind)
-        assert isinstance(fitted, Floating)
-        return fitted
+        return known(term if isinstance(term, Floating) else self.fitted(term, kind), Floating)
 
     def _logic(self, left: ast.expr, operator: str, right: ast.expr) -> ast.expr:
         """BOOL: both sides are evaluated, except in C; Python's short circuit is taken where nobody can tell."""
@@ -405,7 +401,7 @@ class Expressions:
         """A numeric term as the argument of a function that takes a double."""
         if isinstance(term, Floating):
             return self.floats.double(term)
-        assert isinstance(term, Whole)
+        term = known(term, Whole)
         return self.widths.exact(term).node
 
     def span(self, left: Term, operator: str, right: Term) -> ast.expr:

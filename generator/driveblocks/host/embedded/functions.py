@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from itertools import pairwise
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.expressions import Expressions
 from driveblocks.host.embedded.reals import EXACT_SINGLE, MATHEMATICS
 from driveblocks.host.embedded.scope import Scope, UnsupportedError
@@ -42,12 +44,12 @@ class Functions(Expressions):
     def __init__(self, scope: Scope) -> None:
         """Compile within a scope."""
         super().__init__(scope)
-        emitters: dict[str, Emitter] = {name: self._operator for name in _OPERATORS}
-        emitters |= {name: self._comparison_function for name in _COMPARISONS}
-        emitters |= {name: self._mathematics for name in MATHEMATICS}
-        emitters |= {name: self._string_function for name in _STRINGS}
-        emitters |= {name: self._shift for name in _SHIFTS}
-        emitters |= {name: self._time_function for name in _TIME_OPERATORS}
+        emitters: dict[str, Emitter] = dict.fromkeys(_OPERATORS, self._operator)
+        emitters |= dict.fromkeys(_COMPARISONS, self._comparison_function)
+        emitters |= dict.fromkeys(MATHEMATICS, self._mathematics)
+        emitters |= dict.fromkeys(_STRINGS, self._string_function)
+        emitters |= dict.fromkeys(_SHIFTS, self._shift)
+        emitters |= dict.fromkeys(_TIME_OPERATORS, self._time_function)
         emitters |= {"CONVERT": self._convert, "TRUNC": self._trunc, "BCD_TO": self._bcd, "TO_BCD": self._bcd}
         emitters |= {"ABS": self._abs, "EXPT": self._expt, "MOVE": self._move, "NOT": self._not}
         emitters |= {"SEL": self._select, "MUX": self._mux, "LIMIT": self._limit}
@@ -110,17 +112,17 @@ class Functions(Expressions):
 
     def _comparison_function(self, target: Builtin, arguments: list[Term]) -> Term:
         operator = _COMPARISONS[target.family]
-        tests = [self.comparison(left, operator, right) for left, right in zip(arguments, arguments[1:], strict=False)]
+        tests = [self.comparison(left, operator, right) for left, right in pairwise(arguments)]
         return Plain(self.pen.junction(ast.And(), *tests), target.result)
 
     def _time_function(self, target: Builtin, arguments: list[Term]) -> Term:
         operator = _TIME_OPERATORS.get(target.family) or ("+" if target.family.startswith("ADD_") else "-")
         return Plain(self.span(arguments[0], operator, arguments[1]), target.result)
 
-    def _not(self, target: Builtin, arguments: list[Term]) -> Term:
+    def _not(self, _: Builtin, arguments: list[Term]) -> Term:
         return self.inverse(arguments[0])
 
-    def _move(self, target: Builtin, arguments: list[Term]) -> Term:
+    def _move(self, _: Builtin, arguments: list[Term]) -> Term:
         return arguments[0]
 
     def _abs(self, target: Builtin, arguments: list[Term]) -> Term:
@@ -129,7 +131,7 @@ class Functions(Expressions):
         if isinstance(term, Floating):
             function = "c_abs" if self.scope.model == "c" else "abs"
             return Floating(self.pen.call(function, term.node), term.type, term.c)
-        assert isinstance(term, Whole)
+        term = known(term, Whole)
         if term.low >= 0:
             return term
         ends = abs(term.low), abs(term.high)
@@ -137,7 +139,7 @@ class Functions(Expressions):
         return self.widths.stored(Whole(node, low, max(ends), term.type, term.c), target.result)
 
     def _mathematics(self, target: Builtin, arguments: list[Term]) -> Term:
-        return self._rounded(self.pen.call(target.family, arguments[0].node), target.result)
+        return self._rounded(self.pen.call(f"std_{target.family}", arguments[0].node), target.result)
 
     def _expt(self, target: Builtin, arguments: list[Term]) -> Term:
         base, exponent = (self.number(each) for each in arguments)
@@ -155,8 +157,8 @@ class Functions(Expressions):
         value, places = arguments
         if isinstance(value, Plain):
             return self._shifted_bool(target, value, places)
-        assert isinstance(value, Whole)
-        assert isinstance(places, Whole)
+        value = known(value, Whole)
+        places = known(places, Whole)
         kind = elementary(target.result)
         if places.low == places.high and 0 <= places.low < kind.width and target.family in ("SHL", "SHR"):
             return self._constant_shift(target.family, value, places.low, kind)
@@ -234,11 +236,11 @@ class Functions(Expressions):
         return self.result(self.pen.call("len", arguments[0].node), target.result, 0, 255)
 
     def _find(self, target: Builtin, arguments: list[Term]) -> Term:
-        node = self.pen.call("FIND", *(each.node for each in arguments))
+        node = self.pen.call("std_FIND", *(each.node for each in arguments))
         return self.result(node, target.result, 0, 255)
 
     def _string_function(self, target: Builtin, arguments: list[Term]) -> Term:
-        return Plain(self.pen.call(target.family, *(each.node for each in arguments)), target.result)
+        return Plain(self.pen.call(f"std_{target.family}", *(each.node for each in arguments)), target.result)
 
     # ------------------------------------------------------------ conversions
 
@@ -247,10 +249,8 @@ class Functions(Expressions):
         source = plain(target.parameters[0].type)
         if source is result or source.kind is result.kind is Kind.STRING:
             return self.fitted(term, result)
-        if result.kind is Kind.STRING:
-            return Plain(self.pen.call(_to_string(source), term.node), result)
-        if source.kind is Kind.STRING:
-            return self._from_string(term.node, result)
+        if Kind.STRING in (source.kind, result.kind):
+            return self._text(term.node, source, result)
         if source.kind in TEMPORAL or result.kind in TEMPORAL:
             return self._temporal(term, source, result)
         if isinstance(term, Whole):
@@ -292,7 +292,10 @@ class Functions(Expressions):
         facts = (pen.constant(result.name), pen.constant(result.width), pen.constant(signed))
         return Whole(pen.call(function, node, *facts), result.low, result.high, result, promoted(result))
 
-    def _from_string(self, node: ast.expr, result: Type) -> Term:
+    def _text(self, node: ast.expr, source: Type, result: Type) -> Term:
+        """To and from STRING."""
+        if result.kind is Kind.STRING:
+            return Plain(self.pen.call(_to_string(source), node), result)
         if result.kind is Kind.BOOL:
             return Plain(self.pen.call("string_to_bool", node), result)
         if result.kind is Kind.REAL:

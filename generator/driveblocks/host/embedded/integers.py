@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from driveblocks.host.embedded.faults import FaultError
 from driveblocks.host.embedded.terms import CInteger
-from driveblocks.st.types import Elementary
 
 
 def wrap(number: int, width: int, signed: bool) -> int:
@@ -155,8 +154,3 @@ def to_bcd(number: int, width: int, strict: bool) -> int:
     if strict and packed >> width:
         raise FaultError(f"{number} does not fit into {width // 4} BCD digits")
     return (packed | packed >> 64) & ((1 << width) - 1)
-
-
-def fits(number: int, target: Elementary) -> bool:
-    """Whether an integer is a value of an integer type or bit string."""
-    return target.low <= number <= target.high

@@ -11,6 +11,7 @@ import ast
 from dataclasses import dataclass
 
 from driveblocks.host.embedded.aliases import Overlap, overlaps
+from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.loops import Loops
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.syntax import place_of
@@ -125,7 +126,7 @@ class Invocation(Loops):
 
     def _hand_back(self, in_out: _InOut) -> list[ast.stmt]:
         value = in_out.binding.value
-        assert value is not None
+        value = present(value)
         if in_out.by_value:
             self.forget(value)
             return [self.pen.assign(in_out.mine, in_out.theirs)]

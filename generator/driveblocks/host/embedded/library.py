@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import repeat
 from typing import Any
 
-from driveblocks.host.embedded import times
 from driveblocks.host.embedded.calls import returned
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.configuration import EmbeddedConfiguration, globals_of
@@ -132,12 +131,11 @@ class EmbeddedLibrary:
         """The `scan` of an instance: clock, budget, body, and the way from an exception to a ScanError."""
         run, body, accesses = self.compiler.run, self.compiler.body(block), self.compiler.accesses
         limit = self.loop_limit if block in self.compiler.looping else 0
-        pairs = self.values.pairs
 
         def scan(now_ns: int | None = None) -> None:
             """Run the body once with the clock at `now_ns` nanoseconds (None: as it stands). Raises ScanError."""
             if now_ns is not None:
-                run.now = times.pair(now_ns) if pairs else now_ns
+                run.now = now_ns
             if limit:
                 run.budget = repeat(None, limit)
             try:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from driveblocks.host.embedded.calls import Calls
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.scope import Scope
 from driveblocks.host.embedded.shapes import is_scalar
@@ -122,7 +123,7 @@ class Loops(Calls):
         return [kept], lambda: Whole(self.pen.name(name), term.low, term.high, term.type, term.c)
 
     def _set(self, variable: tree.Expression, value: object) -> list[ast.stmt]:
-        assert isinstance(value, Whole)
+        value = known(value, Whole)
         place = self.term(variable).node
         if isinstance(variable, tree.Name) and isinstance(variable.symbol, tree.VarDecl):
             self.scope.ranges.set(variable.symbol, value.low, value.high)
@@ -158,7 +159,7 @@ class Loops(Calls):
             by = step()
             now = self.whole(statement.variable)
             ahead = self.operation(now, "+", by, now.type)
-            assert isinstance(ahead, Whole)
+            ahead = known(ahead, Whole)
             test = self._leave_unless(self._goes_on(ahead, stop(), by))
             self._open[-1].exits.append(self.scope.ranges.copy())
             advance = self._set(statement.variable, self._sum(statement.variable, by))

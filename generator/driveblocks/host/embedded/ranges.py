@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.terms import is_integral
 from driveblocks.st import tree
 from driveblocks.st.types import Elementary, Subrange
@@ -22,7 +23,7 @@ _OPPOSITE = {"<": ">=", ">": "<=", "<=": ">", ">=": "<", "=": "<>", "<>": "="}
 def declared(variable: tree.VarDecl, trusted: bool) -> Interval:
     """The values that a variable can hold; a subrange is believed only where its stores are checked (`trusted`)."""
     kind = variable.type
-    assert isinstance(kind, Elementary)
+    kind = known(kind, Elementary)
     if isinstance(kind, Subrange) and trusted:
         return kind.first, kind.last
     return kind.low, kind.high

@@ -169,7 +169,7 @@ MATHEMATICS: dict[str, Callable[[float], float]] = {
 
 def agree(left: float, right: float) -> float:
     """The value of a REAL expression if the standard's and C's are the same. FaultError if not."""
-    if left == right or (left != left and right != right):
+    if left == right or (math.isnan(left) and math.isnan(right)):
         return left
     raise FaultError(
         f"C computes this with doubles and gets {right!r}, single precision gives {left!r};"

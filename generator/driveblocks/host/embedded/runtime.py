@@ -13,6 +13,7 @@ from driveblocks.host.embedded import integers, reals, strings, times
 from driveblocks.host.embedded.faults import MARK, FaultError, below_bounds
 from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.engine import Overflow
+from driveblocks.st.types import ELEMENTARY
 
 _SECOND = times.SECOND
 _MILLISECOND = 1_000_000
@@ -25,7 +26,8 @@ def namespace(model: Overflow, line: str, run: Run) -> dict[str, Any]:
     table |= {"standard": _standard, "fail": _careful, "c": _c}[model]()
     if line == "openplc":
         table |= {"string_order": _openplc_order, "FIND": strings.openplc_find}
-    return table
+    # Variables of ST are in upper case too, and must not hide a function of the same name.
+    return {f"std_{name}" if name.isupper() else name: each for name, each in table.items()}
 
 
 # ------------------------------------------------------------ all models
@@ -112,11 +114,11 @@ def _standard() -> dict[str, Any]:
     return table
 
 
-def _standard_round(number: float, name: str, width: int, signed: bool) -> int:
+def _standard_round(number: float, _name: str, width: int, signed: bool) -> int:
     return integers.wrap(reals.nearest(number), width, signed)
 
 
-def _standard_cut(number: float, name: str, width: int, signed: bool) -> int:
+def _standard_cut(number: float, _name: str, width: int, signed: bool) -> int:
     if not math.isfinite(number):
         raise FaultError(f"{number} has no integer value")
     return integers.wrap(int(number), width, signed)
@@ -126,7 +128,7 @@ def _limit(low: Any, value: Any, high: Any) -> Any:
     return min(max(value, low), high)
 
 
-def _mux(which: int, zero: Any, *inputs: Any) -> Any:
+def _mux(which: int, _zero: Any, *inputs: Any) -> Any:
     if not 0 <= which < len(inputs):
         raise FaultError(f"MUX with K = {which}, but its inputs are 0..{len(inputs) - 1}")
     return inputs[which]
@@ -193,20 +195,19 @@ def _differing(text: str) -> Callable[..., Any]:
 
 
 def _careful_round(number: float, name: str, width: int, signed: bool) -> int:
-    return _fitting(number, reals.nearest, lambda: reals.c_nearest(number, signed), name, width, signed)
+    value = reals.nearest(number) if math.isfinite(number) else None
+    return _fitting(number, value, _c_round(number, name, width, signed), name)
 
 
 def _careful_cut(number: float, name: str, width: int, signed: bool) -> int:
-    return _fitting(number, int, lambda: _c_cut(number, name, width, signed), name, width, signed)
+    value = int(number) if math.isfinite(number) else None
+    return _fitting(number, value, _c_cut(number, name, width, signed), name)
 
 
-def _fitting(
-    number: float, convert: Callable[[float], int], c: Callable[[], int], name: str, width: int, signed: bool
-) -> int:
+def _fitting(number: float, value: int | None, in_c: int, name: str) -> int:
     """An integer that fits its type and is the same in C. FaultError."""
-    value = convert(number) if math.isfinite(number) else None
-    in_c = integers.wrap(c(), width, signed)
-    if value is None or integers.wrap(value, width, signed) != value:
+    kind = ELEMENTARY[name]
+    if value is None or not kind.low <= value <= kind.high:
         raise FaultError(f"{number!r} does not fit {name}; C makes it {in_c}: check the range as REAL first")
     if value != in_c:
         raise FaultError(f"{number!r} becomes {value} by the standard and {in_c} in C: round it first")
@@ -246,11 +247,11 @@ def _c() -> dict[str, Any]:
     return table
 
 
-def _c_round(number: float, name: str, width: int, signed: bool) -> int:
+def _c_round(number: float, _name: str, width: int, signed: bool) -> int:
     return integers.wrap(reals.c_nearest(number, signed), width, signed)
 
 
-def _c_cut(number: float, name: str, width: int, signed: bool) -> int:
+def _c_cut(number: float, _name: str, width: int, signed: bool) -> int:
     """TRUNC: compilers convert through 32 bits what fits 32 bits signed, through 64 what is UDINT or wider."""
     if width == 64 and not signed:
         return reals.c_cut_unsigned_64(number) & ((1 << 64) - 1)

@@ -6,6 +6,7 @@ import ast
 from dataclasses import dataclass, field
 from typing import Any
 
+from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.faults import Access, Accesses
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.shapes import Shapes
@@ -73,9 +74,8 @@ class Scope:
     def slot(self, variable: tree.VarDecl) -> ast.expr:
         """Where an instance keeps a variable."""
         if variable.kind is VarKind.EXTERNAL:
-            assert variable.target is not None
             instance = self.pen.attribute(self.pen.name(SELF), GLOBALS)
-            return self.pen.attribute(instance, self.shapes.global_slot(variable.target))
+            return self.pen.attribute(instance, self.shapes.global_slot(present(variable.target)))
         return self.pen.attribute(self.pen.name(SELF), variable.name.upper())
 
     def variable(self, variable: tree.VarDecl) -> ast.expr:

@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from driveblocks.host.embedded.certainty import known, present
 from driveblocks.host.embedded.times import Span
 from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
-from driveblocks.st.types import Array, Block, Elementary, Enum, Kind, String, Struct, Subrange, Type
+from driveblocks.st.types import Array, Block, Enum, Kind, Struct, Subrange, Type
 
 # Makes an initial value; it is given the globals that instances of blocks see.
 Maker = Callable[[Any], Any]
@@ -71,8 +72,7 @@ class Shapes:
         if initial is None and isinstance(kind, Enum):
             initial = kind.initial
         if initial is not None:
-            assert self.evaluate is not None
-            return self.evaluate(initial, kind)
+            return present(self.evaluate)(initial, kind)
         if isinstance(kind, Enum):
             return next(iter(kind.values.values())).number
         if isinstance(kind, Subrange):
@@ -93,8 +93,7 @@ class Shapes:
         settings = self._settings(initial, {name: each.type for name, each in _members(kind).items()})
 
         def make(context: Any) -> Any:
-            assert self.instances is not None
-            made = self.instances(kind, context)
+            made = present(self.instances)(kind, context)
             for name, value in settings.items():
                 setattr(made, name, value(context))
             return made
@@ -147,7 +146,7 @@ class Shapes:
         return makers
 
     def _count(self, count: tree.Expression) -> int:
-        assert isinstance(count, tree.Literal)
+        count = known(count, tree.Literal)
         return int(count.value)
 
     # ------------------------------------------------------------ classes and copies
@@ -162,7 +161,7 @@ class Shapes:
         """A function `copy(into, source)` for an array or structure."""
         if isinstance(kind, Struct):
             return self._struct_copier(kind)
-        assert isinstance(kind, Array)
+        kind = known(kind, Array)
         element = None if is_scalar(kind.element) else self.copier(kind.element)
         return nested_copier(element, len(kind.bounds))
 
@@ -208,15 +207,3 @@ def nest(flat: list[Any], sizes: list[int]) -> list[Any]:
 def _members(kind: Block) -> dict[str, Any]:
     """Everything of a block that an initialiser can name."""
     return dict(kind.parameters) if kind.declaration is None else dict(kind.declaration.symbols)
-
-
-def string_length(kind: Type) -> int:
-    """How many characters a STRING variable holds."""
-    assert isinstance(kind, String)
-    return kind.length
-
-
-def elementary_of(kind: Type) -> Elementary:
-    """A type that is known to be elementary."""
-    assert isinstance(kind, Elementary)
-    return kind

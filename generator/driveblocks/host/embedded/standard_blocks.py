@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from driveblocks.host.embedded import times
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.faults import FaultError
 from driveblocks.host.embedded.shapes import Record
 from driveblocks.host.engine import Overflow
@@ -39,9 +40,9 @@ class Run:
 
     __slots__ = ("budget", "now")
 
-    def __init__(self, now: Any) -> None:
-        """Start the clock."""
-        self.now = now
+    def __init__(self) -> None:
+        """Start the clock, in nanoseconds, at 0."""
+        self.now = 0
         self.budget: Any = iter(())
 
 
@@ -119,7 +120,7 @@ def _c_sema(s: Any) -> None:
     s.BUSY = s.memory
 
 
-def _careful_sema(s: Any) -> None:
+def _careful_sema(_: Any) -> None:
     raise FaultError("SEMA grants at once on matiec and one call later by the standard: use a bistable")
 
 
@@ -128,7 +129,7 @@ def _careful_sema(s: Any) -> None:
 
 def _counter(name: str, block: Block, model: Overflow) -> Body:
     kind = block.parameters["CV"].type
-    assert isinstance(kind, Elementary)
+    kind = known(kind, Elementary)
     up = _up(kind, model)
     down = _down(kind, model)
     if name.startswith("CTUD"):
@@ -142,9 +143,9 @@ def _up(kind: Elementary, model: Overflow) -> Callable[[Any], None]:
     def count(s: Any) -> None:
         if s.CV < s.PV:
             s.CV += 1
-        elif model == "fail" and s.CV < kind.high:
+        elif model == "fail" and kind.high > s.CV:
             raise FaultError("a counter at PV counts on by the standard and stops on matiec: reset it first")
-        elif model == "standard" and s.CV < kind.high:
+        elif model == "standard" and kind.high > s.CV:
             s.CV += 1
 
     return count
@@ -156,9 +157,9 @@ def _down(kind: Elementary, model: Overflow) -> Callable[[Any], None]:
     def count(s: Any) -> None:
         if s.CV > 0:
             s.CV -= 1
-        elif model == "fail" and s.CV > kind.low:
+        elif model == "fail" and kind.low < s.CV:
             raise FaultError("a counter at zero counts on by the standard and stops on matiec: load it first")
-        elif model == "standard" and s.CV > kind.low:
+        elif model == "standard" and kind.low < s.CV:
             s.CV -= 1
 
     return count
@@ -215,12 +216,12 @@ def _plain_elapsed(start: int, now: int) -> int:
     return now - start
 
 
-def _pair_reached(start: times.Span, duration: times.Span, now: times.Span) -> bool:
-    return times.c_order(times.c_add(start, duration), now) <= 0
+def _pair_reached(start: int, duration: times.Span, now: int) -> bool:
+    return times.c_order(times.c_add(times.pair(start), duration), times.pair(now)) <= 0
 
 
-def _pair_elapsed(start: times.Span, now: times.Span) -> times.Span:
-    return times.c_subtract(now, start)
+def _pair_elapsed(start: int, now: int) -> times.Span:
+    return times.c_subtract(times.pair(now), times.pair(start))
 
 
 def _timers(model: Overflow, run: Run) -> dict[str, Body]:
@@ -295,11 +296,13 @@ def _rtc(model: Overflow, run: Run) -> Body:
     """The clock of the engine, or from the rising edge of IN on, what PDT said plus the time since."""
     add: Any = times.c_add if model == "c" else int.__add__
     subtract: Any = times.c_subtract if model == "c" else int.__sub__
+    clock: Any = times.pair if model == "c" else int
 
     def body(s: Any) -> None:
+        now = clock(run.now)
         if s.IN and not s.previous:
-            s.offset = subtract(s.PDT, run.now)
-        s.CDT = add(run.now, s.offset) if s.IN else run.now
+            s.offset = subtract(s.PDT, now)
+        s.CDT = add(now, s.offset) if s.IN else now
         s.Q = s.previous = s.IN
 
     return body

@@ -6,6 +6,7 @@ import ast
 from collections.abc import Callable
 
 from driveblocks.host.embedded.calls import returned
+from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.invocation import Invocation
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.scope import Scope, UnsupportedError
@@ -156,7 +157,7 @@ class Statements(Invocation):
     def _label(self, label: tree.Expression | tree.LabelRange, selector: tree.Expression) -> tuple[int, int]:
         """The values that a label stands for."""
         evaluate = self.scope.shapes.evaluate
-        assert evaluate is not None
+        evaluate = present(evaluate)
         if isinstance(label, tree.LabelRange):
             return evaluate(label.low, selector.type), evaluate(label.high, selector.type)
         value = evaluate(label, selector.type)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.st.tree import Unit
 
 
@@ -37,8 +38,9 @@ class Pen:
         return ast.Name(name, ast.Load(), **self.here)
 
     def constant(self, value: Any) -> ast.expr:
-        """Write a Python constant: a number, bytes, text, None or a tuple of these. Negative numbers are written as such, which `compile` accepts in a tree."""
-        return ast.Constant(tuple(value) if isinstance(value, tuple) else value, **self.here)
+        """Write a number, bytes, text, None or a tuple of these; `compile` accepts negative numbers in a tree."""
+        constant: Any = tuple(value) if isinstance(value, tuple) else value
+        return ast.Constant(constant, **self.here)
 
     def attribute(self, base: ast.expr, name: str) -> ast.Attribute:
         """Read `base.name`."""
@@ -97,7 +99,7 @@ class Pen:
     def increment(self, target: ast.expr) -> ast.AugAssign:
         """Write `target += 1` for a subscript."""
         target = writable(target)
-        assert isinstance(target, ast.Subscript)
+        target = known(target, ast.Subscript)
         return ast.AugAssign(target, ast.Add(), self.constant(1), **self.here)
 
     def statement(self, value: ast.expr) -> ast.Expr:
@@ -144,7 +146,7 @@ def writable(target: ast.expr) -> ast.expr:
         return ast.Name(target.id, ast.Store(), **place_of(target))
     if isinstance(target, ast.Attribute):
         return ast.Attribute(target.value, target.attr, ast.Store(), **place_of(target))
-    assert isinstance(target, ast.Subscript)
+    target = known(target, ast.Subscript)
     return ast.Subscript(target.value, target.slice, ast.Store(), **place_of(target))
 
 

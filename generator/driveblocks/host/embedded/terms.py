@@ -11,6 +11,7 @@ import ast
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.st.types import Elementary, Kind, Type, plain
 
 
@@ -113,9 +114,7 @@ TEMPORAL = (Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME)
 
 def elementary(each: Type) -> Elementary:
     """The elementary type behind a type that is known to be one (a subrange counts as its base)."""
-    each = plain(each)
-    assert isinstance(each, Elementary)
-    return each
+    return known(plain(each), Elementary)
 
 
 def is_integral(each: Type) -> bool:

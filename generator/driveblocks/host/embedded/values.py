@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from driveblocks.host.embedded import times
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.terms import TEMPORAL
@@ -109,7 +110,7 @@ class Values:
         return self._whole(kind, value)
 
     def _whole(self, kind: Type, value: Value) -> Any:
-        assert isinstance(kind, Elementary)
+        kind = known(kind, Elementary)
         if not isinstance(value, int):
             raise ValueError(f"{kind} takes an int, not {value!r}")
         low, high = (kind.first, kind.last) if isinstance(kind, Subrange) else (kind.low, kind.high)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.integers import c_name
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import CInteger, Whole, promoted
@@ -33,7 +34,7 @@ class Widths:
     def stored(self, raw: Whole, target: Type) -> Whole:
         """The value for a store into `target`, a parameter included: C cuts there, and so does the standard."""
         into = plain(target)
-        assert isinstance(into, Elementary)
+        into = known(into, Elementary)
         if into.width > raw.type.width:
             raw = self.exact(raw)
         if self.model == "fail" and raw.c.signed and not raw.within(raw.c.low, raw.c.high):
