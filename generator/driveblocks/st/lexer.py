@@ -38,6 +38,8 @@ _LITERAL_KINDS = {2: "number", 4: "typed", 5: "string", 6: "wstring", 7: "direct
 MOST_PROBLEMS = 50
 # An end of file that is never reached by accident: every list of tokens ends with it.
 END = "end of file"
+# So many of them, so that a parser may look ahead without asking whether there is anything.
+LOOKAHEAD = 4
 
 
 class _Kinds(dict[str, str]):
@@ -53,7 +55,7 @@ class _Kinds(dict[str, str]):
 
 @dataclass(slots=True)
 class Tokens:
-    """Parallel lists of kind, text and offset; the last is `END`.
+    """Parallel lists of kind, text and offset; the last `LOOKAHEAD` are `END`.
 
     `before` gives the comments in front of a token by its index. `problems` are (offset, text) of what is no token.
     `unpaired`: the marks of nested comments do not pair, so that comments are taken as not nesting.
@@ -75,9 +77,9 @@ def tokenize(text: str) -> Tokens:
     here: int | None = _skip_space(text, 0)
     while here is not None:
         here = _run(text, here, tokens)
-    tokens.kinds.append(END)
-    tokens.texts.append("")
-    tokens.ats.append(len(text))
+    tokens.kinds.extend([END] * LOOKAHEAD)
+    tokens.texts.extend([""] * LOOKAHEAD)
+    tokens.ats.extend([len(text)] * LOOKAHEAD)
     return tokens
 
 

@@ -45,7 +45,7 @@ def number(at: int, text: str) -> Literal:
         base, value = _based(text)
         return Literal(at, text, LiteralKind.INTEGER, value, None, base)
     if text.isdigit() or _INTEGER.fullmatch(text):
-        return Literal(at, text, LiteralKind.INTEGER, int(text))
+        return Literal(at, text, LiteralKind.INTEGER, _whole(text))
     if text[:2] in ("0x", "0X"):
         raise LiteralError(f"expected a literal as 16#{text[2:]}, found {text}")
     if not _REAL.fullmatch(text):
@@ -70,7 +70,8 @@ def typed(at: int, text: str) -> Literal | Qualified:
     if upper in TIME_PREFIXES:
         return Literal(at, text, LiteralKind.TIME, _duration(rest), TIME_PREFIXES[upper])
     if upper in _KINDS:
-        return Literal(at, text, _KINDS[upper], _CALENDAR[_KINDS[upper]](rest), ELEMENTARY[upper].name)
+        kind = _KINDS[upper]
+        return Literal(at, text, kind, _CALENDAR[kind](rest), kind.name)
     if upper in ("STRING", "WSTRING"):
         made = string(at, rest) if rest.startswith("'") else wide_string(at, rest)
         return Literal(at, text, made.kind, made.value, upper)
@@ -94,7 +95,7 @@ def _elementary(at: int, text: str, wanted: Elementary, rest: str) -> Literal:
         return Literal(at, text, LiteralKind.INTEGER, value, wanted.name, base)
     if not _INTEGER.fullmatch(rest):
         raise LiteralError(f"expected an integer behind {wanted.name}#, found {rest}")
-    return Literal(at, text, LiteralKind.INTEGER, int(rest), wanted.name)
+    return Literal(at, text, LiteralKind.INTEGER, _whole(rest), wanted.name)
 
 
 def _boolean(rest: str) -> bool:
@@ -123,7 +124,16 @@ def _based(text: str) -> tuple[int, int]:
         raise LiteralError(f"expected a decimal number without base, found {text}")
     if not _DIGITS[base].fullmatch(digits):
         raise LiteralError(f"expected digits of base {base}, found {digits}")
-    return base, int(digits.replace("_", ""), base)
+    return base, _whole(digits, base)
+
+
+def _whole(digits: str, base: int = 10) -> int:
+    """An integer; no type holds more than 64 bits."""
+    plain = digits.replace("_", "").lstrip("0") or "0"
+    value = int(plain, base) if len(plain) <= 70 else 1 << 70
+    if abs(value) >> 64:
+        raise LiteralError(f"expected a number of at most 64 bits, found {digits[:40]}")
+    return value
 
 
 def _duration(rest: str) -> int:

@@ -69,7 +69,7 @@ class _Parser(ConfigurationParser):
 
     def recover_element(self) -> None:
         """Skip to the next word that may start an element."""
-        self.i += 1
+        self.i += self.kinds[self.i] != END
         while self.kinds[self.i] not in _TOPS:
             self.i += 1
 
@@ -138,11 +138,17 @@ class _Parser(ConfigurationParser):
         made.end = self.end_of_last()
         return made
 
+    def starts_statement(self) -> bool:
+        """Whether a name is the beginning of a statement rather than a type that lacks its colon."""
+        return self.kinds[self.i + 1] in (":=", "(", ".", "[")
+
     def head(self, made: Pou) -> None:
         """What stands between the name and the first VAR block."""
         if isinstance(made, Function) and self.accept(":"):
             made.returns = self.spec()
             self.accept(";")
+        elif isinstance(made, Function) and self.kinds[self.i] == "name" and not self.starts_statement():
+            self.fail("`:` and the type of the result")
         start = self.i
         while self.texts[self.i].upper() in ("EXTENDS", "IMPLEMENTS"):
             self.i += 1
