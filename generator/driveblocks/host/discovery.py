@@ -89,6 +89,6 @@ def _examine(found: Installation | Useless, compiler: CCompiler | None, cache: C
 def _embedded() -> Candidate:
     try:
         from driveblocks.host.embedded import EmbeddedEngine
-    except ImportError as error:
+    except (ImportError, SyntaxError) as error:
         return Candidate(EMBEDDED, None, f"cannot be imported: {error}")
     return Candidate(EMBEDDED, EmbeddedEngine(), "part of DriveBlocks")

@@ -19,7 +19,7 @@ LAST = Source("last.st", "FUNCTION Two : INT\n  VAR_INPUT\n    A : INT;\n  END_V
 
 def block(body: str, path: str = "bad.st") -> Source:
     """Make a block with one statement, on line 5."""
-    text = f"FUNCTION_BLOCK Bad\n  VAR\n    X : INT; F : Frame; R : REAL;\n  END_VAR\n{body}\nEND_FUNCTION_BLOCK\n"
+    text = f"FUNCTION_BLOCK Bad\n  VAR\n    X : INT; F : Frame; R, Q : REAL;\n  END_VAR\n{body}\nEND_FUNCTION_BLOCK\n"
     return Source(path, text)
 
 
@@ -62,7 +62,7 @@ def test_crash_without_a_word(matiec: MatiecEngine) -> None:
 def test_warning_of_the_c_compiler_is_kept_with_the_build(fresh: MatiecEngine) -> None:
     """The second time it comes from the cache, and then names the file that is built then."""
     wary = replace(fresh, flags=Flags(extra=("-Wfloat-equal",)))
-    body = "  IF R = 1.5 THEN\n    X := 1;\n  END_IF;"
+    body = "  IF R = Q THEN\n    X := 1;\n  END_IF;"
     for path in ("one.st", "two.st"):
         warnings = wary.build([GOOD, block(body, path)]).warnings
         assert [(each.path, each.line) for each in warnings] == [(path, 5)]

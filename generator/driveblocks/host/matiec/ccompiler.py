@@ -21,7 +21,10 @@ VERSION_SECONDS = 20.0
 
 # iec2c writes C that leans on what compilers do, not on the C standard: signed sums wrap, a type is read as another.
 # FMA is off and the language version fixed, so that every machine computes the same.
-_FIXED_FLAGS = ("-std=gnu11", "-fPIC", "-shared", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fcommon")
+_FIXED_FLAGS = (
+    "-std=gnu11", "-fPIC", "-shared", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fcommon",
+    "-Wno-parentheses-equality",  # clang, on every `IF` there is
+)  # fmt: skip
 
 _MESSAGE = re.compile(r"^(?P<path>[^\s:][^:\n]*):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<kind>[a-z ]+): (?P<text>.*)$")
 _LINKER = re.compile(r"undefined reference to|multiple definition of|Undefined symbols|duplicate symbol")
@@ -29,7 +32,11 @@ _LINKER = re.compile(r"undefined reference to|multiple definition of|Undefined s
 
 @dataclass(frozen=True)
 class Flags:
-    """How to compile: the -O level, more options (`-fsanitize=address` ...), whether to count how often lines run."""
+    """How to compile: the -O level, more options, whether to count how often lines run.
+
+    For `-fsanitize=address` Python must run with the sanitizer's library in LD_PRELOAD and with PYTHONMALLOC=malloc,
+    so that the memory of every instance is the sanitizer's.
+    """
 
     optimise: str = "1"
     extra: tuple[str, ...] = ()

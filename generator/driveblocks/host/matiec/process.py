@@ -72,13 +72,19 @@ def _start(command: Sequence[str], directory: Path) -> subprocess.Popen[bytes]:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
-            env={**os.environ, "LC_ALL": "C"},  # messages are parsed, so they must not be translated
+            env=_environment(),
             start_new_session=True,
         )
     except OSError as error:
         raise EngineError(f"cannot run {command[0]}: {error.strerror or error}") from error
     _limit_memory(child.pid)
     return child
+
+
+def _environment() -> dict[str, str]:
+    """Messages are parsed, so they must not be translated; what is preloaded into Python is meant for Python."""
+    kept = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    return kept | {"LC_ALL": "C"}
 
 
 def _limit_memory(pid: int) -> None:
