@@ -24,6 +24,7 @@ def run(
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
+    from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
     from driveblocks.render import build
 
@@ -34,7 +35,7 @@ def run(
         stale = build.stale(output, wanted)
         if stale and not check:
             build.write(output, wanted)
-    except MapError as error:
+    except (MapError, UnknownDrive) as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(2) from None
     except OSError as error:

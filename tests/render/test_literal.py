@@ -1,0 +1,57 @@
+"""Literals, comments and columns of generated text."""
+
+import pytest
+
+from driveblocks.render import literal, names
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("plain", "'plain'"),
+        ("it's $5", "'it$'s $$5'"),
+        ("过流", "'$E8$BF$87$E6$B5$81'"),
+        ("1: 过流", "'$31$3A$20$E8$BF$87$E6$B5$81'"),
+    ],
+)
+def test_strings_escape_what_compilers_trip_over(text: str, wanted: str) -> None:
+    assert literal.string(text) == wanted
+
+
+def test_a_comment_cannot_end_itself() -> None:
+    assert "*)" not in literal.comment("a *) b (* c")
+    assert "(*" not in literal.comment("a *) b (* c")
+
+
+def test_comments_of_a_run_of_declarations_share_a_column() -> None:
+    text = "VAR\n  A : BOOL; (* one *)\n  Longer : UINT := 5; (* two *)\nEND_VAR\n  B : INT; (* three *)"
+    lines = literal.aligned(text).split("\n")
+    assert lines[1].index("(*") == lines[2].index("(*")
+    assert lines[4] == "  B : INT; (* three *)"
+
+
+@pytest.mark.parametrize(
+    ("name", "wanted"),
+    [("Output frequency", "OutputFrequency"), ("DC bus voltage", "DCBusVoltage"), ("Run/stop (local)", "RunStopLocal")],
+)
+def test_names_become_identifiers(name: str, wanted: str) -> None:
+    assert names.identifier(name) == wanted
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("2 wires", "start with a letter"),
+        ("Ramp", "standard function"),
+        ("A very long name that nobody can take in", "31"),
+        ("...", "letter"),
+    ],
+)
+def test_names_that_cannot_are_refused(name: str, said: str) -> None:
+    with pytest.raises(ValueError, match=said):
+        names.identifier(name)
+
+
+def test_a_block_name_has_a_limit() -> None:
+    with pytest.raises(ValueError, match="31 are allowed"):
+        names.block("SN300G5", "FrequencyReferenceAtFaultHz")
