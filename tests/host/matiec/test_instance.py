@@ -387,3 +387,13 @@ END_FUNCTION_BLOCK
     )
     mixed = library.instance("Mixed")
     assert list(mixed.state().items()) == [("INSIDE", b"in"), ("FIRST", 1), ("LATER", 3_000_000), ("LAST", 4)]
+
+
+def test_names_that_c_has_for_signals(build: Builder) -> None:
+    """Names of ST become capitals in C, and so are the macros of its headers."""
+    names = ["SIGFPE", "SA_RESTART", "SIG_DFL", "NSIG", "POLL_IN", "FPE_INTDIV", "SS_DISABLE"]
+    declared = "".join(f"    {name} : INT := {value};\n" for value, name in enumerate(names))
+    text = f"FUNCTION_BLOCK Signals\n  VAR\n{declared}  END_VAR\n  NSIG := NSIG + 1;\nEND_FUNCTION_BLOCK\n"
+    signals = build(text).instance("Signals")
+    signals.scan(0)
+    assert signals.state() == {name: value + (name == "NSIG") for value, name in enumerate(names)}

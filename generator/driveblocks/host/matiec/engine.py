@@ -66,7 +66,7 @@ class MatiecEngine:
         except OSError as error:
             raise EngineError(f"{self.installation.iec2c} is no longer there: {error.strerror}") from error
         compiler = [*self.compiler.command, self.compiler.version, *self.flags.arguments]
-        parts = json.dumps([FORMAT, runtime.RUNTIME, tools, compiler, self.flags.coverage, text])
+        parts = json.dumps([FORMAT, runtime.UNIT_TEXT, runtime.GUARD_TEXT, tools, compiler, self.flags.coverage, text])
         return hashlib.sha256(parts.encode("utf-8", "surrogatepass")).hexdigest()
 
     def _make(self, listing: Listing, folder: Path) -> None:
@@ -90,9 +90,10 @@ class MatiecEngine:
         if self.flags.coverage:
             text = f"#define DBK_COVERAGE {listing.text.count(chr(10)) + 1}\n{text}"
         (folder / runtime.UNIT).write_text(text, encoding="utf-8")
+        (folder / runtime.GUARD).write_text(runtime.GUARD_TEXT, encoding="utf-8")
         (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
         lines = self._move_pous(folder, c_sources.declared)
-        files = [runtime.UNIT, *(configuration.files if configuration else ())]
+        files = [runtime.UNIT, runtime.GUARD, *(configuration.files if configuration else ())]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
     def _move_pous(self, folder: Path, declared: Declarations) -> LineTable:

@@ -200,9 +200,8 @@ class MatiecLibrary:
             raise KeyError(f"{function} has no parameter {', '.join(unknown)}")
         memories = self._arguments(name, signature, given)
         result: Memory = ctypes.create_string_buffer(signature.result.size)
-        pointers = (ctypes.c_void_p * max(len(memories), 1))(*map(ctypes.addressof, memories))
-        call = self._binary.function(f"dbk_call_{name}", ctypes.c_void_p, ctypes.c_void_p)
-        trap = call(ctypes.addressof(pointers), ctypes.addressof(result))
+        cells = (ctypes.c_void_p * (len(memories) + 1))(*map(ctypes.addressof, (result, *memories)))
+        trap = self._binary.function(f"dbk_call_{name}", ctypes.c_void_p)(ctypes.addressof(cells))
         if trap:
             path, line = self._built.place(name)
             raise ScanError(Message(path, line, 0, f"{function}: the call was stopped by {_cause(trap)}"))
@@ -264,7 +263,8 @@ class MatiecConfiguration:
         self._binary = _private(built.binary.path)
         self._name = configuration.name
         self._place = built.place(configuration.name)
-        self._run = self._binary.function("dbk_config_run", ctypes.c_int64)
+        self._run = self._binary.function("dbk_config_run", ctypes.c_int64, ctypes.c_int64)
+        self._now = 0
         self._tick = self._binary.function("dbk_config_tick")()
         self._roots = dict(self._find(built.plan, configuration))
         self._binary.function("dbk_config_init")()
@@ -304,7 +304,8 @@ class MatiecConfiguration:
 
     def run(self, ticks: int = 1) -> None:
         """Run so many ticks."""
-        trap = self._run(ticks)
+        trap = self._run(self._now, ticks)
+        self._now += ticks * self._tick
         if trap:
             raise ScanError(Message(*self._place, 0, f"{self._name}: the run was stopped by {_cause(trap)}"))
 

@@ -6,10 +6,13 @@ from importlib.resources import files
 from driveblocks.host.matiec.header import ConfigurationC, Function, Storage
 
 UNIT = "driveblocks_unit.c"
+GUARD = "driveblocks_guard.c"
 # Each Resource.c includes POUS.c; the text moves, so that it is compiled once however many resources there are.
 POUS_MOVED = "driveblocks_pous.c"
 
-RUNTIME = (files("driveblocks.host.matiec") / "runtime.c").read_text(encoding="utf-8")
+_OURS = files("driveblocks.host.matiec")
+UNIT_TEXT = (_OURS / "unit.h").read_text(encoding="utf-8")
+GUARD_TEXT = (_OURS / "guard.c").read_text(encoding="utf-8")
 
 # How the C declares a variable; `{0}` is the type, `{1}` the name.
 _DECLARED = {
@@ -28,7 +31,7 @@ def unit(
     locations: Mapping[str, str],
 ) -> str:
     """Write the C file. `expressions` go into the table `dbk_sizes`, in order."""
-    lines = ["#include <stddef.h>", '#include "iec_std_lib.h"', '#include "accessor.h"', '#include "POUS.h"', RUNTIME]
+    lines = ["#include <stddef.h>", '#include "iec_std_lib.h"', '#include "accessor.h"', '#include "POUS.h"', UNIT_TEXT]
     lines += [f"static {kind} {name}_place; {kind} *{name} = &{name}_place;" for name, kind in locations.items()]
     if configuration is not None:
         lines += [f"extern {each.type} *__GET_GLOBAL_{each.name}(void);" for each in configuration.globals]
@@ -41,12 +44,11 @@ def unit(
 
 
 def _call(function: Function) -> str:
-    """A way in to a function: pointers to the arguments in the order of the C call, and to the result."""
+    """A way in to a function: its arguments in the order of the C call, behind EN and ENO."""
     arguments = ["1", "NULL"]
-    for place, (type_name, _, by_pointer) in enumerate(function.parameters):
-        arguments.append(f"{'' if by_pointer else '*'}({type_name} *)arguments[{place}]")
-    call = f"*({function.result} *)result = {function.name}({', '.join(arguments)});"
-    return f"int dbk_call_{function.name}(void **arguments, void *result) {{ DBK_GUARDED({call}) }}"
+    for place, (type_name, _, by_pointer) in enumerate(function.parameters, start=1):
+        arguments.append(f"{'' if by_pointer else '*'}({type_name} *)cells[{place}]")
+    return f"DBK_FUNCTION({function.name}, {function.result}, {', '.join(arguments)})"
 
 
 def _places(configuration: ConfigurationC) -> Iterator[str]:

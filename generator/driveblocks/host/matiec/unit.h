@@ -1,0 +1,57 @@
+/* What the C of iec2c needs around it: a clock, and a way in to each block, function and configuration.
+ * The unit that includes this has included iec_std_lib.h before; POUS.c follows after. */
+
+TIME __CURRENT_TIME;
+BOOL __DEBUG;
+
+#ifdef DBK_COVERAGE
+uint32_t dbk_hits[DBK_COVERAGE];
+#endif
+
+extern int64_t dbk_guard(void (*body)(void *), void *data, int64_t now, int64_t step, int64_t count);
+
+void dbk_set_clock(int64_t nanoseconds)
+{
+    __CURRENT_TIME.tv_sec = nanoseconds / 1000000000;
+    __CURRENT_TIME.tv_nsec = nanoseconds % 1000000000;
+}
+
+/* A function block or program: `data` is zeroed memory of sizeof(NAME). */
+#define DBK_BLOCK(NAME)                                                                                      \
+    static void dbk_body_##NAME(void *data) { NAME##_body__((NAME *)data); }                                 \
+    void dbk_init_##NAME(void *data) { NAME##_init__((NAME *)data, 0); }                                     \
+    int64_t dbk_scan_##NAME(void *data, int64_t now) { return dbk_guard(dbk_body_##NAME, data, now, 0, 1); } \
+    int64_t dbk_many_##NAME(void *data, int64_t now, int64_t step, int64_t count)                            \
+    {                                                                                                        \
+        return dbk_guard(dbk_body_##NAME, data, now, step, count);                                           \
+    }
+
+/* A function: `cells` are pointers to the result and to the arguments. */
+#define DBK_FUNCTION(NAME, RESULT, ...)                                                                   \
+    static void dbk_body_##NAME(void *data)                                                               \
+    {                                                                                                     \
+        void **cells = data;                                                                              \
+        *(RESULT *)cells[0] = NAME(__VA_ARGS__);                                                          \
+    }                                                                                                     \
+    int64_t dbk_call_##NAME(void **cells) { return dbk_guard(dbk_body_##NAME, cells, 0, 0, 1); }
+
+/* A whole CONFIGURATION, whose variables are static. */
+#define DBK_CONFIGURATION                                                                         \
+    extern void config_init__(void);                                                              \
+    extern void config_run__(unsigned long tick);                                                 \
+    extern unsigned long long common_ticktime__;                                                  \
+    extern unsigned long greatest_tick_count__;                                                   \
+    static unsigned long dbk_tick;                                                                \
+    static void dbk_body_config(void *data)                                                       \
+    {                                                                                             \
+        (void)data;                                                                               \
+        config_run__(dbk_tick++);                                                                 \
+        if (greatest_tick_count__)                                                                \
+            dbk_tick %= greatest_tick_count__;                                                    \
+    }                                                                                             \
+    int64_t dbk_config_tick(void) { return (int64_t)common_ticktime__; }                          \
+    void dbk_config_init(void) { config_init__(); }                                               \
+    int64_t dbk_config_run(int64_t now, int64_t count)                                            \
+    {                                                                                             \
+        return dbk_guard(dbk_body_config, NULL, now, (int64_t)common_ticktime__, count);          \
+    }
