@@ -1,0 +1,85 @@
+"""The speed reference: a frequency as the word for the drive's reference register, in exact arithmetic.
+
+The pins are REAL: what they cannot hold exactly is rounded to single precision before anything is computed.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import floor, isnan
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference.single import stored
+
+BEYOND = Fraction(stored(1.0e30))
+"""A pin above this size is taken for no number, as infinity is."""
+
+SLACK = Fraction(1, 2**21)
+"""What a few roundings to single precision may change, as a part of the count."""
+
+
+@dataclass(frozen=True)
+class Encoded:
+    """OK and the word, or why there is none."""
+
+    result: str
+    value: int = 0
+    limited: bool = False
+    near: frozenset[int] = frozenset({0})
+    """The words that arithmetic in single precision may give: more than one only beside a half."""
+
+
+class SpeedReference:
+    """The reference block of one drive."""
+
+    def __init__(self, drive: Drive) -> None:
+        """Take from the map what the reference register counts. Raises ValueError if the map does not list it."""
+        self.spec = drive.operation.reference
+        row = drive.register_at(self.spec.register)
+        if row is None:
+            raise ValueError("the map does not list the reference register")
+        self.percent = self.spec.means == "percent_of_maximum"
+        self.factor = Fraction(row.scale.factor) if row.scale else None
+        self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
+
+    @property
+    def address(self) -> int:
+        """The reference register."""
+        return self.spec.register
+
+    def encode(self, hertz: float, maximum: float = 0.0, scale: float = 0.0) -> Encoded:
+        """The word for a frequency in Hz; `maximum` in Hz, 0 for none; `scale` in counts per Hz if the map has none."""
+        asked, most, counts = _exact(hertz), _exact(maximum), _exact(scale)
+        if asked is None:
+            return Encoded("NOT_A_NUMBER")
+        if asked < 0:
+            return Encoded("NEGATIVE")
+        if most is None or most < 0 or (self.percent and most == 0):
+            return Encoded("NO_SCALE")
+        if self.factor is None and (counts is None or counts <= 0):
+            return Encoded("NO_SCALE")
+        limited = most > 0 and asked > most
+        return self._counted(self._counts(most if limited else asked, most, counts), limited)
+
+    def _counts(self, hertz: Fraction, most: Fraction, counts: Fraction | None) -> Fraction:
+        if self.factor is None:
+            assert counts is not None  # noqa: S101  (refused before)
+            return hertz * counts
+        return (hertz / most * 100 if self.percent else hertz) / self.factor
+
+    def _counted(self, counts: Fraction, limited: bool) -> Encoded:
+        near = {_half_up(min(counts * (1 + part), Fraction(self.highest))) for part in (-SLACK, SLACK)}
+        limited = limited or counts > self.highest
+        value = _half_up(min(counts, Fraction(self.highest)))
+        return Encoded("OK", value, limited, frozenset(near | {value}))
+
+
+def _exact(number: float) -> Fraction | None:
+    """What a REAL pin holds; None where that is no number."""
+    held = stored(number)
+    if isnan(held) or abs(held) > BEYOND:
+        return None
+    return Fraction(held)
+
+
+def _half_up(counts: Fraction) -> int:
+    return floor(counts + Fraction(1, 2))

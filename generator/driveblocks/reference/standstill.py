@@ -1,0 +1,19 @@
+"""What proves that the motor stands: all conditions of the map at once."""
+
+from collections.abc import Mapping
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Condition, Drive
+from driveblocks.reference.register import number
+
+WORD = Span(0, 15)
+
+
+def holds(condition: Condition, word: int) -> bool:
+    """Whether a word fulfils a condition."""
+    return number(word, condition.bit or WORD) == condition.equals
+
+
+def proven(drive: Drive, words: Mapping[int, int]) -> bool:
+    """Whether the words, by address, prove standstill. Raises KeyError when one of them is missing."""
+    return all(holds(condition, words[condition.register]) for condition in drive.operation.standstill.all)

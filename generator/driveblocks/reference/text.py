@@ -1,0 +1,67 @@
+"""Texts of faults, errors, bits and values in English and Chinese; None where the map has no such code."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from driveblocks.maps.model import Drive, ErrorCode
+
+LONGEST = 80
+"""Bytes that a STRING of unstated size holds everywhere; a longer text ends before the character that does not fit."""
+
+
+class Texts(NamedTuple):
+    """A text in both languages."""
+
+    en: str
+    zh: str
+
+
+UNKNOWN = Texts("unknown code", "未知代码")
+
+
+def shortened(text: str, encoding: str = "utf-8") -> bytes:
+    """The bytes of a text as a block returns them."""
+    data = b""
+    for character in text:
+        more = character.encode(encoding, "replace")
+        if len(data) + len(more) > LONGEST:
+            break
+        data += more
+    return data
+
+
+def fault(drive: Drive, code: int) -> Texts | None:
+    """The text of a fault code."""
+    return _first(Texts(one.name, one.text_zh) for one in drive.faults.codes if one.code == code)
+
+
+def error(drive: Drive, code: int) -> Texts | None:
+    """The text of a reason for refusal."""
+    return _first(Texts(one.name, one.text_zh) for one in drive.errors.codes if error_number(one) == code)
+
+
+def error_number(entry: ErrorCode) -> int | None:
+    """The printed code, or where none is printed the first number that another document gives."""
+    if entry.code is not None:
+        return entry.code
+    return next((one.value for one in entry.corroborated if one.value is not None), None)
+
+
+def bit(drive: Drive, address: int, number: int) -> Texts | None:
+    """The text of a bit; a field goes by its lowest bit."""
+    row = drive.register_at(address)
+    if row is None or row.address.first != address:
+        return None
+    return _first(Texts(one.name, one.text_zh or one.name) for one in row.bits if one.name and one.bit.first == number)
+
+
+def value(drive: Drive, address: int, number: int) -> Texts | None:
+    """The text of a value of a word."""
+    row = drive.register_at(address)
+    if row is None or row.address.first != address:
+        return None
+    return _first(Texts(one.name, one.text_zh) for one in row.values if one.value == number)
+
+
+def _first(found: Iterable[Texts]) -> Texts | None:
+    return next(iter(found), None)

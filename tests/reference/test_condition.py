@@ -1,0 +1,84 @@
+"""Standstill, fault numbers and texts, on values typed from the manuals."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference import text
+from driveblocks.reference.fault import Faulted, numbered
+from driveblocks.reference.standstill import proven
+from driveblocks.reference.text import Texts
+
+
+@pytest.mark.parametrize(
+    ("prefix", "words", "expected"),
+    [
+        ("SN300G5", {0x0010: 0x0022, 0x0021: 0}, True),
+        ("SN300G5", {0x0010: 0x0022, 0x0021: 1}, False),
+        ("SN300G5", {0x0010: 0x0023, 0x0021: 0}, False),
+        ("SN300G5", {0x0010: 0x0020, 0x0021: 0}, False),
+        ("JSCC", {0x2001: 4, 0x2000: 0}, True),
+        ("JSCC", {0x2001: 12, 0x2000: 0}, False),
+        ("JSCC", {0x2001: 4, 0x2000: 1}, False),
+        ("CHF", {0x1001: 3, 0x3000: 0}, True),
+        ("CHF", {0x1001: 4, 0x3000: 0}, False),
+    ],
+)
+def test_standstill(drives: dict[str, Drive], prefix: str, words: dict[int, int], expected: bool) -> None:
+    assert proven(drives[prefix], words) is expected
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ((0, 0, 0), Faulted(0, 0)),
+        ((0x0001, 0, 0), Faulted(0x01, 1)),
+        ((0x8002, 0, 0), Faulted(0x02, 2)),
+        ((0, 0x2000, 0), Faulted(0x1E, 1)),
+        ((0, 0x9000, 0), Faulted(0, 0)),
+        ((0, 0, 0x0031), Faulted(0x21, 3)),
+        ((0, 0, 0xFFCE), Faulted(0, 0)),
+        ((0xFFFF, 0xFFFF, 0xFFFF), Faulted(1, 33)),
+    ],
+)
+def test_fault_numbers_of_fault_words(drives: dict[str, Drive], words: tuple[int, int, int], expected: Faulted) -> None:
+    assert numbered(drives["SN300G5"], words) == expected
+
+
+def test_every_fault_bit_has_the_number_of_its_code(drives: dict[str, Drive]) -> None:
+    drive = drives["SN300G5"]
+    for fault in drive.faults.codes:
+        index, bit = divmod(fault.code - 1, 16)
+        words = [0, 0, 0]
+        words[index] = 1 << bit
+        assert numbered(drive, words) == Faulted(fault.code, 1)
+
+
+def test_a_drive_without_fault_bits_has_no_numbers(drives: dict[str, Drive]) -> None:
+    with pytest.raises(ValueError, match="no relation"):
+        numbered(drives["JSCC"], (0,))
+
+
+def test_texts(drives: dict[str, Drive]) -> None:
+    assert text.fault(drives["SN300G5"], 0x18) == Texts("Overspeed", "超速")
+    assert text.fault(drives["SN300G5"], 0x1D) is None
+    assert text.error(drives["CHF"], 8) == Texts("Drive busy storing to EEPROM", "变频器忙（EEPROM 正在存储中）")
+    assert text.error(drives["JSCC"], 2) == Texts("Illegal data address", "不合法数据地址")
+    assert text.error(drives["JSCC"], 9) is None
+    assert text.bit(drives["SN300G5"], 0x0015, 7) == Texts("Overspeed", "超速")
+    assert text.bit(drives["SN300G5"], 0x0015, 0xC) is None
+    assert text.bit(drives["SN300G5"], 0x0013, 0) is None
+    assert text.value(drives["CHF"], 0x1001, 3) == Texts("Standby", "变频器待机中")
+    assert text.value(drives["CHF"], 0x1001, 9) is None
+    assert text.value(drives["CHF"], 0x4000, 9) is None
+
+
+@given(st.text(max_size=100), st.sampled_from(["utf-8", "gb18030"]))
+def test_a_text_is_shortened_between_characters(long: str, encoding: str) -> None:
+    data = text.shortened(long, encoding)
+    assert len(data) <= text.LONGEST
+    whole = long.encode(encoding, "replace")
+    assert whole.startswith(data)
+    assert data == whole or len(data) > text.LONGEST - 4
+    data.decode(encoding)

@@ -1,0 +1,83 @@
+"""The speed reference on the scales of the shipped drives, typed by hand, and its refusals in order."""
+
+from math import inf, nan
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference.speed import Encoded, SpeedReference
+
+
+@pytest.mark.parametrize(
+    ("prefix", "pins", "expected"),
+    [
+        # SN300G5: 0.01 Hz per count
+        ("SN300G5", (50.0, 0.0), ("OK", 5000, False)),
+        ("SN300G5", (50.0, 60.0), ("OK", 5000, False)),
+        ("SN300G5", (60.0, 50.0), ("OK", 5000, True)),
+        ("SN300G5", (0.004, 0.0), ("OK", 0, False)),
+        ("SN300G5", (0.006, 0.0), ("OK", 1, False)),
+        ("SN300G5", (35.75, 0.0), ("OK", 3575, False)),
+        ("SN300G5", (700.0, 0.0), ("OK", 65535, True)),
+        ("SN300G5", (1.0e30, 0.0), ("OK", 65535, True)),
+        ("SN300G5", (nan, 0.0), ("NOT_A_NUMBER", 0, False)),
+        ("SN300G5", (inf, 0.0), ("NOT_A_NUMBER", 0, False)),
+        ("SN300G5", (-inf, 0.0), ("NOT_A_NUMBER", 0, False)),
+        ("SN300G5", (2.0e30, 0.0), ("NOT_A_NUMBER", 0, False)),
+        ("SN300G5", (-0.01, 0.0), ("NEGATIVE", 0, False)),
+        ("SN300G5", (-0.0, 0.0), ("OK", 0, False)),
+        ("SN300G5", (1.0, nan), ("NO_SCALE", 0, False)),
+        # JSCC: the manual gives no scale
+        ("JSCC", (50.0, 0.0), ("NO_SCALE", 0, False)),
+        ("JSCC", (50.0, 0.0, 10.0), ("OK", 500, False)),
+        ("JSCC", (50.0, 0.0, -10.0), ("NO_SCALE", 0, False)),
+        ("JSCC", (50.0, 0.0, nan), ("NO_SCALE", 0, False)),
+        ("JSCC", (50.0, 0.0, inf), ("NO_SCALE", 0, False)),
+        ("JSCC", (-1.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
+        ("JSCC", (50.0, 40.0, 10.0), ("OK", 400, True)),
+        # CHF: percent of the maximum frequency, 0.01 % per count, up to 10000
+        ("CHF", (25.0, 50.0), ("OK", 5000, False)),
+        ("CHF", (50.0, 50.0), ("OK", 10000, False)),
+        ("CHF", (51.0, 50.0), ("OK", 10000, True)),
+        ("CHF", (1.0, 3.0), ("OK", 3333, False)),
+        ("CHF", (2.0, 3.0), ("OK", 6667, False)),
+        ("CHF", (25.0, 0.0), ("NO_SCALE", 0, False)),
+        ("CHF", (25.0, -50.0), ("NO_SCALE", 0, False)),
+    ],
+)
+def test_words(drives: dict[str, Drive], prefix: str, pins: tuple[float, ...], expected: tuple[str, int, bool]) -> None:
+    found = SpeedReference(drives[prefix]).encode(*pins)
+    assert (found.result, found.value, found.limited) == expected
+    assert found.near == {expected[1]}
+
+
+def test_a_half_is_rounded_up(drives: dict[str, Drive]) -> None:
+    assert SpeedReference(drives["JSCC"]).encode(0.5, 0.0, 1.0).value == 1
+    assert SpeedReference(drives["JSCC"]).encode(2.5, 0.0, 1.0).value == 3
+
+
+def test_beside_a_half_single_precision_may_give_either(drives: dict[str, Drive]) -> None:
+    assert SpeedReference(drives["SN300G5"]).encode(327.685, 0.0).near == {32768, 32769}
+
+
+@pytest.mark.parametrize("prefix", ["SN300G5", "JSCC", "CHF", "EX100"])
+@given(hertz=st.floats(width=32), maximum=st.floats(width=32), scale=st.floats(width=32))
+def test_every_pin_gives_a_word_or_a_reason(
+    drives: dict[str, Drive], prefix: str, hertz: float, maximum: float, scale: float
+) -> None:
+    reference = SpeedReference(drives[prefix])
+    found = reference.encode(hertz, maximum, scale)
+    if found.result == "OK":
+        assert 0 <= found.value <= reference.highest
+    else:
+        assert found == Encoded(found.result)
+
+
+@pytest.mark.parametrize("prefix", ["SN300G5", "CHF"])
+@given(pair=st.tuples(st.floats(0, 1000, width=32), st.floats(0, 1000, width=32)))
+def test_more_hertz_is_never_a_smaller_word(drives: dict[str, Drive], prefix: str, pair: tuple[float, float]) -> None:
+    reference = SpeedReference(drives[prefix])
+    low, high = (reference.encode(hertz, 400.0).value for hertz in sorted(pair))
+    assert low <= high
