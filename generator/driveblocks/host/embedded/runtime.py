@@ -172,6 +172,8 @@ def _careful() -> dict[str, Any]:
         "shift_right": integers.careful_shift_right,
         "limit": _careful_limit,
         "string_order": strings.careful_order,
+        "string_to_whole": _whole_from_string(strings.careful_to_whole, True),
+        "string_to_real": strings.careful_to_real,
         "REPLACE": strings.careful_replace,
         "FIND": strings.careful_find,
         "time_add": times.careful_add,

@@ -320,3 +320,22 @@ def c_to_real(text: bytes) -> float:
         except ValueError:
             continue
     return 0.0
+
+
+# ------------------------------------------------------------ where the standard and C agree
+
+
+def careful_to_whole(text: bytes) -> int:
+    """STRING_TO_INT of a literal that matiec reads as the same number. FaultError."""
+    number = to_whole(text)
+    if c_to_whole(text) != number:
+        raise FaultError(f"{text!r} is {number} by the standard and {c_to_whole(text)} on matiec")
+    return number
+
+
+def careful_to_real(text: bytes) -> float:
+    """STRING_TO_REAL of a literal that matiec reads as the same number. FaultError."""
+    number = to_real(text)
+    if c_to_real(text) != number:
+        raise FaultError(f"{text!r} is {number} by the standard and {c_to_real(text)} on matiec")
+    return number
