@@ -5,6 +5,7 @@ Only for judging a map's vectors; blocks and their tests have their own.
 
 from dataclasses import dataclass, replace
 
+_MOST_SHOWN = 16
 _WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
 
 
@@ -49,7 +50,8 @@ def octets(data: bytes) -> str:
 def shown(key: str, value: object) -> str:
     """A field of a frame as messages print it: addresses and words as 0026H, codes as 03H, counts in decimal."""
     if isinstance(value, tuple):
-        return " ".join(f"{word:04X}H" for word in value) or "nothing"
+        words = " ".join(f"{word:04X}H" for word in value[:_MOST_SHOWN]) or "nothing"
+        return words if len(value) <= _MOST_SHOWN else f"{words} ... ({len(value)} words)"
     if not isinstance(value, int):
         return "nothing"
     return f"{value:{_WIDTHS[key]}}H" if key in _WIDTHS else str(value)

@@ -24,6 +24,10 @@ class Span:
         """How many numbers the range holds; none when it runs backwards."""
         return max(0, self.last - self.first + 1)
 
+    def __bool__(self) -> bool:
+        """Whether the range holds a number at all: one that runs backwards does not."""
+        return self.first <= self.last
+
     def __contains__(self, number: object) -> bool:
         """Whether a number lies in the range."""
         return isinstance(number, int) and self.first <= number <= self.last

@@ -11,7 +11,7 @@ from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.source import HIDDEN
 
 MAX_DEPTH = 16
-MAX_NODES = 60_000
+MAX_NODES = 30_000
 """A map of 400 registers has some 6000."""
 MAX_TEXT = 4000
 """Characters of one value."""

@@ -24,6 +24,8 @@ _KINDS = (
     (stat.S_ISCHR, "a device"),
     (stat.S_ISBLK, "a device"),
 )
+_MOST_HIDDEN = 20
+"""Such characters that are named one by one; a file with more is no text."""
 HIDDEN = re.compile(
     "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters but tab and line ends
     "\xa0\xad\u1680\u180e\u2000-\u200f\u2028-\u202f\u205f-\u206f\ufeff"  # unusual spaces, marks without a shape
@@ -75,7 +77,7 @@ def _text(path: Path, data: bytes) -> str:
     except UnicodeDecodeError as error:
         good = data[: error.start].decode("utf-8")
         raise _refused(path, f"is not UTF-8: byte {data[error.start]:02X}H", "save it as UTF-8", good) from None
-    hidden = [_hidden(path, match) for match in islice(HIDDEN.finditer(text), 100)]
+    hidden = [_hidden(path, match) for match in islice(HIDDEN.finditer(text), _MOST_HIDDEN)]
     if hidden:
         raise MapError(hidden)
     return text

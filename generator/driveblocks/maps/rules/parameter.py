@@ -62,8 +62,9 @@ def _id_range(row: Register, report: Report) -> None:
         report.add(row.place("id"), f"`{row.id}` joins two groups", "write one row per group")
     elif numbers.first > numbers.last:
         report.add(row.place("id"), f"`{row.id}` runs backwards", "write the smaller number first")
-    elif len(numbers) != len(row.address):
-        wrong = f"{_count(len(numbers), 'id')} for {_count(len(row.address), 'register')}"
+    elif numbers.last - numbers.first + 1 != len(row.address):
+        ids = _count(numbers.last - numbers.first + 1, "id")
+        wrong = f"{ids} for {_count(len(row.address), 'register')}"
         report.add(row.place("id"), wrong, "a range of ids needs a range of addresses of the same length")
 
 

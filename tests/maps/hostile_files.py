@@ -1,0 +1,174 @@
+"""Files that were made to hurt a loader: each a name and what is in it. All are refused, quickly and in few words."""
+
+from pathlib import Path
+
+from driveblocks.maps.source import MAX_BYTES
+
+EXAMPLE = (Path(__file__).parent / "example.yaml").read_text(encoding="utf-8")
+FULL = MAX_BYTES - 64
+"""Almost as large as a map may be, so that the parser gets to see it."""
+
+
+def _filled(text: str, size: int = FULL) -> str:
+    return text * (size // len(text))
+
+
+def _bomb(width: int) -> str:
+    """Every level holds the one before it `width` times: nine levels of nine are 387 million values."""
+    levels = ["a0: &a0 [" + ", ".join("x" * width) + "]"]
+    levels += [f"a{n}: &a{n} [" + ", ".join([f"*a{n - 1}"] * width) + "]" for n in range(1, 10)]
+    return "\n".join(levels)
+
+
+def _stairs(steps: int) -> str:
+    return "".join(" " * step + "a:\n" for step in range(steps))
+
+
+def _instead(old: str, new: str) -> str:
+    """The example with one part of it blown up."""
+    assert EXAMPLE.count(old) == 1, old
+    return EXAMPLE.replace(old, new)
+
+
+def _rows(row: str, count: int) -> str:
+    first = "      - {address: 0011H, name: Control source"
+    return _instead(first, "".join(row.format(n) + "\n" for n in range(count)) + first)
+
+
+TEXTS: dict[str, str] = {
+    "bomb_of_aliases": _bomb(9),
+    "bomb_of_one_long_alias": "a: &a " + "x" * 200_000 + "\nb: [" + ", ".join(["*a"] * 40_000) + "]",
+    "bomb_of_merge_keys": "a: &a {b: 1}\n" + "".join(f"c{n}: {{<<: *a}}\n" for n in range(20_000)),
+    "alias_of_itself": "a: &a [*a]",
+    "ten_megabytes_of_brackets": "[" * 10_000_000,
+    "brackets": "[" * FULL,
+    "brackets_closed": "[" * (FULL // 2) + "]" * (FULL // 2),
+    "brackets_in_rows": _filled("[[[[[[[[[[]]]]]]]]]],\n"),
+    "braces": "{" * FULL,
+    "braces_with_keys": _filled("{a: "),
+    "dashes": _filled("- "),
+    "question_marks": _filled("? "),
+    "commas": "[" + "," * FULL,
+    "list_of_many": "[" + _filled("a,"),
+    "stairs": _stairs(1000),
+    "stairs_of_lists": "".join(" " * step + "-\n" for step in range(1000)),
+    "keys": "".join(f"k{n:06}: 1\n" for n in range(200_000)),
+    "keys_within_the_limit": "".join(f"k{n:05}: 1\n" for n in range(48_000)),
+    "keys_almost_known": "".join(f"prefi{n:05}: T1\n" for n in range(30_000)),
+    "keys_twice": _filled("prefix: T1\n"),
+    "key_of_half_a_megabyte": "k" * FULL + ": 1",
+    "anchors": "".join(f"k{n}: &a{n} 1\n" for n in range(30_000)),
+    "tags": _filled("- !!python/name:os.system x\n"),
+    "tag_that_runs_a_command": "!!python/object/apply:os.system [touch hacked]",
+    "tag_that_makes_an_object": "a: !!python/object/new:subprocess.Popen [[touch, hacked]]",
+    "directives": _filled("%YAML 1.1\n"),
+    "directive_of_many_digits": "%YAML 1." + "1" * 100_000 + "\n---\na: 1\n",
+    "documents": _filled("---\n"),
+    "escape_beyond_unicode": 'a: "\\UFFFFFFFF"',
+    "escape_of_half_a_pair": 'a: "\\uD800"',
+    "escape_of_nothing": 'prefix: "\\0"',
+    "one_digit_repeated": "prefix: " + "1" * FULL,
+    "one_zero_and_digits": "prefix: 0" + "1" * 6000,
+    "digits_and_underscores": "prefix: " + _filled("1_"),
+    "digits_and_colons": "prefix: " + _filled("1:"),
+    "digits_and_points": "prefix: " + _filled("1."),
+    "digits_then_a_letter": "prefix: " + "1" * 3900 + "x",
+    "word": "prefix: " + "T" * FULL,
+    "words": "prefix: " + _filled("T1 "),
+    "quoted_text": 'prefix: "' + "T" * FULL + '"',
+    "quote_never_closed": 'prefix: "' + "T" * FULL,
+    "quotes": _filled("'"),
+    "text_in_a_block": "prefix: |\n" + _filled("  line\n"),
+    "text_of_blanks": 'prefix: "' + " " * FULL + '"',
+    "line": "# " + "x" * FULL,
+    "line_of_blanks": " " * FULL,
+    "lines": "\n" * FULL,
+    "carriage_returns": "\r" * FULL,
+    "comments": _filled("#\n"),
+    "tabs": "\t" * FULL,
+    "lines_of_tabs": _filled("\t\n"),
+    "empty": "",
+    "only_a_comment": "# a map\n",
+    "only_a_document": "---\n...\n",
+    "percent": "%" * FULL,
+    "stars": "*" * FULL,
+    "exclamation_marks": "!" * FULL,
+    "colons": ":" * FULL,
+    "colons_and_blanks": _filled(": "),
+    "nulls": "\0" * FULL,
+    "invisible": "\u200b" * (FULL // 3),
+    "rows_over_everything": _rows("      - {{address: 0000H-FFFFH, name: All, zh: 全部}}", 6000),
+    "rows_twice": _rows("      - {{address: 0010H, name: All, zh: 全部}}", 6000),
+    "rows_backwards": _rows("      - {{address: FFFFH-0000H, name: All, zh: 全部}}", 6000),
+    "ids_of_a_long_range": _rows(
+        "      - {{address: {:04X}H, id: A1-01..A1-99999999999999999999, name: All, zh: 全}}", 5000
+    ),
+    "ids_of_many_digits": _rows("      - {{address: {:04X}H, id: 111111111111111111111111, name: All, zh: 全}}", 5000),
+    "series_over_everything": _instead(
+        "      - {ids: U1-01..U1-04, base: 0020H, apart: [U1-03]}\n",
+        _filled("      - {ids: U1-01..U1-04, base: 0021H}\n", 300_000),
+    ),
+    "areas_over_everything": _instead(
+        "areas:\n",
+        "areas:\n"
+        + "".join(
+            f"  - {{id: a{n}, name: All, zh: 全, addresses: 0000H-FFFFH, numbered_by: parameter_number, access: r, "
+            "source: s, examples: []}\n"
+            for n in range(3000)
+        ),
+    ),
+    "values_twice": _instead(
+        "          {value: 0, name: Keypad, zh: 键盘},\n", _filled("          {value: 5, name: X, zh: X},\n", 400_000)
+    ),
+    "values_of_a_setting": _instead(
+        "      - {value: 0, name: 4800 bit/s, zh: 4800BPS}\n",
+        "".join(f"      - {{value: {n}, name: A{n}, zh: B}}\n" for n in range(9000)),
+    ),
+    "codes_of_the_line": _instead(
+        "      - {code: 0, baud: 4800}\n", "".join(f"      - {{code: {n}, baud: 4800}}\n" for n in range(9000))
+    ),
+    "fault_registers_without_end": _instead(
+        "  registers: [0030H]", "  registers: [" + "0000H-FFFFH, " * 9000 + "0030H]"
+    ),
+    "fault_words_without_end": _instead("{first: 0014H, last: 0015H", "{first: 0000H, last: FFFFH"),
+    "references": _instead("about: [register 0020H, register 0021H]", f"about: [{'register 0020H, ' * 20_000}prose]"),
+    "references_to_ranges": _instead(
+        "about: [register 0020H, register 0021H]",
+        "about: [" + "".join(f"register 0000H-{n:04X}H, " for n in range(9000)) + "nothing]",
+    ),
+    "words_of_a_frame": _instead("values: [1, 5000]", f"values: [{'1, ' * 40_000}1]"),
+    "bytes_of_a_frame": _instead("    printed: 01 08 00 00 12 AB AD 14\n", "    printed: " + "01 " * 1200 + "14\n"),
+    "read_of_every_word": _instead(
+        "    printed: 01 08 00 00 12 AB AD 14\n    checksum: right\n    correct: 01 08 00 00 12 AB AD 14",
+        "    printed: 01 03 00 00 FF FF 04 7A\n    checksum: right\n    correct: 01 03 00 00 FF FF 04 7A",
+    ),
+    "conditions": _instead(
+        "      - {register: 0020H, equals: 0}\n", _filled("      - {register: FFFFH, equals: 0}\n", 300_000)
+    ),
+}
+
+BINARIES: dict[str, bytes] = {
+    "program": b"\x7fELF\x02\x01\x01" + bytes(range(256)) * 400,
+    "every_byte": bytes(range(256)),
+    "picture": b"\x89PNG\r\n\x1a\n" + bytes(1000),
+    "archive": b"PK\x03\x04" + bytes(1000),
+    "utf_16": EXAMPLE.encode("utf-16"),
+    "utf_16_little_without_mark": EXAMPLE.encode("utf-16-le"),
+    "utf_16_big": b"\xfe\xff" + EXAMPLE.encode("utf-16-be"),
+    "utf_16_big_without_mark": EXAMPLE.encode("utf-16-be"),
+    "utf_32": EXAMPLE.encode("utf-32"),
+    "utf_32_big": b"\x00\x00\xfe\xff" + EXAMPLE.encode("utf-32-be"),
+    "gb18030": EXAMPLE.encode("gb18030"),
+    "latin_1": "prefix: naïve\n".encode("latin-1"),
+    "byte_order_mark_and_rubbish": b"\xef\xbb\xbfprefix: T1\n\xff",
+    "byte_order_mark_alone": b"\xef\xbb\xbf",
+    "two_byte_order_marks": b"\xef\xbb\xbf\xef\xbb\xbf" + EXAMPLE.encode(),
+    "surrogate_in_utf_8": b"prefix: \xed\xa0\x80\n",
+    "overlong_slash": b"prefix: \xc0\xaf\n",
+    "cut_in_a_character": EXAMPLE.encode()[: EXAMPLE.encode().index("示".encode()) + 2],
+    "null_byte": b"prefix: T1\0\n",
+    "larger_than_allowed": b"# " + b"x" * MAX_BYTES,
+    "fifty_megabytes": b"#" * 50_000_000,
+}
+
+CONTENTS: dict[str, bytes] = {**{name: text.encode() for name, text in TEXTS.items()}, **BINARIES}
