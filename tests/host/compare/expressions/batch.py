@@ -23,10 +23,12 @@ from tests.host.compare.expressions.grammar import (
 from tests.host.compare.expressions.terms import Term
 from tests.host.compare.lockstep import alike
 
-from driveblocks.host.engine import Engine, ScanError, Source, Value
+from driveblocks.host.engine import Engine, Instance, ScanError, Source, Value
 
 # Statements per function block: C compilers take more than twice as long for twice as many.
 PER_BLOCK = 100
+# One each, so that an expression that fails does not stop the others.
+ALONE = 1
 # Most bugs show in small expressions, and large ones cost the C compiler most of its time.
 DEPTHS = (1, 1, 1, 2, 2, 2, 3, 4)
 
@@ -35,22 +37,23 @@ Inputs = dict[str, Value]
 
 @dataclass(frozen=True)
 class Batch:
-    """Expressions and the inputs to evaluate each of them with."""
+    """Expressions, the inputs to evaluate each of them with, and how many go into a function block."""
 
     terms: tuple[Term, ...]
     vectors: tuple[Inputs, ...]
+    per_block: int = PER_BLOCK
 
     @property
     def text(self) -> str:
         """The source: what every expression may use, then blocks E0, E1 ... with one statement per expression."""
-        blocks = [self.terms[at : at + PER_BLOCK] for at in range(0, len(self.terms), PER_BLOCK)]
+        blocks = [self.terms[at : at + self.per_block] for at in range(0, len(self.terms), self.per_block)]
         return PRELUDE + "".join(_block(number, terms) for number, terms in enumerate(blocks))
 
     def place(self, line: int) -> int:
         """The number of the expression on a line of the text."""
         lines = self.text.splitlines()[:line]
         blocks = sum(each.startswith("FUNCTION_BLOCK ") for each in lines)
-        return (blocks - 1) * PER_BLOCK + int(lines[-1].partition(" := ")[0].strip().removeprefix("o"))
+        return (blocks - 1) * self.per_block + int(lines[-1].partition(" := ")[0].strip().removeprefix("o"))
 
 
 def _prelude(kind: str) -> str:
@@ -162,7 +165,7 @@ class Trap(Exception):  # noqa: N818 - not an error of the test, but of one expr
 def evaluate(engine: Engine, batch: Batch) -> list[list[Value]]:
     """The values of all expressions, one list per vector. Raises Trap, BuildError."""
     library = engine.build([Source("expressions.st", batch.text)])
-    instances = [library.instance(f"E{number}") for number in range(-(-len(batch.terms) // PER_BLOCK))]
+    instances = [library.instance(f"E{number}") for number in range(-(-len(batch.terms) // batch.per_block))]
     results = []
     for vector in batch.vectors:
         values: list[Value] = []
@@ -174,7 +177,7 @@ def evaluate(engine: Engine, batch: Batch) -> list[list[Value]]:
             except ScanError as error:
                 raise Trap(batch.place(error.message.line)) from error
             state = instance.state()
-            values += [state[f"O{n}"] for n in range(min(PER_BLOCK, len(batch.terms) - len(values)))]
+            values += [state[f"O{n}"] for n in range(min(batch.per_block, len(batch.terms) - len(values)))]
         results.append(values)
     return results
 
@@ -187,6 +190,25 @@ def without_traps(engine: Engine, batch: Batch) -> tuple[Batch, list[list[Value]
         except Trap as trap:
             kept = batch.terms[: trap.number] + batch.terms[trap.number + 1 :]
             batch = Batch(kept, batch.vectors)
+
+
+def evaluate_alone(engine: Engine, batch: Batch) -> list[list[Value | None]]:
+    """The values of all expressions of a batch of blocks of one, one list per vector; None where the engine fails."""
+    library = engine.build([Source("expressions.st", batch.text)])
+    return [
+        [_alone(library.instance(f"E{number}"), vector) for number in range(len(batch.terms))]
+        for vector in batch.vectors
+    ]
+
+
+def _alone(instance: Instance, vector: Inputs) -> Value | None:
+    for name, value in vector.items():
+        instance[name] = value
+    try:
+        instance.scan(0)
+    except ScanError:
+        return None
+    return instance["o0"]
 
 
 def mismatches(

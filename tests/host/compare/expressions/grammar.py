@@ -111,7 +111,7 @@ class Grammar:
         if kind == "BOOL":
             return draws.one_of(["TRUE", "FALSE"])
         if kind == "TIME":
-            return draws.one_of(["T#0s", "T#1ms", "T#20ms", "T#1s", "T#1m30s", "T#2.5s", "T#500ms", "T#1d"])
+            return draws.one_of(["T#0s", "T#20ms", "T#1s", "T#1m30s", "T#2.5s", "T#500ms", "T#1d"])
         if kind == "STRING":
             return draws.one_of(["'a'", "'abc'", "'TRUE'", "'12'", "'-7'", "'b'", "'12.5'", "'16#1F'"])
         if kind in REALS:

@@ -108,7 +108,8 @@ def _logic_function(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _xor_function(g: Grammar, kind: str, depth: int) -> Term:
-    return call(kind, "xor-function", "XOR", *g.several(kind, depth))
+    rule = "xor-function" if kind in BITS else "xor-function-of-bool"
+    return call(kind, rule, "XOR", *g.several(kind, depth))
 
 
 def _not_function(g: Grammar, kind: str, depth: int) -> Term:
@@ -150,6 +151,10 @@ def _move(g: Grammar, kind: str, depth: int) -> Term:
 
 def _absolute(g: Grammar, kind: str, depth: int) -> Term:
     return call(kind, "absolute", "ABS", g.anchored(kind, depth))
+
+
+def _absolute_of_real(g: Grammar, kind: str, depth: int) -> Term:
+    return call(kind, "absolute-of-real", "ABS", g.anchored(kind, depth))
 
 
 def _mathematics(g: Grammar, kind: str, depth: int) -> Term:
@@ -199,6 +204,10 @@ def _to_bcd(g: Grammar, kind: str, depth: int) -> Term:
 
 
 # ------------------------------------------------------------ TIME and STRING
+
+
+def _inexact_time(g: Grammar, kind: str, depth: int) -> Term:
+    return atom(kind, "inexact-time-literal", g.draws.one_of(["T#1ms", "T#8ms", "T#63ms", "T#1s1ms", "T#0.3s"]))
 
 
 def _time_sum(g: Grammar, kind: str, depth: int) -> Term:
@@ -288,7 +297,8 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("select", TYPES, _select),
     ("multiplex", TYPES, _multiplex),
     ("move", TYPES, _move),
-    ("absolute", NUMBERS, _absolute),
+    ("absolute", tuple(WHOLE), _absolute),
+    ("absolute-of-real", REALS, _absolute_of_real),
     ("mathematics", REALS, _mathematics),
     ("shift", tuple(BITS), _shift),
     ("rotation", tuple(BITS), _rotation),
@@ -304,6 +314,7 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("truncation", tuple(WHOLE), _truncation),
     ("bcd", tuple(UNSIGNED), _from_bcd),
     ("bcd", tuple(BITS), _to_bcd),
+    ("inexact-time-literal", ("TIME",), _inexact_time),
     ("time-sum", ("TIME",), _time_sum),
     ("time-product", ("TIME",), _time_product),
     ("string-part", ("STRING",), _string_part),

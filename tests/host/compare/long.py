@@ -1,0 +1,128 @@
+"""The long forms: `python -m tests.host.compare.long [corpus] [expressions] [--scans N] [--expressions N] [--seed N]`.
+
+`corpus`: 10^5 random scans of the blocks that corpus.yaml marks as long, the full state compared after each, between
+the three models of the embedded engine and each line of matiec. `expressions`: 10^6 random expressions, with four inputs
+each, between C's model and each line of matiec. Each line runs in a process of its own. Exit status 1 if anything
+differs.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+
+from tests.host.compare.cases import Case, load_cases
+from tests.host.compare.expressions.batch import evaluate, make_batch, mismatches, without_traps
+from tests.host.compare.expressions.shrink import shrink
+from tests.host.compare.lockstep import Run, lockstep
+from tests.host.compare.models import MODELS, double
+from tests.host.compare.witness import not_followed
+
+from driveblocks.host.discovery import MATIEC_NAMES, survey
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Engine
+from driveblocks.host.matiec import Flags, MatiecEngine
+
+PER_BATCH = 4000
+VECTORS = 4
+# A compilation without optimisation takes a fifth of the time of one with -O2; in turn, so that all are seen.
+OPTIMISATION = ("0", "0", "0", "1", "0", "0", "0", "2")
+
+
+def main() -> int:
+    """Run what is asked for; print figures and every difference."""
+    parser = argparse.ArgumentParser(description="Compare the engines at length.")
+    parser.add_argument("what", nargs="*", default=["corpus", "expressions"], help="corpus, expressions")
+    parser.add_argument("--scans", type=int, default=100_000, help="per block of the corpus")
+    parser.add_argument("--expressions", type=int, default=1_000_000)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    failures = 0
+    if "corpus" in options.what:
+        failures += _corpus(options.scans, options.seed)
+    if "expressions" in options.what:
+        failures += _expressions(options.expressions, options.seed)
+    return 1 if failures else 0
+
+
+def _matiec() -> Iterator[MatiecEngine]:
+    for each in survey().candidates():
+        if each.name in MATIEC_NAMES:
+            print(f"{each.name}: {'runs' if each.engine else 'does not run'}, {each.note}", flush=True)
+            if isinstance(each.engine, MatiecEngine):
+                yield each.engine
+
+
+# ------------------------------------------------------------ corpus
+
+
+def _corpus(scans: int, seed: int) -> int:
+    cases = [case for case in load_cases().values() if case.long]
+    jobs = [(case.name, scans, seed) for case in cases]
+    with ProcessPoolExecutor() as pool:
+        results = list(pool.map(_long_case, jobs))
+    print("\n".join(text for text, _ in results), flush=True)
+    return sum(failures for _, failures in results)
+
+
+def _long_case(job: tuple[str, int, int]) -> tuple[str, int]:
+    """One block on every engine; what came out, and how many comparisons failed."""
+    name, scans, seed = job
+    case = load_cases()[name]
+    lines, failures = [], 0
+    for title, runs, but in _pairs(case):
+        start = time.perf_counter()
+        difference = lockstep(case, runs, scans, seed, but)
+        seconds = time.perf_counter() - start
+        lines.append(f"{name}, {title}: {difference or f'{scans} scans the same'}, {seconds:.0f} s")
+        failures += difference is not None
+    return "\n".join(lines), failures
+
+
+def _pairs(case: Case) -> Iterator[tuple[str, list[Run], tuple[str, ...]]]:
+    yield "models", [Run(EmbeddedEngine(model=model), case, model) for model in MODELS], case.handed_on
+    engines: list[Engine] = [each.engine for each in survey().candidates() if each.engine and each.name in MATIEC_NAMES]
+    for engine in engines:
+        yield engine.name, [Run(double(engine), case), Run(engine, case)], ()
+
+
+# ------------------------------------------------------------ expressions
+
+
+def _expressions(count: int, seed: int) -> int:
+    """Each line in a process of its own: what a C compiler makes of one batch is loaded into it."""
+    batches = -(-count // PER_BATCH)
+    failures = 0
+    with ProcessPoolExecutor() as pool:
+        for engine in _matiec():
+            jobs = [(engine.name, seed, number) for number in range(batches)]
+            done = 0
+            for text, compared, failed in pool.map(_long_batch, jobs):
+                done, failures = done + compared, failures + failed
+                print(text, end="", flush=True)
+            print(f"{engine.name}: {done} expressions with {VECTORS} inputs each", flush=True)
+    return failures
+
+
+def _long_batch(job: tuple[str, int, int]) -> tuple[str, int, int]:
+    """One batch on one line: the differences made small, how many were compared, how many differ."""
+    name, seed, number = job
+    (engine,) = (each for each in _quietly() if each.name == name)
+    line = name.partition("-")[2]
+    embedded = double(engine)
+    matiec = replace(engine, flags=Flags(optimise=OPTIMISATION[number % len(OPTIMISATION)]))
+    batch = make_batch((seed, number), PER_BATCH, VECTORS, not_followed(line))
+    batch, expected = without_traps(embedded, batch)
+    found = mismatches(batch, (embedded.name, name), expected, evaluate(matiec, batch))
+    told = "".join(f"{name}, batch {number}: {shrink(each, embedded, matiec)}\n" for each in found)
+    return told, len(batch.terms), len(found)
+
+
+def _quietly() -> list[MatiecEngine]:
+    return [each.engine for each in survey().candidates() if isinstance(each.engine, MatiecEngine)]
+
+
+if __name__ == "__main__":
+    sys.exit(main())

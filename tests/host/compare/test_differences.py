@@ -1,0 +1,47 @@
+"""The list of differences says what is so: on the embedded engine, on matiec, and in the linter."""
+
+import pytest
+from tests.host.compare.lockstep import alike
+from tests.host.compare.witness import ERROR, Witness, load_witnesses
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Engine
+from driveblocks.st.lint import lint_sources
+
+WITNESSES = load_witnesses()
+LINES = ("beremiz", "openplc")
+
+
+@pytest.fixture(params=WITNESSES, name="witness")
+def _witness(request: pytest.FixtureRequest) -> Witness:
+    return WITNESSES[request.param]
+
+
+def test_matiec_gives_what_is_listed(witness: Witness, matiec: Engine) -> None:
+    """A matiec that does something else is no longer what the library was fitted to."""
+    line = matiec.name.partition("-")[2]
+    assert alike(witness.value(matiec), witness.expected[line])
+
+
+def test_the_standard_model_gives_what_the_standard_says(witness: Witness) -> None:
+    """Or is listed as not following."""
+    found = witness.value(EmbeddedEngine(model="standard"))
+    assert alike(found, witness.expected["standard"]) == ("standard" not in witness.not_followed)
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_the_model_of_c_follows_each_line(witness: Witness, line: str) -> None:
+    """Or is listed as not following."""
+    found = witness.value(EmbeddedEngine(model="c", line=line))
+    assert alike(found, witness.expected[line]) == (line not in witness.not_followed)
+
+
+def test_the_default_model_stops_where_it_is_listed(witness: Witness) -> None:
+    """A difference that goes unnoticed is listed as such, with the reason why that does no harm."""
+    assert (witness.value(EmbeddedEngine()) == ERROR) == witness.fails
+
+
+def test_the_linter_names_the_rule(witness: Witness) -> None:
+    """What keeps the library out of it."""
+    found = {each.rule for each in lint_sources([("witness.st", witness.text)])}
+    assert found == set(witness.rules)

@@ -1,0 +1,84 @@
+"""The listed differences: differences.yaml as data, and what each engine makes of them."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from driveblocks.host.engine import Engine, ScanError, Source, Value
+from driveblocks.host.matiec import BadCError
+
+FILE = Path(__file__).parent / "differences.yaml"
+# What stands in the place of a value; no STRING of the list has these characters.
+ERROR, BAD_C = b"error", b"badC"
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A program that shows a difference; `expected` by standard, beremiz, openplc."""
+
+    name: str
+    text: str
+    inputs: dict[str, Value]
+    clocks_ns: tuple[int, ...]
+    expected: dict[str, Value]
+    fails: bool
+    rules: tuple[str, ...]
+    not_followed: tuple[str, ...]
+    productions: tuple[str, ...]
+
+    def value(self, engine: Engine) -> Value:
+        """What `o` is after the last scan; `error` if a scan fails, `badC` if the C does not compile."""
+        try:
+            instance = engine.build([Source("witness.st", self.text)]).instance("Witness")
+            for path, value in self.inputs.items():
+                instance[path] = value
+            for clock in self.clocks_ns:
+                instance.scan(clock)
+        except ScanError:
+            return ERROR
+        except BadCError:
+            return BAD_C
+        return instance["o"]
+
+
+def load_witnesses() -> dict[str, Witness]:
+    """Every listed difference by name."""
+    entries = yaml.safe_load(FILE.read_text(encoding="utf-8"))
+    return {name: _witness(name, entry) for name, entry in entries.items()}
+
+
+def not_followed(line: str) -> list[str]:
+    """The productions in which C's model does not follow a line of matiec."""
+    return [rule for each in load_witnesses().values() if line in each.not_followed for rule in each.productions]
+
+
+def not_noticed() -> list[str]:
+    """The productions whose differences the `fail` model lets pass."""
+    return [rule for each in load_witnesses().values() if not each.fails for rule in each.productions]
+
+
+def _witness(name: str, entry: dict[str, Any]) -> Witness:
+    return Witness(
+        name=name,
+        text=_text(entry),
+        inputs={path: _value(value) for path, value in entry.get("set", {}).items()},
+        clocks_ns=tuple(ms * 1_000_000 for ms in entry.get("scans_ms", [0])),
+        expected={who: _value(entry[who]) for who in ("standard", "beremiz", "openplc")},
+        fails=entry["fails"],
+        rules=tuple(sorted(entry["rule"].replace("none", "").split())),
+        not_followed=tuple(entry.get("not_followed", [])),
+        productions=tuple(entry.get("productions", [])),
+    )
+
+
+def _value(value: Any) -> Any:
+    return value.encode("latin-1") if isinstance(value, str) else value
+
+
+def _text(entry: dict[str, Any]) -> str:
+    before = entry.get("before", "")
+    variables = f"VAR\n  {entry['vars']}\nEND_VAR\n" if "vars" in entry else ""
+    output = f"VAR_OUTPUT\n  o : {entry['output']};\nEND_VAR\n"
+    return f"{before}\nFUNCTION_BLOCK Witness\n{output}{variables}  {entry['body']}\nEND_FUNCTION_BLOCK\n"
