@@ -234,9 +234,9 @@ def _mask(commands: list[Command]) -> int:
 def _command_text(one: Command, mask: int) -> str:
     if one.value is not None:
         return word(one.value)
-    kept = f"(KeepWord AND {word(~mask)})"
+    kept = f"KeepWord AND {word(~mask)}"
     bits = sum(1 << bit for span in one.set for bit in span)
-    return f"{kept} OR {word(bits)}" if bits else kept
+    return f"({kept}) OR {word(bits)}" if bits else kept
 
 
 def reference(drive: Drive) -> Context:
@@ -256,9 +256,17 @@ def reference(drive: Drive) -> Context:
         "maximum": spec.maximum or "the maximum frequency",
         "scale": row.scale,
         "counts": _counts(row, percent),
+        "verify": _verify(spec.verify),
         "highest": highest,
         "highest_why": f"{why} ends here",
     }
+
+
+def _verify(conditions: tuple[Condition, ...]) -> str:
+    """What a program must read back before the word means what it says."""
+    if not conditions:
+        return ""
+    return f" The word means this only while {' and '.join(map(condition_text, conditions))}: read that back first."
 
 
 def _counts(row: Register, percent: bool) -> str:
