@@ -32,6 +32,9 @@ ELSEWHERE = {
     "return-value",
     "dialect-assignment",
     "configuration-inside",
+    "empty-file",
+    "program-task",
+    "program-connection",
 }
 # Names that stop at least one compiler and are easily taken.
 TAKEN = """

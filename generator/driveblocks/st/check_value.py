@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+from driveblocks.st.library import fold
 from driveblocks.st.report import Report
 from driveblocks.st.standard import FUNCTIONS
 from driveblocks.st.tree import Binary, Call, Expression, Literal, LiteralKind, Unary
@@ -117,8 +118,16 @@ class ValueChecker:
             value.operand_type = plain(wanted)
             self.push(value.left, plain(wanted))
             self.push(value.right, plain(wanted))
+            self.computed(value, plain(wanted))
         elif isinstance(value, Call) and isinstance(value.target, Builtin):
             self.push_call(value, value.target, plain(wanted))
+
+    def computed(self, value: Binary, wanted: Type) -> None:
+        """Tell if what literals amount to is beyond the range of their type."""
+        found = fold(value, lambda _: None)
+        if found is not None and isinstance(wanted, Elementary) and not wanted.low <= found <= wanted.high:
+            text = f"expected a value of {wanted.name}, {wanted.low}..{wanted.high}, found {found}"
+            self.report.add(value.at, "literal-range", text)
 
     def push_call(self, value: Call, target: Builtin, wanted: Type) -> None:
         """Set the type of an overloaded call whose arguments are numbers without prefix, or of LEN, FIND and TRUNC."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from driveblocks.st.checked import Checked
 from driveblocks.st.lint_scope import Scope
-from driveblocks.st.names import badly_underscored, reserved
+from driveblocks.st.names import badly_underscored, reserved, reserved_outside
 from driveblocks.st.report import Report
 from driveblocks.st.tree import (
     ArrayInitial,
@@ -16,6 +16,7 @@ from driveblocks.st.tree import (
     Expression,
     Function,
     FunctionBlock,
+    Literal,
     NamedSpec,
     Pou,
     Program,
@@ -52,7 +53,7 @@ def unit(unit: Unit, report: Report) -> None:
             text = "a PROGRAM called main is refused by matiec's C: choose another name"
             report.add(named.name_at, "reserved-name", text)
         if isinstance(named, TypeDecl | Pou | Configuration):
-            _name(named.name_at if isinstance(named, Pou) else named.at, named.name, report)
+            _outer_name(named.name_at if isinstance(named, Pou) else named.at, named.name, report)
 
 
 def pou(scope: Scope) -> None:
@@ -66,6 +67,14 @@ def pou(scope: Scope) -> None:
             _trigger(scope, variable)
     if isinstance(scope.pou, Function):
         _function(scope, scope.pou)
+
+
+def _outer_name(at: int, name: str, report: Report) -> None:
+    """The name of a type, POU or configuration."""
+    why = reserved_outside(name)
+    if why and not reserved(name):
+        report.add(at, "reserved-name", f"{name} is {why}: choose another name")
+    _name(at, name, report)
 
 
 def _name(at: int, name: str, report: Report) -> None:
@@ -99,14 +108,37 @@ def _spec(spec: Spec, report: Report) -> None:
         if spec.wide:
             report.add(spec.at, "wide-string", "WSTRING is refused by matiec: write STRING")
     elif isinstance(spec, ArraySpec):
-        _spec(spec.element, report)
+        _array(spec, report)
     elif isinstance(spec, SubrangeSpec):
         report.add(spec.at, "subrange", f"STruC++ and IronPLC refuse subranges: write {spec.base} and check the limits")
     elif isinstance(spec, StructSpec):
-        for field in spec.fields:
-            _variable(field, report)
+        _struct(spec, report)
     elif isinstance(spec, EnumSpec):
         _enum(spec, report)
+
+
+def _array(spec: ArraySpec, report: Report) -> None:
+    """An array."""
+    _spec(spec.element, report)
+    if isinstance(spec.element.type, Array):
+        text = "an array of arrays is refused by matiec: use two dimensions, or an array of structures"
+        report.add(spec.at, "array-of-array", text)
+    for each in spec.ranges:
+        for bound in (each.low, each.high) if each is not None else ():
+            if isinstance(bound, Literal) and (bound.base != 10 or bound.prefix):
+                text = f"matiec refuses {bound.text} as a bound: write {bound.value!r}"
+                report.add(bound.at, "constant-bound", text)
+
+
+def _struct(spec: StructSpec, report: Report) -> None:
+    """A structure."""
+    if not spec.fields:
+        report.add(spec.at, "empty-var-block", "matiec refuses a structure without fields: give it one")
+    for field in spec.fields:
+        _variable(field, report)
+        if field.grouped:
+            text = f"matiec refuses several names in one line of a structure: give {field.name} a line of its own"
+            report.add(field.at, "grouped-fields", text)
 
 
 def _enum(spec: EnumSpec, report: Report) -> None:
@@ -125,17 +157,40 @@ def _configuration(configuration: Configuration, report: Report) -> None:
     blocks = [*configuration.blocks, *(block for resource in configuration.resources for block in resource.blocks)]
     for block in blocks:
         _block(block, report)
+    for resource in configuration.resources:
+        for instance in resource.programs:
+            if instance.task is None:
+                text = (
+                    f"matiec wants a task for every program: write PROGRAM {instance.name} WITH a task of this resource"
+                )
+                report.add(instance.at, "program-task", text)
+            if instance.connections:
+                text = f"matiec crashes on the connected variables of {instance.name}: assign them in the program"
+                report.add(instance.at, "program-connection", text)
 
 
 def _block(block: VarBlock, report: Report) -> None:
     """A VAR block of any kind."""
     if not block.variables:
         report.add(block.at, "empty-var-block", "matiec crashes on a VAR block without variables: take it away")
+    _qualifiers(block, report)
     if block.kind in (VarKind.GLOBAL, VarKind.EXTERNAL):
         text = f"{block.kind.value}: libraries have no globals; compilers differ on them: use parameters"
         report.add(block.at, "global-variable", text)
     for variable in block.variables:
         _variable(variable, report)
+
+
+def _qualifiers(block: VarBlock, report: Report) -> None:
+    """What stands behind VAR."""
+    if block.kind in (VarKind.STAT, VarKind.INSTANCE):
+        report.add(block.at, "var-qualifier", f"{block.kind.value} is refused by matiec: write VAR")
+    for word in block.qualifiers:
+        if word == "CONSTANT" and block.kind not in (VarKind.LOCAL, VarKind.GLOBAL, VarKind.EXTERNAL):
+            text = f"matiec crashes on {block.kind.value} CONSTANT: write VAR CONSTANT"
+            report.add(block.at, "var-qualifier", text)
+        elif word not in ("CONSTANT", "RETAIN", "NON_RETAIN"):
+            report.add(block.at, "var-qualifier", f"{word} is refused by matiec: leave it out, or write RETAIN")
 
 
 def _variable(variable: VarDecl, report: Report) -> None:
@@ -147,6 +202,9 @@ def _variable(variable: VarDecl, report: Report) -> None:
         report.add(variable.at, "direct-address", text)
     if variable.grouped:
         return
+    if isinstance(variable.spec, StructSpec | EnumSpec):
+        text = f"matiec crashes on a type written out for a variable: name it in a TYPE, and {variable.name} by that"
+        report.add(variable.at, "anonymous-type", text)
     _spec(variable.spec, report)
     if variable.initial is not None:
         _initial(variable.initial, report)

@@ -29,6 +29,7 @@ _COMPARISONS = _ORDERS | {"=", "<>"}
 _COMPARING_FUNCTIONS = frozenset(["LT", "GT", "LE", "GE", "EQ", "NE", "MAX", "MIN", "LIMIT"])
 _TIMES = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 _STRING_FUNCTIONS = frozenset(["LEN", "LEFT", "RIGHT", "MID", "CONCAT", "INSERT", "DELETE", "REPLACE", "FIND"])
+_SHIFTS = frozenset(["SHL", "SHR", "ROL", "ROR"])
 _TIME_FUNCTIONS = frozenset(["ADD", "SUB", "MULTIME", "DIVTIME", "MAX", "MIN", "LIMIT", *_COMPARING_FUNCTIONS])
 
 
@@ -40,6 +41,8 @@ def pou(scope: Scope) -> None:
             _binary(scope, each)
         elif isinstance(each, Call):
             _call(scope, each)
+        elif isinstance(each, Unary):
+            _sign(scope, each)
         elif isinstance(each, Member):
             _member(scope, each)
         elif isinstance(each, Qualified):
@@ -69,6 +72,15 @@ def _loose(scope: Scope, value: Expression, user: str) -> None:
             "widen the operands first, or take MOD on the way"
         )
         scope.add(culprit.at, "intermediate-overflow", text)
+
+
+def _sign(scope: Scope, value: Unary) -> None:
+    """Signs and NOT stand alone."""
+    if isinstance(value.operand, Unary) and not value.operand.parentheses:
+        text = f"matiec refuses {value.operand.op} right behind {value.op}: write parentheses, or leave both out"
+        scope.add(value.at, "stray-sign", text)
+    elif value.op == "+" and not isinstance(value.operand, Literal):
+        scope.add(value.at, "stray-sign", "matiec refuses + in front of anything but a number: leave it out")
 
 
 def _binary(scope: Scope, value: Binary) -> None:
@@ -158,6 +170,10 @@ def _call(scope: Scope, value: Call) -> None:
     """A call."""
     if value.en is not None or value.eno is not None:
         scope.add(value.at, "en-eno", "EN and ENO are refused by RuSTy and IronPLC: use IF around the call")
+    for binding in value.bindings:
+        if binding.negated and binding.value is not None:
+            text = f"matiec dies of NOT {binding.parameter.name} =>: read the output after the call"
+            scope.add(binding.value.at, "negated-output", text)
     if isinstance(value.target, Block | Function):
         _aliases(scope, value)
         _order(scope, value)
@@ -175,30 +191,35 @@ def _order(scope: Scope, value: Call) -> None:
 
 def _builtin(scope: Scope, value: Call, target: Builtin) -> None:
     """A standard function."""
-    kinds = {parameter.type.kind for parameter in target.parameters}
     if target.family == "CONVERT":
         _conversion(scope, value, target)
     elif target.family == "TRUNC":
         _real_to_integer(scope, value, target)
     elif target.family in ("SHR", "ROR", "ROL") and value.bindings[0].value is not None:
         _loose(scope, value.bindings[0].value, target.name)
-    elif target.family in _COMPARING_FUNCTIONS:
-        for binding in value.bindings:
-            if binding.value is not None and kinds & {Kind.INTEGER, Kind.BITS}:
-                _loose(scope, binding.value, target.name)
-    if target.family in _ORDER_FUNCTIONS and Kind.BITS in kinds:
-        text = f"RuSTy compares bit strings with a sign in {target.name}: convert to UINT or USINT first"
-        scope.add(value.at, "bit-string-order", text)
+    kinds = {parameter.type.kind for parameter in target.parameters}
+    _ordering(scope, value, target, kinds)
+    if target.family in _SHIFTS and plain(target.parameters[0].type) is BOOL:
+        scope.add(value.at, "bool-shift", f"matiec's library has no {target.name} of a BOOL: use BYTE or WORD")
     if target.family in _STRING_FUNCTIONS:
-        text = (
-            f"{target.name} differs between runtimes: keep text in byte arrays, strings are assigned and compared only"
-        )
+        text = f"{target.name} differs between runtimes: keep text in byte arrays; assign and compare strings only"
         scope.add(value.at, "string-function", text)
     if (target.family in _TIME_FUNCTIONS or target.family.startswith(("ADD_", "SUB_"))) and kinds & _TIMES:
         text = (
             f"matiec holds TIME in fractions of a second, and {target.name} goes wrong: count milliseconds in a UDINT"
         )
         scope.add(value.at, "time-arithmetic", text)
+
+
+def _ordering(scope: Scope, value: Call, target: Builtin, kinds: set[Kind]) -> None:
+    """A function that compares."""
+    if target.family in _COMPARING_FUNCTIONS and kinds & {Kind.INTEGER, Kind.BITS}:
+        for binding in value.bindings:
+            if binding.value is not None:
+                _loose(scope, binding.value, target.name)
+    if target.family in _ORDER_FUNCTIONS and Kind.BITS in kinds:
+        text = f"RuSTy compares bit strings with a sign in {target.name}: convert to UINT or USINT first"
+        scope.add(value.at, "bit-string-order", text)
 
 
 def _conversion(scope: Scope, value: Call, target: Builtin) -> None:

@@ -12,6 +12,8 @@ from driveblocks.st.walk import heads
 # Behind these a digit or letter is taken into the escape by the C that matiec writes.
 _HEX_ESCAPE = re.compile(r"\$[0-9A-Fa-f]{2}[0-9A-Za-z]")
 _ESCAPED = re.compile(r"\$(?:[0-9A-Fa-f]{2}|.)")
+# The range of normal IEEE singles.
+_SMALLEST, _LARGEST = 1.17549435e-38, 3.4028235e38
 _LONG_UNITS = re.compile(r"\d(us|ns)", re.IGNORECASE)
 
 
@@ -46,6 +48,8 @@ def _literal(scope: Scope, value: Literal, label: bool) -> None:
 
 def _string(scope: Scope, value: Literal) -> None:
     """Strings."""
+    if value.prefix is not None:
+        scope.add(value.at, "typed-string", f"matiec refuses {value.prefix}# in front of a string: leave it out")
     if value.kind is LiteralKind.WSTRING:
         scope.add(value.at, "wide-string", "a string in double quotes is refused by matiec: use single ones")
         return
@@ -84,6 +88,9 @@ def _real(scope: Scope, value: Literal) -> None:
     """Reals."""
     if "." not in value.text and "#16" not in value.text:
         scope.add(value.at, "real-literal", f"matiec refuses a real without a point: write {_pointed(value.text)}")
+    elif isinstance(value.value, float) and value.value and not _SMALLEST <= abs(value.value) <= _LARGEST:
+        text = f"matiec refuses {value.text}, which is beyond the range of REAL, for an LREAL too"
+        scope.add(value.at, "real-literal", text)
 
 
 def _pointed(text: str) -> str:

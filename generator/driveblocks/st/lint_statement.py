@@ -55,6 +55,8 @@ def _if(scope: Scope, statement: If) -> None:
 
 def _case(scope: Scope, statement: Case) -> None:
     """CASE."""
+    if not statement.branches:
+        scope.add(statement.at, "empty-branch", "matiec refuses a CASE with nothing but ELSE: write one branch")
     for branch in statement.branches:
         _branch(scope, branch.at, branch.body, "a branch of CASE")
         for label in branch.labels:

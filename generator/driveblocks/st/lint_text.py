@@ -14,7 +14,7 @@ _NOTES = {
     "nested-comment": "a comment inside a comment is refused by matiec: take the inner marks away",
     "byte-order-mark": "a byte order mark is refused by matiec: save the file as UTF-8 without it",
     "missing-semicolon": "matiec wants a semicolon here: write END_...;",
-    "stray-semicolon": "a semicolon outside of everything is refused by matiec: take it away",
+    "stray-semicolon": "a semicolon is refused by matiec here: take it away",
 }
 _RULES = {"stray-semicolon": "empty-statement"}
 
@@ -27,6 +27,8 @@ def unit(unit: Unit, report: Report) -> None:
             report.add(comment.at, *found)
     for note, at in unit.notes:
         report.add(at, _RULES.get(note, note), _NOTES[note])
+    if not unit.elements:
+        report.add(0, "empty-file", "matiec writes C that does not compile for a file without declarations")
     _types(unit, report)
     _configuration(unit, report)
 

@@ -5,7 +5,14 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from driveblocks.st.reserved import C_MACROS, ELEMENTARY_NAMES, KEYWORDS, OTHER_KEYWORDS, STANDARD_NAMES
+from driveblocks.st.reserved import (
+    C_MACROS,
+    ELEMENTARY_NAMES,
+    KEYWORDS,
+    LIBRARY_VARIABLES,
+    OTHER_KEYWORDS,
+    STANDARD_NAMES,
+)
 from driveblocks.st.standard import BLOCKS, FUNCTIONS, conversion_of
 
 # Limits of C's own types, which its headers define in many spellings.
@@ -30,6 +37,13 @@ def reserved(name: str) -> str | None:
     if upper in C_MACROS or _C_LIMIT.fullmatch(upper):
         return "a macro of the C that matiec writes"
     return None
+
+
+def reserved_outside(name: str) -> str | None:
+    """Why a type, function, block or program cannot have a name, or None."""
+    if name.upper() in LIBRARY_VARIABLES:
+        return "the name of a variable in matiec's own library"
+    return reserved(name)
 
 
 def badly_underscored(name: str) -> bool:

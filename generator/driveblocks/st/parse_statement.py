@@ -229,7 +229,8 @@ class StatementParser(ExpressionParser):
         body = self.body()
         self.expect("UNTIL")
         condition = self.expression()
-        self.accept(";")
+        if self.accept(";"):
+            self.notes.append(("stray-semicolon", self.ats[self.i - 1]))
         self.closed("END_REPEAT")
         return RepeatUntil(at, body, condition)
 

@@ -73,3 +73,13 @@ C_MACROS = _words(
     SECONDS_PER_MINUTE STR_MAX_LEN TIMER_ABSTIME TIME_UTC TMP_MAX
     """
 )
+
+# Parameters and variables of the standard functions and blocks in matiec's library: a type, function, block or program
+# of the same name makes that library unreadable for it.
+LIBRARY_VARIABLES = _words(
+    """
+    AUTO BUSY CD CDT CD_T CLAIM CLK CU CURRENT_TIME CU_T CV CYCLE DTERM EPS ERROR ET G IN IN0 IN1 IN2 ITERM K KP L LD M
+    MN MX N OFFSET P PDT PREV_IN PT PV Q Q1 QD QU Q_INTERNAL R R1 RELEASE RUN S S1 SP START_TIME STATE T TD TR X0 X1 X2
+    X3 XI XIN XIN1 XIN2 XOUT
+    """
+)

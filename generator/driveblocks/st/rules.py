@@ -89,6 +89,9 @@ _REMARKS = """
 123 several-types          more than one type in a TYPE ... END_TYPE
 124 declaration-order      a name that is used before its declaration
 125 configuration-inside   a CONFIGURATION beside functions and blocks
+126 typed-string           STRING#'a'
+127 stray-sign             - -n, NOT NOT x, +n
+128 empty-file             a file that declares nothing
 201 anonymous-array        ARRAY written out for a parameter
 202 array-parameter        an array as VAR_INPUT or VAR_OUTPUT
 203 function-array-input   an array as VAR_INPUT of a FUNCTION
@@ -108,6 +111,13 @@ _REMARKS = """
 217 enum-qualified         E#V and E.V
 218 subrange               INT(0..9)
 219 alias-type             another name for a type
+220 grouped-fields         two names in one line of a structure
+221 negated-output         NOT Q => x
+222 var-qualifier          PERSISTENT, VAR_STAT, CONSTANT behind VAR_INPUT
+223 anonymous-type         a structure or enumeration written out for a variable
+224 array-of-array         an array whose elements are arrays
+225 program-task           a program without a task
+226 program-connection     a program instance with connected variables
 301 for-zero-trips         FOR
 302 complement-compare     NOT of a bit string in a comparison or conversion
 303 unmasked-shr           SHR without a mask
@@ -128,6 +138,7 @@ _REMARKS = """
 405 string-function        LEN, CONCAT, MID ...
 406 string-conversion      INT_TO_STRING and its kind
 407 string-order           < and > on strings
+408 bool-shift             SHL, SHR, ROL and ROR of a BOOL
 """
 
 

@@ -1,8 +1,8 @@
 """The data types of IEC 61131-3, second edition (table 10 and clause 2.3), with their sizes.
 
 Types are compared by identity: one elementary type is one object (`INT is ELEMENTARY["INT"]`), one `TYPE` declaration
-makes one object, and an alias (`TYPE A : INT; END_TYPE`) is the very type that it names. Anonymous arrays and sized
-strings of equal shape are equal through `same`.
+makes one object, and an alias (`TYPE A : INT; END_TYPE`) is the very type that it names. Only strings of different
+lengths are equal through `same`.
 """
 
 from __future__ import annotations
@@ -272,14 +272,15 @@ def plain(each: Type) -> Type:
 
 
 def same(left: Type, right: Type) -> bool:
-    """Whether a value of `right` may stand where `left` is wanted, without any conversion."""
+    """Whether a value of `right` may stand where `left` is wanted, without any conversion.
+
+    Arrays are the same by their declaration only, as on matiec: two that are written out alike are two types.
+    """
     left, right = plain(left), plain(right)
     if left is right or UNKNOWN in (left, right):
         return True
     if isinstance(left, String) and isinstance(right, String):
         return left.wide == right.wide
-    if isinstance(left, Array) and isinstance(right, Array):
-        return left.bounds == right.bounds and same(left.element, right.element)
     return False
 
 
