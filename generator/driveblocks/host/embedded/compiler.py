@@ -182,8 +182,7 @@ class Compiler:
         block = present(pou.type)
         self._note_loops(pou, block)
         slots = [each.name.upper() for each in kept(pou)]
-        edges = [edge_slot(each) for each in pou.symbols.values() if each.edge]
-        self.classes[block] = type(pou.name, (Record,), {"__slots__": (*slots, *edges, GLOBALS)})
+        self.classes[block] = type(pou.name, (Record,), {"__slots__": (*slots, GLOBALS)})
         pen = Pen(present(pou.unit))
         scope = self._scope(pou, pen)
         body: list[ast.stmt] = []
@@ -191,22 +190,9 @@ class Compiler:
             pen.move(each.at)
             if each.kind is VarKind.TEMP:
                 body += self._prepared(scope, each, False)
-            elif each.edge:
-                body += self._edge(scope, each)
         body += Statements(scope).body(pou.body)
         pen.move(pou.at)
         self._define(pen, body_name(block), [SELF], body)
-
-    def _edge(self, scope: Scope, variable: tree.VarDecl) -> list[ast.stmt]:
-        """`VAR_INPUT x : BOOL R_EDGE`: the body sees TRUE for one call after x has risen."""
-        pen = scope.pen
-        memory = pen.attribute(pen.name(SELF), edge_slot(variable))
-        now: ast.expr = scope.slot(variable)
-        before: ast.expr = pen.unary(ast.Not(), memory)
-        if variable.edge == "F_EDGE":
-            now, before = pen.unary(ast.Not(), now), memory
-        seen = pen.assign(pen.name(variable.name.upper()), pen.junction(ast.And(), now, before))
-        return [seen, pen.assign(memory, scope.slot(variable))]
 
     def _instance_makers(self, block: Block) -> list[tuple[str, Maker]]:
         """How to fill the slots of an instance."""
@@ -217,7 +203,6 @@ class Compiler:
                 made += [(name, _always(value)) for name, value in standard_blocks.inner_slots(block).items()]
             else:
                 made = [(each.name.upper(), self.shapes.maker(each.type, each.initial)) for each in kept(declaration)]
-                made += [(edge_slot(each), _always(False)) for each in declaration.symbols.values() if each.edge]
                 made.append((GLOBALS, lambda context: context))
             self._makers[block] = made
         return self._makers[block]
@@ -226,11 +211,6 @@ class Compiler:
 def kept(pou: tree.Pou) -> list[tree.VarDecl]:
     """The variables that an instance keeps between its calls."""
     return [each for each in pou.symbols.values() if each.kind not in (VarKind.TEMP, VarKind.EXTERNAL)]
-
-
-def edge_slot(variable: tree.VarDecl) -> str:
-    """The slot that remembers an input with R_EDGE or F_EDGE."""
-    return f"edge_{variable.name.upper()}"
 
 
 def _always(value: Any) -> Maker:

@@ -23,7 +23,8 @@ class EmbeddedEngine:
     `model`: what happens when an intermediate result leaves its type: `standard` wraps in the operand's type, `c`
     goes on as C does after matiec, `fail` raises ScanError wherever the two could differ.
     `line`: with model `c`, follow `beremiz` or `openplc` where the lines of matiec differ; empty: the standard.
-    `loop_limit`: turns of loops that one scan may take. `coverage`: count the lines that run.
+    `loop_limit`: turns of loops that one scan may take (the look that ends a WHILE counts as one).
+    `coverage`: count the lines that run.
     """
 
     name = "embedded"

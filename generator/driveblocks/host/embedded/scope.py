@@ -69,7 +69,7 @@ class Scope:
 
     def is_local(self, variable: tree.VarDecl) -> bool:
         """Whether a variable is, here and now, a Python variable."""
-        return self.is_function() or variable.kind is VarKind.TEMP or bool(variable.edge) or variable in self.hoisted
+        return self.is_function() or variable.kind is VarKind.TEMP or variable in self.hoisted
 
     def slot(self, variable: tree.VarDecl) -> ast.expr:
         """Where an instance keeps a variable."""

@@ -1,0 +1,208 @@
+"""Statements: choices, loops and how they are left, bounded scans."""
+
+from __future__ import annotations
+
+import pytest
+from tests.host.embedded.snippets import MODELS, block, build
+
+from driveblocks.host.engine import Overflow, ScanError
+
+COUNTER = "VAR_INPUT n : INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR i : INT; k : INT; END_VAR"
+
+
+def run(body: str, n: int, model: Overflow = "fail", line: str = "") -> int:
+    """The output `y` after one scan with the input `n`."""
+    made = block(COUNTER, body, model, line=line)
+    made["n"] = n
+    made.scan()
+    answer = made["y"]
+    assert isinstance(answer, int)
+    return answer
+
+
+IF = "IF n > 10 THEN y := 1; ELSIF n > 5 THEN y := 2; ELSIF n > 0 THEN y := 3; ELSE y := 4; END_IF;"
+CASE = """CASE n OF
+  -3: y := 1;
+  1, 2: y := 2;
+  5..8, 10: y := 3;
+  -20..-10: y := 4;
+ELSE y := 9; END_CASE;"""
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(("n", "expected"), [(11, 1), (10, 2), (6, 2), (5, 3), (1, 3), (0, 4), (-7, 4)])
+def test_if(n: int, expected: int, model: Overflow) -> None:
+    """The first branch whose condition holds."""
+    assert run(IF, n, model) == expected
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(
+    ("n", "expected"), [(-3, 1), (1, 2), (2, 2), (3, 9), (5, 3), (8, 3), (9, 9), (10, 3), (-20, 4), (-10, 4), (-9, 9)]
+)
+def test_case(n: int, expected: int, model: Overflow) -> None:
+    """Labels, lists and ranges."""
+    assert run(CASE, n, model) == expected
+
+
+def test_case_without_match_and_else_does_nothing() -> None:
+    """IEC 61131-3 3.3.2.3."""
+    assert run("y := 7; CASE n OF 1: y := 1; END_CASE;", 2) == 7
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_while_and_exit(model: Overflow) -> None:
+    """The sum of 1..n, left early at 7."""
+    body = "y := 0; i := 0; WHILE i < n DO i := i + 1; IF i = 7 THEN EXIT; END_IF; y := y + i; END_WHILE;"
+    assert [run(body, n, model) for n in (0, 1, 3, 6, 7, 20)] == [0, 1, 6, 21, 21, 21]
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_repeat_runs_at_least_once(model: Overflow) -> None:
+    """The condition stands behind."""
+    body = "y := 0; REPEAT y := y + 1; UNTIL y >= n END_REPEAT;"
+    assert [run(body, n, model) for n in (-5, 1, 4)] == [1, 1, 4]
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize(
+    ("head", "expected"),
+    [("0 TO 4", 10), ("4 TO 0 BY -1", 10), ("0 TO 9 BY 3", 18), ("5 TO 4", 0), ("0 TO n BY 2", 6), ("n TO 0 BY -2", 8)],
+)
+def test_for(head: str, expected: int, model: Overflow) -> None:
+    """The sum of the values that the control variable takes; n is 5, except that no loop here runs once."""
+    assert run(f"y := 0; FOR i := {head} DO y := y + i; END_FOR;", 5, model) == expected + (head.startswith("n"))
+
+
+def test_for_that_runs_once_is_a_miscompile_of_beremiz() -> None:
+    """Beremiz' compiler leaves it out, so that the default model refuses it."""
+    body = "y := 0; FOR i := n TO 3 DO y := y + 1; END_FOR;"
+    assert run(body, 3, "standard") == 1
+    assert run(body, 3, "c", "openplc") == 1
+    assert run(body, 3, "c", "beremiz") == 0
+    assert run(body, 2, "c", "beremiz") == 2
+    with pytest.raises(ScanError, match=r"exactly once"):
+        run(body, 3)
+    assert run(body, 2) == 2
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_for_over_its_whole_type_does_not_end(model: Overflow) -> None:
+    """The control variable wraps and never gets beyond the end: the budget stops it."""
+    made = block("VAR u : USINT; n : UINT; END_VAR", "FOR u := 0 TO 255 DO n := n + 1; END_FOR;", model)
+    with pytest.raises(ScanError, match="does not end"):
+        made.scan()
+
+
+def test_limits_of_for_are_taken_once() -> None:
+    """Except on matiec, which looks again before each turn."""
+    body = "k := 3; y := 0; FOR i := 1 TO k DO k := 5; y := y + 1; END_FOR;"
+    assert run(body, 0, "standard") == 3
+    assert run(body, 0, "c") == 5
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_nested_loops(model: Overflow) -> None:
+    """EXIT leaves the innermost one."""
+    body = """y := 0; i := 0;
+    WHILE i < 10 DO
+      k := 0;
+      WHILE TRUE DO k := k + 1; IF k > i THEN EXIT; END_IF; y := y + 1; END_WHILE;
+      i := i + 1;
+    END_WHILE;"""
+    assert run(body, 0, model) == sum(range(10))
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_return_from_inside_a_loop_keeps_what_was_written(model: Overflow) -> None:
+    """Variables that live in Python variables during the loop are put back."""
+    body = "i := 0; WHILE i < 100 DO i := i + 1; y := i * 2; IF i = n THEN RETURN; END_IF; END_WHILE; y := -1;"
+    assert run(body, 5, model) == 10
+    made = block(COUNTER, body, model)
+    made["n"] = 5
+    made.scan()
+    assert made["i"] == 5
+
+
+def test_a_fault_inside_a_loop_keeps_what_was_written() -> None:
+    """So that the state after a ScanError tells what happened."""
+    made = block(COUNTER, "i := 0; WHILE i < 100 DO i := i + 1; y := 10 / (n - i); END_WHILE;")
+    made["n"] = 5
+    with pytest.raises(ScanError, match="division by zero"):
+        made.scan()
+    assert (made["i"], made["y"]) == (5, 10)
+
+
+class TestBudget:
+    """A scan may take so many turns of loops, all loops together; the look that ends a WHILE counts as one."""
+
+    TEXT = """FUNCTION_BLOCK Test
+VAR_INPUT n : UINT; END_VAR
+VAR i : UINT; END_VAR
+  i := 0;
+  WHILE i < n DO
+    i := i + 1;
+  END_WHILE;
+  i := 0;
+  REPEAT
+    i := i + 1;
+  UNTIL i >= n END_REPEAT;
+END_FUNCTION_BLOCK
+"""
+
+    def test_up_to_the_limit(self) -> None:
+        """Exactly so many are allowed, and each scan has a new budget."""
+        made = build(self.TEXT, loop_limit=101).instance("Test")
+        made["n"] = 50
+        for _ in range(3):
+            made.scan()
+
+    def test_beyond_the_limit(self) -> None:
+        """The error stands at the loop in which the budget ended."""
+        made = build(self.TEXT, loop_limit=101).instance("Test")
+        made["n"] = 60
+        with pytest.raises(ScanError) as caught:
+            made.scan()
+        assert (caught.value.message.line, caught.value.message.column) == (9, 3)
+
+    def test_loops_of_functions_and_inner_blocks_count(self) -> None:
+        """The budget is the scan's, not the block's."""
+        text = """FUNCTION Spin : UINT
+VAR_INPUT n : UINT; END_VAR
+  WHILE Spin < n DO Spin := Spin + 1; END_WHILE;
+END_FUNCTION
+FUNCTION_BLOCK Inner
+VAR_INPUT n : UINT; END_VAR
+VAR u : UINT; END_VAR
+  u := Spin(n);
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Test
+VAR_INPUT n : UINT; END_VAR
+VAR a, b : Inner; END_VAR
+  a(n := n);
+  b(n := n);
+END_FUNCTION_BLOCK
+"""
+        made = build(text, loop_limit=101).instance("Test")
+        made["n"] = 49
+        made.scan()
+        made["n"] = 50
+        with pytest.raises(ScanError) as caught:
+            made.scan()
+        assert caught.value.message.line == 3
+
+
+def test_both_sides_of_and_are_evaluated_except_in_c() -> None:
+    """IEC 61131-3 leaves it open; matiec takes C's short circuit."""
+    types = "TYPE Row : ARRAY[0..3] OF INT; END_TYPE"
+    declarations = "VAR_INPUT n : INT; END_VAR VAR_OUTPUT y : BOOL; END_VAR VAR a : Row; END_VAR"
+    for body, answer in (("y := (n < 4) AND (a[n] = 0);", False), ("y := (n > 3) OR (a[n] = 0);", True)):
+        for model in ("standard", "fail"):
+            made = block(declarations, body, model, types=types)
+            made["n"] = 4
+            with pytest.raises(ScanError, match="index 4 of a is outside"):
+                made.scan()
+        made = block(declarations, body, "c", types=types)
+        made["n"] = 4
+        made.scan()
+        assert made["y"] is answer
