@@ -1,5 +1,6 @@
 """Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
 
+import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
@@ -177,7 +178,12 @@ def _value_parts(row: Register) -> Iterator[Context]:
         known.append(symbol(value))
         yield part(known[-1], "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
     if known:
-        yield part("Unknown", "BOOL", f"NOT ({' OR '.join(known)})", "TRUE: a value that the manual does not list")
+        yield part("Unknown", "BOOL", _none_of(known), "TRUE: a value that the manual does not list")
+
+
+def _none_of(names_: list[str]) -> str:
+    lines = textwrap.wrap(" OR ".join(names_), 90)
+    return "NOT (" + "\n    ".join(lines) + ")"
 
 
 def part(name: str, type_: str, expression: str, comment: str) -> Context:
