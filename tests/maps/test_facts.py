@@ -1,0 +1,649 @@
+"""The shipped maps against the manuals, typed by hand a second time: a slip in a map turns one of these red.
+
+Nothing here uses the rules that check a map; the oracle is the manual. Only the loader is shared.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from decimal import Decimal
+from pathlib import Path
+
+import pytest
+from tests.maps.facts import chf, glossary, jscc, sn300g5
+
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Bit, Drive, Frame, Register
+
+MAPS = Path(__file__).parents[2] / "vendor_maps"
+
+SN = load(MAPS / "shuen_sn300g5.yaml")
+JS = load(MAPS / "jscc.yaml")
+CH = load(MAPS / "invt_chf.yaml")
+DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH}
+
+ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA}
+ABSENT = {"sn300g5": sn300g5.ABSENT, "jscc": jscc.ABSENT, "chf": chf.ABSENT}
+
+
+def bare(text: str | None) -> str:
+    """Text without white space, which the manuals set as it comes."""
+    return re.sub(r"\s", "", text or "")
+
+
+def rows(drive: Drive) -> dict[int, Register]:
+    """Every address of every section and the row that describes it; no address may stand twice."""
+    found: dict[int, Register] = {}
+    for section in drive.sections:
+        for row in section.registers:
+            for address in row.address:
+                assert address not in found, f"{address:04X}H stands twice"
+                found[address] = row
+    return found
+
+
+def access(drive: Drive) -> dict[int, str]:
+    """How each address may be used."""
+    return {
+        address: row.access or section.access
+        for section in drive.sections
+        for row in section.registers
+        for address in row.address
+    }
+
+
+def runs(table: str) -> Iterator[tuple[int, str, str]]:
+    """Address, id and Chinese of a table of runs: `B7-01 01A0H first name|second name`."""
+    for line in table.strip().splitlines():
+        first, base, names = line.split(" ", 2)
+        group, number = first.split("-")
+        for n, name in enumerate(names.split("|")):
+            yield int(base[:-1], 16) + n, f"{group}-{int(number) + n:02d}", name
+
+
+def spans(text: str) -> list[int]:
+    """Addresses of `0100H-0185H 0242H`, in that order."""
+    ends = [[int(end[:-1], 16) for end in span.split("-")] for span in text.split()]
+    return [address for span in ends for address in range(span[0], span[-1] + 1)]
+
+
+def triples(table: str) -> list[tuple[str, str, str]]:
+    """Lines of `a | b | c`."""
+    return [(a, b, c) for a, b, c in (line.split(" | ") for line in table.strip().splitlines())]
+
+
+def cases(tables: dict[str, str]) -> list[tuple[str, str, str, str]]:
+    """One case per line of the tables of all drives."""
+    return [(drive, *line) for drive, table in tables.items() for line in triples(table)]
+
+
+# ---------------------------------------------------------------- all drives
+
+
+@pytest.mark.parametrize(("drive", "about", "printed", "used"), cases(ERRATA))
+def test_misprint_is_an_erratum(drive: str, about: str, printed: str, used: str) -> None:
+    held = [one for one in DRIVES[drive].errata if any(names(ref, about) for ref in one.about)]
+    assert held, f"no erratum about {about}"
+    assert any(printed in one.printed and used in one.used for one in held), [(one.printed, one.used) for one in held]
+
+
+def names(reference: str, about: str) -> bool:
+    """Whether a reference is `about`, or a range of registers that holds it."""
+    kind, _, place = about.partition(" ")
+    if kind != "register" or not reference.startswith("register "):
+        return reference == about
+    return int(place[:-1], 16) in spans(reference.removeprefix("register "))
+
+
+@pytest.mark.parametrize(("drive", "about", "word", "other"), cases(ABSENT))
+def test_what_the_manual_does_not_say_is_listed(drive: str, about: str, word: str, other: str) -> None:
+    held = [one for one in DRIVES[drive].absent if any(names(ref, about) for ref in one.about)]
+    said = [" ".join((one.what, one.matters, one.find_out)) for one in held]
+    assert any(word in text and other in text for text in said), said
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_every_erratum_says_what_why_and_how_sure_and_none_claims_a_measurement(drive: str) -> None:
+    for one in DRIVES[drive].errata:
+        assert one.printed != one.used
+        assert one.why
+        assert one.confidence in {"certain", "likely", "open"}
+        assert not one.measured
+
+
+def crc(body: bytes) -> bytes:
+    """CRC-16 of Modbus, low byte first, as the C function of both Chinese manuals has it."""
+    value = 0xFFFF
+    for byte in body:
+        value ^= byte
+        for _ in range(8):
+            value = (value >> 1) ^ 0xA001 if value & 1 else value >> 1
+    return value.to_bytes(2, "little")
+
+
+def octets(text: str) -> bytes:
+    """A frame as typed: RTU bytes, or ASCII characters to which CR LF belong."""
+    return text.encode() + b"\r\n" if text.startswith(":") else bytes.fromhex(text)
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_every_correct_frame_has_the_checksum_of_its_bytes(drive: str) -> None:
+    for frame in DRIVES[drive].frames:
+        if frame.mode == "rtu":
+            assert crc(frame.correct[:-2]) == frame.correct[-2:], frame.id
+        else:
+            assert frame.correct[-2:] == b"\r\n", frame.id
+            assert sum(bytes.fromhex(frame.correct[1:-2].decode())) % 256 == 0, frame.id
+
+
+def named(drive: Drive) -> Iterator[tuple[str, str, str]]:
+    """Place, English and Chinese of everything that a map names in its tables."""
+    for address, row in rows(drive).items():
+        if row.name and address == row.address.first:
+            yield f"{address:04X}H", row.name, bare(row.text_zh)
+        for bit in row.bits:
+            if bit.name:
+                yield f"{address:04X}H.{bit.bit.first:X}", bit.name, bare(bit.text_zh)
+        for value in (*row.values, *(value for bit in row.bits for value in bit.values)):
+            yield f"{address:04X}H = {value.value}", value.name, bare(value.text_zh)
+    for fault in drive.faults.codes:
+        yield f"fault {fault.code}", fault.name, bare(fault.text_zh)
+    for setting in drive.settings:
+        yield setting.id, setting.name, bare(setting.text_zh)
+        for one in setting.values:
+            yield f"{setting.id} = {one.value}", one.name, bare(one.text_zh)
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_english_names_hold_what_the_chinese_terms_mean(drive: str) -> None:
+    missing = []
+    for place, english, chinese in named(DRIVES[drive]):
+        said = re.sub("|".join(glossary.APART), "", chinese)
+        missing += [
+            f"{place} {english} | {chinese}: {term}"
+            for term, pattern in glossary.TERMS.items()
+            if term in said and not re.search(pattern, english, re.IGNORECASE)
+        ]
+    assert missing == []
+
+
+def test_english_names_have_the_numbers_of_the_chinese() -> None:
+    for address, row in rows(SN).items():
+        if not row.name or address in glossary.UNNUMBERED or "次" in bare(row.text_zh):  # ordinals are words in English
+            continue
+        assert re.findall(r"\d+", row.name) == re.findall(r"\d+", row.text_zh or ""), f"{address:04X}H"
+
+
+def test_a_fault_has_one_english_name_in_bits_and_codes() -> None:
+    found = rows(SN)
+    bits = {bit.id: bit.name for word in (0x14, 0x15, 0x16) for bit in found[word].bits if bit.id}
+    assert {one.id: one.name for one in SN.faults.codes} == bits
+    fault_type = {one.value: one.name for one in rows(JS)[0x3000].values if one.value}
+    assert {one.code: one.name for one in JS.faults.codes} == fault_type
+    refused = {one.value: one.name for one in rows(CH)[0x5001].values if one.value}
+    assert {one.code: one.name for one in CH.errors.codes} == refused
+
+
+def test_corroborated_codes_are_those_of_the_map() -> None:
+    assert {c.value for one in SN.errors.codes for c in one.corroborated} == {one.code for one in SN.errors.codes}
+    for one in SN.errors.codes:
+        assert {c.value for c in one.corroborated} == {one.code}
+    for number, error in enumerate(JS.errors.codes, start=1):
+        assert {c.value for c in error.corroborated} == {number}
+
+
+def by_id(frames: Iterable[Frame]) -> dict[str, Frame]:
+    """Frames by their names."""
+    return {frame.id: frame for frame in frames}
+
+
+# ---------------------------------------------------------------- SN300G5
+
+
+def test_sn300g5_addresses_are_those_of_sections_i_to_vi() -> None:
+    listed = {address for address, _, _ in runs(sn300g5.MONITORS)}
+    parameters = {address for address, _, _ in runs(sn300g5.PARAMETERS)}
+    user = set(range(0x0106, 0x0126))
+    assert len(listed) == 48
+    assert len(parameters) == 291
+    words = {*sn300g5.COMMANDS, *sn300g5.STATUS, sn300g5.ENTER}
+    assert set(rows(SN)) == listed | parameters | user | words | sn300g5.UNUSED
+
+
+def test_sn300g5_access() -> None:
+    given = access(SN)
+    for address in given:
+        readable = 0x0010 <= address < 0x0100
+        assert given[address] == ("r" if readable else "w" if address == sn300g5.ENTER else "rw"), f"{address:04X}H"
+
+
+@pytest.mark.parametrize("table", [sn300g5.MONITORS, sn300g5.PARAMETERS], ids=["monitors", "parameters"])
+def test_sn300g5_parameters_have_their_ids_and_names(table: str) -> None:
+    found = rows(SN)
+    for address, id_, name in runs(table):
+        row = found[address]
+        assert (row.id, bare(row.text_zh)) == (id_, bare(name)), f"{address:04X}H"
+        assert len(row.address) == 1
+
+
+def test_sn300g5_user_parameters_are_32_registers() -> None:
+    first, last, id_, end, name = sn300g5.USER_PARAMETERS
+    row = rows(SN)[first]
+    assert (row.address.first, row.address.last, row.id, row.zh) == (first, last, f"{id_}..{end}", name)
+
+
+def test_sn300g5_words_of_section_i() -> None:
+    found = rows(SN)
+    for address, name in (sn300g5.COMMANDS | sn300g5.STATUS).items():
+        assert (found[address].id, bare(found[address].text_zh)) == (None, name), f"{address:04X}H"
+    assert {address for address, row in found.items() if row.unused} == sn300g5.UNUSED
+
+
+def test_sn300g5_rows_stand_in_the_manuals_order() -> None:
+    section = next(one for one in SN.sections if one.id == "parameters")
+    order = [address for row in section.registers for address in row.address]
+    wanted = [address for address in spans(sn300g5.ORDER) if address not in range(0x0126, 0x0180)]
+    assert order == wanted
+    for one in SN.sections:
+        if one is not section:
+            here = [address for row in one.registers for address in row.address]
+            assert here == sorted(here), one.id
+
+
+def told(bit: Bit) -> str:
+    """A bit as the tables of facts write it."""
+    where = f"{bit.bit.first:X}" if len(bit.bit) == 1 else f"{bit.bit.first:X}-{bit.bit.last:X}"
+    return " ".join([where, "-"] if bit.unused else [where, *([bit.id] if bit.id else []), bare(bit.text_zh)])
+
+
+def test_sn300g5_bits() -> None:
+    found = {address: row for address, row in rows(SN).items() if row.bits}
+    assert set(found) == set(sn300g5.BITS)
+    for address, table in sn300g5.BITS.items():
+        assert [told(bit) for bit in found[address].bits] == table.strip().splitlines(), f"{address:04X}H"
+
+
+def test_sn300g5_values_of_bits_and_fields() -> None:
+    held = {
+        (address, bit.bit.first): {value.value: bare(value.text_zh) for value in bit.values}
+        for address, row in rows(SN).items()
+        for bit in row.bits
+        if bit.values
+    }
+    assert held == sn300g5.FIELDS
+    assert not any(row.values for row in rows(SN).values())
+
+
+def test_sn300g5_only_frequencies_have_a_scale() -> None:
+    scaled = {address: row for address, row in rows(SN).items() if row.scale or row.unit}
+    assert set(scaled) == sn300g5.HERTZ
+    for row in scaled.values():
+        assert row.unit == "Hz"
+        assert row.scale is not None
+        assert row.scale.factor == Decimal("0.01")
+        when = row.scale.when
+        assert when is not None
+        assert when.bit is not None
+        assert (when.register, when.bit.first, when.bit.last, when.equals) == (0x000F, 0, 0, 0)
+
+
+def test_sn300g5_analog_outputs_are_signed_counts() -> None:
+    for address, row in rows(SN).items():
+        if address in (0x0007, 0x0008):
+            assert row.signed
+            assert row.range is not None
+            assert (row.range.min, row.range.max) == (-726, 726)
+        else:
+            assert not row.signed
+            assert row.range is None
+
+
+def test_sn300g5_faults() -> None:
+    wanted = [line.split(" ", 2) for line in sn300g5.FAULTS.strip().splitlines()]
+    assert [[f"{one.code:02X}", one.id, bare(one.text_zh)] for one in SN.faults.codes] == [
+        [code, id_, bare(text)] for code, id_, text in wanted
+    ]
+    printed = {one.code: one.printed_code for one in SN.faults.codes if one.printed_code}
+    assert printed == sn300g5.PRINTED_CODES
+    assert {address for span in SN.faults.registers for address in span} == sn300g5.FAULT_REGISTERS
+
+
+def test_sn300g5_fault_number_is_16_x_word_plus_bit_plus_1() -> None:
+    codes = {one.id: one.code for one in SN.faults.codes}
+    found = rows(SN)
+    bits = {bit.id: (word, bit.bit.first) for word in (0x14, 0x15, 0x16) for bit in found[word].bits if bit.id}
+    assert codes == {id_: 16 * (word - 0x14) + bit + 1 for id_, (word, bit) in bits.items()}
+    assert SN.faults.bits is not None
+    assert (SN.faults.bits.first, SN.faults.bits.last) == (0x14, 0x16)
+
+
+def test_sn300g5_errors_by_their_meaning() -> None:
+    held = {
+        one.code: (
+            bare(one.text_zh),
+            bare(one.meaning.zh_used or one.meaning.zh) if one.meaning else "",
+            [bare(cause.zh_used or cause.zh) for cause in one.causes],
+        )
+        for one in SN.errors.codes
+    }
+    assert held == sn300g5.ERRORS
+    assert SN.errors.form is not None
+    assert (SN.errors.form.kind, SN.errors.form.add) == ("exception", 0x80)
+
+
+def test_sn300g5_settings() -> None:
+    held = {
+        one.id: (
+            one.register,
+            one.range.min if one.range else None,
+            one.range.max if one.range else None,
+            one.default,
+            [bare(value.zh) for value in one.values],
+        )
+        for one in SN.settings
+    }
+    assert held == sn300g5.SETTINGS
+    assert all([value.value for value in one.values] == list(range(len(one.values))) for one in SN.settings)
+    assert {one.id: one.needed.value for one in SN.settings if one.needed and one.needed.value} == {
+        "B1-01": 2,
+        "B1-02": 2,
+    }
+
+
+def test_sn300g5_line() -> None:
+    line = SN.serial
+    assert line.mode.modes == ("rtu",)
+    assert line.baud is not None
+    assert ({one.code: one.baud for one in line.baud.codes}, line.baud.default) == (sn300g5.BAUD, 3)
+    assert line.format is not None
+    assert ({one.code: one.parity for one in line.format.codes}, line.format.default) == (sn300g5.PARITY, 1)
+    assert {(one.data_bits, one.stop_bits) for one in line.format.codes} == {(8, None)}
+    assert (line.unit.min, line.unit.max, line.unit.default) == (1, 0x20, 0x1F)
+    assert line.silence is not None
+    assert (line.silence.characters, line.silence.gap_characters) == (Decimal("3.5"), Decimal("1.5"))
+    assert line.silence.milliseconds is None
+    assert line.broadcast is not None
+    assert (line.broadcast.address, line.broadcast.replies, line.broadcast.start_addresses) == (0, False, (0, 1, 2))
+
+
+def test_sn300g5_limits_and_functions() -> None:
+    assert SN.limits.read_words is not None
+    assert SN.limits.write_words is not None
+    assert (SN.limits.read_words.value, SN.limits.write_words.value) == (16, 16)
+    assert {one.code: bare(one.zh) for one in SN.functions} == {
+        0x03: "读多个寄存器参数",
+        0x10: "写多个寄存器参数",
+        0x08: "回路侦测",
+    }
+    assert [sub.code for one in SN.functions for sub in one.sub_functions] == [0]
+
+
+def test_sn300g5_commands_reference_and_storage() -> None:
+    moves = {
+        one.does: (one.register, [bit for span in one.set for bit in span], [bit for span in one.clear for bit in span])
+        for one in SN.operation.commands
+    }
+    assert moves == {"run_forward": (0, [0], [1]), "run_reverse": (0, [1], [0]), "stop": (0, [], [0, 1])}
+    assert all(one.value is None for one in SN.operation.commands)
+    reference = SN.operation.reference
+    assert (reference.register, reference.means, reference.negative_reverses) == (1, "frequency", False)
+    verified = [(one.register, one.bit.first if one.bit else None, one.equals) for one in reference.verify]
+    assert verified == [(0x000F, 0, 0)]
+    storage = SN.storage
+    assert (storage.method, storage.register, storage.value, storage.max_writes) == (
+        "enter_register",
+        0xFFFD,
+        0,
+        100_000,
+    )
+
+
+def test_sn300g5_standstill_is_not_running_zero_speed_and_no_frequency() -> None:
+    held = [(one.register, one.bit.first if one.bit else None, one.equals) for one in SN.operation.standstill.all]
+    assert held == [(0x0010, 0, 0), (0x0010, 1, 1), (0x0021, None, 0)]
+
+
+def test_sn300g5_frames() -> None:
+    found = by_id(SN.frames)
+    assert list(found) == list(sn300g5.FRAMES)
+    for id_, (text, direction, address, words, quantity) in sn300g5.FRAMES.items():
+        frame = found[id_]
+        assert frame.printed == frame.correct == octets(text), id_
+        assert (frame.checksum, frame.direction, frame.mode) == ("right", direction, "rtu"), id_
+        means = frame.means
+        assert (means.unit, means.function, means.address) == (1, octets(text)[1], address), id_
+        assert (means.values, means.words) == (words, quantity), id_
+        loop = (0x0000, 0x12AB) if means.function == 8 else (None, None)
+        assert (means.sub_function, means.data) == loop, id_
+
+
+def test_sn300g5_printed_ids_and_addresses() -> None:
+    printed = {row.address.first: row.printed for row in rows(SN).values() if row.printed}
+    ids = {address: one.id for address, one in printed.items() if one.id and address != 0x0106}
+    assert ids == sn300g5.PRINTED_IDS
+    assert {address: one.address for address, one in printed.items() if one.address} == sn300g5.PRINTED_ADDRESSES
+    torn = {(address, bit.bit.first): bit.printed for address, row in rows(SN).items() for bit in row.bits}
+    assert {place: one.id or one.bit for place, one in torn.items() if one} == sn300g5.PRINTED_BITS
+
+
+def test_sn300g5_series_start_where_their_first_id_stands() -> None:
+    typed = {id_: address for table in (sn300g5.MONITORS, sn300g5.PARAMETERS) for address, id_, _ in runs(table)}
+    first, _, id_, _, _ = sn300g5.USER_PARAMETERS
+    typed[id_] = first
+    series = [one for section in SN.sections for one in section.series]
+    assert {one.ids.partition("..")[0]: one.base for one in series} == {
+        id_: address for id_, address in typed.items() if id_ == "A1-00" or (id_ != "A1-01" and id_.endswith("-01"))
+    }
+    assert {id_ for one in series for id_ in one.apart} == {"C3-05", "C5-08", "F1-14"}
+
+
+# ---------------------------------------------------------------- JSCC
+
+
+def test_jscc_registers() -> None:
+    ways = access(JS)
+    assert {address: (bare(row.text_zh), ways[address]) for address, row in rows(JS).items()} == jscc.REGISTERS
+    assert not any(row.unused or row.bits for row in rows(JS).values())
+    assert {address for address, row in rows(JS).items() if row.masks} == {0x2001}
+
+
+def test_jscc_values_and_faults() -> None:
+    held = {address: {one.value: bare(one.text_zh) for one in row.values} for address, row in rows(JS).items()}
+    assert {address: values for address, values in held.items() if values} == jscc.VALUES
+    assert {one.code: bare(one.text_zh) for one in JS.faults.codes} == jscc.FAULTS
+    assert [(span.first, span.last) for span in JS.faults.registers] == [(0x3000, 0x3000)]
+
+
+def test_jscc_only_the_output_frequency_has_a_scale() -> None:
+    scaled = {address: row for address, row in rows(JS).items() if row.scale or row.unit}
+    assert set(scaled) == {0x2000}
+    scale = scaled[0x2000].scale
+    assert scale is not None
+    assert (scaled[0x2000].unit, scale.factor, scale.when, scale.proof) == (
+        "Hz",
+        Decimal("0.1"),
+        None,
+        "read_frequency_rtu_reply",
+    )
+
+
+def test_jscc_commands_and_standstill() -> None:
+    operation = JS.operation
+    assert {one.does: one.value for one in operation.commands} == jscc.COMMANDS
+    assert {one.register for one in operation.commands} == {0x1000}
+    assert not any(one.set or one.clear for one in operation.commands)
+    assert (operation.reference.register, operation.reference.means) == (0x1001, "frequency")
+    assert [(one.register, one.bit, one.equals) for one in operation.standstill.all] == [
+        (0x2001, None, 4),
+        (0x2000, None, 0),
+    ]
+
+
+def test_jscc_settings() -> None:
+    held = {
+        one.id: (one.default, one.needed.value if one.needed else None, [bare(value.zh) for value in one.values])
+        for one in JS.settings
+    }
+    assert held == jscc.SETTINGS
+    assert all([value.value for value in one.values] == list(range(1, len(one.values) + 1)) for one in JS.settings)
+    ranges = {one.id: (one.range.min, one.range.max) for one in JS.settings if one.range}
+    assert ranges == {"FA.00": (1, 247)}
+
+
+def test_jscc_line() -> None:
+    line = JS.serial
+    assert set(line.mode.modes) == {"rtu", "ascii"}
+    assert ({one.code: one.mode for one in line.mode.codes}, line.mode.default) == (jscc.MODE, 2)
+    assert line.baud is not None
+    assert ({one.code: one.baud for one in line.baud.codes}, line.baud.default) == (jscc.BAUD, 3)
+    assert line.format is not None
+    held = {one.code: (one.data_bits, one.parity, one.stop_bits) for one in line.format.codes}
+    assert (held, line.format.default) == (jscc.FORMAT, 2)
+    assert (line.unit.min, line.unit.max, line.unit.default) == (1, 247, 1)
+    assert line.silence is not None
+    assert (line.silence.milliseconds, line.silence.characters) == (Decimal(10), None)
+    assert line.broadcast is None
+
+
+def test_jscc_limits_functions_and_parameters() -> None:
+    limits = JS.limits
+    assert limits.data_bytes is not None
+    assert limits.ascii_data_bytes is not None
+    assert (limits.data_bytes.value, limits.ascii_data_bytes.value) == (25, 25)
+    assert limits.read_words is None
+    assert limits.write_words is None
+    assert [one.code for one in JS.functions] == [0x03, 0x06, 0x10]
+    area = JS.areas[0]
+    assert (area.addresses.first, area.addresses.last, area.numbered_by) == (0x0000, 0x00FF, "parameter_number")
+    assert [(one.id, one.number, one.address) for one in area.examples] == [("F-18", 18, 0x0012)]
+    assert JS.storage.method == "unexplained"
+
+
+def test_jscc_errors_have_no_codes_and_no_form() -> None:
+    assert [(one.code, bare(one.zh)) for one in JS.errors.codes] == [(None, text) for text in jscc.ERRORS]
+    assert JS.errors.form is None
+
+
+def test_jscc_frames() -> None:
+    found = by_id(JS.frames)
+    assert list(found) == list(jscc.FRAMES)
+    for id_, (text, address, words) in jscc.FRAMES.items():
+        frame = found[id_]
+        assert frame.printed == frame.correct == octets(text), id_
+        assert frame.checksum == "right", id_
+        assert frame.direction == id_.rpartition("_")[2], id_
+        means = frame.means
+        assert (means.unit, means.address, means.values) == (1, address, words), id_
+        hertz = [(one.register, one.value, one.unit) for one in means.quantities]
+        assert hertz == ([(0x2000, Decimal("50.0"), "Hz")] if words == (500,) else []), id_
+
+
+def test_jscc_tables_of_plc_registers() -> None:
+    for id_, (first, bits, text, misprint) in jscc.TABLES.items():
+        table = by_id(JS.frames)[id_].plc
+        assert table is not None, id_
+        contents = text.split()
+        assert (table.first, table.bits, list(table.registers)) == (first, bits, contents), id_
+        if misprint is not None:
+            contents[misprint[0]] = misprint[1]
+        assert list(table.printed or table.registers) == contents, id_
+
+
+# ---------------------------------------------------------------- CHF
+
+
+def test_chf_registers() -> None:
+    ways = access(CH)
+    assert {address: (bare(row.text_zh), ways[address]) for address, row in rows(CH).items()} == chf.REGISTERS
+    assert {address for address, row in rows(CH).items() if row.unused} == chf.RESERVED
+    assert [one.id for one in CH.settings] == ["P0.04"]
+    assert not any(row.bits or row.masks for row in rows(CH).values())
+
+
+def test_chf_values_and_errors() -> None:
+    held = {address: {one.value: bare(one.text_zh) for one in row.values} for address, row in rows(CH).items()}
+    assert {address: values for address, values in held.items() if values} == chf.VALUES
+    assert {one.code: bare(one.text_zh) for one in CH.errors.codes} == chf.ERRORS
+    form = CH.errors.form
+    assert form is not None
+    assert (form.kind, form.function, form.address) == ("write_reply", 0x06, 0x5001)
+    assert [(span.first, span.last) for span in CH.faults.registers] == [(0x5000, 0x5000)]
+    assert CH.faults.codes == ()
+
+
+def test_chf_only_the_communication_setting_has_a_scale() -> None:
+    scaled = {address: row for address, row in rows(CH).items() if row.scale or row.unit or row.signed or row.range}
+    assert set(scaled) == {0x2000}
+    row = scaled[0x2000]
+    assert row.scale is not None
+    assert row.range is not None
+    assert (row.unit, row.scale.factor, row.signed) == ("%", Decimal("0.01"), True)
+    assert (row.range.min, row.range.max) == (-10000, 10000)
+
+
+def test_chf_commands_reference_and_standstill() -> None:
+    operation = CH.operation
+    assert {one.does: one.value for one in operation.commands} == chf.COMMANDS
+    assert {one.register for one in operation.commands} == {0x1000}
+    reference = operation.reference
+    assert (reference.register, reference.means, reference.maximum) == (0x2000, "percent_of_maximum", "P0.04")
+    assert reference.negative_reverses
+    assert [(one.register, one.bit, one.equals) for one in operation.standstill.all] == [
+        (0x1001, None, 3),
+        (0x3000, None, 0),
+    ]
+
+
+def test_chf_line_limits_and_functions() -> None:
+    line = CH.serial
+    assert set(line.mode.modes) == {"rtu", "ascii"}
+    assert line.baud is None
+    assert line.format is None
+    assert (line.unit.min, line.unit.max, line.unit.default) == (1, 247, None)
+    assert line.silence is not None
+    assert (line.silence.characters, line.silence.gap_characters) == (Decimal("3.5"), Decimal("1.5"))
+    assert line.broadcast is not None
+    assert (line.broadcast.address, line.broadcast.replies, line.broadcast.start_addresses) == (0, False, ())
+    limits = {key: getattr(CH.limits, key) for key in ("read_words", "write_words", "data_bytes", "ascii_data_bytes")}
+    assert {key: one.value for key, one in limits.items() if one} == {
+        "read_words": 16,
+        "write_words": 1,
+        "ascii_data_bytes": 16,
+    }
+    assert {one.code: bare(one.zh) for one in CH.functions} == {0x03: "读从机参数", 0x06: "写从机参数"}
+
+
+def test_chf_function_codes_and_their_ram_only_addresses() -> None:
+    area = CH.areas[0]
+    assert (area.addresses.first, area.addresses.last, area.numbered_by) == (0x0000, 0x01FF, "sequence_number")
+    assert [(one.id, one.number, one.address) for one in area.examples] == [
+        ("P5.05", 58, 0x003A),
+        ("P0.07", 7, 0x0007),
+    ]
+    assert [one.ids for one in area.excluded] == ["PE"]
+    storage = CH.storage
+    assert (storage.method, storage.add, storage.area, storage.readable) == (
+        "ram_address_bit",
+        0x8000,
+        area.id,
+        False,
+    )
+
+
+def test_chf_frames_and_the_one_wrong_crc() -> None:
+    found = by_id(CH.frames)
+    assert list(found) == list(chf.FRAMES)
+    wrong, printed, owner = chf.WRONG_CRC
+    for id_, (text, unit, address, words) in chf.FRAMES.items():
+        frame = found[id_]
+        assert frame.correct == octets(text), id_
+        assert frame.printed == octets(printed if id_ == wrong else text), id_
+        assert frame.checksum == ("wrong" if id_ == wrong else "right"), id_
+        assert (frame.means.unit, frame.means.address, frame.means.values) == (unit, address, words), id_
+        assert frame.means.error == (5 if "error" in id_ else None), id_
+    assert found[wrong].printed_checksum_of == octets(owner)
+    assert crc(octets(owner)) == octets(printed)[-2:]
+
+
+def test_chf_alone_tolerates_a_byte_count_of_two_bytes() -> None:
+    assert [one.kind for one in CH.tolerances] == ["two_byte_count"]
+    assert SN.tolerances == JS.tolerances == ()
