@@ -2,6 +2,7 @@
 
 import math
 import platform
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -397,3 +398,30 @@ def test_names_that_c_has_for_signals(build: Builder) -> None:
     signals = build(text).instance("Signals")
     signals.scan(0)
     assert signals.state() == {name: value + (name == "NSIG") for value, name in enumerate(names)}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there is no timer of processor time on Windows")
+def test_scan_without_end_is_stopped(build: Builder, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("driveblocks.host.matiec.guard.SCAN_SECONDS", 0.25)
+    text = """FUNCTION_BLOCK Endless
+  VAR_INPUT
+    Stop : BOOL := TRUE;
+  END_VAR
+  VAR_OUTPUT
+    Turns : DINT;
+  END_VAR
+  Turns := Turns + 1;
+  WHILE NOT Stop DO
+    Turns := Turns + 1;
+  END_WHILE;
+END_FUNCTION_BLOCK
+"""
+    endless = build(text).instance("Endless")
+    endless.scan_many(1000)
+    assert endless["Turns"] == 1000
+    endless["Stop"] = False
+    with pytest.raises(ScanError, match="Endless: the scan was stopped by the watchdog: it took many seconds"):
+        endless.scan()
+    endless["Stop"] = True
+    endless.scan()
+    assert endless["Turns"] != 0

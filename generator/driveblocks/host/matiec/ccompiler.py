@@ -6,7 +6,7 @@ import shlex
 import shutil
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
@@ -22,7 +22,7 @@ VERSION_SECONDS = 20.0
 # iec2c writes C that leans on what compilers do, not on the C standard: signed sums wrap, a type is read as another.
 # FMA is off and the language version fixed, so that every machine computes the same.
 _FIXED_FLAGS = (
-    "-std=gnu11", "-fPIC", "-shared", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fcommon",
+    "-std=gnu11", "-fPIC", "-shared", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-fcommon", "-pthread",
     "-Wno-parentheses-equality",  # clang, on every `IF` there is
 )  # fmt: skip
 
@@ -43,10 +43,14 @@ class Flags:
     coverage: bool = False
 
     @property
+    def sanitized(self) -> bool:
+        """Whether a sanitizer is built in, which has signals and undefined symbols of its own."""
+        return any(each.startswith("-fsanitize") for each in self.extra)
+
+    @property
     def arguments(self) -> list[str]:
         """What to put on the command line."""
-        sanitized = any(each.startswith("-fsanitize") for each in self.extra)
-        whole = ["-Wl,-z,defs"] if sys.platform == "linux" and not sanitized else []
+        whole = ["-Wl,-z,defs"] if sys.platform == "linux" and not self.sanitized else []
         return [*_FIXED_FLAGS, *whole, f"-O{self.optimise}", *self.extra]
 
 
@@ -91,8 +95,8 @@ class Job:
     output: str
     headers: Path
     flags: Flags
-    listing: Listing
-    lines: LineTable
+    listing: Listing = field(default_factory=lambda: Listing(()))
+    lines: LineTable = field(default_factory=LineTable)
 
 
 def _messages(output: str, lines: LineTable) -> list[tuple[str, Message]]:

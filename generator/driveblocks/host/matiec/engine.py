@@ -13,6 +13,7 @@ from driveblocks.host.matiec.c_lines import LineTable, counted_lines, take_lines
 from driveblocks.host.matiec.cache import Cache, cache_folder
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, Job
 from driveblocks.host.matiec.declarations import Declarations, Unit, read_declarations
+from driveblocks.host.matiec.guard import load_guard
 from driveblocks.host.matiec.header import (
     Block,
     ConfigurationC,
@@ -66,7 +67,7 @@ class MatiecEngine:
         except OSError as error:
             raise EngineError(f"{self.installation.iec2c} is no longer there: {error.strerror}") from error
         compiler = [*self.compiler.command, self.compiler.version, *self.flags.arguments]
-        parts = json.dumps([FORMAT, runtime.UNIT_TEXT, runtime.GUARD_TEXT, tools, compiler, self.flags.coverage, text])
+        parts = json.dumps([FORMAT, runtime.UNIT_TEXT, tools, compiler, self.flags.coverage, text])
         return hashlib.sha256(parts.encode("utf-8", "surrogatepass")).hexdigest()
 
     def _make(self, listing: Listing, folder: Path) -> None:
@@ -90,10 +91,9 @@ class MatiecEngine:
         if self.flags.coverage:
             text = f"#define DBK_COVERAGE {listing.text.count(chr(10)) + 1}\n{text}"
         (folder / runtime.UNIT).write_text(text, encoding="utf-8")
-        (folder / runtime.GUARD).write_text(runtime.GUARD_TEXT, encoding="utf-8")
         (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
         lines = self._move_pous(folder, c_sources.declared)
-        files = [runtime.UNIT, runtime.GUARD, *(configuration.files if configuration else ())]
+        files = [runtime.UNIT, *(configuration.files if configuration else ())]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
     def _move_pous(self, folder: Path, declared: Declarations) -> LineTable:
@@ -109,6 +109,8 @@ class MatiecEngine:
     def _load(self, listing: Listing, folder: Path) -> Built:
         c_sources = _CSources.read(folder, self.installation, listing)
         binary = Binary(folder / LIBRARY)
+        if not self.flags.sanitized:
+            binary.attach(load_guard(self.compiler, self.cache))
         expressions = json.loads((folder / EXPRESSIONS).read_text(encoding="utf-8"))
         sizes = dict(zip(expressions, binary.sizes(len(expressions)), strict=False))
         plan = c_sources.plan(sizes.__getitem__).plan

@@ -25,9 +25,10 @@ _TRAPS = {
 
 @dataclass
 class Binary:
-    """The shared library and the C functions in it, by name."""
+    """The shared library and the C functions in it, by name; `guard` is what runs its scans, if anything."""
 
     path: Path
+    guard: ctypes.c_void_p | None = None
     handle: ctypes.PyDLL = field(init=False)
 
     def __post_init__(self) -> None:
@@ -36,7 +37,11 @@ class Binary:
             self.handle = ctypes.PyDLL(str(self.path))
         except OSError as error:
             raise EngineError(f"cannot load the library that the C compiler made: {error}") from error
-        self.handle.dbk_start()
+
+    def attach(self, guard: ctypes.c_void_p | None) -> None:
+        """Let `guard` run the scans."""
+        self.guard = guard
+        self.function("dbk_attach", ctypes.c_void_p)(guard)
 
     def function(self, name: str, *arguments: type[ctypes.c_void_p | ctypes.c_int64]) -> Callable[..., int]:
         """Give a C function that takes `arguments` and gives an int64."""
@@ -86,6 +91,8 @@ class BlockType:
 
 
 def _cause(number: int) -> str:
+    if number == getattr(signal, "SIGVTALRM", None):
+        return "the watchdog: it took many seconds, so it holds a loop without end"
     name = signal.Signals(number).name
     return f"{name}: {_TRAPS[signal.Signals(number)]}" if number in _TRAPS else name
 
@@ -260,7 +267,7 @@ class MatiecConfiguration:
 
     def __init__(self, built: Built, configuration: ConfigurationC) -> None:
         """Load a copy of the library and let the C initialise it."""
-        self._binary = _private(built.binary.path)
+        self._binary = _private(built.binary)
         self._name = configuration.name
         self._place = built.place(configuration.name)
         self._run = self._binary.function("dbk_config_run", ctypes.c_int64, ctypes.c_int64)
@@ -317,13 +324,14 @@ class MatiecConfiguration:
         return found
 
 
-def _private(path: Path) -> Binary:
+def _private(binary: Binary) -> Binary:
     """Load a copy of a library; the same file would give the same variables again."""
     folder = Path(tempfile.mkdtemp(prefix="driveblocks-"))
     try:
-        copy = Path(shutil.copy(path, folder))
-        return Binary(copy)
+        copy = Binary(Path(shutil.copy(binary.path, folder)))
     except OSError as error:
         raise EngineError(f"cannot copy the library of the configuration: {error.strerror}") from error
     finally:  # what is loaded stays loaded; Windows keeps the file until the process ends
         shutil.rmtree(folder, ignore_errors=True)
+    copy.attach(binary.guard)
+    return copy

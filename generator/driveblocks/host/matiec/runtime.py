@@ -6,13 +6,11 @@ from importlib.resources import files
 from driveblocks.host.matiec.header import ConfigurationC, Function, Storage
 
 UNIT = "driveblocks_unit.c"
-GUARD = "driveblocks_guard.c"
 # Each Resource.c includes POUS.c; the text moves, so that it is compiled once however many resources there are.
 POUS_MOVED = "driveblocks_pous.c"
 
 _OURS = files("driveblocks.host.matiec")
 UNIT_TEXT = (_OURS / "unit.h").read_text(encoding="utf-8")
-GUARD_TEXT = (_OURS / "guard.c").read_text(encoding="utf-8")
 
 # How the C declares a variable; `{0}` is the type, `{1}` the name.
 _DECLARED = {

@@ -8,22 +8,41 @@ BOOL __DEBUG;
 uint32_t dbk_hits[DBK_COVERAGE];
 #endif
 
-extern int64_t dbk_guard(void (*body)(void *), void *data, int64_t now, int64_t step, int64_t count);
-
-void dbk_set_clock(int64_t nanoseconds)
+static void dbk_set_clock(int64_t nanoseconds)
 {
     __CURRENT_TIME.tv_sec = nanoseconds / 1000000000;
     __CURRENT_TIME.tv_nsec = nanoseconds % 1000000000;
+}
+
+/* What runs scans so that a trap ends the scan and not the process; without it they run as they are. */
+typedef int64_t (*dbk_guard)(void (*)(int64_t), void (*)(void *), void *, int64_t, int64_t, int64_t);
+
+static dbk_guard dbk_guarded;
+
+void dbk_attach(dbk_guard guard)
+{
+    dbk_guarded = guard;
+}
+
+static int64_t dbk_run(void (*body)(void *), void *data, int64_t now, int64_t step, int64_t count)
+{
+    if (dbk_guarded)
+        return dbk_guarded(dbk_set_clock, body, data, now, step, count);
+    for (; count > 0; count--, now += step) {
+        dbk_set_clock(now);
+        body(data);
+    }
+    return 0;
 }
 
 /* A function block or program: `data` is zeroed memory of sizeof(NAME). */
 #define DBK_BLOCK(NAME)                                                                                      \
     static void dbk_body_##NAME(void *data) { NAME##_body__((NAME *)data); }                                 \
     void dbk_init_##NAME(void *data) { NAME##_init__((NAME *)data, 0); }                                     \
-    int64_t dbk_scan_##NAME(void *data, int64_t now) { return dbk_guard(dbk_body_##NAME, data, now, 0, 1); } \
+    int64_t dbk_scan_##NAME(void *data, int64_t now) { return dbk_run(dbk_body_##NAME, data, now, 0, 1); } \
     int64_t dbk_many_##NAME(void *data, int64_t now, int64_t step, int64_t count)                            \
     {                                                                                                        \
-        return dbk_guard(dbk_body_##NAME, data, now, step, count);                                           \
+        return dbk_run(dbk_body_##NAME, data, now, step, count);                                           \
     }
 
 /* A function: `cells` are pointers to the result and to the arguments. */
@@ -33,7 +52,7 @@ void dbk_set_clock(int64_t nanoseconds)
         void **cells = data;                                                                              \
         *(RESULT *)cells[0] = NAME(__VA_ARGS__);                                                          \
     }                                                                                                     \
-    int64_t dbk_call_##NAME(void **cells) { return dbk_guard(dbk_body_##NAME, cells, 0, 0, 1); }
+    int64_t dbk_call_##NAME(void **cells) { return dbk_run(dbk_body_##NAME, cells, 0, 0, 1); }
 
 /* A whole CONFIGURATION, whose variables are static. */
 #define DBK_CONFIGURATION                                                                         \
@@ -53,5 +72,5 @@ void dbk_set_clock(int64_t nanoseconds)
     void dbk_config_init(void) { config_init__(); }                                               \
     int64_t dbk_config_run(int64_t now, int64_t count)                                            \
     {                                                                                             \
-        return dbk_guard(dbk_body_config, NULL, now, (int64_t)common_ticktime__, count);          \
+        return dbk_run(dbk_body_config, NULL, now, (int64_t)common_ticktime__, count);          \
     }
