@@ -9,6 +9,7 @@ from pathlib import Path
 
 from driveblocks.host.engine import EngineError, Message, Source
 from driveblocks.host.matiec import runtime
+from driveblocks.host.matiec.binary import Binary, Built
 from driveblocks.host.matiec.c_lines import LineTable, counted_lines, take_lines
 from driveblocks.host.matiec.cache import Cache, cache_folder
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, Job
@@ -24,7 +25,7 @@ from driveblocks.host.matiec.header import (
     read_standard_blocks,
 )
 from driveblocks.host.matiec.installation import Installation
-from driveblocks.host.matiec.library import Binary, Built, MatiecLibrary
+from driveblocks.host.matiec.library import MatiecLibrary
 from driveblocks.host.matiec.plan import Expressions, Measure, Planner
 from driveblocks.host.matiec.text import Listing
 from driveblocks.host.matiec.translate import Translator

@@ -1,66 +1,18 @@
-"""A built library in this process: its instances, functions and configuration."""
+"""What a build gives: instances, function calls, and a configuration."""
 
 import ctypes
-import shutil
-import signal
-import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
-from driveblocks.host.engine import EngineError, Message, ScanError, Value
-from driveblocks.host.matiec.declarations import Declarations, Unit
-from driveblocks.host.matiec.header import ConfigurationC
+from driveblocks.host.engine import Message, ScanError, Value
+from driveblocks.host.matiec.binary import Built, cause
+from driveblocks.host.matiec.configuration import MatiecConfiguration
+from driveblocks.host.matiec.declarations import Unit
 from driveblocks.host.matiec.layout import Memory, RecordNode, Snapshot
 from driveblocks.host.matiec.literal import constant
 from driveblocks.host.matiec.paths import Paths
-from driveblocks.host.matiec.plan import Plan, Signature
-
-_TRAPS = {
-    signal.SIGFPE: "a division by zero, or of the least integer by -1",
-    signal.SIGSEGV: "an access to memory that is not there, as by an array index far out of its bounds",
-}
-
-
-@dataclass
-class Binary:
-    """The shared library and the C functions in it, by name; `guard` is what runs its scans, if anything."""
-
-    path: Path
-    guard: ctypes.c_void_p | None = None
-    handle: ctypes.PyDLL = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Load it. Raises EngineError."""
-        try:
-            self.handle = ctypes.PyDLL(str(self.path))
-        except OSError as error:
-            raise EngineError(f"cannot load the library that the C compiler made: {error}") from error
-
-    def attach(self, guard: ctypes.c_void_p | None) -> None:
-        """Let `guard` run the scans."""
-        self.guard = guard
-        self.function("dbk_attach", ctypes.c_void_p)(guard)
-
-    def function(self, name: str, *arguments: type[ctypes.c_void_p | ctypes.c_int64]) -> Callable[..., int]:
-        """Give a C function that takes `arguments` and gives an int64."""
-        found = self.handle[name]
-        found.argtypes = arguments
-        found.restype = ctypes.c_int64
-        return found
-
-    def sizes(self, count: int) -> list[int]:
-        """Read the table of sizes and offsets."""
-        return list((ctypes.c_int64 * max(count, 1)).in_dll(self.handle, "dbk_sizes"))
-
-    def hits(self, last_line: int) -> list[int]:
-        """Read how often each line of the joined text has run."""
-        return list((ctypes.c_uint32 * (last_line + 1)).in_dll(self.handle, "dbk_hits"))
-
-    def places(self, count: int) -> list[int | None]:
-        """Read the addresses of what a CONFIGURATION holds."""
-        return list((ctypes.c_void_p * max(count, 1)).in_dll(self.handle, "dbk_places"))
+from driveblocks.host.matiec.plan import Signature
 
 
 @dataclass
@@ -87,14 +39,7 @@ class BlockType:
 
     def trap(self, number: int) -> ScanError:
         """Say which signal ended a scan; C does not tell the line."""
-        return ScanError(Message(self.path, self.line, 0, f"{self.name}: the scan was stopped by {_cause(number)}"))
-
-
-def _cause(number: int) -> str:
-    if number == getattr(signal, "SIGVTALRM", None):
-        return "the watchdog: it took many seconds, so it holds a loop without end"
-    name = signal.Signals(number).name
-    return f"{name}: {_TRAPS[signal.Signals(number)]}" if number in _TRAPS else name
+        return ScanError(Message(self.path, self.line, 0, f"{self.name}: the scan was stopped by {cause(number)}"))
 
 
 @dataclass
@@ -157,7 +102,7 @@ def _refuse_empty(path: str) -> None:
 class MatiecLibrary:
     """Compiled sources. `warnings`: what both compilers said; `folder`: the C, as long as the cache has it."""
 
-    def __init__(self, built: "Built") -> None:
+    def __init__(self, built: Built) -> None:
         """Take what the engine has loaded."""
         self.warnings = built.warnings
         self.folder = built.folder
@@ -211,7 +156,7 @@ class MatiecLibrary:
         trap = self._binary.function(f"dbk_call_{name}", ctypes.c_void_p)(ctypes.addressof(cells))
         if trap:
             path, line = self._built.place(name)
-            raise ScanError(Message(path, line, 0, f"{function}: the call was stopped by {_cause(trap)}"))
+            raise ScanError(Message(path, line, 0, f"{function}: the call was stopped by {cause(trap)}"))
         return signature.result.read(result, 0)
 
     def _arguments(self, name: str, signature: Signature, given: Mapping[str, Value]) -> list[Memory]:
@@ -236,102 +181,9 @@ class MatiecLibrary:
             found.setdefault(path, {})[own] = hits[line]
         return found
 
-    def configuration(self, name: str | None = None) -> "MatiecConfiguration":
+    def configuration(self, name: str | None = None) -> MatiecConfiguration:
         """Start the CONFIGURATION with variables of its own. KeyError."""
         found = self._built.configuration
         if found is None or (name is not None and name.upper() != found.name):
             raise KeyError(f"there is no configuration {name}" if name else "there is no configuration")
         return MatiecConfiguration(self._built, found)
-
-
-@dataclass(frozen=True)
-class Built:
-    """All that is known of a build."""
-
-    folder: Path
-    binary: Binary
-    plan: Plan
-    declared: Declarations
-    configuration: ConfigurationC | None
-    warnings: tuple[Message, ...]
-    places: Mapping[str, tuple[str, int]]
-    counted: Mapping[int, tuple[str, int]]
-
-    def place(self, name: str) -> tuple[str, int]:
-        """File and line where a block or function is declared; line 0 if that is not in the sources."""
-        return self.places.get(name, (name, 0))
-
-
-class MatiecConfiguration:
-    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has a library of its own."""
-
-    def __init__(self, built: Built, configuration: ConfigurationC) -> None:
-        """Load a copy of the library and let the C initialise it."""
-        self._binary = _private(built.binary)
-        self._name = configuration.name
-        self._place = built.place(configuration.name)
-        self._run = self._binary.function("dbk_config_run", ctypes.c_int64, ctypes.c_int64)
-        self._now = 0
-        self._tick = self._binary.function("dbk_config_tick")()
-        self._roots = dict(self._find(built.plan, configuration))
-        self._binary.function("dbk_config_init")()
-
-    def _find(self, plan: Plan, configuration: ConfigurationC) -> Iterator[tuple[str, tuple[Memory, Paths]]]:
-        """Path -> memory of every global and program; those of a resource carry its name."""
-        nodes = [(each.owner, each.name, plan.globals[each.owner, each.name]) for each in configuration.globals]
-        nodes += [(owner, name, plan.blocks[type_name]) for owner, name, type_name in configuration.programs]
-        addresses = self._binary.places(len(nodes))
-        for (owner, name, node), address in zip(nodes, addresses, strict=False):
-            path = name if owner == configuration.name else f"{owner}.{name}"
-            yield path, ((ctypes.c_char * node.size).from_address(address or 0), Paths(node))
-
-    @property
-    def tick_ns(self) -> int:
-        """The common tick."""
-        return self._tick
-
-    def _split(self, path: str) -> tuple[Memory, Paths, str]:
-        """The root that a path starts with, and what is left of the path."""
-        upper = path.upper()
-        for root, (memory, paths) in self._roots.items():
-            if upper == root or (upper.startswith(root) and upper[len(root)] in ".["):
-                rest = path[len(root) :]
-                return memory, paths, rest.removeprefix(".")
-        raise KeyError(path)
-
-    def __getitem__(self, path: str) -> Value:
-        """Read a variable."""
-        memory, paths, rest = self._split(path)
-        return paths.read(memory, rest)
-
-    def __setitem__(self, path: str, value: Value) -> None:
-        """Write a variable."""
-        memory, paths, rest = self._split(path)
-        paths.write(memory, rest, value)
-
-    def run(self, ticks: int = 1) -> None:
-        """Run so many ticks."""
-        trap = self._run(self._now, ticks)
-        self._now += ticks * self._tick
-        if trap:
-            raise ScanError(Message(*self._place, 0, f"{self._name}: the run was stopped by {_cause(trap)}"))
-
-    def state(self) -> dict[str, Value]:
-        """Read every variable."""
-        found: dict[str, Value] = {}
-        for root, (memory, paths) in self._roots.items():
-            found.update((path, leaf.read(memory, offset)) for path, offset, leaf in paths.root.leaves(root, 0))
-        return found
-
-
-def _private(binary: Binary) -> Binary:
-    """Load a copy of a library; the same file would give the same variables again."""
-    folder = Path(tempfile.mkdtemp(prefix="driveblocks-"))
-    try:
-        copy = Binary(Path(shutil.copy(binary.path, folder)))
-    except OSError as error:
-        raise EngineError(f"cannot copy the library of the configuration: {error.strerror}") from error
-    finally:  # what is loaded stays loaded; Windows keeps the file until the process ends
-        shutil.rmtree(folder, ignore_errors=True)
-    copy.attach(binary.guard)
-    return copy
