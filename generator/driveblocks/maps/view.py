@@ -33,7 +33,7 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         "absent": plain(drive.absent),
         "serial": plain(drive.serial),
         "limits": _limits(drive),
-        **{key: plain(getattr(drive, key)) for key in ("functions", "settings", "operation", "notices")},
+        **{key: plain(getattr(drive, key)) for key in ("functions", "settings", "operation", "notices", "tolerances")},
         "storage": _without(drive.storage, *(() if drive.storage.add is not None else ("readable",))),
     }
 
