@@ -53,7 +53,6 @@ class Case:
     configuration: str
     scans: int
     trace: int
-    long: bool
     steps_ns: tuple[int, ...]
     jitter_ns: tuple[int, ...]
     inputs: tuple[Input, ...]
@@ -92,7 +91,6 @@ def _case(name: str, entry: dict[str, Any]) -> Case:
         configuration=entry.get("configuration", ""),
         scans=entry["scans"],
         trace=entry["trace"],
-        long=entry.get("long", False),
         steps_ns=ticks or tuple(ms * 1_000_000 for ms in entry.get("step_ms", [10])),
         jitter_ns=tuple(entry.get("jitter_ns", [0])),
         inputs=tuple(

@@ -50,10 +50,12 @@ class Batch:
         return PRELUDE + "".join(_block(number, terms) for number, terms in enumerate(blocks))
 
     def place(self, line: int) -> int:
-        """The number of the expression on a line of the text."""
+        """The number of the expression on a line of the text; of another line, that of the block's first."""
         lines = self.text.splitlines()[:line]
         blocks = sum(each.startswith("FUNCTION_BLOCK ") for each in lines)
-        return (blocks - 1) * self.per_block + int(lines[-1].partition(" := ")[0].strip().removeprefix("o"))
+        statement, assigned, _ = lines[-1].partition(" := ")
+        own = int(statement.strip().removeprefix("o")) if assigned else 0
+        return (blocks - 1) * self.per_block + own
 
 
 def _prelude(kind: str) -> str:
@@ -154,7 +156,7 @@ class Mismatch:
 
 
 class Trap(Exception):  # noqa: N818 - not an error of the test, but of one expression
-    """The processor would stop at an expression; `number` says which."""
+    """A scan stopped at an expression; `number` says which, as far as the engine knows."""
 
     def __init__(self, number: int) -> None:
         """Keep the number."""

@@ -24,6 +24,12 @@ VARIABLES = 3  # of each type
 ELEMENTS = 4  # of the array of each type
 WIDTH = {**WHOLE, **BITS}
 
+TEXTS = {
+    "BOOL": ["TRUE", "FALSE"],
+    "TIME": ["T#0s", "T#20ms", "T#1s", "T#1m30s", "T#2.5s", "T#500ms", "T#1d"],
+    "STRING": ["'a'", "'abc'", "'TRUE'", "'12'", "'-7'", "'b'", "'12.5'", "'16#1F'"],
+}
+
 Production = Callable[["Grammar", str, int], Term]
 
 
@@ -100,6 +106,10 @@ class Grammar:
         """An operation, at times with parentheses that it does not need."""
         return binary(kind, rule, (left, operator, right), spare=self.draws.chance(0.2))
 
+    def formals(self, *names: str) -> tuple[str, ...]:
+        """The names of the parameters of a call, or none for a call by position."""
+        return names if self.draws.chance(0.2) else ()
+
     # ------------------------------------------------------------ literals
 
     def literal(self, kind: str) -> Term:
@@ -108,18 +118,16 @@ class Grammar:
 
     def _literal(self, kind: str) -> str:
         draws = self.draws
-        if kind == "BOOL":
-            return draws.one_of(["TRUE", "FALSE"])
-        if kind == "TIME":
-            return draws.one_of(["T#0s", "T#20ms", "T#1s", "T#1m30s", "T#2.5s", "T#500ms", "T#1d"])
-        if kind == "STRING":
-            return draws.one_of(["'a'", "'abc'", "'TRUE'", "'12'", "'-7'", "'b'", "'12.5'", "'16#1F'"])
         if kind in REALS:
             text = draws.one_of(["0.0", "1.0", "0.5", "2.0", "0.1", "3.7", "1.0E10", "-1.5", "-0.1", "100.0"])
             return f"{kind}#{text}" if draws.chance(0.3) else text
+        if kind in TEXTS:
+            return draws.one_of(TEXTS[kind])
         number = draws.one_of(_edges(kind)) if draws.chance(0.3) else draws.whole(0, min(limits(kind)[1], 300))
         if kind in BITS:
             return f"{kind}#16#{number:X}" if draws.chance(0.7) else f"16#{number:X}"
+        if number >= 0 and draws.chance(0.2):
+            return draws.one_of([f"16#{number:X}", f"2#{number:b}", f"8#{number:o}"])
         return f"{kind}#{number}" if draws.chance(0.3) else str(number)
 
     def divisor(self, kind: str, depth: int) -> Term:

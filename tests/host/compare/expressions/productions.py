@@ -36,7 +36,8 @@ def _element(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _own_function(g: Grammar, kind: str, depth: int) -> Term:
-    return call(kind, "own-function", function(kind), g.expression(kind, 0), g.expression(kind, depth))
+    arguments = g.expression(kind, 0), g.expression(kind, depth)
+    return call(kind, "own-function", function(kind), *arguments, formals=g.formals("First", "Second"))
 
 
 # ------------------------------------------------------------ operators
@@ -133,11 +134,13 @@ def _extreme(g: Grammar, kind: str, depth: int) -> Term:
 
 def _limit(g: Grammar, kind: str, depth: int) -> Term:
     low, high = g.expression(kind, depth), g.expression(kind, depth)
-    return call(kind, "limit", "LIMIT", low, g.typed(kind, depth), high)
+    formals = g.formals("MN", "IN", "MX")
+    return call(kind, "limit", "LIMIT", low, g.typed(kind, depth), high, formals=formals)
 
 
 def _select(g: Grammar, kind: str, depth: int) -> Term:
-    return call(kind, "select", "SEL", g.anchored("BOOL", depth), *g.pair(kind, depth))
+    formals = g.formals("G", "IN0", "IN1")
+    return call(kind, "select", "SEL", g.anchored("BOOL", depth), *g.pair(kind, depth), formals=formals)
 
 
 def _multiplex(g: Grammar, kind: str, depth: int) -> Term:
@@ -167,7 +170,8 @@ def _shift(g: Grammar, kind: str, depth: int) -> Term:
         places = atom("SINT", "literal", str(g.draws.whole(0, 31)))
     else:
         places = g.anchored(g.draws.one_of(list(WHOLE)), 0)
-    return call(kind, "shift", g.draws.one_of(["SHL", "SHR"]), g.anchored(kind, depth), places)
+    name = g.draws.one_of(["SHL", "SHR"])
+    return call(kind, "shift", name, g.anchored(kind, depth), places, formals=g.formals("IN", "N"))
 
 
 def _rotation(g: Grammar, kind: str, depth: int) -> Term:
@@ -175,7 +179,8 @@ def _rotation(g: Grammar, kind: str, depth: int) -> Term:
         places = atom("SINT", "literal", str(g.draws.whole(0, 31)))
     else:
         places = g.anchored(g.draws.one_of(list(UNSIGNED)), 0)
-    return call(kind, "rotation", g.draws.one_of(["ROL", "ROR"]), g.anchored(kind, depth), places)
+    name = g.draws.one_of(["ROL", "ROR"])
+    return call(kind, "rotation", name, g.anchored(kind, depth), places, formals=g.formals("IN", "N"))
 
 
 # ------------------------------------------------------------ conversions
@@ -184,7 +189,7 @@ def _rotation(g: Grammar, kind: str, depth: int) -> Term:
 def _conversion_from(rule: str, sources: tuple[str, ...]) -> Production:
     def make(g: Grammar, kind: str, depth: int) -> Term:
         source = g.draws.one_of([each for each in sources if each != kind])
-        return call(kind, rule, f"{source}_TO_{kind}", g.anchored(source, depth))
+        return call(kind, rule, f"{source}_TO_{kind}", g.anchored(source, depth), formals=g.formals("IN"))
 
     return make
 
@@ -251,6 +256,13 @@ def _string_edit(g: Grammar, kind: str, depth: int) -> Term:
     return call(kind, "string-edit", name, *g.pair(kind, depth), *counts)
 
 
+def _string_extreme(g: Grammar, kind: str, depth: int) -> Term:
+    name = g.draws.one_of(["MAX", "MIN", "LIMIT"])
+    if name == "LIMIT":
+        return call(kind, "string-extreme", name, *(g.anchored(kind, depth) for _ in range(3)))
+    return call(kind, "string-extreme", name, *g.several(kind, depth))
+
+
 def _string_length(g: Grammar, kind: str, depth: int) -> Term:
     return call(kind, "string-length", "LEN", g.anchored("STRING", depth))
 
@@ -307,10 +319,13 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("conversion", _BOOL, _conversion_from("conversion", _INTO_WHOLE)),
     ("real-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("real-conversion", REALS)),
     ("time-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("time-conversion", ("TIME",))),
-    ("time-conversion", ("TIME",), _conversion_from("time-conversion", (*_INTO_WHOLE, *REALS))),
+    ("time-conversion", ("TIME",), _conversion_from("time-conversion", (*_INTO_WHOLE, *REALS, "BOOL"))),
     ("string-from", ("STRING",), _conversion_from("string-from", (*_INTO_WHOLE, "BOOL"))),
     ("string-from-real", ("STRING",), _conversion_from("string-from-real", REALS)),
+    ("string-from-time", ("STRING",), _conversion_from("string-from-time", ("TIME",))),
     ("string-to", (*_INTO_WHOLE, "BOOL"), _conversion_from("string-to", ("STRING",))),
+    ("string-to-real", REALS, _conversion_from("string-to-real", ("STRING",))),
+    ("string-extreme", ("STRING",), _string_extreme),
     ("truncation", tuple(WHOLE), _truncation),
     ("bcd", tuple(UNSIGNED), _from_bcd),
     ("bcd", tuple(BITS), _to_bcd),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tests.host.compare.expressions.batch import Batch, Inputs, Mismatch, evaluate, mismatches, without_traps
+from tests.host.compare.expressions.batch import Batch, Inputs, Mismatch, Trap, evaluate, mismatches, without_traps
 from tests.host.compare.expressions.grammar import TYPES, variable
 from tests.host.compare.expressions.terms import Term, atom
 
@@ -26,13 +26,13 @@ def shrink(mismatch: Mismatch, embedded: Engine, other: Engine) -> Mismatch:
 
 
 def _first_failing(terms: list[Term], inputs: Inputs, embedded: Engine, other: Engine) -> Mismatch | None:
-    """The first (shortest) of some expressions on which the engines differ; matiec may refuse some, so halve then."""
+    """The first (shortest) expression on which the engines differ; where matiec refuses one or stops at one, halve."""
     if not terms:
         return None
     try:
         batch, values = without_traps(embedded, Batch(tuple(terms), (inputs,)))
         found = mismatches(batch, (embedded.name, other.name), values, evaluate(other, batch))
-    except BuildError:
+    except (BuildError, Trap):
         if len(terms) == 1:
             return None
         half = len(terms) // 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -66,11 +66,11 @@ def atom(kind: str, rule: str, text: str) -> Term:
     return Term(kind, rule, (text,))
 
 
-def call(kind: str, rule: str, name: str, *arguments: Term) -> Term:
-    """`name(a, b, ...)`."""
+def call(kind: str, rule: str, name: str, *arguments: Term, formals: Sequence[str] = ()) -> Term:
+    """`name(a, b, ...)`, or with `formals` `name(formal := a, ...)`."""
     pieces: list[str | Term] = [name, "("]
     for number, argument in enumerate(arguments):
-        pieces += [", ", argument] if number else [argument]
+        pieces += [", " if number else "", f"{formals[number]} := " if formals else "", argument]
     return Term(kind, rule, (*pieces, ")"))
 
 
