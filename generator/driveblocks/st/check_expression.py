@@ -47,6 +47,7 @@ from driveblocks.st.types import (
     TIME_OF_DAY,
     UNKNOWN,
     UNTYPED_INTEGER,
+    UNTYPED_REAL,
     VOID,
     WORD,
     WSTRING,
@@ -412,11 +413,12 @@ class ExpressionChecker(ValueChecker):
 
     def power(self, value: Binary) -> Type:
         """`x ** n`: a real base, any number as exponent."""
-        if untyped(value.left.type):
-            self.settle(value.left, REAL)
         if untyped(value.right.type):
             self.settle(value.right, self.default(value.right))
         self.operand(value.right, ANY_NUM, "**", value.right.type)
+        if value.left.type is UNTYPED_REAL:
+            return UNTYPED_REAL
+        self.settle(value.left, REAL)
         base = value.left.type
         value.operand_type = base
         if base.kind is not Kind.REAL and base is not UNKNOWN:

@@ -1,0 +1,149 @@
+"""`driveblocks lint`: what it prints and how it ends."""
+
+import json
+from pathlib import Path
+
+import pytest
+import typer
+from typer.testing import CliRunner, Result
+
+from driveblocks.commands import lint
+from driveblocks.st.rules import RULES
+
+CLEAN = "FUNCTION_BLOCK Example\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_FUNCTION_BLOCK\n"
+LOOP = CLEAN.replace("  Count := Count + 1;", "  FOR Count := 1 TO 3 DO\n    Count := Count + 0;\n  END_FOR;;")
+
+app = typer.Typer()
+app.command()(lint.run)
+
+
+def run(*words: str | Path) -> Result:
+    """Run the command."""
+    return CliRunner().invoke(app, [str(each) for each in words])
+
+
+@pytest.fixture
+def loop(tmp_path: Path) -> Path:
+    """A file with two findings."""
+    path = tmp_path / "loop.st"
+    path.write_text(LOOP, encoding="utf-8")
+    return path
+
+
+def test_clean_text_ends_with_0_and_says_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "clean.st"
+    path.write_text(CLEAN, encoding="utf-8")
+    result = run(path)
+    assert (result.exit_code, result.output) == (0, "")
+
+
+def test_findings_end_with_1_in_order_of_place(loop: Path) -> None:
+    result = run(loop)
+    assert result.exit_code == 1
+    lines = result.output.splitlines()
+    assert [line.split(": ")[0] + " " + line.split(": ")[1] for line in lines] == [
+        f"{loop}:5:3 ST301 for-zero-trips",
+        f"{loop}:7:11 ST111 empty-statement",
+    ]
+
+
+def test_json_holds_the_same(loop: Path) -> None:
+    result = run("--format", "json", loop)
+    assert result.exit_code == 1
+    rows = json.loads(result.output)
+    assert [(row["line"], row["column"], row["code"], row["rule"]) for row in rows] == [
+        (5, 3, "ST301", "for-zero-trips"),
+        (7, 11, "ST111", "empty-statement"),
+    ]
+    assert all(row["path"] == str(loop) and row["message"] for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("words", "rules"),
+    [
+        (["--select", "for-zero-trips"], ["ST301"]),
+        (["--select", "ST1"], ["ST111"]),
+        (["--select", "st111,ST301"], ["ST301", "ST111"]),
+        (["--ignore", "ST3"], ["ST111"]),
+        (["--ignore", "ST3", "--ignore", "empty-statement"], []),
+        (["--select", "ST3", "--ignore", "for-zero-trips"], []),
+    ],
+)
+def test_select_and_ignore(loop: Path, words: list[str], rules: list[str]) -> None:
+    result = run(*words, loop)
+    assert [line.split(": ")[1].split()[0] for line in result.output.splitlines()] == rules
+    assert result.exit_code == (1 if rules else 0)
+
+
+@pytest.mark.parametrize(
+    ("word", "hint"), [("for-zero-trip", "for-zero-trips"), ("ST31X", "ST31"), ("comment", "--list"), ("S", "--list")]
+)
+def test_an_unknown_rule_is_told_with_the_nearest(loop: Path, word: str, hint: str) -> None:
+    result = run("--select", word, loop)
+    assert result.exit_code == 2
+    assert f"no rule is called {word}" in result.output
+    assert hint in result.output
+
+
+def test_syntax_errors_end_with_2(tmp_path: Path) -> None:
+    path = tmp_path / "broken.st"
+    path.write_text(CLEAN.replace(":= Count", "= Count"), encoding="utf-8")
+    result = run("--ignore", "ST0", path)
+    assert result.exit_code == 2
+    assert result.output == f"{path}:5:9: ST001 syntax: expected `:=` or `(`, found =\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"\x7fELF\x00\x01", "expected text, found a binary file"),
+        (b"(* ok *)\n(* Gr\xf6\xdfe *)", "expected UTF-8, found the byte F6H in line 2: save it as UTF-8"),
+        (b"(" * (8 * 1024 * 1024 + 1), "expected at most 8 MiB of text, found more"),
+    ],
+)
+def test_what_is_no_source_is_told(tmp_path: Path, content: bytes, said: str) -> None:
+    path = tmp_path / "odd.st"
+    path.write_bytes(content)
+    result = run(path)
+    assert (result.exit_code, result.output) == (2, f"{path}:1:1: {said}\n")
+
+
+def test_all_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
+    result = run(tmp_path / "missing.st", tmp_path)
+    assert result.exit_code == 2
+    assert result.output.splitlines() == [
+        f"{tmp_path / 'missing.st'}:1:1: cannot be read: No such file or directory",
+        f"{tmp_path}:1:1: expected a file, found a directory: name the files in it",
+    ]
+
+
+def test_files_are_taken_together(tmp_path: Path) -> None:
+    types, block = tmp_path / "types.st", tmp_path / "block.st"
+    types.write_text("TYPE\n  T_Row : ARRAY[0..9] OF INT;\nEND_TYPE\n", encoding="utf-8")
+    block.write_text(CLEAN.replace("Count : INT;", "Count : INT;\n  Row : T_Row;"), encoding="utf-8")
+    assert run(types, block).exit_code == 0
+    alone = run(block)
+    assert alone.exit_code == 1
+    assert "ST003 unknown-type: expected the name of a type, found T_Row" in alone.output
+
+
+def test_the_list_names_every_rule() -> None:
+    result = run("--list")
+    assert result.exit_code == 0
+    assert [line.split()[1] for line in result.output.splitlines()] == list(RULES)
+    rows = json.loads(run("--list", "--format", "json").output)
+    assert [row["rule"] for row in rows] == list(RULES)
+
+
+@pytest.mark.parametrize("words", [[], ["--format", "xml", "a.st"]])
+def test_a_wrong_command_line_ends_with_2(words: list[str]) -> None:
+    assert run(*words).exit_code == 2
+
+
+def test_hostile_text_ends_without_a_traceback(tmp_path: Path) -> None:
+    path = tmp_path / "deep.st"
+    path.write_text("PROGRAM P1\nx := " + "(" * 100_000, encoding="utf-8")
+    result = run(path)
+    assert result.exit_code == 2
+    assert "levels of nesting" in result.output
+    assert "Traceback" not in result.output
