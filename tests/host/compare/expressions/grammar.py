@@ -1,9 +1,10 @@
 """What a random expression can be made of: one method per production, each with the rule name by which it is left out.
 
-What the generator never makes, because C leaves it undefined or the processor stops there: a divisor that can be zero,
-a signed dividend over -1 at 32 and 64 bits, a literal number of places of 32 or more in a shift. And what matiec
-refuses: an operation of literals alone, a sign before a sign. Everything else goes: overflows, shifts by a variable
-beyond the width or below zero, conversions of values that do not fit, NaN.
+What the generator never makes, because C leaves it undefined and compilers differ, or the processor stops there: a
+divisor that can be zero; a signed dividend over -1; a literal number of places of 32 or more in a shift; a conversion
+to an integer of a REAL that came from an integer and does not fit; a position before the first character of a string.
+And what matiec refuses: an operation of literals alone, a sign before a sign. Everything else goes: overflows, shifts
+by a variable beyond the width or below zero, conversions of any other REAL, NaN.
 """
 
 from __future__ import annotations

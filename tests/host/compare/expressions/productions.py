@@ -15,9 +15,11 @@ from tests.host.compare.expressions.grammar import (
     Production,
     elements,
     function,
+    limits,
 )
 from tests.host.compare.expressions.terms import ATOM, UNARY, Term, atom, call, unary
 
+INTEGRAL_SOURCES = {"conversion", "time-conversion"}
 MAGNITUDES = (*BITS, *NUMBERS)  # what can be ordered and is no BOOL, TIME or STRING
 
 
@@ -194,8 +196,29 @@ def _conversion_from(rule: str, sources: tuple[str, ...]) -> Production:
     return make
 
 
+def _from_real(g: Grammar, kind: str, depth: int) -> Term:
+    source = g.draws.one_of([each for each in REALS if each != kind])
+    operand = g.anchored(source, depth) if kind in REALS else _convertible(g, source, kind, depth)
+    return call(kind, "real-conversion", f"{source}_TO_{kind}", operand, formals=g.formals("IN"))
+
+
 def _truncation(g: Grammar, kind: str, depth: int) -> Term:
-    return call(kind, "truncation", "TRUNC", g.anchored(g.draws.one_of(REALS), depth))
+    return call(kind, "truncation", "TRUNC", _convertible(g, g.draws.one_of(REALS), kind, depth))
+
+
+def _convertible(g: Grammar, source: str, target: str, depth: int) -> Term:
+    """A REAL that may be anything, NaN included; limited to the target if a compiler could see integers in it.
+
+    C does not define the conversion of what does not fit. Of a value unknown to it the processor's conversion comes
+    out, but `TRUNC(DWORD_TO_LREAL(x))` is folded into a copy of the bits.
+    """
+    term = g.anchored(source, depth)
+    if not {part.rule for part in term.walk()} & INTEGRAL_SOURCES:
+        return term
+    # A little inside the range of a wide type, whose bounds no six digits can name.
+    inside = [bound * (0.999999 if abs(bound) > 1 << 20 else 1.0) for bound in limits(target)]
+    first, last = (atom(source, "literal", f"{max(-9.0e18, min(bound, 9.0e18)):.6E}") for bound in inside)
+    return call(source, "limit", "LIMIT", first, term, last)
 
 
 def _from_bcd(g: Grammar, kind: str, depth: int) -> Term:
@@ -317,7 +340,7 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("conversion", (*_INTO_WHOLE, *REALS), _conversion_from("conversion", (*_INTO_WHOLE, "BOOL"))),
     ("conversion", (*_INTO_WHOLE, *REALS), _conversion_from("conversion", (*_INTO_WHOLE, "BOOL"))),
     ("conversion", _BOOL, _conversion_from("conversion", _INTO_WHOLE)),
-    ("real-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("real-conversion", REALS)),
+    ("real-conversion", (*_INTO_WHOLE, *REALS), _from_real),
     ("time-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("time-conversion", ("TIME",))),
     ("time-conversion", ("TIME",), _conversion_from("time-conversion", (*_INTO_WHOLE, *REALS, "BOOL"))),
     ("string-from", ("STRING",), _conversion_from("string-from", (*_INTO_WHOLE, "BOOL"))),
