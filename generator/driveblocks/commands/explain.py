@@ -1,0 +1,90 @@
+"""`driveblocks explain`: what a pasted frame says, or what is wrong with it and what it might be instead."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from driveblocks.explain.explanation import Explanation
+    from driveblocks.maps.model import Drive
+
+Frame = Annotated[
+    str,
+    typer.Argument(
+        metavar="FRAME",
+        help="The frame as it was logged: bytes in hexadecimal, a hexdump, or the characters of an ASCII frame; - reads standard input.",  # noqa: E501
+    ),
+]
+Name = Annotated[
+    str | None, typer.Option("--drive", metavar="DRIVE", help="Name of a shipped drive, or the path of a map.")
+]
+Request = Annotated[
+    str | None, typer.Option("--request", metavar="FRAME", help="The request that the frame should answer.")
+]
+Json = Annotated[bool, typer.Option("--json", help="Print everything as JSON.")]
+
+
+def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = False) -> None:
+    """Explain a frame: its fields, checksum, registers and values, or what is wrong and what it might be instead.
+
+    Without a drive the standard alone is used. The exit status is 0 for a good frame, 1 for a wrong one, and 2 if the
+    input cannot be read.
+
+    Example: driveblocks explain "01 03 02 01 F4 B8 53" --drive jscc --request "01 03 20 00 00 01 8F CA"
+    """
+    from driveblocks.explain.explanation import Explainer
+    from driveblocks.explain.paste import read
+    from driveblocks.explain.unreadable import UnreadableError
+
+    known, stem = _drive(drive) if drive is not None else (None, None)
+    name = "stdin" if frame == "-" else "frame"
+    try:
+        asked = read(request, "request") if request is not None else None
+        made = Explainer(known).explain(read(_stdin() if frame == "-" else frame, name), asked)
+    except UnreadableError as error:
+        raise _refused(str(error)) from None
+    _print(made, known, stem, json)
+    if not made.good:
+        raise typer.Exit(1)
+
+
+def _refused(message: str) -> typer.Exit:
+    typer.echo(message, err=True)
+    return typer.Exit(2)
+
+
+def _stdin() -> str:
+    """Standard input as text; bytes that are none are shown as they are, so that their place can be told."""
+    import sys
+
+    from driveblocks.explain.paste import LONGEST
+
+    return sys.stdin.buffer.read(LONGEST + 1).decode("utf-8", "replace")
+
+
+def _drive(name: str) -> "tuple[Drive, str]":
+    from driveblocks.maps import catalog
+    from driveblocks.maps.load import load
+    from driveblocks.maps.problem import MapError
+
+    try:
+        path = catalog.resolve(name)
+        return load(path), path.stem
+    except catalog.UnknownDrive as unknown:
+        raise _refused(str(unknown)) from None
+    except MapError as error:
+        raise _refused(str(error)) from None
+
+
+def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: bool) -> None:
+    if json:
+        from json import dumps
+
+        from driveblocks.explain import view
+
+        typer.echo(dumps(view.of_explanation(made, stem), ensure_ascii=False, indent=2))
+        return
+    from driveblocks import console
+    from driveblocks.explain import page
+
+    console.write(*page.pages(made, drive))

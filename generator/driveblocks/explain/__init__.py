@@ -1,0 +1,4 @@
+"""What a frame that somebody pasted says, or what is wrong with it and what it might be instead.
+
+paste -> bytes -> framing -> layout -> reading -> explanation -> page or plain data; nothing here reads a file.
+"""

@@ -1,0 +1,66 @@
+"""A reply against the request that it should answer: which field does not match, and how that may have come."""
+
+from driveblocks.explain.layout import Layout, take
+from driveblocks.explain.reading import Wrong
+from driveblocks.reference.reply import Manners, parse
+from driveblocks.reference.request import READS, Asked, body
+
+_LATE = "a late reply to an earlier request"
+_OTHER_DRIVE = "another drive answered, or two have the same address"
+
+
+def compared(manners: Manners, asked: Asked, data: bytes) -> tuple[Wrong, ...]:
+    """What is wrong with a body as the reply to a request; nothing if it answers or refuses it."""
+    result = parse(manners, asked, data).result
+    if result in ("OK", "REFUSED"):
+        return ()
+    if _is_request(asked, data):
+        return (Wrong("this is the request itself", ("the adapter hears what it sends (half-duplex echo)",)),)
+    one = take(data, "reply", manners)
+    return (_told(result, asked, one, data),)
+
+
+def _is_request(asked: Asked, data: bytes) -> bool:
+    return asked.function in (3, 4, 16) and data == body(asked)
+
+
+def _told(result: str, asked: Asked, one: Layout, data: bytes) -> Wrong:
+    size = 2 * asked.quantity
+    written = {
+        "BROADCAST": Wrong("the request was a broadcast, and nobody answers one"),
+        "OTHER_UNIT": Wrong(f"unit: {data[0]} answers, and unit {asked.unit} was asked", (_OTHER_DRIVE, _LATE)),
+        "OTHER_FUNCTION": Wrong(
+            f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked", (_LATE, "another form of refusal")
+        ),
+        "BYTE_COUNT": Wrong(_count(one, asked), _why_count(data, size)),
+        "OTHER_ADDRESS": _field("address", one.number("address"), asked.address),
+        "OTHER_VALUE": _field("value", (one.words or (one.number("data word"),))[0], asked.value),
+        "OTHER_SUB_FUNCTION": _field("sub-function", one.number("sub-function"), asked.sub_function),
+        "OTHER_QUANTITY": _field("quantity", one.number("quantity"), asked.quantity),
+    }
+    if result in written:
+        return written[result]
+    if asked.function in READS and not one.refusal:
+        return Wrong(f"length: {len(data)} bytes before the checksum, and the request asks for {3 + size}")
+    return Wrong(f"length: {len(data)} bytes before the checksum, and such a reply has {one.size}")
+
+
+def _field(name: str, found: int | None, wanted: int) -> Wrong:
+    number = found or 0
+    turned = number == (wanted & 0xFF) << 8 | wanted >> 8
+    instead = ("its bytes are swapped",) if turned else (_LATE,)
+    return Wrong(f"{name}: {number:04X}H answers, and {wanted:04X}H was asked", instead)
+
+
+def _count(one: Layout, asked: Asked) -> str:
+    count = one.number("byte count")
+    found = f"{count}, for {(count or 0) // 2} registers" if count is not None else "missing"
+    return f"byte count: {found}; the request asks for {asked.quantity}, so {2 * asked.quantity} bytes"
+
+
+def _why_count(data: bytes, size: int) -> tuple[str, ...]:
+    if data[2:4] == size.to_bytes(2, "big"):
+        return ("the byte count is a word: two-byte count",)
+    if len(data) == 6:
+        return ("this is a request, not a reply", _LATE)
+    return (_LATE,)

@@ -1,0 +1,91 @@
+"""Hexdumps: lines of an offset, bytes, and a column of characters, as loggers and hexdump, xxd, od print them."""
+
+import re
+
+from driveblocks.explain import hexadecimal
+from driveblocks.explain.unreadable import Spot
+
+_OFFSET = re.compile(r"\s*(?:0x)?(?P<digits>[0-9A-Fa-f]{4,8})h?(?P<end>:[ \t]+|[ \t]{2,}|\t|[ ]|\s*$)")
+_GROUPS = re.compile(r"\s*(?:[0-9A-Fa-f]{2,8}(?:[ -](?=[0-9A-Fa-f])|$))+")
+_GAP = re.compile(r"[ \t]{2,}|\t|[ ]*\|")
+
+Lines = list[tuple[int, str]]
+
+
+def read(lines: Lines) -> bytes | None:
+    """The bytes of a dump; None if the lines are none. Raises Spot for a line of a dump that cannot be read."""
+    if _offset(lines[0][1], 0) is None:
+        return _columns(lines)
+    data = b""
+    for place, line in lines:
+        if data and _closing(line, len(data)):
+            break
+        behind = _offset(line, len(data))
+        if behind is None:
+            wrong = f"this line does not start with the offset {len(data):04X}"
+            raise Spot(place, wrong, "paste the dump's lines as they were printed, without gaps")
+        data += _body(line[behind:], place + behind)
+    return data
+
+
+def _offset(line: str, expected: int) -> int | None:
+    """Where the bytes of a line start, if it begins with the expected offset; the first may be any round one."""
+    match = _OFFSET.match(line)
+    if match is None:
+        return None
+    digits, end = match["digits"], match["end"]
+    values = {int(digits, 16)} | ({int(digits, 8)} if re.fullmatch("[0-7]+", digits) else set())
+    if expected == 0 and not any(value == 0 or (value % 16 == 0 and end.startswith(":")) for value in values):
+        return None
+    if expected and expected not in {value & 0xFFF for value in values} | values:
+        return None
+    single = end == " " and len(digits) < 7
+    return None if single or (expected == 0 and not end.strip() and match.end() >= len(line.rstrip())) else match.end()
+
+
+def _closing(line: str, length: int) -> bool:
+    """Whether a line is the last offset alone; a dump of words may have filled up the last one."""
+    match = _OFFSET.fullmatch(line.strip())
+    return match is not None and int(match["digits"], 16) in (length, length - 1)
+
+
+def _columns(lines: Lines) -> bytes | None:
+    """Lines without an offset, but with a column of characters behind the bytes."""
+    found = [_split(line) for _, line in lines]
+    if not any(column for _, column in found):
+        return None
+    return b"".join(hexadecimal.read(line[:end], place) for (place, line), (end, _) in zip(lines, found, strict=True))
+
+
+def _body(line: str, place: int) -> bytes:
+    end, _ = _split(line)
+    return hexadecimal.read(line[:end], place)
+
+
+def _split(line: str) -> tuple[int, bool]:
+    """Where the bytes of a line end, and whether a column of characters follows that shows the same bytes."""
+    text = line.rstrip("\r\n")
+    for gap in reversed(list(_GAP.finditer(text))):
+        before = text[: gap.start()]
+        if all(_GROUPS.fullmatch(part) for part in re.split(r"[ \t]{2,}|\t", before.strip())):
+            data = bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", before)) if _even(before) else b""
+            if data and _shows(text[gap.end() :].strip("|").rstrip(), data):
+                return gap.start(), True
+    return len(text), False
+
+
+def _even(text: str) -> bool:
+    return len(re.sub(r"[^0-9A-Fa-f]", "", text)) % 2 == 0
+
+
+def _shows(column: str, data: bytes) -> bool:
+    """Whether a column can be the characters of some bytes: printable ones as they are, the others by some sign."""
+    characters = [chr(byte) if 0x20 <= byte < 0x7F else None for byte in data]
+    while characters and characters[-1] == " " and len(column) < len(characters):
+        characters.pop()
+    column = column.rjust(len(characters)) if characters and characters[0] == " " else column
+    return (
+        len(column) == len(characters)
+        and bool(column.strip())
+        and all(sign == meant or meant is None for sign, meant in zip(column, characters, strict=True))
+    )

@@ -1,0 +1,187 @@
+"""The fields of a body by function and direction, by the MODBUS Application Protocol V1.1b3, 6.1 to 6.12 and 7.
+
+A body is unit address, function code and data, without checksum.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from driveblocks.reference.reply import Manners
+
+Direction = Literal["request", "reply"]
+DIRECTIONS: tuple[Direction, Direction] = ("request", "reply")
+
+_FIXED: dict[tuple[int, Direction], tuple[str, ...]] = {
+    **{(function, "request"): ("address", "quantity") for function in (1, 2, 3, 4)},
+    **{(function, direction): ("address", "value") for function in (5, 6) for direction in DIRECTIONS},
+    (7, "request"): (),
+    **{(8, direction): ("sub-function", "data word") for direction in DIRECTIONS},
+    **{(function, direction): ("address", "quantity") for function in (15, 16) for direction in DIRECTIONS},
+    **{(function, "reply"): () for function in (1, 2, 3, 4)},
+}
+"""The words that every frame of a kind begins with."""
+
+_COUNTED = {*((function, "reply") for function in (1, 2, 3, 4)), (15, "request"), (16, "request")}
+"""What ends with a byte count and as many bytes."""
+
+_WORDS = frozenset({3, 4, 16})
+"""Functions whose counted bytes are registers."""
+
+KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
+
+
+@dataclass(frozen=True)
+class Part:
+    """One field: its name and its bytes."""
+
+    name: str
+    data: bytes
+
+    @property
+    def number(self) -> int:
+        """The bytes as a number, high byte first."""
+        return int.from_bytes(self.data, "big")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A body taken apart in one direction, as far as it goes."""
+
+    direction: Direction
+    body: bytes
+    parts: tuple[Part, ...]
+    size: int
+    """Bytes that a body of this kind has; more than there are if some are missing."""
+    refusal: bool = False
+    two_byte_count: bool = False
+
+    @property
+    def missing(self) -> int:
+        """Bytes that are missing; negative if there are too many."""
+        return self.size - len(self.body)
+
+    @property
+    def fits(self) -> bool:
+        """Whether the length is right and the byte count agrees with what it counts."""
+        return self.missing == 0 and self.agrees
+
+    @property
+    def agrees(self) -> bool:
+        """Whether the byte count is even for registers and fits the quantity."""
+        count = self.number("byte count")
+        if count is None:
+            return True
+        words = self.body[1] in _WORDS
+        quantity = self.number("quantity")
+        wanted = quantity if quantity is None or words else -(-quantity // 8)
+        return not (words and count % 2) and count > 0 and wanted in (None, count // 2 if words else count)
+
+    def part(self, name: str) -> Part | None:
+        """A field by name."""
+        return next((part for part in self.parts if part.name == name), None)
+
+    def number(self, name: str) -> int | None:
+        """The number in a field, or None without such a field."""
+        found = self.part(name)
+        return found.number if found else None
+
+    @property
+    def function(self) -> int:
+        """The function that was asked, also of a refusal in the form of an exception."""
+        asked = self.number("refused function")
+        return self.body[1] if asked is None else asked
+
+    @property
+    def words(self) -> tuple[int, ...]:
+        """The registers that the body carries."""
+        if self.body[1] == 6 and not self.refusal:
+            value = self.number("value")
+            return () if value is None else (value,)
+        data = self.part("data")
+        if data is None or self.body[1] not in _WORDS:
+            return ()
+        return tuple(int.from_bytes(data.data[at : at + 2], "big") for at in range(0, len(data.data) - 1, 2))
+
+
+def take(body: bytes, direction: Direction, manners: Manners) -> Layout:
+    """Take a body of at least two bytes apart."""
+    if direction == "reply":
+        refusal = _exception(body, manners) or _write_reply(body, manners)
+        if refusal is not None:
+            return refusal
+    return _granted(body, direction)
+
+
+def readings(body: bytes, manners: Manners) -> tuple[Layout, ...]:
+    """The body as a request and as a reply: the directions that fit, or both if neither does."""
+    both = tuple(take(body, direction, manners) for direction in DIRECTIONS)
+    return tuple(layout for layout in both if layout.fits) or both
+
+
+def _exception(body: bytes, manners: Manners) -> Layout | None:
+    add = manners.add if manners.add is not None else 0x80
+    if body[1] < add or (add != 0x80 and body[1] - add not in KNOWN):
+        return None
+    parts = [Part("unit", body[:1]), Part("function", body[1:2]), Part("reason", body[2:3])]
+    known = Part("refused function", bytes([body[1] - add]))
+    return Layout("reply", body, (*_filled(parts), known, *_surplus(body[3:])), 3, refusal=True)
+
+
+def _write_reply(body: bytes, manners: Manners) -> Layout | None:
+    if manners.address is None or body[1] != manners.function:
+        return None
+    if body[2:4] != manners.address.to_bytes(2, "big"):
+        return None
+    parts = [Part("unit", body[:1]), Part("function", body[1:2]), Part("address", body[2:4]), Part("reason", body[4:6])]
+    return Layout("reply", body, (*_filled(parts), *_surplus(body[6:])), 6, refusal=True)
+
+
+def _granted(body: bytes, direction: Direction) -> Layout:
+    kind = (body[1], direction)
+    head = [Part("unit", body[:1]), Part("function", body[1:2])]
+    if kind == (7, "reply"):
+        return Layout(direction, body, (*head, *_filled([Part("status", body[2:3])]), *_surplus(body[3:])), 3)
+    if kind not in _FIXED:
+        return Layout(direction, body, (*head, *_filled([Part("data", body[2:])])), len(body))
+    at = 2
+    for name in _FIXED[kind]:
+        head.append(Part(name, body[at : at + 2]))
+        at += 2
+    if kind not in _COUNTED:
+        return Layout(direction, body, (*_filled(head), *_surplus(body[at:])), at)
+    wide = _is_wide(body, at)
+    behind = at + 1 + wide
+    count = int.from_bytes(body[at:behind], "big")
+    tail = [Part("byte count", body[at:behind]), Part("data", body[behind : behind + count])]
+    size = behind + (count if len(body) >= behind else 2)
+    parts = (*_filled([*head, *tail]), *_surplus(body[behind + count :]))
+    return Layout(direction, body, parts, size, two_byte_count=wide)
+
+
+def _is_wide(body: bytes, at: int) -> bool:
+    """Whether the byte count is a word: a count of 0 would carry nothing, and the next byte counts what follows."""
+    return (
+        body[1] in _WORDS
+        and body[at : at + 1] == b"\0"
+        and body[at + 1 : at + 2] == bytes([(len(body) - at - 2) & 255])
+    )
+
+
+def _filled(parts: list[Part]) -> Iterator[Part]:
+    return (part for part in parts if part.data)
+
+
+def _surplus(data: bytes) -> Iterator[Part]:
+    if data:
+        yield Part("surplus", data)
+
+
+def expected_sizes(data: bytes, manners: Manners) -> Iterator[int]:
+    """How long a body that begins like this may be; nothing for functions that are not known here."""
+    if len(data) < 2:
+        return
+    for direction in DIRECTIONS:
+        layout = take(data, direction, manners)
+        if layout.function in KNOWN:
+            yield layout.size

@@ -1,0 +1,178 @@
+"""What the words of registers mean in a map: names, values in units, bits, listed values, faults, commands."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+
+from driveblocks.maps import view
+from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.model import Area, Bit, Drive, Register, Value
+from driveblocks.reference.register import count, number
+from driveblocks.reference.standstill import holds
+from driveblocks.tables.register import condition
+
+
+@dataclass(frozen=True)
+class Line:
+    """A bit, field, value, fault or command of a word."""
+
+    mark: str
+    """Where it is in the word: `.5`, `.3-4`, `=`, or what it is: `fault`, `command`."""
+    id: str
+    name: str
+    zh: str
+    value: int | None = None
+
+
+@dataclass(frozen=True)
+class Held:
+    """A register and the word that it holds or takes; without a word it is only named."""
+
+    address: int | None
+    word: int | None = None
+    id: str = ""
+    name: str = ""
+    zh: str = ""
+    value: Decimal | None = None
+    unit: str | None = None
+    note: str = ""
+    known: bool = True
+    lines: tuple[Line, ...] = ()
+
+
+def held(drive: Drive | None, address: int | None, word: int | None, *, writing: bool) -> Held:
+    """What a drive's map says of an address and a word."""
+    if drive is None or address is None:
+        return Held(address, word)
+    row = drive.register_at(address)
+    if row is not None:
+        return _row(drive, row, address, word, writing)
+    area = _area(drive, address)
+    if area is None:
+        return Held(address, word, note="not in the map", known=False)
+    name, zh, note = area
+    return Held(address, word, name=name, zh=zh, note=note if writing else "")
+
+
+def _area(drive: Drive, address: int) -> tuple[str, str, str] | None:
+    """Name in both languages of an address that a rule gives, and what a write there does."""
+    for area in drive.areas:
+        if address in area.addresses:
+            return *_numbered(area, address), _stored(drive, area, address)
+        moved = address - (drive.storage.add or 0)
+        if drive.storage.area == area.id and drive.storage.add and moved in area.addresses:
+            name, zh = _numbered(area, moved)
+            note = "" if drive.storage.readable else "; it cannot be read at this address"
+            return name, zh, f"RAM only, not stored{note}"
+    return None
+
+
+def _numbered(area: Area, address: int) -> tuple[str, str]:
+    place = address - area.addresses.first
+    return f"{area.name}, {area.numbered_by.replace('_', ' ')} {place}", f"{area.text_zh} {place}"
+
+
+def _stored(drive: Drive, area: Area, address: int) -> str:
+    storage = drive.storage
+    if storage.method == "ram_address_bit" and storage.area == area.id and storage.add is not None:
+        return f"stored in EEPROM, which frequent writes wear out; {address_text(address + storage.add)} is RAM only"
+    return "counts as a write to EEPROM: the manual does not say" if storage.method == "unexplained" else ""
+
+
+def _row(drive: Drive, row: Register, address: int, word: int | None, writing: bool) -> Held:
+    known = Held(
+        address,
+        word,
+        id=view.ids(row)[address - row.address.first],
+        name="not used" if row.unused else row.name or "",
+        zh=row.text_zh or "",
+    )
+    if word is None:
+        return known
+    value = count(row, word) * row.scale.factor if row.scale else None
+    lines = (*_lines(row, word), *_faults(drive, address, word), *(_commands(drive, address, word) if writing else ()))
+    note = "; ".join(_notes(drive, row, word, writing))
+    return Held(address, word, known.id, known.name, known.zh, value, row.unit, note, lines=lines)
+
+
+def _lines(row: Register, word: int) -> Iterator[Line]:
+    for bit in row.bits:
+        yield from _bit(bit, number(word, bit.bit))
+    for value in row.values:
+        if word & value.value if row.masks else word == value.value & 0xFFFF:
+            mark = f".{value.value.bit_length() - 1:X}" if row.masks else "="
+            yield Line(mark, "", value.name, value.text_zh, 1 if row.masks else value.value)
+
+
+def _bit(bit: Bit, found: int) -> Iterator[Line]:
+    """A bit that is set, a field, a bit whose 0 has a meaning of its own; a hole only if something is in it."""
+    mark = f".{bits_text(bit.bit)}"
+    if bit.unused:
+        if found:
+            yield Line(mark, "", "not used by the manual, but not 0", "", found)
+        return
+    meaning = _listed(bit.values, found)
+    if len(bit.bit) > 1:
+        named = f"{bit.name}: {meaning.name if meaning else 'no listed value'}"
+        yield Line(mark, bit.id or "", named, meaning.text_zh if meaning else bit.text_zh or "", found)
+    elif meaning is not None:
+        yield Line(mark, bit.id or "", meaning.name, meaning.text_zh, found)
+    elif found:
+        yield Line(mark, bit.id or "", bit.name or "", bit.text_zh or "", found)
+
+
+def _listed(values: tuple[Value, ...], found: int) -> Value | None:
+    return next((value for value in values if value.value == found), None)
+
+
+def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
+    row = drive.register_at(address)
+    if not any(address in span for span in drive.faults.registers) or (row and row.values):
+        return
+    fault = next((one for one in drive.faults.codes if one.code == word), None)
+    if fault is not None:
+        yield Line("fault", fault.id or "", fault.name, fault.text_zh, word)
+    elif word == 0:
+        yield Line("fault", "", "no fault", "无故障", 0)
+    else:
+        why = f"code {word:02X}H" + (", which the map does not list" if drive.faults.codes else "; the map has no list")
+        yield Line("fault", "", why, "", word)
+
+
+def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
+    for command in drive.operation.commands:
+        if command.register != address:
+            continue
+        asked = {bit for span in command.set for bit in span}
+        cleared = {bit for span in command.clear for bit in span}
+        by_bits = all(word >> bit & 1 for bit in asked) and not any(word >> bit & 1 for bit in cleared)
+        if command.value == word if command.value is not None else by_bits:
+            yield Line("command", "", command.does.replace("_", " "), "", None)
+
+
+def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:
+    if row.scale is not None and row.scale.when is not None:
+        yield f"only while {condition(row.scale.when)}"
+    if row.unit is not None and row.scale is None:
+        yield f"in {row.unit}, but the manual gives no scale"
+    if row.range is not None and not row.range.holds(count(row, word)):
+        yield f"outside the range {row.range.min} to {row.range.max}"
+    if row.values and not row.masks and _listed(row.values, word) is None:
+        yield "no listed value"
+    if row.masks:
+        yield from _masks(row, word)
+    if writing and drive.storage.register is not None and drive.storage.register in row.address:
+        most = f", at most {drive.storage.max_writes} times" if drive.storage.max_writes else ""
+        yield f"stores all parameters{most}"
+    proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
+    if not writing and proofs:
+        met = all(holds(one, word) for one in proofs)
+        yield f"{'agrees with' if met else 'speaks against'} standstill"
+
+
+def _masks(row: Register, word: int) -> Iterator[str]:
+    rest = word
+    for value in row.values:
+        rest &= ~value.value
+    if rest or word == 0:
+        yield "no listed bit" if word == 0 else f"bits {rest:04X}H are not listed"

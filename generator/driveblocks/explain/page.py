@@ -1,0 +1,133 @@
+"""An explanation for a person: verdict, what is wrong, fields, registers, notes."""
+
+from collections.abc import Iterator
+
+from rich.console import RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from driveblocks.explain.explanation import Explanation
+from driveblocks.explain.guess import shown
+from driveblocks.explain.meaning import Held, Line
+from driveblocks.explain.reading import Field, Reading, Wrong
+from driveblocks.explain.wire import Wire
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import Drive
+from driveblocks.maps.view import title
+from driveblocks.tables.layout import facts, table
+
+
+def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
+    """The whole explanation."""
+    yield _verdict(made)
+    yield Padding(facts(*_facts(made, drive)), (0, 0, 0, 2))
+    for wrong in made.all_wrongs:
+        yield from _wrong(wrong)
+    yield from _readings(made)
+    for note in made.notes:
+        yield f"\nNote: {note}"
+    for number, one in enumerate(made.inside, 1):
+        yield ""
+        yield Text(f"Frame {number} of {len(made.inside)}", style="bold underline")
+        yield from pages(one, None)
+
+
+def written(wire: Wire) -> str:
+    """A frame as it is written: bytes, or characters with CR and LF by name."""
+    if wire.mode == "rtu":
+        return shown(wire.frame)
+    return wire.frame.decode("latin-1").replace("\r", " CR").replace("\n", " LF")
+
+
+def _verdict(made: Explanation) -> Text:
+    kind = made.wire.mode.upper()
+    says = " or ".join(dict.fromkeys(one.says for one in made.readings)) if made.meant is made.wire else ""
+    if made.good:
+        return Text.assemble(("Good", "bold green"), f" {kind} {says}")
+    if says and made.wire.right:
+        return Text.assemble(("Wrong", "bold red"), f" {kind} {says}")
+    return Text.assemble(("Wrong", "bold red"), f" {kind} frame")
+
+
+def _facts(made: Explanation, drive: Drive | None) -> Iterator[tuple[str, str]]:
+    length = len(made.wire.frame)
+    unit = "character" if made.wire.mode == "ascii" else "byte"
+    yield "frame", written(made.wire)
+    yield "length", f"{length} {unit}{'s' * (length != 1)}"
+    if made.asked is not None and not made.inside:
+        asked = shown(made.asked) if made.asked[:1] != b":" else made.asked.decode("latin-1").rstrip()
+        yield "request", asked
+    if drive is not None:
+        yield "drive", title(drive)
+
+
+def _wrong(wrong: Wrong) -> Iterator[RenderableType]:
+    yield facts(("wrong", Text(wrong.what, style="bold")), *(("perhaps", instead) for instead in wrong.instead))
+
+
+def _readings(made: Explanation) -> Iterator[RenderableType]:
+    if made.meant is not None and made.meant is not made.wire:
+        yield f"\nRead as {made.meant.mode.upper()} {written(made.meant)}:"
+    elif not made.wire.right and made.readings:
+        yield "\nRead as if the checksum were right:"
+    several = len(made.readings) > 1
+    if several and made.readings[0].registers == made.readings[1].registers:
+        yield "\nRequest and reply of this function are the same bytes."
+        yield from _reading(made, made.readings[0], titled=True)
+        return
+    for one in made.readings:
+        yield from _reading(made, one, titled=several)
+
+
+def _reading(made: Explanation, one: Reading, *, titled: bool) -> Iterator[RenderableType]:
+    if titled or made.meant is not made.wire:
+        yield f"\n{one.says[:1].upper()}{one.says[1:]}"
+    yield ""
+    yield _fields(one.fields)
+    if one.registers:
+        yield ""
+        yield _registers(one.registers)
+    for note in one.notes:
+        yield f"\n{note}"
+
+
+def _fields(fields: tuple[Field, ...]) -> Table:
+    made = table("field", "bytes", "means", wide=("bytes", "means"))
+    for field in fields:
+        made.add_row(field.name, shown(field.data), field.means)
+    return made
+
+
+def _registers(registers: tuple[Held, ...]) -> Table:
+    named = any(one.address is not None for one in registers)
+    bare = all(one.word is None for one in registers)
+    columns = ["address", *([] if bare else ["word"]), "name", "中文", *([] if bare else ["means"])]
+    made = table(*columns, wide=("name", "中文", "means") if not bare else ("name", "中文"))
+    for number, one in enumerate(registers, 1):
+        place = address_text(one.address) if one.address is not None else f"word {number}"
+        name = "  ".join(filter(None, (one.id, one.name))) or (one.note if not one.known else "")
+        cells = [place if named or one.address is None else "", *([] if bare else [_word(one)]), name, one.zh]
+        made.add_row(*cells, *([] if bare else [_means(one)]))
+        for line in one.lines:
+            made.add_row(*_line(line, bare))
+    return made
+
+
+def _word(one: Held) -> str:
+    return "" if one.word is None else f"{one.word:04X}H"
+
+
+def _means(one: Held) -> str:
+    """The number, its engineering value, and what is to be known of it."""
+    if one.word is None:
+        return ""
+    number = f"{one.word}" + (f" = {one.value} {one.unit}" if one.value is not None else "")
+    note = one.note if one.known else ""
+    return "; ".join(filter(None, (number, note)))
+
+
+def _line(line: Line, bare: bool) -> list[str]:
+    value = "" if line.value is None else f"= {line.value}"
+    name = "  ".join(filter(None, (line.id, line.name)))
+    return [f" {line.mark}", name, line.zh] if bare else [f" {line.mark}", value, name, line.zh, ""]

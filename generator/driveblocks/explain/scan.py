@@ -1,0 +1,58 @@
+"""Frames inside pasted bytes: several glued together, or one with something before or behind it."""
+
+from dataclasses import dataclass
+
+from driveblocks.explain import layout
+from driveblocks.explain.wire import mode_of, open_
+from driveblocks.reference.checksum import crc_bytes
+from driveblocks.reference.reply import Manners
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Consecutive bytes: one good frame, or what is none."""
+
+    start: int
+    data: bytes
+    good: bool
+
+
+def pieces(data: bytes, manners: Manners) -> tuple[Piece, ...]:
+    """Cut bytes into good frames and what stands between them."""
+    return _ascii(data) if mode_of(data) == "ascii" else _rtu(data, manners)
+
+
+def _rtu(data: bytes, manners: Manners) -> tuple[Piece, ...]:
+    found: list[Piece] = []
+    at = between = 0
+    while at < len(data):
+        size = _size(data[at:], manners)
+        if size == 0:
+            at += 1
+            continue
+        if at > between:
+            found.append(Piece(between, data[between:at], good=False))
+        found.append(Piece(at, data[at : at + size], good=True))
+        at = between = at + size
+    if between < len(data):
+        found.append(Piece(between, data[between:], good=False))
+    return tuple(found)
+
+
+def _size(data: bytes, manners: Manners) -> int:
+    """The length of the good frame that bytes begin with; 0 if they begin with none."""
+    for size in layout.expected_sizes(data, manners):
+        body, check = data[:size], data[size : size + 2]
+        if len(body) >= 3 and len(check) == 2 and crc_bytes(body) == check:
+            return size + 2
+    return 0
+
+
+def _ascii(data: bytes) -> tuple[Piece, ...]:
+    starts = [at for at, byte in enumerate(data) if byte == ord(":")]
+    ends = [*starts[1:], len(data)]
+    found = []
+    for start, end in zip(starts, ends, strict=True):
+        wire = open_(data[start:end])
+        found.append(Piece(start, data[start:end], wire.right and not wire.broken))
+    return tuple(found)

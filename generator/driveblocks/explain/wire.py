@@ -1,0 +1,122 @@
+"""Framing of pasted bytes: RTU or ASCII, the checksum that is there and the one that belongs there."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from driveblocks.reference.checksum import crc_bytes, lrc
+
+Mode = Literal["rtu", "ascii"]
+DIGITS = b"0123456789ABCDEFabcdef"
+SHORTEST = {"rtu": 4, "ascii": 3}
+"""Bytes of the shortest frame: unit address, function code and checksum."""
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A frame: what it carries, and its checksum."""
+
+    mode: Mode
+    frame: bytes
+    """All bytes or characters as they came."""
+    body: bytes
+    found: bytes
+    """The checksum as it came; empty if the frame is too short for one."""
+    broken: tuple[tuple[str, str], ...] = ()
+    """What is wrong with the framing: what it is, and what it might be instead."""
+
+    @property
+    def expected(self) -> bytes:
+        """The checksum that belongs to the body."""
+        return bytes([lrc(self.body)]) if self.mode == "ascii" else crc_bytes(self.body)
+
+    @property
+    def right(self) -> bool:
+        """Whether the checksum fits."""
+        return bool(self.body) and self.found == self.expected
+
+    @property
+    def name(self) -> str:
+        """What the checksum is called."""
+        return "LRC" if self.mode == "ascii" else "CRC"
+
+    def sealed(self, body: bytes) -> bytes:
+        """Another body framed in the same mode."""
+        return seal(self.mode, body)
+
+
+def seal(mode: Mode, body: bytes) -> bytes:
+    """A body as a frame of some mode."""
+    if mode == "rtu":
+        return body + crc_bytes(body)
+    return b":" + (body + bytes([lrc(body)])).hex().upper().encode("ascii") + b"\r\n"
+
+
+def mode_of(data: bytes) -> Mode:
+    """RTU or ASCII: a colon, and mostly hexadecimal digits behind it, unless it is an RTU frame with a right CRC."""
+    digits = sum(byte in DIGITS for byte in data[1:])
+    if data[:1] != b":" or 3 * digits < 2 * (len(data) - 1) or _rtu(data).right:
+        return "rtu"
+    return "ascii"
+
+
+def open_(data: bytes) -> Wire:
+    """Take the framing off."""
+    return _ascii(data) if mode_of(data) == "ascii" else _rtu(data)
+
+
+def _rtu(data: bytes) -> Wire:
+    if len(data) < SHORTEST["rtu"]:
+        return Wire("rtu", data, data, b"")
+    return Wire("rtu", data, data[:-2], data[-2:])
+
+
+def _ascii(data: bytes) -> Wire:
+    broken = []
+    text = data.rstrip(b"\r\n")
+    end = data[len(text) :]
+    if end != b"\r\n":
+        broken.append((f"the frame ends with {_end(end)}, not with CR LF (0D 0A)", _why_end(end)))
+    digits = bytearray()
+    for place, byte in enumerate(text[1:], 2):
+        if byte in DIGITS:
+            digits.append(byte)
+        else:
+            broken.append((f"character {place}, `{chr(byte)}`, is no hexadecimal digit", _meant(byte)))
+    if digits.upper() != digits:
+        broken.append(
+            ("hexadecimal digits are in lower case", "the standard has upper case, and drives refuse lower case")
+        )
+    if len(digits) % 2:
+        broken.append(
+            (f"{len(digits)} digits are an odd number", "a character is missing or one too many: each byte has two")
+        )
+    even = bytes.fromhex(digits[: len(digits) & ~1].decode("ascii"))
+    if len(even) < SHORTEST["ascii"]:
+        return Wire("ascii", data, even, b"", tuple(broken))
+    return Wire("ascii", data, even[:-1], even[-1:], tuple(broken))
+
+
+def _end(end: bytes) -> str:
+    names = " ".join({13: "CR", 10: "LF"}[byte] for byte in end)
+    return names or "neither CR nor LF"
+
+
+def _why_end(end: bytes) -> str:
+    if end == b"\n\r":
+        return "CR and LF are swapped"
+    if not end:
+        return "the end was cut off, or the sender leaves it out"
+    return (
+        "the sender adds one of them, or a program took the other out"
+        if len(end) == 1
+        else "there is more than one end"
+    )
+
+
+def _meant(byte: int) -> str:
+    meant = {"O": "0", "o": "0", "l": "1", "I": "1"}.get(chr(byte))
+    if meant:
+        return f"is the digit {meant} meant?"
+    if byte & 0x80 and byte & 0x7F in DIGITS:
+        return "without its highest bit it is one: parity was read as data, 7 data bits were received as 8"
+    return "noise on the line, or not from an ASCII frame"
