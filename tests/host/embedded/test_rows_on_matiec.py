@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import math
 
-from tests.host.embedded import test_conversions, test_overflow, test_shifts
+from tests.host.embedded import test_conversions, test_overflow, test_shifts, test_strings_and_times
 from tests.host.embedded.snippets import FAULT, Row
 
 from driveblocks.host.engine import Engine, Source
 
 # matiec declares these and has no C for them.
 ABSENT = ("SHL(q", "ROL(q")
-ROWS = [*test_overflow.ROWS, *test_shifts.ROWS, *test_conversions.ROWS]
+# Where OpenPLC's line is not like Beremiz', which the rows follow: the shorter string decides, and FIND is at sea.
+OPENPLC = {
+    "FIND(s, z) {'s': b'aab', 'z': b'ab'}": 4,
+    "FIND(s, z) {'s': b'abc', 'z': b''}": 1,
+    "s = z {'s': b'', 'z': b'x'}": True,
+    "s < z {'s': b'ab', 'z': b'abc'}": False,
+}
+ROWS = [*test_overflow.ROWS, *test_shifts.ROWS, *test_conversions.ROWS, *test_strings_and_times.ALL]
 
 
 def source(number: int, row: Row) -> str:
@@ -32,6 +39,8 @@ def test_c_column(matiec: Engine) -> None:
             instance[name] = value
         instance.scan(0)
         found, expected = instance["Answer"], row[5]
+        if matiec.name == "matiec-openplc":
+            expected = OPENPLC.get(f"{row[0]} {row[3]}", expected)
         if found != expected and not (isinstance(found, float) and math.isnan(found)):
             wrong.append((row[0], row[3], expected, found))
     assert not wrong
