@@ -2,9 +2,22 @@
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules import area, fault, line, name, operation, parameter, record, register, setting, vector
+from driveblocks.maps.rules import (
+    area,
+    command,
+    condition,
+    fault,
+    line,
+    name,
+    operation,
+    parameter,
+    record,
+    register,
+    setting,
+    vector,
+)
 
-_PARTS = (register, name, parameter, area, line, setting, operation, fault, vector, record)
+_PARTS = (register, name, parameter, area, line, setting, command, operation, condition, fault, vector, record)
 
 
 def check(drive: Drive, report: Report) -> None:

@@ -1,7 +1,7 @@
 """Rules on faults, the registers and bits that report them, and on error replies."""
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorForm, Fault, Value
+from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorCode, ErrorForm, Fault, Value
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.unique import unique
@@ -93,11 +93,22 @@ def _errors(drive: Drive, report: Report) -> None:
     for code, error in codes.items():
         if not 1 <= code <= most:
             report.add(error.place("code"), f"error code {code}", f"codes lie within 1 to {most}")
+    for error in drive.errors.codes:
+        _corroborated(error, report)
     if form is not None:
         _error_form(form, report)
         if form.address is not None:
             names = {code: error.name for code, error in codes.items()}
             _error_register(drive, form.address, form.place("address"), names, report)
+
+
+def _corroborated(error: ErrorCode, report: Report) -> None:
+    """Note documents that give one error different numbers: they cannot speak of the same."""
+    numbers = [item for item in error.corroborated if item.value is not None]
+    for item in numbers[1:]:
+        if item.value != numbers[0].value:
+            wrong = f"`{item.document}` has {item.value} for this error, `{numbers[0].document}` has {numbers[0].value}"
+            report.add(item.place("value"), wrong, "correct one of them, or leave out what does not speak of it")
 
 
 def _error_form(form: ErrorForm, report: Report) -> None:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, lru_cache
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Entry, Register, Section, Series
@@ -42,6 +42,7 @@ def of_form(drive: Drive, entry: Entry, id_: str, report: Report, key: str = "id
         report.add(entry.place(key), wrong, f"the forms are {forms}; `printed:` keeps a misprint")
 
 
+@lru_cache(4096)
 def numbered(id_: str) -> tuple[str, int]:
     """`U1-07` -> (`U1-`, 7); a text that does not end in digits -> (text, 0)."""
     match = _NUMBERED.fullmatch(id_)
@@ -92,6 +93,7 @@ def _series(series: Series, section: Section, report: Report) -> None:
         report.add(series.place("ids"), f"`{series.ids}` is no run of ids", right)
         return
     rows = list(_rows(section, group, numbers))
+    _places(series, section, group, numbers, report)
     for number, row in rows:
         _follows(series, row, series.base + number - numbers.first, report)
     if not rows:
@@ -100,6 +102,20 @@ def _series(series: Series, section: Section, report: Report) -> None:
     for id_ in sorted(set(series.apart) - {row.id for _, row in rows}):
         wrong = f"`{id_}` is named as apart, but no row of this section has it in `{series.ids}`"
         report.miss(series.place("apart"), wrong, "name an id of the series, or remove it")
+
+
+def _places(series: Series, section: Section, group: str, numbers: Span, report: Report) -> None:
+    """Note a row that stands where the series has the place of another id: it has lost its own."""
+    apart = {numbered(id_) for id_ in series.apart}
+    digits = len(series.ids.partition("..")[0]) - len(group)
+    for row in section.registers:
+        number = numbers.first + row.address.first - series.base
+        row_group, own = numbered((row.id or "").partition("..")[0])
+        if number not in numbers or (row_group == group and own in numbers):
+            continue
+        if (group, number) not in apart:
+            wrong = f"{address_text(row.address.first)} is the place of {group}{number:0{digits}d} in {series.ids}"
+            report.add(row.at, wrong, f"this row has {row.id or 'no id'}; correct it, or name the id under `apart`")
 
 
 def _rows(section: Section, group: str, numbers: Span) -> Iterator[tuple[int, Register]]:

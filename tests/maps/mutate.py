@@ -1,0 +1,257 @@
+"""Random changes of a map's text: of its bytes and lines, and of one fact at a time."""
+
+import random
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import cached_property
+from typing import Any
+
+from tests.maps.pins import Path, kind_of
+
+from driveblocks.maps import form, nodes
+from driveblocks.maps.form import Form
+from driveblocks.maps.model import Drive
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import Report
+from driveblocks.maps.shape import EntryOf, ListOf, OneOf, Shape, keys_of
+
+HEX = "0123456789ABCDEF"
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """One value of a map: where it stands, as what, and what the model takes there."""
+
+    path: Path
+    scalar: Scalar
+    shape: Form | OneOf
+
+    @property
+    def kind(self) -> str:
+        """What it is, whichever of its list."""
+        return kind_of(self.path)
+
+
+@dataclass(frozen=True)
+class Change:
+    """A mutated text, and in words what was done to it."""
+
+    data: bytes
+    said: str
+    kind: str
+    path: Path | None = None
+    """The fact that was changed; None where bytes or lines were."""
+    new: str = ""
+
+
+class Text:
+    """The text of a good map with its values, ready to be changed."""
+
+    def __init__(self, name: str, text: str) -> None:
+        """Read the values of a map; it must be good YAML."""
+        self.name = name
+        self.text = text
+        self.report = Report(name)
+        root = nodes.parse(text, self.report)
+        assert root is not None
+        assert not self.report.problems
+        self.root: Node = root
+
+    @cached_property
+    def leaves(self) -> list[Leaf]:
+        """Every value that holds a fact and not prose, and that stands in one piece in the text."""
+        found = _leaves(self.root, EntryOf(Drive), ())
+        return [leaf for leaf in found if _is_fact(leaf) and self._stands(leaf.scalar)]
+
+    @cached_property
+    def by_kind(self) -> dict[str, list[Leaf]]:
+        """The same by kind."""
+        kinds: dict[str, list[Leaf]] = {}
+        for leaf in self.leaves:
+            kinds.setdefault(leaf.kind, []).append(leaf)
+        return kinds
+
+    @cached_property
+    def starts(self) -> list[int]:
+        """Where each line starts in the text."""
+        starts = [0]
+        for line in self.text.split("\n"):
+            starts.append(starts[-1] + len(line) + 1)
+        return starts
+
+    def offset(self, scalar: Scalar) -> int:
+        """Where the characters of a value start in the text, behind its quote."""
+        return self.starts[scalar.at[0] - 1] + scalar.at[1] - 1 + (not scalar.plain)
+
+    def _stands(self, scalar: Scalar) -> bool:
+        return bool(scalar.text) and self.text.startswith(scalar.text, self.offset(scalar))
+
+
+def _leaves(node: Node, shape: Shape, path: Path) -> Iterator[Leaf]:
+    if isinstance(node, Entries) and isinstance(shape, EntryOf):
+        keys = keys_of(shape.cls)
+        for name, (_, value) in node.entries.items():
+            yield from _leaves(value, keys[name].shape, (*path, name))
+    elif isinstance(node, Items) and isinstance(shape, ListOf):
+        for index, item in enumerate(node.items):
+            yield from _leaves(item, shape.item, (*path, index))
+    elif isinstance(node, Scalar) and isinstance(shape, (Form, OneOf)):
+        yield Leaf(path, node, shape)
+
+
+def _is_fact(leaf: Leaf) -> bool:
+    if leaf.shape is form.TEXT:
+        return leaf.path[-1] == "id" or (leaf.path[-1] == "default" and leaf.scalar.text.isdecimal())
+    if leaf.shape is form.WORD:
+        return leaf.path[-1] in ("answers", "proof")
+    return isinstance(leaf.shape, OneOf) or leaf.shape.name in _ALTER
+
+
+def plain(node: Node) -> Any:
+    """A node tree as dict, list and str."""
+    if isinstance(node, Entries):
+        return {name: plain(value) for name, (_, value) in node.entries.items()}
+    return [plain(item) for item in node.items] if isinstance(node, Items) else node.text
+
+
+def change_a_fact(text: Text, rng: random.Random) -> Change:
+    """Change one fact; kinds that a map has often are drawn more often, but not as often as they stand there."""
+    kinds = list(text.by_kind)
+    weights = [len(text.by_kind[kind]) ** 0.5 for kind in kinds]
+    while True:
+        leaf = rng.choice(text.by_kind[rng.choices(kinds, weights)[0]])
+        new = altered(leaf, rng, text)
+        if new is not None:
+            return replaced(text, leaf, new)
+
+
+def replaced(text: Text, leaf: Leaf, new: str) -> Change:
+    """The text with one value replaced."""
+    old, start = leaf.scalar.text, text.offset(leaf.scalar)
+    data = text.text[:start] + new + text.text[start + len(old) :]
+    where = f"{text.name}:{leaf.scalar.at[0]}:{leaf.scalar.at[1]}"
+    return Change(data.encode(), f"{where}: {leaf.kind}: {old} -> {new}", leaf.kind, leaf.path, new)
+
+
+def altered(leaf: Leaf, rng: random.Random, text: Text) -> str | None:
+    """Another value of the same form that means something else, or None where the draw gave none."""
+    old, shape = leaf.scalar.text, leaf.shape
+    if isinstance(shape, OneOf):
+        return rng.choice([word for word in shape.words if word != old] or [None])
+    if shape is form.WORD:
+        return rng.choice([frame for frame in _frame_ids(text) if frame != old] or [None])
+    if shape is form.TEXT:
+        return str(int(old) + rng.choice((1, -1, 10))) if old.isdecimal() else old[:-1] + rng.choice("QXYZ")
+    new = _ALTER[shape.name](old, rng)
+    same = shape.pattern.fullmatch(new) is None or shape.parse(new) == shape.parse(old)
+    return None if same else new
+
+
+def _frame_ids(text: Text) -> list[str]:
+    return [frame["id"] for frame in plain(text.root)["frames"]]
+
+
+def _digit(old: str, rng: random.Random, digits: str = HEX) -> str:
+    """One of the digits of a text changed."""
+    places = [index for index, char in enumerate(old) if char in digits]
+    if not places:
+        return old
+    place = rng.choice(places)
+    return old[:place] + rng.choice(digits) + old[place + 1 :]
+
+
+def _number(old: str, rng: random.Random) -> str:
+    if old.endswith("H"):
+        return _digit(old[:-1], rng) + "H" if rng.random() < 0.5 else _step_hex(old, rng)
+    return rng.choice((str(int(old) + 1), str(int(old) - 1), str(int(old) * 10), _digit(old, rng, HEX[:10])))
+
+
+def _step_hex(old: str, rng: random.Random) -> str:
+    moved = int(old[:-1], 16) + rng.choice((1, -1, 16, -16))
+    return f"{max(moved, 0):0{len(old) - 1}X}H"
+
+
+def _range(old: str, rng: random.Random, end: Callable[[str, random.Random], str]) -> str:
+    first, dash, last = old.partition("-")
+    if dash and rng.random() < 0.5:
+        return first + dash + end(last, rng)
+    return end(first, rng) + dash + last
+
+
+def _decimal(old: str, rng: random.Random) -> str:
+    number = Decimal(old)
+    choices = (number * 10, number / 10, number + 1, -number, Decimal(_digit(old, rng, HEX[:10])))
+    return f"{rng.choice(choices):f}"
+
+
+_ALTER: dict[str, Callable[[str, random.Random], str]] = {
+    form.NUMBER.name: _number,
+    form.COUNT.name: _number,
+    form.ADDRESS.name: _number,
+    form.ADDRESSES.name: lambda old, rng: _range(old, rng, _number),
+    form.BITS.name: lambda old, rng: _range(old, rng, _digit),
+    form.DECIMAL.name: _decimal,
+    form.BYTES.name: _digit,
+    form.ADU.name: _digit,
+    form.REGISTER_WORD.name: _digit,
+    form.ID.name: lambda old, rng: _digit(old, rng, HEX[:10]),
+}
+
+
+def change_bytes(text: Text, rng: random.Random) -> Change:
+    """Flip, delete, insert or copy bytes, or move lines about."""
+    data = text.text.encode()
+    name = rng.choice(list(_BYTES))
+    return Change(_BYTES[name](data, rng), f"{text.name}: {name}", f"bytes: {name}")
+
+
+def _flip(data: bytes, rng: random.Random) -> bytes:
+    place = rng.randrange(len(data))
+    return data[:place] + bytes([data[place] ^ 1 << rng.randrange(8)]) + data[place + 1 :]
+
+
+def _delete(data: bytes, rng: random.Random) -> bytes:
+    place = rng.randrange(len(data))
+    return data[:place] + data[place + rng.choice((1, 1, 1, 5, 50)) :]
+
+
+def _insert(data: bytes, rng: random.Random) -> bytes:
+    place = rng.randrange(len(data))
+    new = rng.choice((b" ", b"  ", b"\n", b"-", b":", b"#", b"'", b'"', b"{", b"]", b",", b"0", b"H", b"\xff", b"\t"))
+    return data[:place] + new + data[place:]
+
+
+def _splice(data: bytes, rng: random.Random) -> bytes:
+    place, start = rng.randrange(len(data)), rng.randrange(len(data))
+    return data[:place] + data[start : start + rng.randrange(1, 200)] + data[place:]
+
+
+def _truncate(data: bytes, rng: random.Random) -> bytes:
+    return data[: rng.randrange(len(data))]
+
+
+def _lines(move: Callable[[list[bytes], int, random.Random], None]) -> Callable[[bytes, random.Random], bytes]:
+    def moved(data: bytes, rng: random.Random) -> bytes:
+        lines = data.split(b"\n")
+        move(lines, rng.randrange(len(lines)), rng)
+        return b"\n".join(lines)
+
+    return moved
+
+
+def _swap(lines: list[bytes], index: int, rng: random.Random) -> None:
+    other = min(index + rng.choice((1, 1, 2, 10)), len(lines) - 1)
+    lines[index], lines[other] = lines[other], lines[index]
+
+
+_BYTES: dict[str, Callable[[bytes, random.Random], bytes]] = {
+    "a bit flipped": _flip,
+    "bytes deleted": _delete,
+    "a character inserted": _insert,
+    "a piece copied": _splice,
+    "cut off": _truncate,
+    "a line twice": _lines(lambda lines, index, _: lines.insert(index, lines[index])),
+    "a line lost": _lines(lambda lines, index, _: lines.__delitem__(index)),
+    "lines swapped": _lines(_swap),
+}
