@@ -221,8 +221,8 @@ def test_every_conversion_between_elementary_types() -> None:
         ("i := ABS();", "call-arguments: expected an argument for IN of ABS"),
         ("i := ABS(1, 2);", "call-arguments: expected at most 1 arguments for ABS, found more"),
         ("w := SHL(w, w);", "implicit-conversion: expected an integer for SHL, found WORD"),
-        ("i := SHL(i, 1);", "type-mismatch: expected a bit string for SHL, found INT"),
-        ("r := SQRT(i);", "type-mismatch: expected another type for SQRT, found INT"),
+        ("i := SHL(i, 1);", "implicit-conversion: expected a bit string for SHL, found INT: write INT_TO_WORD(...)"),
+        ("r := SQRT(i);", "implicit-conversion: expected REAL or LREAL for SQRT, found INT: write INT_TO_REAL(...)"),
         ("i := i ** 2;", "type-mismatch: expected REAL or LREAL before **, found INT"),
         ("t := t * t2;", "type-mismatch: * is not defined for TIME and TIME"),
         (

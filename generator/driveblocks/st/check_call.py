@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from driveblocks.st.check_expression import ExpressionChecker
+from driveblocks.st.check_expression import ExpressionChecker, conversion_to_bits
 from driveblocks.st.report import nearest
 from driveblocks.st.standard import BLOCKS, FUNCTIONS, Conversion, Group, Signature, conversion_of
 from driveblocks.st.tree import Argument, Binding, Call, Expression, Function, FunctionBlock, Name
@@ -21,10 +21,14 @@ from driveblocks.st.types import (
     Kind,
     Parameter,
     Type,
+    conversion,
     plain,
     same,
     untyped,
 )
+
+# What dialects take addresses and sizes with.
+_ADDRESSES = frozenset(["ADR", "ADRINST", "BITADR", "REF", "SIZEOF", "INDEXOF"])
 
 
 class CallChecker(ExpressionChecker):
@@ -60,6 +64,9 @@ class CallChecker(ExpressionChecker):
             if symbol.type is not UNKNOWN:
                 text = f"expected a function or block instance, found the variable {shown}"
                 self.report.add(value.at, "type-mismatch", text)
+        elif name in _ADDRESSES:
+            text = f"{name} is not in the second edition: pass a VAR_IN_OUT, and sizes as inputs"
+            self.report.add(value.at, "pointer", text)
         elif isinstance(found, FunctionBlock) or name in BLOCKS:
             text = f"expected an instance, found the block type {shown}: declare a variable of it and call that"
             self.report.add(value.at, "undeclared-name", text)
@@ -279,6 +286,12 @@ class CallChecker(ExpressionChecker):
         if shared.kind is Kind.BITS and Kind.INTEGER in group:
             text = f"expected a number for {name}, found {shared}: convert it to an integer first"
             return "bit-string-arithmetic", text
+        if shared.kind is Kind.INTEGER and Kind.BITS in group:
+            text = f"expected a bit string for {name}, found {shared}: write {conversion_to_bits(shared)}(...)"
+            return "implicit-conversion", text
+        if shared.kind is Kind.INTEGER and Kind.REAL in group:
+            text = f"expected REAL or LREAL for {name}, found {shared}: write {conversion(shared, REAL)}(...)"
+            return "implicit-conversion", text
         shown = "a bit string" if Kind.BITS in group and Kind.INTEGER not in group else "another type"
         return "type-mismatch", f"expected {shown} for {name}, found {shared}"
 

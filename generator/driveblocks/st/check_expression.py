@@ -300,6 +300,8 @@ class ExpressionChecker(ValueChecker):
         """Tell if an operator cannot take this type; the type of its result."""
         if have is UNKNOWN or have.kind in kinds:
             return plain(have)
+        if have.kind is Kind.POINTER:
+            return UNKNOWN
         if have.kind is Kind.BITS and Kind.INTEGER in kinds:
             name = plain(have).name
             text = f"expected a number for {op}, found {have}: write {name}_TO_U{'S' if name == 'BYTE' else ''}INT(...)"
@@ -376,7 +378,7 @@ class ExpressionChecker(ValueChecker):
     def unlike(self, value: Binary) -> None:
         """Tell of operands of two types."""
         left, right = value.left.type, value.right.type
-        if UNKNOWN in (left, right):
+        if UNKNOWN in (left, right) or Kind.POINTER in (left.kind, right.kind):
             return
         if left.kind in ANY_NUM | ANY_BIT and right.kind in ANY_NUM | ANY_BIT:
             text = f"expected operands of one type for {value.op}, found {left} and {right}: convert one explicitly"
@@ -458,14 +460,20 @@ class ExpressionChecker(ValueChecker):
 
     def instance_of(self, value: Expression) -> VarDecl | None:
         """The variable that an expression is a part of; None for anything that is no variable."""
-        while isinstance(value, Member | Index | BitAccess):
-            value = value.base
+        value = self.outermost(value)
         symbol = value.symbol if isinstance(value, Name) else None
         return symbol if isinstance(symbol, VarDecl) else None
 
+    @staticmethod
+    def outermost(value: Expression) -> Expression:
+        """What an expression is a part of."""
+        while isinstance(value, Member | Index | BitAccess):
+            value = value.base
+        return value
+
     def assignable(self, value: Expression, what: str) -> None:
         """Tell if an expression, whose type is known, is nothing that can be written to."""
-        if isinstance(value, Direct | Dereference):
+        if isinstance(self.outermost(value), Direct | Dereference):
             return
         root = self.instance_of(value)
         if root is None:

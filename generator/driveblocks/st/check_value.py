@@ -18,6 +18,7 @@ from driveblocks.st.types import (
     UNKNOWN,
     UNTYPED_INTEGER,
     UNTYPED_REAL,
+    Array,
     Builtin,
     Elementary,
     Kind,
@@ -57,17 +58,20 @@ class ValueChecker:
     def mismatch(self, value: Expression, wanted: Type, rule: str = "type-mismatch") -> None:
         """Tell of a value of another type, and how to convert it."""
         have = value.type
-        if UNKNOWN in (have, wanted):
+        if UNKNOWN in (have, wanted) or Kind.POINTER in (have.kind, wanted.kind):
             return
         if convertible(have, wanted):
             text = f"expected {plain(wanted)}, found {have}: write {conversion(have, wanted)}(...)"
             self.report.add(value.at, "implicit-conversion", text)
+        elif isinstance(wanted, Array) and isinstance(have, Array) and wanted.bounds == have.bounds:
+            text = f"expected {wanted}, found another type of the same shape, {have}: declare both by one TYPE"
+            self.report.add(value.at, rule, text)
         else:
             self.report.add(value.at, rule, f"expected {wanted}, found {have}")
 
     def settle(self, value: Expression, wanted: Type) -> None:
         """Give an expression of numbers without prefix the type `wanted`."""
-        if wanted is UNKNOWN or not untyped(value.type):
+        if wanted is UNKNOWN or wanted.kind is Kind.POINTER or not untyped(value.type):
             if untyped(value.type):
                 self.settle(value, self.default(value))
             return

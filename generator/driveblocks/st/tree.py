@@ -192,6 +192,7 @@ class Call(Expression):
     `bindings` lists every formal parameter in the order of declaration, EN and ENO apart; only parameters of a block
     that the call does not mention have value None and keep what they had; of a function they take their default.
     `en`, `eno`: what the implicit parameters are bound to. `type` is the function's result, VOID for a block.
+    The `callee` of a function is its bare Name, which has neither type nor symbol; that of a block is the instance.
     """
 
     callee: Expression
