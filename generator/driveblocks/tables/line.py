@@ -10,6 +10,7 @@ from driveblocks.tables.errata import corroborated
 from driveblocks.tables.faults import recorded
 from driveblocks.tables.layout import both, card, choices, code_text, facts, heading, listed
 
+_TOLERATED = {"two_byte_count": ("byte count", "of a read may be a word")}
 _LIMITS = {
     "read_words": "words in one read",
     "write_words": "words in one write",
@@ -42,6 +43,7 @@ def line(drive: Drive) -> Iterator[RenderableType]:
     yield limits(drive.limits)
     yield heading("Functions")
     yield from map(of_function, drive.functions)
+    yield from tolerances(drive)
 
 
 def _mode(code: ModeCode) -> str:
@@ -109,6 +111,15 @@ def of_function(function: Function) -> RenderableType:
     """A Modbus function with its sub-functions."""
     subs = [(f"  {sub.code:04X}H", both(sub.name, sub.text_zh)) for sub in function.sub_functions]
     return facts((code_text(function.code), f"{both(function.name, function.text_zh)}  ({function.source})"), *subs)
+
+
+def tolerances(drive: Drive) -> Iterator[RenderableType]:
+    """What replies of this drive are allowed beyond the standard; nothing for most drives."""
+    if drive.tolerances:
+        yield heading("Tolerated in replies")
+        for each in drive.tolerances:
+            label, what = _TOLERATED[each.kind]
+            yield facts((label, f"{what}: {each.why}  ({each.source})"))
 
 
 def settings(drive: Drive) -> Iterator[RenderableType]:
