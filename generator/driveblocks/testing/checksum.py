@@ -1,0 +1,81 @@
+"""Programs for the checksums and the hexadecimal digits."""
+
+from collections.abc import Iterator
+
+from driveblocks.reference.checksum import crc16, lrc
+from driveblocks.testing import bench
+from driveblocks.testing.literal import byte, word
+from driveblocks.testing.script import Item, Script
+
+LINE = "MODBUS over Serial Line V1.02"
+
+
+def scripts() -> Iterator[Script]:
+    """One program for the checksums, one for the digits."""
+    yield _checksums()
+    yield _digits()
+
+
+def _all_entries() -> bytes:
+    """256 bytes that look up each entry of a table-driven CRC once."""
+    data, crc = b"", 0xFFFF
+    for entry in range(256):
+        octet = (crc ^ entry) & 0xFF
+        data += bytes([octet])
+        crc = crc16(bytes([octet]), crc)
+    return data
+
+
+def _checksums() -> Script:
+    program = bench.generic("Checksums", "both CRCs and the LRC", f"{LINE}, 6.2.1 and 6.2.2.")
+    bench.declare(program, "Adu", Crc16="MB_Crc16", Compact="MB_Crc16Compact", Lrc="MB_Lrc")
+    program.stage(
+        "02H 07H has the CRC 1241H, in the order of the wire 41H 12H",
+        *bench.fill("Adu", b"\x02\x07"),
+        *_summed(2),
+        bench.is_word("Crc16.Crc", word(0x1241), "CRC by table"),
+        bench.is_word("Compact.Crc", word(0x1241), "CRC without table"),
+        source=f"{LINE}, 6.2.2, example",
+    )
+    every = _all_entries()
+    longer = bytes(range(256))
+    for words, data in (("every entry of the table", every), ("00H to FFH", longer), ("256 times FFH", b"\xff" * 256)):
+        statements = bench.fill("Adu", data)
+        for end in (128, 256):
+            program.stage(f"{words}: {end} bytes", *statements[end - 128 : end], *_checked(data[:end]))
+    for length in (0, 1, 2, 3, 255, 256, 257, 65535):
+        program.stage(f"{length} bytes FFH, at most 256", *_checked(data[:length], length))
+    return program
+
+
+def _summed(length: int) -> list[str]:
+    return [f"{block}(Length := {length}, Adu := Adu);" for block in ("Crc16", "Compact", "Lrc")]
+
+
+def _checked(data: bytes, length: int | None = None) -> Iterator[Item]:
+    yield from _summed(len(data) if length is None else length)
+    yield bench.is_word("Crc16.Crc", word(crc16(data)), "CRC by table")
+    yield bench.is_word("Compact.Crc", word(crc16(data)), "CRC without table")
+    yield bench.is_word("BYTE_TO_WORD(Lrc.Lrc)", word(lrc(data)), "LRC")
+
+
+def _digits() -> Script:
+    program = bench.generic("Digits", "hexadecimal digits", f"{LINE}, 2.5.2.")
+    numbers = [*range(16), 16, 31, 255, 65535]
+    probes = [
+        bench.is_word(
+            f"BYTE_TO_WORD(MB_HexDigit(Number := {number}))", word(b"0123456789ABCDEF"[number % 16]), f"{number}"
+        )
+        for number in numbers
+    ]
+    program.stage("numbers as digits", *probes)
+    codes = [*range(0x2E, 0x48), 0x00, 0x0A, 0x0D, 0x20, *range(0x5F, 0x69), 0x7F, 0xB0, 0xFF]
+    probes = [
+        bench.is_number(f"MB_HexValue(Character := {byte(code)})", _value(code), f"{code:02X}H") for code in codes
+    ]
+    program.stage("digits as numbers, 255 for what is none", *probes)
+    return program
+
+
+def _value(code: int) -> int:
+    return b"0123456789ABCDEF".find(bytes([code])) if code in b"0123456789ABCDEF" else 255

@@ -1,0 +1,123 @@
+"""Programs for RTU and ASCII framing: every length that matters, every bit of a frame changed, every mark missing."""
+
+from collections.abc import Iterator
+
+from driveblocks.reference.framing import ascii_decode, ascii_encode, rtu_open, rtu_seal
+from driveblocks.testing import bench
+from driveblocks.testing.code import WORDS
+from driveblocks.testing.script import Script
+
+LINE = "MODBUS over Serial Line V1.02"
+
+BODY = bytes.fromhex("01 06 10 00 00 01")
+"""A request that is framed: write 1 to 1000H of unit 1."""
+
+
+def scripts() -> Iterator[Script]:
+    """One program per block."""
+    yield from (_seal(), _open(), _encode(), _decode())
+
+
+def _seal() -> Script:
+    program = bench.generic("RtuSeal", "RTU framing, outgoing", f"{LINE}, 2.5.1.")
+    bench.declare(program, "Adu", Seal="MB_RtuSeal")
+    for length in (0, 1, 2, 3, 6, 253, 254, 255, 256, 65535):
+        data = bench.sample(length)
+        found = rtu_seal(data)
+        program.stage(
+            f"{length} bytes: {WORDS[found.result]}",
+            *bench.fill("Adu", data[: min(length, 8)]),
+            *([bench.ramp("Adu", length)] if 8 < length <= 254 else []),
+            f"Seal(Length := {length}, Adu := Adu);",
+            bench.has_result("Seal", found.result),
+            bench.is_number("Seal.AduLength", len(found.data), "bytes of the frame"),
+            *bench.same_bytes("Adu", found.data[:8]),
+            *bench.last_bytes("Adu", found.data),
+        )
+    program.variables["Index"] = ("UINT", "next byte")
+    return program
+
+
+def _open() -> Script:
+    program = bench.generic("RtuOpen", "RTU framing, incoming", f"{LINE}, 2.5.1.")
+    bench.declare(program, "Adu", Open="MB_RtuOpen")
+    frame = rtu_seal(BODY).data
+    for words, data, length in _received(frame, 256):
+        _opened(program, "Open", words, data, length)
+    swapped = frame[:-2] + frame[:-3:-1]
+    _opened(program, "Open", "the two bytes of the CRC the other way round", swapped, len(swapped))
+    return program
+
+
+def _received(frame: bytes, most: int) -> Iterator[tuple[str, bytes, int]]:
+    """A frame as it is, cut short, extended, with each bit changed; words, bytes, and how many are said to be there."""
+    yield "as sent", frame, len(frame)
+    for length in (*range(len(frame) + 4), most - 1, most, most + 1, 65535):
+        yield f"{length} bytes of {len(frame)}", frame, length
+    for index, octet in enumerate(frame):
+        for bit in range(8):
+            changed = frame[:index] + bytes([octet ^ 1 << bit]) + frame[index + 1 :]
+            yield f"bit {bit} of byte {index} changed", changed, len(changed)
+
+
+def _opened(program: Script, block: str, words: str, data: bytes, length: int) -> None:
+    """Hand over the first `length` bytes of data, with zeros behind them."""
+    box, count, opener = ("Adu", "AduLength", rtu_open) if block == "Open" else ("Chars", "CharCount", ascii_decode)
+    found = opener(data[:length].ljust(length, b"\x00"))
+    pins = f"{count} := {length}, {box} := {box}" + (", Adu := Adu" if box == "Chars" else "")
+    program.stage(
+        f"{words}: {WORDS[found.result]}",
+        *bench.fill(box, data[:length] + b"\x00" * 4),
+        f"{block}({pins});",
+        bench.has_result(block, found.result),
+        bench.is_number(f"{block}.Length", len(found.data), "bytes without checksum"),
+        *(bench.same_bytes("Adu", found.data) if box == "Chars" else ()),
+    )
+
+
+def _encode() -> Script:
+    program = bench.generic("AsciiEncode", "ASCII framing, outgoing", f"{LINE}, 2.5.2.")
+    bench.declare(program, "Adu", "Chars", Encode="MB_AsciiEncode")
+    program.variables["Index"] = ("UINT", "next byte")
+    for length in (0, 1, 2, 3, 6, 16, 253, 254, 255, 256, 65535):
+        data = bench.sample(length)
+        found = ascii_encode(data)
+        program.stage(
+            f"{length} bytes: {WORDS[found.result]}",
+            *([bench.ramp("Adu", length)] if length <= 254 else []),
+            f"Encode(Length := {length}, Adu := Adu, Chars := Chars);",
+            bench.has_result("Encode", found.result),
+            bench.is_number("Encode.CharCount", len(found.data), "characters of the frame"),
+            *bench.same_bytes("Chars", found.data[:40], "characters"),
+            *bench.last_bytes("Chars", found.data),
+        )
+    return program
+
+
+def _decode() -> Script:
+    program = bench.generic("AsciiDecode", "ASCII framing, incoming", f"{LINE}, 2.5.2.")
+    bench.declare(program, "Adu", "Chars", Decode="MB_AsciiDecode")
+    frame = ascii_encode(BODY).data
+    for words, data, length in _received(frame, 513):
+        _opened(program, "Decode", words, data, length)
+    for words, data in _garbled(frame):
+        _opened(program, "Decode", words, data, len(data))
+    return program
+
+
+def _garbled(frame: bytes) -> Iterator[tuple[str, bytes]]:
+    yield "lower case", frame.replace(b"8", b"e").lower()
+    yield "lower case, otherwise right", ascii_encode(b"\x01\x83\xab\xcd").data.lower()
+    yield "upper case", ascii_encode(b"\x01\x83\xab\xcd").data
+    yield "LF CR instead of CR LF", frame[:-2] + b"\n\r"
+    yield "without CR", frame[:-2] + b"\n"
+    yield "one digit too few", frame[:-3] + b"\r\n"
+    yield "one digit too few, and no CR LF", frame[:-3] + b"00"
+    yield "a blank among the digits", frame[:5] + b" " + frame[6:]
+    yield "no colon, and much too short", b"01"
+    yield "a colon alone", b":"
+    yield "the shortest frame", ascii_encode(b"\x01\x83\x02").data
+    yield "one byte less than the shortest", ascii_encode(b"\x01\x83").data
+    for index in (1, 2, len(frame) - 4, len(frame) - 3):
+        for character in b"/:@G`g":
+            yield f"character {index} is {character:02X}H", frame[:index] + bytes([character]) + frame[index + 1 :]

@@ -1,0 +1,204 @@
+"""A test program under construction: stages of statements and checks, and the text with the place of each check."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from driveblocks.testing.harness import PER_SCAN
+from driveblocks.testing.literal import comment, flowing, paragraph
+
+MOST_STAGES = 100
+"""Stages of one program; what needs more becomes several programs."""
+
+_COUNTERS = [
+    ("Checks", "UINT", "checks done"),
+    ("Failures", "UINT", "checks that failed; 0 when Done means: passed"),
+    ("FirstFailed", "UINT", "number of the first check that failed, as in the comments; 0: none"),
+    ("Expected", "DWORD", "what that check expected"),
+    ("Actual", "DWORD", "what it found"),
+    ("Done", "BOOL", "TRUE: all checks are done"),
+]
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A call of one of the harness's blocks: DB_Check + `block`, its pins, and what it looks at in words."""
+
+    block: str
+    pins: str
+    words: str
+    size: int = 4
+    """Bytes that it compares; for Adu and Chars."""
+    names: tuple[str, ...] = ()
+    """What the bits stand for, from bit 0; for Bytes."""
+
+    @property
+    def call(self) -> str:
+        """The statement."""
+        return f"Check{self.block}({self.pins}, Report := Report);"
+
+
+Item = str | Probe
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What is done in one scan: what it is about, where that stands in the manual, statements and checks."""
+
+    words: str
+    source: str
+    items: Sequence[Item]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check of a program as reports show it."""
+
+    words: str
+    probe: Probe
+    stage: int
+    line: int
+
+
+@dataclass(frozen=True)
+class Program:
+    """A finished program: where its file goes, its text, and its checks by number, from 1."""
+
+    folder: str
+    name: str
+    title: str
+    text: str
+    checks: tuple[Check, ...]
+    stages: int
+
+    @property
+    def path(self) -> str:
+        """Path below the folder of the tests."""
+        return f"{self.folder}/{self.name}.st"
+
+
+@dataclass
+class Script:
+    """Collects the stages of a program.
+
+    `variables` maps a name to type and comment. `defaults` is done before each stage, `tail` after each, with its
+    checks; so a table of cases is a program whose stages are assignments alone.
+    """
+
+    folder: str
+    name: str
+    title: str
+    source: str
+    variables: dict[str, tuple[str, str]] = field(default_factory=dict)
+    defaults: list[str] = field(default_factory=list)
+    tail: list[Item] = field(default_factory=list)
+    stages: list[Stage] = field(default_factory=list)
+
+    def stage(self, words: str, *items: Item, source: str = "") -> None:
+        """Add a stage; one with more checks than a scan may have becomes several."""
+        room = PER_SCAN - _count(self.tail)
+        part: list[Item] = []
+        for item in items:
+            if isinstance(item, Probe) and _count(part) == room:
+                self.stages.append(Stage(words, source, part))
+                part = []
+            part.append(item)
+        self.stages.append(Stage(words, source, part))
+
+    def programs(self) -> Iterator[Program]:
+        """The finished programs: one, or several with a number behind the name; none without stages."""
+        chunks = [self.stages[at : at + MOST_STAGES] for at in range(0, len(self.stages), MOST_STAGES)]
+        for number, chunk in enumerate(chunks, 1):
+            name = f"{self.name}{number}" if len(chunks) > 1 else self.name
+            yield _Printer(self, name, chunk).program()
+
+
+def _count(items: Sequence[Item]) -> int:
+    return sum(isinstance(item, Probe) for item in items)
+
+
+class _Printer:
+    """Prints one program and notes on which line each check stands."""
+
+    def __init__(self, script: Script, name: str, stages: list[Stage]) -> None:
+        self.script, self.name, self.stages = script, name, stages
+        self.lines: list[str] = []
+        self.checks: list[Check] = []
+
+    def program(self) -> Program:
+        self._head()
+        self._declarations()
+        self.lines += ["", "  Report.InScan := 0;"]
+        if self.script.defaults:
+            self.lines += ["  (* what every case starts from *)", *flowing(self.script.defaults, "  ")]
+        self.lines.append("  CASE Stage OF")
+        for index, stage in enumerate(self.stages):
+            self._stage(index, stage)
+        self.lines += ["  ELSE", "    Done := TRUE;", "  END_CASE;"]
+        self._tail()
+        text = "\n".join([*self.lines, "END_PROGRAM", ""])
+        script = self.script
+        return Program(script.folder, self.name, script.title, text, tuple(self.checks), len(self.stages))
+
+    def _head(self) -> None:
+        run = "In a cyclic task until Done; it has passed when Failures is 0 and Checks is not. One case per scan."
+        self.lines += [f"(* {self.name}: {comment(self.script.title)}", "   " + "-" * 97]
+        for label, text in (("Source", self.script.source), ("Run", run)):
+            self.lines += paragraph(f"   {label:<9}", text)
+        self.lines += ["   Made by  DriveBlocks; written by the generator from the drive's map. *)"]
+        self.lines += [f"PROGRAM {self.name}"]
+
+    def _declarations(self) -> None:
+        items = [item for stage in self.stages for item in stage.items] + self.script.tail
+        blocks = {item.block: None for item in items if isinstance(item, Probe)}
+        rows = [
+            ("Report", "DB_Report", "what the checks have found"),
+            *((f"Check{block}", f"DB_Check{block}", "counts and notes a check") for block in blocks),
+            ("Stage", "UINT", "case of this scan"),
+            *((name, type_, text) for name, (type_, text) in self.script.variables.items()),
+        ]
+        self.lines += ["VAR_OUTPUT", *_declared(_COUNTERS), "END_VAR", "VAR", *_declared(rows), "END_VAR"]
+
+    def _stage(self, index: int, stage: Stage) -> None:
+        first = len(self.checks) + 1
+        last = first + _count(stage.items) + _count(self.script.tail) - 1
+        numbers = f"{first}" if first == last else f"{first} to {last}"
+        words = f"{numbers}: {stage.words}" + (f"; {stage.source}" if stage.source else "")
+        label = f"    {index}: "
+        place = len(self.lines) + 1
+        self.lines += paragraph(f"{label}(* ", words, " *)")
+        self._items(stage, index)
+        for item in self.script.tail:
+            if isinstance(item, Probe):
+                self.checks.append(Check(f"{stage.words}: {item.words}", item, index, place))
+
+    def _items(self, stage: Stage, index: int) -> None:
+        run: list[str] = []
+        for item in stage.items:
+            if isinstance(item, str):
+                run.append(item)
+                continue
+            self.lines += flowing(run, "      ")
+            run = []
+            words = f"{stage.words}: {item.words}"
+            self.checks.append(Check(words, item, index, len(self.lines) + 1))
+            self.lines.append(f"      {item.call} (* {len(self.checks)}: {comment(item.words)} *)")
+        self.lines += flowing(run, "      ")
+
+    def _tail(self) -> None:
+        self.lines += ["  IF NOT Done THEN"]
+        for item in self.script.tail:
+            self.lines.append(
+                f"    {item.call} (* {comment(item.words)} *)" if isinstance(item, Probe) else f"    {item}"
+            )
+        self.lines += ["    Stage := Stage + 1;", "  END_IF;"]
+        names = [name for name, _, _ in _COUNTERS if name != "Done"]
+        self.lines += flowing([f"{name} := Report.{name};" for name in names], "  ")
+
+
+def _declared(rows: Sequence[tuple[str, str, str]]) -> list[str]:
+    """Declarations with their comments in one column."""
+    width = max(len(name) + len(type_) for name, type_, _ in rows)
+    return [
+        f"  {name} : {type_};{' ' * (width - len(name) - len(type_))} (* {comment(text)} *)"
+        for name, type_, text in rows
+    ]

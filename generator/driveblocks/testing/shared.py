@@ -1,0 +1,32 @@
+"""Programs for the blocks that every drive shares."""
+
+from collections.abc import Iterable, Iterator
+
+from driveblocks.reference.reply import Manners
+from driveblocks.testing import bench, builder, checksum, framing, packing, reply, text
+from driveblocks.testing.script import Script
+
+PROTOCOL = "MODBUS Application Protocol V1.1b3"
+
+
+def scripts(languages: Iterable[text.Language]) -> Iterator[Script]:
+    """All of them."""
+    for subject in (checksum, framing, packing, builder):
+        yield from subject.scripts()
+    yield from _replies()
+    yield from text.results(languages)
+
+
+def _replies() -> Iterator[Script]:
+    """The parser by itself: with the standard's refusals, then with a drive's that are write replies."""
+    rest = "Adu := Adu, Request := Request, Words := Words);"
+    standard = reply.Subject(f"Parse(Length := Length, {rest}", Manners(), (5, 6))
+    pins = "ExceptionAdd := 0, ErrorFunction := 6, ErrorAddress := WORD#16#5001, TwoByteCount := TRUE"
+    other = reply.Subject(f"Parse(Length := Length, {pins}, {rest}", Manners(None, 6, 0x5001, True), (8, 33))
+    for kind, subject in (("Standard", standard), ("Other", other)):
+        for function in (3, 4, 6, 8, 16):
+            title = f"replies to function {function:02X}H, {kind.lower()} form of refusal"
+            program = bench.generic(f"{kind}{function:02X}H", title, f"{PROTOCOL}, 6.3 to 6.12 and 7.")
+            bench.declare(program, "Adu", "Words", "Request", Parse="MB_ParseReply")
+            reply.fill(program, subject, reply.asked(function))
+            yield program

@@ -1,0 +1,113 @@
+"""The program for the reference block: counts, halves, limits, and what is no reference."""
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference.single import stored
+from driveblocks.reference.speed import SpeedReference
+from driveblocks.testing import bench
+from driveblocks.testing.code import NUMBERS, WORDS
+from driveblocks.testing.literal import word
+from driveblocks.testing.script import Script
+from driveblocks.testing.table import Table
+
+Case = tuple[str, float, float, float]
+"""What it is about; SpeedReferenceHz, MaximumHz, ReferenceScale."""
+
+LARGEST_EXACT = 2**24
+"""From here on REAL has no halves."""
+
+USUAL_MAXIMUM, USUAL_SCALE = 50.0, 10.0
+
+
+def scripts(drive: Drive, stem: str) -> Iterator[Script]:
+    """One program."""
+    source = drive.operation.reference.source
+    program = bench.script(drive, stem, "Reference", "a frequency as the word for the reference register", source)
+    bench.declare(program, Reference=f"{drive.prefix}_Reference")
+    model = SpeedReference(drive)
+    table = _table(program, model)
+    for case in dict.fromkeys(_cases(model)):
+        _row(table, model, case)
+    yield program
+
+
+def _table(program: Script, model: SpeedReference) -> Table:
+    table = Table(program)
+    table.column("Hertz", "REAL", 0.0, "SpeedReferenceHz")
+    table.column("Maximum", "REAL", USUAL_MAXIMUM, "MaximumHz")
+    pins = "SpeedReferenceHz := Hertz, MaximumHz := Maximum"
+    if model.factor is None:
+        table.column("Scale", "REAL", USUAL_SCALE, "ReferenceScale")
+        pins += ", ReferenceScale := Scale"
+    table.column("WantedError", "UINT", 0, "ErrorID that Reference must give")
+    table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
+    table.column("Lowest", "UINT", 0, "Value that it must give, at least")
+    table.column("Highest", "UINT", 0, "... and at most: more only where REAL leaves two")
+    table.do(
+        f"Reference({pins});",
+        bench.is_number("Reference.ErrorID", "WantedError", "ErrorID"),
+        bench.is_flag("Reference.Limited", "WantedLimited", "Limited"),
+        bench.is_between("WORD_TO_UINT(Reference.Value)", "Lowest", "Highest", "Value"),
+        bench.is_word("Reference.Address", word(model.address), "Address"),
+    )
+    return table
+
+
+def _row(table: Table, model: SpeedReference, case: Case) -> None:
+    about, hertz, maximum, scale = case
+    found = model.encode(hertz, maximum, scale)
+    near = {found.value} if _exact(model, hertz, scale) else found.near
+    values = {"Hertz": hertz, "Maximum": maximum} | ({"Scale": scale} if model.factor is None else {})
+    says = f"{found.value}{', limited' if found.limited else ''}" if found.result == "OK" else WORDS[found.result]
+    words = f"{about}: {hertz:.9g} Hz of {maximum:.9g} Hz" + (f", {scale:.9g} per Hz" if model.factor is None else "")
+    wanted = {"WantedError": NUMBERS[found.result], "WantedLimited": found.limited}
+    bounds = {"Lowest": min(near) & 0xFFFF, "Highest": max(near) & 0xFFFF}
+    table.row(f"{words}: {says}", values | wanted | bounds)
+
+
+def _exact(model: SpeedReference, hertz: float, scale: float) -> bool:
+    """Whether REAL holds the counts and their half exactly, so that rounding leaves one word."""
+    if model.factor is not None or model.percent:
+        return False
+    if not 0 < scale < LARGEST_EXACT or not 0 <= hertz < LARGEST_EXACT:
+        return False
+    counts = Fraction(stored(hertz)) * Fraction(stored(scale)) + Fraction(1, 2)
+    return Fraction(stored(float(counts))) == counts
+
+
+def _cases(model: SpeedReference) -> Iterator[Case]:
+    for maximum in (50.0, 60.0, 400.0, *(() if model.percent else (0.0,))):
+        yield from _at(model, maximum, USUAL_SCALE)
+    if model.factor is None:
+        for scale in (1.0, 0.5, 100.0, 1000.0, 16383.75):
+            yield from _at(model, 50.0, scale)
+        for scale in (0.0, -1.0, -9.0e29, 2.0e30):
+            yield "bad scale" if scale else "scale not set", 10.0, 50.0, scale
+    for maximum in (0.0, -1.0, -2.0e30, 2.0e30):
+        yield "maximum" if maximum else "maximum not set", 10.0, maximum, USUAL_SCALE
+    for hertz in (-0.001, -50.0, -9.0e29, -1.1e30, 1.1e30, 3.0e38, -3.0e38):
+        yield "beyond", hertz, 50.0, USUAL_SCALE
+        yield "beyond, with nothing set", hertz, 0.0, 0.0
+
+
+def _at(model: SpeedReference, maximum: float, scale: float) -> Iterator[Case]:
+    """References from nothing to far too much; near the steps of the word where the frequency allows."""
+    top = maximum or 100.0
+    for hertz in (0.0, 0.01, 0.1, 0.5, 1.0, 10.0, 25.0, 33.3, 49.99, 50.0):
+        yield "reference", hertz, maximum, scale
+    for hertz in (top / 2, top * 0.999, top, top * 1.001, top * 2.0, 65535.0, 1.0e6, 9.0e29):
+        yield "reference near or above the maximum", stored(hertz), maximum, scale
+    step = _step(model, maximum, scale)
+    for counts in (0.25, 0.49, 0.5, 0.51, 1.0, 1.5, 2.5, 3.0, 100.5, 101.5):
+        yield f"{counts} counts", stored(float(step * Fraction(counts))), maximum, scale
+    for counts in (-0.75, -0.25, 0.25, 1.0):
+        yield "near the end of the word", stored(float(step * (model.highest + Fraction(counts)))), maximum, scale
+
+
+def _step(model: SpeedReference, maximum: float, scale: float) -> Fraction:
+    """Hz per count."""
+    if model.factor is None:
+        return 1 / Fraction(scale)
+    return model.factor * Fraction(maximum) / 100 if model.percent else model.factor

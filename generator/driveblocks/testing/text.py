@@ -1,0 +1,103 @@
+"""Programs for the texts of faults, errors, bits, values and results, in each language that was built."""
+
+from collections.abc import Iterable, Iterator
+from typing import Protocol
+
+from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.model import Drive
+from driveblocks.reference import text as reference
+from driveblocks.testing import bench
+from driveblocks.testing.code import NUMBERS, WORDS
+from driveblocks.testing.literal import string, word
+from driveblocks.testing.script import Probe, Script
+
+
+class Language(Protocol):
+    """A language of texts: En or Zh as the last part of names, and the encoding of its bytes."""
+
+    @property
+    def suffix(self) -> str:
+        """En or Zh."""
+
+    @property
+    def encoding(self) -> str:
+        """A codec of Python."""
+
+
+def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[Script]:
+    """Programs per kind of text and language."""
+    for language in languages:
+        yield _codes(drive, stem, language, "Fault", sorted({fault.code for fault in drive.faults.codes}))
+        numbers = {reference.error_number(error) for error in drive.errors.codes}
+        yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
+        if any(bit.name for _, row in drive.registers() for bit in row.bits):
+            yield _bits(drive, stem, language)
+        if any(row.values for _, row in drive.registers()):
+            yield _values(drive, stem, language)
+
+
+def results(languages: Iterable[Language]) -> Iterator[Script]:
+    """Programs for the texts of result codes: each code has one."""
+    for language in languages:
+        title = "every result code has a text"
+        program = bench.generic(f"ResultText{language.suffix}", title, "the result codes of DriveBlocks.")
+        program.variables["Found"] = ("STRING", "the text")
+        for name, number in NUMBERS.items():
+            unknown = string(_bytes(reference.UNKNOWN, language))
+            program.stage(
+                f"{number}, {WORDS[name]}",
+                f"Found := MB_ResultText{language.suffix}(Code := {number});",
+                bench.is_flag(f"Found = {unknown}", False, "is an unknown code"),
+            )
+        call = f"MB_ResultText{language.suffix}(Code := 65535)"
+        program.stage("65535, no code", bench.is_text(call, _bytes(reference.UNKNOWN, language), "text"))
+        yield program
+
+
+def _bytes(texts: reference.Texts | None, language: Language) -> bytes:
+    found = texts or reference.UNKNOWN
+    return reference.shortened(found.zh if language.suffix == "Zh" else found.en, language.encoding)
+
+
+def _codes(drive: Drive, stem: str, language: Language, kind: str, codes: list[int]) -> Script:
+    """Codes of faults or errors; and some that are none."""
+    find = reference.fault if kind == "Fault" else reference.error
+    source = drive.faults.source if kind == "Fault" else drive.errors.source
+    title = f"texts of {kind.lower()} codes"
+    program = bench.script(drive, stem, f"{kind}Text{language.suffix}", title, source)
+    for code in dict.fromkeys((*codes, 0, max(codes, default=0) + 1, 256, 65535)):
+        call = f"{drive.prefix}_{kind}Text{language.suffix}(Code := {code})"
+        program.stage(f"{kind.lower()} {code}", bench.is_text(call, _bytes(find(drive, code), language), "text"))
+    return program
+
+
+def _bits(drive: Drive, stem: str, language: Language) -> Script:
+    program = bench.script(drive, stem, f"BitText{language.suffix}", "texts of bits")
+    for section, row in drive.registers():
+        address = row.address.first
+        lowest = {bit.bit.first: bits_text(bit.bit) for bit in row.bits}
+        for number, bits in sorted(lowest.items()):
+            probe = _place(drive, language, "Bit", address, number)
+            program.stage(f"{address_text(address)}.{bits}", probe, source=row.source or section.source)
+    program.stage("a register that is in no table", _place(drive, language, "Bit", 0xFFFF, 0))
+    return program
+
+
+def _values(drive: Drive, stem: str, language: Language) -> Script:
+    program = bench.script(drive, stem, f"ValueText{language.suffix}", "texts of values")
+    for section, row in drive.registers():
+        address = row.address.first
+        listed = {value.value for value in row.values}
+        for number in sorted({*listed, *({max(listed) + 1} if listed else ())}):
+            probe = _place(drive, language, "Value", address, number)
+            program.stage(f"{address_text(address)} = {number}", probe, source=row.source or section.source)
+    program.stage("a register that is in no table", _place(drive, language, "Value", 0xFFFF, 0))
+    return program
+
+
+def _place(drive: Drive, language: Language, pin: str, address: int, number: int) -> Probe:
+    """A check of the text of a bit or value."""
+    found = (reference.bit if pin == "Bit" else reference.value)(drive, address, number)
+    name = f"{drive.prefix}_{pin}Text{language.suffix}"
+    call = f"{name}(Address := {word(address)}, {pin} := {number & 0xFFFF})"
+    return bench.is_text(call, _bytes(found, language), "text")
