@@ -30,7 +30,7 @@ def _told(result: str, asked: Asked, one: Layout, data: bytes) -> Wrong:
         "BROADCAST": Wrong("the request was a broadcast, and nobody answers one"),
         "OTHER_UNIT": Wrong(f"unit: {data[0]} answers, and unit {asked.unit} was asked", (_OTHER_DRIVE, _LATE)),
         "OTHER_FUNCTION": Wrong(
-            f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked", (_LATE, "another form of refusal")
+            f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked", (_why_function(data, asked),)
         ),
         "BYTE_COUNT": Wrong(_count(one, asked), _why_count(data, size)),
         "OTHER_ADDRESS": _field("address", one.number("address"), asked.address),
@@ -41,8 +41,11 @@ def _told(result: str, asked: Asked, one: Layout, data: bytes) -> Wrong:
     if result in written:
         return written[result]
     if asked.function in READS and not one.refusal:
-        return Wrong(f"length: {len(data)} bytes before the checksum, and the request asks for {3 + size}")
-    return Wrong(f"length: {len(data)} bytes before the checksum, and such a reply has {one.size}")
+        wrong = f"length: {len(data)} bytes before the checksum, and the request asks for {3 + size}"
+        return Wrong(wrong, _why_length(3 + size - len(data)))
+    return Wrong(
+        f"length: {len(data)} bytes before the checksum, and such a reply has {one.size}", _why_length(one.missing)
+    )
 
 
 def _field(name: str, found: int | None, wanted: int) -> Wrong:
@@ -52,10 +55,22 @@ def _field(name: str, found: int | None, wanted: int) -> Wrong:
     return Wrong(f"{name}: {number:04X}H answers, and {wanted:04X}H was asked", instead)
 
 
+def _why_function(data: bytes, asked: Asked) -> str:
+    if data[1] == asked.function | 0x80:
+        return "a refusal as the standard has it, but the map says that this drive refuses in another way"
+    return _LATE
+
+
+def _why_length(missing: int) -> tuple[str, ...]:
+    many = f"{abs(missing)} byte{'s' * (abs(missing) != 1)}"
+    return (f"truncated: {many} missing",) if missing > 0 else (f"{many} too many",)
+
+
 def _count(one: Layout, asked: Asked) -> str:
     count = one.number("byte count")
-    found = f"{count}, for {(count or 0) // 2} registers" if count is not None else "missing"
-    return f"byte count: {found}; the request asks for {asked.quantity}, so {2 * asked.quantity} bytes"
+    found = "missing" if count is None else str(count)
+    many = f"{asked.quantity} register{'s' * (asked.quantity != 1)}"
+    return f"byte count: {found}; the request asks for {many}, so it is {2 * asked.quantity}"
 
 
 def _why_count(data: bytes, size: int) -> tuple[str, ...]:

@@ -73,11 +73,23 @@ class Explainer:
         broken = tuple(Wrong(what, (instead,) if instead else ()) for what, instead in wire.broken)
         broken = (*broken, *self._mode(wire), *_size(wire))
         if len(pieces) > 1 and any(piece.good for piece in pieces) and not self._whole(wire):
-            return self._glued(wire, pieces, asked, sent)
+            return self._zeros_behind(wire, asked, sent) or self._glued(wire, pieces, asked, sent)
         if not wire.right:
-            return self._damaged(wire, broken)
-        readings = self._answered(wire, asked) if asked is not None else self._readings(wire)
-        return Explanation(wire, broken, readings, wire, asked=sent, notes=_echo_note(asked, sent, wire))
+            return replace(self._damaged(wire, broken, asked), asked=sent)
+        whole = Explanation(wire, broken, self._all(wire, asked), wire, asked=sent, notes=_echo_note(asked, sent, wire))
+        return (None if whole.good else self._zeros_behind(wire, asked, sent)) or whole
+
+    def _zeros_behind(self, wire: Wire, asked: Asked | None, sent: bytes | None) -> Explanation | None:
+        """A good frame with 00 behind it: the rest behind a CRC is 0, so 00 there leaves the CRC right."""
+        core = wire.frame.rstrip(b"\0")
+        for end in range(len(core), len(wire.frame)):
+            if wire.mode == "rtu" and open_(wire.frame[:end]).right and self._whole(open_(wire.frame[:end])):
+                inside = self._explained(wire.frame[:end], asked, sent)
+                extra = scan.Piece(end, wire.frame[end:], good=False)
+                pieces = (scan.Piece(0, wire.frame[:end], good=True), extra)
+                if inside.good:
+                    return Explanation(wire, (_glue(pieces, None),), inside=(inside,), asked=sent)
+        return None
 
     def _whole(self, wire: Wire) -> bool:
         """Whether the bytes are one frame from end to end."""
@@ -90,28 +102,34 @@ class Explainer:
         speaks = " and ".join(mode.upper() for mode in self.drive.serial.mode.modes)
         return (Wrong(f"this is {wire.mode.upper()}, and {self.drive.prefix} speaks {speaks} only"),)
 
-    def _damaged(self, wire: Wire, broken: tuple[Wrong, ...]) -> Explanation:
+    def _damaged(self, wire: Wire, broken: tuple[Wrong, ...], asked: Asked | None) -> Explanation:
         found = guesses(wire, self.manners)
         meant = next((open_(guess.frame) for guess in found if guess.frame is not None), None)
         check = Wrong(_checksum(wire), tuple(guess.says for guess in found) or _nothing_found(wire))
-        told = () if broken and not wire.found else (check,)
-        read = meant or (wire if self._plausible(wire) else None)
-        readings = self._readings(read) if read is not None else ()
-        return Explanation(wire, (*broken, *told), readings, read)
+        told = (check,) if wire.aligned and (wire.found or not broken) else ()
+        told = (*told, *(Wrong("the frame cannot be read", (guess.says,)) for guess in found if not wire.aligned))
+        read = meant or (wire if wire.aligned and self._plausible(wire) else None)
+        return Explanation(wire, (*broken, *told), self._all(read, asked) if read is not None else (), read)
 
     def _plausible(self, wire: Wire) -> bool:
         """Whether a body with a wrong checksum has the length of what it says that it is."""
-        fits = [one for one in layout.readings(wire.body, self.manners) if one.fits] if len(wire.body) > 2 else []
-        return any(one.function in layout.KNOWN for one in fits)
+        if len(wire.body) < 3 or not wire.found:
+            return False
+        return any(one.fits and one.function in layout.KNOWN for one in layout.readings(wire.body, self.manners))
 
     # ------------------------------------------------------------ what it says
+
+    def _all(self, wire: Wire, asked: Asked | None) -> tuple[Reading, ...]:
+        return self._readings(wire) if asked is None else self._answered(wire, asked)
 
     def _readings(self, wire: Wire) -> tuple[Reading, ...]:
         """The readings of a body that nothing speaks against, or all of them."""
         if len(wire.body) < 2:
             return ()
         reader = Reader(self.drive, self.manners, ascii_mode=wire.mode == "ascii")
-        found = tuple(reader.read(one) for one in layout.readings(wire.body, self.manners))
+        possible = layout.readings(wire.body, self.manners)
+        requests = tuple(one for one in possible if one.direction == "request")
+        found = tuple(reader.read(one) for one in (requests if wire.body[0] == 0 and requests else possible))
         clean = tuple(one for one in found if not one.wrongs)
         return tuple(_framed(one, wire) for one in clean or _least_wrong(found))
 
@@ -136,14 +154,17 @@ class Explainer:
     ) -> Explanation:
         """One frame with something around it, or several."""
         inside: list[Explanation] = []
+        before = (asked, sent)
         for piece in (one for one in pieces if one.good or wire.mode == "ascii"):
-            known = sent == piece.data and not inside
-            made = self._explained(piece.data, None if known else asked, None if known else sent)
-            if made.readings and made.readings[0].direction == "request" and asked is None:
-                asked, sent = _as_asked(made, self.manners)
+            made = self._explained(piece.data, *before)
+            if not made.good and (piece.data == before[1] or before[1] != sent):
+                made = self._explained(piece.data, None, None)
+            if made.good and made.asked is None and made.readings[0].direction == "request":
+                before = _as_asked(made, self.manners)
             inside.append(made)
-        wrongs = (_glue(pieces, sent if inside and inside[0].wire.frame == sent else None),)
-        return Explanation(wire, (*wrongs, *_size(wire)), inside=tuple(inside), asked=sent)
+        echo = any(one.good and one.asked == inside[0].wire.frame for one in inside[1:])
+        wrong = _glue(pieces, inside[0].wire.frame if echo else None)
+        return Explanation(wire, (wrong, *_size(wire)), inside=tuple(inside), asked=sent)
 
     # ------------------------------------------------------------ the manual's examples
 
@@ -182,8 +203,8 @@ def _framed(one: Reading, wire: Wire) -> Reading:
 
 def _checksum(wire: Wire) -> str:
     if not wire.found:
-        return f"{len(wire.frame)} bytes are too short for a frame"
-    return f"the {wire.name} {shown(wire.found)} is wrong: to these bytes belongs {shown(wire.expected)}"
+        return f"{len(wire.frame)} byte{'s are' if len(wire.frame) != 1 else ' is'} too short for a frame"
+    return f"the {wire.name} does not fit: the frame has {shown(wire.found)}, and {shown(wire.expected)} would be right"
 
 
 def _nothing_found(wire: Wire) -> tuple[str, ...]:
@@ -200,7 +221,7 @@ def _size(wire: Wire) -> tuple[Wrong, ...]:
 
 
 def _echo_note(asked: Asked | None, sent: bytes | None, wire: Wire) -> tuple[str, ...]:
-    if asked is None or sent != wire.frame or asked.function not in (5, 6, 8):
+    if asked is None or asked.unit == 0 or sent != wire.frame or asked.function not in (5, 6, 8):
         return ()
     return ("The reply repeats the request, as it should; an adapter that hears itself would show the same.",)
 

@@ -22,9 +22,12 @@ Tries = Iterator[Guess]
 
 def guesses(wire: Wire, manners: Manners) -> list[Guess]:
     """What comes out, best first: causes that the checksum proves, then those that only the length speaks for."""
+    if not wire.aligned:
+        return list(_lookalikes(wire))
     proved = _PROVED_RTU if wire.mode == "rtu" else _PROVED_ASCII
     found = [guess for attempt in proved for guess in attempt(wire, manners)]
-    if not found:
+    found = found or (list(_one_byte(wire, manners)) if wire.mode == "rtu" else [])
+    if not found and not (wire.found and _fits(wire.body, manners)):
         found = [guess for attempt in _LIKELY for guess in attempt(wire, manners)]
     return list({guess.says: guess for guess in found}.values())[:4]
 
@@ -193,6 +196,16 @@ def _damaged(wire: Wire, manners: Manners) -> Tries:
             yield Guess(f"{says}; noise on the line", bytes(flipped))
 
 
+def _one_byte(wire: Wire, manners: Manners) -> Tries:
+    """One byte of a short frame; in a long one something always comes out."""
+    frame = wire.frame
+    for at in range(len(frame) - 2 if len(frame) <= 16 else 0):
+        for value in range(256):
+            meant = frame[:at] + bytes([value]) + frame[at + 1 :]
+            if value != frame[at] and _good(meant, manners):
+                yield Guess(f"one byte is wrong: byte {at + 1} is {frame[at]:02X} and would be {value:02X}", meant)
+
+
 def _lost_byte(wire: Wire, manners: Manners) -> Tries:
     """The first byte is often lost while the line turns round; or one in the middle is."""
     for unit in range(1, 248):
@@ -218,6 +231,13 @@ _PROVED_RTU = (
 )
 
 # ---------------------------------------------------------------- ASCII, proved by a checksum
+
+
+def _lookalikes(wire: Wire) -> Tries:
+    """Letters that look like a digit."""
+    meant = wire.frame.translate(bytes.maketrans(b"OoIlSZ", b"001152"))
+    if meant != wire.frame and open_(meant).right:
+        yield Guess("with digits instead of the letters that look like them the frame is right", meant)
 
 
 def _lrc_of_characters(wire: Wire, _: Manners) -> Tries:
@@ -273,15 +293,21 @@ def _truncated(wire: Wire, manners: Manners) -> Tries:
         yield Guess("the frame is cut off: unit, function and checksum are the least")
         return
     check = 2 if wire.mode == "rtu" else 1
+    kinds: dict[int, list[str]] = {}
     for one in layout.readings(data, manners):
-        missing = one.size + check - len(data)
-        if one.function in layout.KNOWN and missing > 0:
-            exact = (
-                "at least " if not one.part("byte count") and one.direction == "reply" and one.body[1] in (3, 4) else ""
+        size = one.size + check
+        if one.function in layout.KNOWN and size > len(data):
+            open_end = one.direction == "reply" and one.body[1] in _COUNTED_REPLIES and one.number("byte count") is None
+            least = "at least " if open_end else ""
+            kinds.setdefault(size, []).append(
+                f"{'a refusal' if one.refusal else f'a {one.direction}'} has {least}{size}"
             )
-            what = "an exception reply" if one.refusal else f"a {one.direction} of function {one.function:02X}H"
-            count = f"{exact}{missing} byte{'s' * (missing != 1)} missing"
-            yield Guess(f"truncated: {what} has {exact}{one.size + check} bytes, so {count}")
+    for size, said in kinds.items():
+        missing = f"{size - len(data)} byte{'s' * (size - len(data) != 1)} missing"
+        what = "request and reply have " + str(size) if len(said) > 1 else said[0]
+        yield Guess(f"truncated: {missing}; of function {data[1] & 0x7F:02X}H {what} bytes")
 
+
+_COUNTED_REPLIES = (1, 2, 3, 4)
 
 _LIKELY = (_no_checksum, _truncated)

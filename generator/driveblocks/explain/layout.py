@@ -114,9 +114,10 @@ def take(body: bytes, direction: Direction, manners: Manners) -> Layout:
 
 
 def readings(body: bytes, manners: Manners) -> tuple[Layout, ...]:
-    """The body as a request and as a reply: the directions that fit, or both if neither does."""
+    """The body as a request and as a reply: the directions that fit, else those of the right length, else both."""
     both = tuple(take(body, direction, manners) for direction in DIRECTIONS)
-    return tuple(layout for layout in both if layout.fits) or both
+    fitting = tuple(layout for layout in both if layout.fits)
+    return fitting or tuple(layout for layout in both if layout.missing == 0) or both
 
 
 def _exception(body: bytes, manners: Manners) -> Layout | None:

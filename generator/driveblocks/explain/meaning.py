@@ -1,7 +1,7 @@
 """What the words of registers mean in a map: names, values in units, bits, listed values, faults, commands."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from driveblocks.maps import view
@@ -30,6 +30,8 @@ class Held:
 
     address: int | None
     word: int | None = None
+    number: int | None = None
+    """The word as a number, two's complement where the map says so."""
     id: str = ""
     name: str = ""
     zh: str = ""
@@ -43,15 +45,15 @@ class Held:
 def held(drive: Drive | None, address: int | None, word: int | None, *, writing: bool) -> Held:
     """What a drive's map says of an address and a word."""
     if drive is None or address is None:
-        return Held(address, word)
+        return Held(address, word, word)
     row = drive.register_at(address)
     if row is not None:
         return _row(drive, row, address, word, writing)
     area = _area(drive, address)
     if area is None:
-        return Held(address, word, note="not in the map", known=False)
+        return Held(address, word, word, note="not in the map", known=False)
     name, zh, note = area
-    return Held(address, word, name=name, zh=zh, note=note if writing else "")
+    return Held(address, word, word, name=name, zh=zh, note=note if writing else "")
 
 
 def _area(drive: Drive, address: int) -> tuple[str, str, str] | None:
@@ -83,6 +85,7 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
     known = Held(
         address,
         word,
+        None if word is None else count(row, word),
         id=view.ids(row)[address - row.address.first],
         name="not used" if row.unused else row.name or "",
         zh=row.text_zh or "",
@@ -92,7 +95,7 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
     value = count(row, word) * row.scale.factor if row.scale else None
     lines = (*_lines(row, word), *_faults(drive, address, word), *(_commands(drive, address, word) if writing else ()))
     note = "; ".join(_notes(drive, row, word, writing))
-    return Held(address, word, known.id, known.name, known.zh, value, row.unit, note, lines=lines)
+    return replace(known, value=value, unit=row.unit, note=note, lines=lines)
 
 
 def _lines(row: Register, word: int) -> Iterator[Line]:
@@ -158,7 +161,12 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
     if row.range is not None and not row.range.holds(count(row, word)):
         yield f"outside the range {row.range.min} to {row.range.max}"
     if row.values and not row.masks and _listed(row.values, word) is None:
-        yield "no listed value"
+        turned = _listed(row.values, (word & 0xFF) << 8 | word >> 8)
+        yield (
+            f"no listed value; with its bytes swapped it is {turned.value}, {turned.name}"
+            if turned
+            else "no listed value"
+        )
     if row.masks:
         yield from _masks(row, word)
     if writing and drive.storage.register is not None and drive.storage.register in row.address:
@@ -167,7 +175,7 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
     proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
     if not writing and proofs:
         met = all(holds(one, word) for one in proofs)
-        yield f"{'agrees with' if met else 'speaks against'} standstill"
+        yield "as at standstill" if met else "no standstill"
 
 
 def _masks(row: Register, word: int) -> Iterator[str]:

@@ -42,12 +42,24 @@ def written(wire: Wire) -> str:
 
 def _verdict(made: Explanation) -> Text:
     kind = made.wire.mode.upper()
-    says = " or ".join(dict.fromkeys(one.says for one in made.readings)) if made.meant is made.wire else ""
+    says = _says(made) if made.meant is made.wire else ""
     if made.good:
         return Text.assemble(("Good", "bold green"), f" {kind} {says}")
     if says and made.wire.right:
         return Text.assemble(("Wrong", "bold red"), f" {kind} {says}")
     return Text.assemble(("Wrong", "bold red"), f" {kind} frame")
+
+
+def _says(made: Explanation) -> str:
+    if not made.readings:
+        return "frame"
+    more = ", or the reply that confirms it" if _same(made) else ""
+    return f"{made.readings[0].says}{more}"
+
+
+def _same(made: Explanation) -> bool:
+    """Whether request and reply say the same."""
+    return len(made.readings) > 1 and made.readings[0].registers == made.readings[1].registers
 
 
 def _facts(made: Explanation, drive: Drive | None) -> Iterator[tuple[str, str]]:
@@ -63,7 +75,8 @@ def _facts(made: Explanation, drive: Drive | None) -> Iterator[tuple[str, str]]:
 
 
 def _wrong(wrong: Wrong) -> Iterator[RenderableType]:
-    yield facts(("wrong", Text(wrong.what, style="bold")), *(("perhaps", instead) for instead in wrong.instead))
+    lines = facts(("wrong", Text(wrong.what, style="bold")), *(("perhaps", instead) for instead in wrong.instead))
+    yield Padding(lines, (0, 0, 0, 2))
 
 
 def _readings(made: Explanation) -> Iterator[RenderableType]:
@@ -71,13 +84,11 @@ def _readings(made: Explanation) -> Iterator[RenderableType]:
         yield f"\nRead as {made.meant.mode.upper()} {written(made.meant)}:"
     elif not made.wire.right and made.readings:
         yield "\nRead as if the checksum were right:"
-    several = len(made.readings) > 1
-    if several and made.readings[0].registers == made.readings[1].registers:
-        yield "\nRequest and reply of this function are the same bytes."
-        yield from _reading(made, made.readings[0], titled=True)
+    if _same(made):
+        yield from _reading(made, made.readings[0], titled=False)
         return
     for one in made.readings:
-        yield from _reading(made, one, titled=several)
+        yield from _reading(made, one, titled=len(made.readings) > 1)
 
 
 def _reading(made: Explanation, one: Reading, *, titled: bool) -> Iterator[RenderableType]:
@@ -85,7 +96,7 @@ def _reading(made: Explanation, one: Reading, *, titled: bool) -> Iterator[Rende
         yield f"\n{one.says[:1].upper()}{one.says[1:]}"
     yield ""
     yield _fields(one.fields)
-    if one.registers:
+    if any(each.word is not None for each in one.registers) or sum(bool(each.name) for each in one.registers) > 1:
         yield ""
         yield _registers(one.registers)
     for note in one.notes:
@@ -100,17 +111,19 @@ def _fields(fields: tuple[Field, ...]) -> Table:
 
 
 def _registers(registers: tuple[Held, ...]) -> Table:
-    named = any(one.address is not None for one in registers)
-    bare = all(one.word is None for one in registers)
-    columns = ["address", *([] if bare else ["word"]), "name", "中文", *([] if bare else ["means"])]
-    made = table(*columns, wide=("name", "中文", "means") if not bare else ("name", "中文"))
+    """Registers with their words; without words only their names, and without names only the words."""
+    words = any(one.word is not None for one in registers)
+    named = any(one.name or one.note for one in registers)
+    columns = [name for name, shown in (("word", words), ("name", named), ("中文", named), ("means", words)) if shown]
+    made = table("address", *columns, wide={"name", "中文", "means"} & set(columns))
     for number, one in enumerate(registers, 1):
         place = address_text(one.address) if one.address is not None else f"word {number}"
-        name = "  ".join(filter(None, (one.id, one.name))) or (one.note if not one.known else "")
-        cells = [place if named or one.address is None else "", *([] if bare else [_word(one)]), name, one.zh]
-        made.add_row(*cells, *([] if bare else [_means(one)]))
+        name = "  ".join(filter(None, (one.id, one.name))) or ("" if one.known else one.note)
+        cells = {"word": _word(one), "name": name, "中文": one.zh, "means": _means(one)}
+        made.add_row(place, *(cells[column] for column in columns))
         for line in one.lines:
-            made.add_row(*_line(line, bare))
+            cells = _line(line)
+            made.add_row(f" {line.mark}", *(cells[column] for column in columns))
     return made
 
 
@@ -122,12 +135,11 @@ def _means(one: Held) -> str:
     """The number, its engineering value, and what is to be known of it."""
     if one.word is None:
         return ""
-    number = f"{one.word}" + (f" = {one.value} {one.unit}" if one.value is not None else "")
+    number = f"{one.number}" + (f" = {one.value} {one.unit}" if one.value is not None else "")
     note = one.note if one.known else ""
     return "; ".join(filter(None, (number, note)))
 
 
-def _line(line: Line, bare: bool) -> list[str]:
+def _line(line: Line) -> dict[str, str]:
     value = "" if line.value is None else f"= {line.value}"
-    name = "  ".join(filter(None, (line.id, line.name)))
-    return [f" {line.mark}", name, line.zh] if bare else [f" {line.mark}", value, name, line.zh, ""]
+    return {"word": value, "name": "  ".join(filter(None, (line.id, line.name))), "中文": line.zh, "means": ""}

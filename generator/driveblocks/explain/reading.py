@@ -8,6 +8,7 @@ from driveblocks.explain.layout import Direction, Layout, Part
 from driveblocks.explain.meaning import Held, held
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Drive, ErrorCode
+from driveblocks.reference.permission import MOST_READ
 from driveblocks.reference.reply import Manners
 from driveblocks.reference.request import Asked
 from driveblocks.reference.text import error_number
@@ -91,16 +92,12 @@ class Reader:
         return f"{whom}: {self._deed(one)}"
 
     def _deed(self, one: Layout) -> str:
-        address, quantity, reply = one.number("address"), one.number("quantity"), one.direction == "reply"
         if one.refusal:
             return self._refused(one)
-        if address is not None and quantity is not None:
-            verb = "read" if one.function in (1, 2, 3, 4) else "written" if reply else "write"
-            return f"{verb} {_things(one, quantity)} {'from' if verb == 'read' else 'at'} {address_text(address)}"
+        if one.number("address") is not None:
+            return _access(one)
         if one.function in (1, 2, 3, 4):
-            return f"{_things(one, len(one.words))} read" if one.words else f"function {one.function:02X}H"
-        if address is not None and one.number("value") is not None:
-            return f"{'written' if reply else 'write'} {one.number('value')} to {address_text(address)}"
+            return f"{_things(one, len(one.words))} read" if one.words else self.function(one.function)
         if one.function == 8:
             return f"diagnostics {one.number('sub-function') or 0:04X}H, data {one.number('data word') or 0:04X}H"
         return self.function(one.function)
@@ -108,15 +105,19 @@ class Reader:
     def _refused(self, one: Layout) -> str:
         code = one.number("reason")
         what = f"refuses function {one.function:02X}H" if one.part("refused function") else "refuses"
-        return f"{what}, reason {self._reason(code)}" if code is not None else what
+        return f"{what}, reason {self._reason(code, standard=self._foreign(one))}" if code is not None else what
+
+    def _foreign(self, one: Layout) -> bool:
+        """Whether a refusal has the form of the standard and the drive another; its codes are not the drive's."""
+        return one.part("refused function") is not None and self.manners.add is None
 
     def function(self, code: int) -> str:
         """A function by its number, as the drive's manual or the standard names it."""
         known = {one.code: both(one.name, one.text_zh) for one in self.drive.functions} if self.drive else {}
         return known.get(code) or _STANDARD.get(code) or f"function {code:02X}H"
 
-    def _reason(self, code: int) -> str:
-        if self.drive is None:
+    def _reason(self, code: int, *, standard: bool = False) -> str:
+        if self.drive is None or standard:
             return f"{code:02X}H {_EXCEPTIONS.get(code, 'unknown to the standard')}"
         found = _error(self.drive, code)
         if found is None:
@@ -136,7 +137,7 @@ class Reader:
             "address": lambda: self._address(part.number),
             "quantity": lambda: self._quantity(one, part.number),
             "byte count": lambda: self._byte_count(one, part.number),
-            "reason": lambda: self._reason(part.number),
+            "reason": lambda: self._reason(part.number, standard=self._foreign(one)),
             "sub-function": lambda: self._sub_function(part.number),
             "surplus": lambda: f"{_bytes(len(part.data))} too many",
             "data": lambda: self._data(one, part, asked),
@@ -189,9 +190,9 @@ class Reader:
         for place, word in enumerate(one.words):
             address = first + place if first is not None and first + place <= 0xFFFF else None
             yield held(self.drive, address, word, writing=writing)
-        quantity = one.number("quantity")
-        if not one.words and quantity and first is not None and one.function in (3, 4, 16):
-            for address in range(first, min(first + min(quantity, 125), 0x10000)):
+        quantity = one.number("quantity") or 0
+        if not one.words and first is not None and one.function in (3, 4, 16) and quantity <= MOST_READ:
+            for address in range(first, min(first + quantity, 0x10000)):
                 yield held(self.drive, address, None, writing=False)
 
     # ------------------------------------------------------------ what is wrong, what to know
@@ -216,12 +217,24 @@ class Reader:
     def _notes(self, one: Layout, asked: Asked | None) -> Iterator[str]:
         if one.words and self._first(one, asked) is None:
             yield "A read reply carries no address: give its --request, and the registers get their names."
-        if one.refusal and self.drive is not None:
+        if one.refusal and self.drive is not None and not self._foreign(one):
             yield from _causes(self.drive, one.number("reason"))
         if one.two_byte_count and self.manners.two_byte_count:
             yield "The byte count is a word; the map tolerates it."
         if one.function not in layout.KNOWN:
             yield f"The fields of function {one.function:02X}H are not taken apart."
+
+
+def _access(one: Layout) -> str:
+    """What a frame with an address does there."""
+    where, reply = address_text(one.number("address") or 0), one.direction == "reply"
+    quantity, value = one.number("quantity"), one.number("value")
+    if value is not None:
+        return f"{value} written to {where}" if reply else f"write {value} to {where}"
+    many = _things(one, quantity or 0)
+    if one.function in (1, 2, 3, 4):
+        return f"read {many} from {where}"
+    return f"{many} written at {where}" if reply else f"write {many} at {where}"
 
 
 def _bytes(number: int) -> str:

@@ -80,7 +80,10 @@ def _standard(one: Layout) -> Iterator[Told]:
     quantity, address = one.number("quantity"), one.number("address") or 0
     limit = {1: 2000, 2: 2000, 3: 125, 4: 125, 15: 1968, 16: 123}.get(one.function)
     if quantity is not None and limit is not None and not 1 <= quantity <= limit:
-        yield f"{quantity} is out of range: 1 to {limit}", _swapped(quantity, lambda turned: 1 <= turned <= limit)
+        yield (
+            f"quantity {quantity} is out of range: 1 to {limit}",
+            _swapped(quantity, lambda turned: 1 <= turned <= limit),
+        )
     elif quantity is not None and address + quantity > 0x10000:
         yield "the registers run past FFFFH", ""
 
@@ -91,22 +94,21 @@ def _request(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
     if one.direction == "reply" and one.function in READS:
         return
     requests = Requests(drive)
-    for result in requests.wrongs(asked):
-        match result:
-            case "QUANTITY" | "ASCII_LIMIT":
-                yield _quantity(drive, asked, ascii_mode=result == "ASCII_LIMIT")
-            case "WRAP":
-                yield "the registers run past FFFFH", ""
-            case "NOT_READABLE" | "NOT_WRITABLE" if asked.address + asked.quantity <= 0x10000:
-                yield _address(drive, requests, asked)
-            case "SUB_FUNCTION":
-                yield f"{drive.prefix} does not know sub-function {asked.sub_function:04X}H", ""
+    results = list(requests.wrongs(asked))
+    if "QUANTITY" in results or "ASCII_LIMIT" in results:
+        yield _quantity(drive, asked, ascii_mode="QUANTITY" not in results)
+    elif "WRAP" in results:
+        yield "the registers run past FFFFH", ""
+    elif "NOT_READABLE" in results or "NOT_WRITABLE" in results:
+        yield _address(drive, requests, asked)
+    elif "SUB_FUNCTION" in results:
+        yield f"{drive.prefix} does not know sub-function {asked.sub_function:04X}H", ""
 
 
 def _quantity(drive: Drive, asked: Asked, *, ascii_mode: bool) -> Told:
     limits = most(drive, ascii_mode=ascii_mode)
     limit = limits.read if asked.function in READS else limits.write
-    wrong = f"{asked.quantity} registers are out of range: 1 to {limit}{' in ASCII' if ascii_mode else ''}"
+    wrong = f"quantity {asked.quantity} is out of range: 1 to {limit}{' in ASCII' if ascii_mode else ''}"
     return wrong, _swapped(asked.quantity, lambda turned: 1 <= turned <= limit)
 
 

@@ -56,6 +56,7 @@ def _register(one: Held) -> Plain:
         "name_zh": one.zh,
         "in_map": one.known,
         "word": one.word,
+        "number": one.number,
         "value": plain(one.value) if one.value is not None else None,
         "unit": one.unit,
         "note": one.note,

@@ -1,5 +1,6 @@
 """Framing of pasted bytes: RTU or ASCII, the checksum that is there and the one that belongs there."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -24,6 +25,9 @@ class Wire:
     broken: tuple[tuple[str, str], ...] = ()
     """What is wrong with the framing: what it is, and what it might be instead."""
 
+    aligned: bool = True
+    """Whether the digits of an ASCII frame pair up into bytes; a stray character shifts all that follow."""
+
     @property
     def expected(self) -> bytes:
         """The checksum that belongs to the body."""
@@ -32,7 +36,7 @@ class Wire:
     @property
     def right(self) -> bool:
         """Whether the checksum fits."""
-        return bool(self.body) and self.found == self.expected
+        return self.aligned and bool(self.body) and self.found == self.expected
 
     @property
     def name(self) -> str:
@@ -71,29 +75,27 @@ def _rtu(data: bytes) -> Wire:
 
 
 def _ascii(data: bytes) -> Wire:
-    broken = []
     text = data.rstrip(b"\r\n")
-    end = data[len(text) :]
-    if end != b"\r\n":
-        broken.append((f"the frame ends with {_end(end)}, not with CR LF (0D 0A)", _why_end(end)))
-    digits = bytearray()
-    for place, byte in enumerate(text[1:], 2):
-        if byte in DIGITS:
-            digits.append(byte)
-        else:
-            broken.append((f"character {place}, `{chr(byte)}`, is no hexadecimal digit", _meant(byte)))
-    if digits.upper() != digits:
-        broken.append(
-            ("hexadecimal digits are in lower case", "the standard has upper case, and drives refuse lower case")
-        )
-    if len(digits) % 2:
-        broken.append(
-            (f"{len(digits)} digits are an odd number", "a character is missing or one too many: each byte has two")
-        )
+    digits = bytes(byte for byte in text[1:] if byte in DIGITS)
+    broken = tuple(_broken(text, data[len(text) :], digits))
     even = bytes.fromhex(digits[: len(digits) & ~1].decode("ascii"))
+    aligned = len(digits) == len(text) - 1 and len(digits) % 2 == 0
     if len(even) < SHORTEST["ascii"]:
-        return Wire("ascii", data, even, b"", tuple(broken))
-    return Wire("ascii", data, even[:-1], even[-1:], tuple(broken))
+        return Wire("ascii", data, even, b"", broken, aligned)
+    return Wire("ascii", data, even[:-1], even[-1:], broken, aligned)
+
+
+def _broken(text: bytes, end: bytes, digits: bytes) -> Iterator[tuple[str, str]]:
+    """What is wrong with the characters of an ASCII frame."""
+    if end != b"\r\n":
+        yield f"the frame ends with {_end(end)}, not with CR LF (0D 0A)", _why_end(end)
+    for place, byte in enumerate(text[1:], 2):
+        if byte not in DIGITS:
+            yield f"character {place}, `{chr(byte)}`, is no hexadecimal digit", _meant(byte)
+    if digits.upper() != digits:
+        yield "hexadecimal digits are in lower case", "the standard has upper case, and drives may refuse lower case"
+    if len(digits) % 2:
+        yield f"{len(digits)} digits are an odd number", "a character is missing or one too many: each byte has two"
 
 
 def _end(end: bytes) -> str:
