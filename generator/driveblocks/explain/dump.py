@@ -7,7 +7,7 @@ from driveblocks.explain.unreadable import Spot
 
 _OFFSET = re.compile(r"\s*(?:0x)?(?P<digits>[0-9A-Fa-f]{4,8})h?(?P<end>:[ \t]+|[ \t]{2,}|\t|[ ]|\s*$)")
 _GROUPS = re.compile(r"\s*(?:[0-9A-Fa-f]{2,8}(?:[ -](?=[0-9A-Fa-f])|$))+")
-_GAP = re.compile(r"[ \t]{2,}|\t|[ ]*\|")
+_GAP = re.compile(r"[ \t]{2,}|\t|[ ](?=\|)")
 
 Lines = list[tuple[int, str]]
 
@@ -69,7 +69,9 @@ def _split(line: str) -> tuple[int, bool]:
         before = text[: gap.start()]
         if all(_GROUPS.fullmatch(part) for part in re.split(r"[ \t]{2,}|\t", before.strip())):
             data = bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", before)) if _even(before) else b""
-            if data and _shows(text[gap.end() :].strip("|").rstrip(), data):
+            column = text[gap.end() :].rstrip(" \t")
+            bare = column[1:].removesuffix("|") if column.startswith("|") else column
+            if data and (_shows(bare, data) or _shows(column, data)):
                 return gap.start(), True
     return len(text), False
 
@@ -83,7 +85,8 @@ def _shows(column: str, data: bytes) -> bool:
     characters = [chr(byte) if 0x20 <= byte < 0x7F else None for byte in data]
     while characters and characters[-1] == " " and len(column) < len(characters):
         characters.pop()
-    column = column.rjust(len(characters)) if characters and characters[0] == " " else column
+    if characters[:1] == [" "]:
+        column = column.rjust(len(characters))
     return (
         len(column) == len(characters)
         and bool(column.strip())

@@ -18,15 +18,21 @@ _TOKEN = re.compile(
 )
 _DIGITS = ("e", "p", "m", "s", "plain")
 _ESCAPED = re.compile(r"""\s*b?(["'])(?P<inner>.*)\1[\s,;]*$""", re.DOTALL)
+_LITERAL = re.compile(r"""\s*b(["']).*\1[\s,;]*$""", re.DOTALL)
 _INNER = re.compile(r"\\x(?P<hex>[0-9A-Fa-f]{2})|\\(?P<sign>[rnt0abfv\\'\"])|(?P<literal>[^\\])", re.DOTALL)
 _SIGNS = {"r": 13, "n": 10, "t": 9, "0": 0, "a": 7, "b": 8, "f": 12, "v": 11, "\\": 92, "'": 39, '"': 34}
 _LOOKALIKE = {"O": "0", "o": "0", "l": "1", "I": "1", "S": "5", "Z": "2", "G": "6"}
 
 
+def is_literal(line: str) -> bool:
+    """Whether a line is bytes as Python prints them: b'...', exactly what was received."""
+    return _LITERAL.fullmatch(line) is not None
+
+
 def read(line: str, start: int = 0) -> bytes:
     """The bytes of one line that stands at `start` of its text. Raises Spot."""
     quoted = _ESCAPED.match(line)
-    if quoted and "\\" in quoted["inner"]:
+    if quoted and ("\\" in quoted["inner"] or is_literal(line)):
         return _string(quoted["inner"], start + quoted.start("inner"))
     data, at = b"", 0
     while at < len(line):

@@ -65,6 +65,8 @@ def _read(text: str) -> Paste:
     lines = list(_lines(text))
     if not lines:
         raise Spot(0, "there is nothing", "paste a frame, such as 01 03 20 00 00 01 8F CA or :010320000001DB")
+    if len(lines) == 1 and hexadecimal.is_literal(lines[0][1]):
+        return Paste(hexadecimal.read(lines[0][1], lines[0][0]), "hexadecimal")
     if characters.fits([line for _, line in lines]):
         data, notes = characters.read(lines)
         return Paste(data, "characters", notes)
