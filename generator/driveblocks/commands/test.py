@@ -1,0 +1,134 @@
+"""`driveblocks test`: run the test programs that the maps make."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, NoReturn
+
+import typer
+
+if TYPE_CHECKING:
+    from driveblocks.host.discovery import Candidate
+    from driveblocks.render.build import Source
+    from driveblocks.testing.outcome import Result, Run
+
+SHOWN, PER_PROGRAM = 20, 3
+"""Failures that are printed, in all and of one program; all are in the XML."""
+
+Maps = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
+]
+EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
+Junit = Annotated[Path, typer.Option("--junit", metavar="FILE", help="Where to write the results as JUnit XML.")]
+Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
+
+
+def run(
+    maps: Maps = None, engine: EngineName = "embedded", junit: Junit = Path("junit.xml"), time_limit: Seconds = 10.0
+) -> None:
+    """Build the blocks of the drives in memory, make test programs from their maps, and run them on this computer.
+
+    The programs check the blocks against the manual's example frames and against a reference model. The exit status
+    is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used.
+
+    Example: driveblocks test my_drive.yaml --engine all
+    """
+    from driveblocks.render.text import languages
+    from driveblocks.testing import junit as xml
+    from driveblocks.testing import runner
+    from driveblocks.testing.unit import units
+
+    candidates, chosen = _engines(engine)
+    sources = _read(maps)
+    made = units(sources, languages(["en", "zh"], "utf-8"))
+    done = runner.run(made, [each.engine for each in chosen if each.engine is not None], time_limit)
+    try:
+        xml.write(done, junit)
+    except OSError as error:
+        _refuse(f"{junit}: cannot be written: {error.strerror}")
+    _print(done, candidates, chosen)
+    _say(done, len(sources), junit)
+    raise typer.Exit(0 if done.passed else 1)
+
+
+def _refuse(text: str) -> NoReturn:
+    typer.echo(text, err=True)
+    raise typer.Exit(2)
+
+
+def _read(maps: list[str] | None) -> "list[Source]":
+    """Load the maps; all mistakes of all of them are told before it ends with status 2."""
+    from driveblocks.maps import catalog
+    from driveblocks.maps.problem import MapError
+    from driveblocks.render import build
+
+    try:
+        return build.read([catalog.resolve(name) for name in maps] if maps else list(catalog.shipped()))
+    except (MapError, catalog.UnknownDrive) as error:
+        _refuse(str(error))
+
+
+def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
+    """All engines that were looked for, and those that are asked for and work. Ends with status 2 without any."""
+    from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, survey
+
+    groups = {"embedded": (EMBEDDED,), "matiec": MATIEC_NAMES, "all": (EMBEDDED, *MATIEC_NAMES)}
+    groups |= {each: (each,) for each in MATIEC_NAMES}
+    if name not in groups:
+        _refuse(f"there is no engine `{name}`; write one of {', '.join(groups)}")
+    found = survey().candidates()
+    asked = [each for each in found if each.name in groups[name]]
+    if not any(each.engine for each in asked):
+        _refuse("\n".join(f"engine {each.name} cannot be used: {each.note}" for each in asked))
+    return found, [each for each in asked if each.engine is not None]
+
+
+def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]") -> None:
+    from driveblocks import console
+    from driveblocks.tables.layout import table
+
+    for each in candidates:
+        state = "runs" if each in chosen else "does not run" if each.engine is None else "was not asked for"
+        typer.echo(f"engine {each.name}: {state}, {each.note}")
+    names = [each.name for each in chosen]
+    made = table("drive", "program", "checks", *names, numbers=("checks", *names))
+    for unit, program, results in _rows(run):
+        most = max(len(result.outcomes) for result in results)
+        made.add_row(unit, program, str(most), *(_cell(name, results) for name in names))
+    console.write(made)
+
+
+def _rows(run: "Run") -> "Iterator[tuple[str, str, list[Result]]]":
+    """Drive, program and its result on each engine, in the order of the first engine."""
+    rows: dict[tuple[str, str], list[Result]] = {}
+    for result in run.results:
+        rows.setdefault((result.unit, result.program), []).append(result)
+    for (unit, program), results in rows.items():
+        yield unit, program, results
+
+
+def _cell(name: str, results: "list[Result]") -> str:
+    result = next((each for each in results if each.engine == name), None)
+    if result is None:
+        return "-"
+    bad = len(result.bad)
+    return f"{bad} failed" if bad else f"{result.seconds * 1000:.1f} ms"
+
+
+def _say(run: "Run", drives: int, junit: Path) -> None:
+    """The failures, then the sum of it all."""
+    shown = 0
+    for result in run.results:
+        bad = result.bad
+        for outcome in bad[: min(PER_PROGRAM, SHOWN - shown)]:
+            place = f"{outcome.place}: " if outcome.path else ""
+            typer.echo(f"{place}{result.unit}.{result.program} on {result.engine}")
+            typer.echo(f"  {outcome.words}\n  {outcome.message}")
+            shown += 1
+    failed = sum(len(result.bad) for result in run.results)
+    if failed > shown:
+        typer.echo(f"and {failed - shown} more, see {junit}")
+    engines = ", ".join(dict.fromkeys(result.engine for result in run.results))
+    checks = f"{run.count()} checks of {drives} drive{'s' * (drives != 1)} on {engines}"
+    verdict = "all passed" if run.passed else f"{failed} failed"
+    typer.echo(f"{checks}: {verdict} in {run.seconds:.1f} s; {junit}")

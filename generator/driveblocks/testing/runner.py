@@ -1,0 +1,82 @@
+"""Run suites on engines: build each unit once per engine, run its programs, and keep going whatever goes wrong."""
+
+import gc
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from functools import partial
+
+from driveblocks.host.discovery import EMBEDDED
+from driveblocks.host.engine import Engine, EngineError, Library
+from driveblocks.testing.execute import Setting, execute
+from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
+from driveblocks.testing.suite import ROOT
+from driveblocks.testing.unit import Unit
+
+SECONDS = 10.0
+"""Time limit of one program; the longest takes some hundredths of a second."""
+
+BUILDS = 2
+"""Builds at once, where compilers are processes of their own."""
+
+_Built = Library | EngineError
+
+
+def run(units: Sequence[Unit], engines: Sequence[Engine], seconds: float = SECONDS) -> Run:
+    """Run every program of every unit on every engine; results in the order of engines, units and programs."""
+    start = time.perf_counter()
+    results: list[Result] = []
+    with _without_collection(), ThreadPoolExecutor(BUILDS) as pool:
+        for engine in engines:
+            for unit, built in zip(units, _builds(engine, units, pool), strict=True):
+                results += _results(engine, unit, built, seconds)
+    return Run(results, time.perf_counter() - start)
+
+
+@contextmanager
+def _without_collection() -> Iterator[None]:
+    """Trees of hundreds of thousands of nodes that live to the end: looking for garbage in them takes half the time."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
+
+
+def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor) -> Iterable[_Built]:
+    build = partial(_built, engine)
+    return map(build, units) if engine.name == EMBEDDED else pool.map(build, units)
+
+
+def _built(engine: Engine, unit: Unit) -> _Built:
+    try:
+        return engine.build(unit.sources)
+    except EngineError as error:
+        return error
+
+
+def _results(engine: Engine, unit: Unit, built: _Built, seconds: float) -> Iterator[Result]:
+    name = unit.suite.name
+    yield Result(engine.name, name, "build", tuple(_preparations(engine, unit, built)))
+    if isinstance(built, EngineError):
+        return
+    setting = Setting(engine.name, name, ROOT, seconds)
+    for program in unit.suite.programs:
+        yield execute(built, program, setting)
+
+
+def _preparations(engine: Engine, unit: Unit, built: _Built) -> Iterator[Outcome]:
+    """What must be true before any program runs."""
+    if isinstance(built, EngineError):
+        yield Outcome("library and programs compile", ERROR, f"{engine.name} refuses them:\n{built}")
+    else:
+        yield Outcome("library and programs compile", PASSED)
+    if unit.suite.vectors:
+        yield Outcome("there are vectors", PASSED)
+    else:
+        yield Outcome(
+            "there are vectors", FAILED, "the map has no example frames; type those of the manual as `frames`"
+        )

@@ -1,0 +1,69 @@
+"""All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from driveblocks.maps.model import Drive
+from driveblocks.testing import command, harness, proof, register, reply, request, shared, speed, text, vector
+from driveblocks.testing.bench import GENERIC
+from driveblocks.testing.script import Program, Script
+
+ROOT = "tests/iec61131/"
+"""Where the programs are shipped, below the folder of all blocks."""
+
+
+class Mapped(Protocol):
+    """A checked map and its file."""
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+
+    @property
+    def drive(self) -> Drive:
+        """What it says."""
+
+
+@dataclass(frozen=True)
+class Suite:
+    """The programs of one drive, or of the shared blocks; `vectors` is how many example frames they are made from."""
+
+    name: str
+    programs: tuple[Program, ...]
+    vectors: int
+
+
+def shared_suite(languages: Sequence[text.Language]) -> Suite:
+    """The programs of the blocks that every drive shares."""
+    made = tuple(_finished(shared.scripts(languages)))
+    return Suite(GENERIC, made, len(made))
+
+
+def drive_suite(source: Mapped, languages: Sequence[text.Language]) -> Suite:
+    """The programs of one drive."""
+    drive, stem = source.drive, source.path.stem
+    scripts: list[Script] = []
+    for subject in (vector, request, reply, register, command, speed, proof):
+        scripts += subject.scripts(drive, stem)
+    scripts += text.scripts(drive, stem, languages)
+    return Suite(stem, tuple(_finished(scripts)), len(drive.frames))
+
+
+def _finished(scripts: Iterable[Script]) -> Iterator[Program]:
+    for script in scripts:
+        yield from script.programs()
+
+
+def suites(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> list[Suite]:
+    """The shared suite, then that of each drive."""
+    return [shared_suite(languages), *(drive_suite(source, languages) for source in sources)]
+
+
+def programs(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> dict[str, str]:
+    """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
+    made = [program for suite in suites(sources, languages) for program in suite.programs]
+    texts = harness.texts() | {program.path: program.text for program in made}
+    order = "".join(f"{path}\n" for path in texts)
+    return {ROOT + path: text for path, text in (texts | {"order.txt": order}).items()}
