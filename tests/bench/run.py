@@ -30,7 +30,7 @@ LANGUAGES = text.languages(["en", "zh"], "utf-8")
 def main() -> None:
     """Measure the maps, the front end, the engines and the build, and print one table for each."""
     console = Console(width=110)
-    for line in map_bench.lines([10], 400):
+    for line in map_bench.lines([10, 100, 1000], 400):
         print(line, flush=True)
     console.print(front_end())
     console.print(engines())
@@ -82,7 +82,7 @@ def builds() -> Table:
     shipped = once(lambda: build.files(build.read(catalog.shipped()), LANGUAGES))
     each = 1000 * shipped / len(catalog.shipped())
     table.add_row("the shipped drives, read and built", f"{shipped:.2f}", f"{each:.1f}")
-    for count in (10,):
+    for count in (10, 100, 1000):
         seconds = sum(_rendered(load.loads(synthetic(number, 400), f"{number}.yaml")) for number in range(count))
         table.add_row(f"{count} synthetic", f"{seconds:.2f}", f"{1000 * seconds / count:.1f}")
     return table
