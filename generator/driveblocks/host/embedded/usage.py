@@ -4,29 +4,34 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
-from typing import Any
 
 from driveblocks.st import tree
-from driveblocks.st.types import Block, Builtin, Direction, EnumValue, Type
+from driveblocks.st.types import Block, Direction
 
 # What hangs in the tree without being a part of it.
-_FOREIGN = (tree.VarDecl, tree.Pou, tree.Unit, Type, EnumValue, Builtin)
+_FOREIGN = (tree.VarDecl, tree.Pou, tree.Unit)
+# Slots that hold no part of a node; `target` does in an assignment, and is foreign in a call.
+_LEAVES = ("at", "end", "symbol", "type", "operand_type", "parentheses", "leading", "trailing", "bindings")
+
+
+_KNOWN: dict[type[tree.Node], tuple[str, ...]] = {}
+
+
+def _slots(kind: type[tree.Node]) -> tuple[str, ...]:
+    """The slots of a class of nodes in which parts can be."""
+    if kind not in _KNOWN:
+        _KNOWN[kind] = tuple(each.name for each in dataclasses.fields(kind) if each.name not in _LEAVES)
+    return _KNOWN[kind]
 
 
 def walk(node: tree.Node) -> Iterator[tree.Node]:
     """A node and all nodes in it, in source order; declarations that it refers to are left out."""
     yield node
-    for each in dataclasses.fields(node):
-        for child in _children(getattr(node, each.name)):
-            yield from walk(child)
-
-
-def _children(value: Any) -> Iterator[tree.Node]:
-    if isinstance(value, list):
-        for each in value:
-            yield from _children(each)
-    elif isinstance(value, tree.Node) and not isinstance(value, _FOREIGN):
-        yield value
+    for slot in _slots(type(node)):
+        value = getattr(node, slot)
+        for child in value if isinstance(value, list) else (value,):
+            if isinstance(child, tree.Node) and not isinstance(child, _FOREIGN):
+                yield from walk(child)
 
 
 def reads(nodes: list[tree.Statement]) -> list[tree.VarDecl]:
