@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from driveblocks.st.check_value import ValueChecker, untyped_of
+from driveblocks.st.check_operator import OperatorChecker
+from driveblocks.st.check_value import untyped_of
 from driveblocks.st.library import Library, fold
 from driveblocks.st.report import Report, nearest
 from driveblocks.st.tree import (
@@ -30,10 +31,6 @@ from driveblocks.st.tree import (
     VarKind,
 )
 from driveblocks.st.types import (
-    ANY_BIT,
-    ANY_COMPARABLE,
-    ANY_INT,
-    ANY_NUM,
     BOOL,
     BYTE,
     DATE,
@@ -41,13 +38,10 @@ from driveblocks.st.types import (
     DWORD,
     ELEMENTARY,
     LWORD,
-    REAL,
     STRING,
     TIME,
     TIME_OF_DAY,
     UNKNOWN,
-    UNTYPED_INTEGER,
-    UNTYPED_REAL,
     VOID,
     WORD,
     WSTRING,
@@ -61,32 +55,16 @@ from driveblocks.st.types import (
     Struct,
     Type,
     plain,
-    same,
     untyped,
 )
 
-_COMPARISONS = frozenset(["=", "<>", "<", ">", "<=", ">="])
 _FIXED_LITERALS = {LiteralKind.BOOL: BOOL, LiteralKind.STRING: STRING, LiteralKind.WSTRING: WSTRING}
 _FIXED_LITERALS |= {LiteralKind.TIME: TIME, LiteralKind.DATE: DATE}
 _FIXED_LITERALS |= {LiteralKind.TIME_OF_DAY: TIME_OF_DAY, LiteralKind.DATE_AND_TIME: DATE_AND_TIME}
 _DIRECT = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD, "L": LWORD}
-_KINDS_OF = {"AND": ANY_BIT, "OR": ANY_BIT, "XOR": ANY_BIT, "MOD": ANY_INT}
-_MOMENTS = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
-# What + and - make of moments and durations (table 30).
-_TIMES: dict[tuple[str, Type, Type], Type] = {
-    ("+", TIME, TIME): TIME,
-    ("-", TIME, TIME): TIME,
-    ("+", TIME_OF_DAY, TIME): TIME_OF_DAY,
-    ("-", TIME_OF_DAY, TIME): TIME_OF_DAY,
-    ("-", TIME_OF_DAY, TIME_OF_DAY): TIME,
-    ("+", DATE_AND_TIME, TIME): DATE_AND_TIME,
-    ("-", DATE_AND_TIME, TIME): DATE_AND_TIME,
-    ("-", DATE_AND_TIME, DATE_AND_TIME): TIME,
-    ("-", DATE, DATE): TIME,
-}
 
 
-class ExpressionChecker(ValueChecker):
+class ExpressionChecker(OperatorChecker):
     """Finds the type of every expression in the scope `symbols`."""
 
     def __init__(self, library: Library, report: Report) -> None:
@@ -281,172 +259,6 @@ class ExpressionChecker(ValueChecker):
         letter = value.text[2:3].upper()
         return _DIRECT.get(letter, BOOL if letter.isdigit() else UNKNOWN)
 
-    def unary(self, value: Unary) -> Type:
-        """`-x`, `+x`, `NOT x`."""
-        inner = self.infer(value.operand)
-        if value.op == "NOT":
-            if untyped(inner):
-                self.settle(value.operand, self.default(value.operand))
-                inner = value.operand.type
-            return self.operand(value.operand, ANY_BIT, "NOT", inner)
-        if untyped(inner):
-            return inner
-        if value.op == "-" and isinstance(inner, Elementary) and inner.kind is Kind.INTEGER and not inner.signed:
-            self.report.add(value.at, "type-mismatch", f"expected a signed number behind -, found {inner}")
-            return UNKNOWN
-        return self.operand(value.operand, ANY_NUM | {Kind.TIME}, value.op, inner)
-
-    def operand(self, value: Expression, kinds: frozenset[Kind], op: str, have: Type) -> Type:
-        """Tell if an operator cannot take this type; the type of its result."""
-        if have is UNKNOWN or have.kind in kinds:
-            return plain(have)
-        if have.kind is Kind.POINTER:
-            return UNKNOWN
-        if have.kind is Kind.BITS and Kind.INTEGER in kinds:
-            name = plain(have).name
-            text = f"expected a number for {op}, found {have}: write {name}_TO_U{'S' if name == 'BYTE' else ''}INT(...)"
-            self.report.add(value.at, "bit-string-arithmetic", text)
-        elif have.kind is Kind.INTEGER and Kind.BITS in kinds:
-            text = f"expected a bit string for {op}, found {have}: write {conversion_to_bits(have)}(...)"
-            self.report.add(value.at, "implicit-conversion", text)
-        else:
-            shown = "a bit string" if Kind.BITS in kinds else "a number" if Kind.INTEGER in kinds else "another type"
-            self.report.add(value.at, "type-mismatch", f"expected {shown} for {op}, found {have}")
-        return UNKNOWN
-
-    def binary(self, value: Binary) -> Type:
-        """Two operands."""
-        left, right = self.infer(value.left), self.infer(value.right)
-        if UNKNOWN in (left, right):
-            for each in (value.left, value.right):
-                self.settle(each, UNKNOWN)
-            return BOOL if value.op in _COMPARISONS else UNKNOWN
-        if value.op in _COMPARISONS:
-            return self.comparison(value, left, right)
-        if value.op == "**":
-            return self.power(value)
-        if self.about_time(value.op, left, right):
-            return self.time_arithmetic(value)
-        return self.joined(value, _KINDS_OF.get(value.op, ANY_NUM))
-
-    @staticmethod
-    def about_time(op: str, left: Type, right: Type) -> bool:
-        """Whether an operator works on durations or moments."""
-        if op not in ("+", "-", "*", "/"):
-            return False
-        return bool(_MOMENTS & {left.kind, right.kind})
-
-    def joined(self, value: Binary, kinds: frozenset[Kind]) -> Type:
-        """Both operands of one type out of `kinds`; that type is the result's."""
-        shared = self.shared(value)
-        if shared is UNKNOWN:
-            return UNKNOWN
-        if untyped(shared):
-            if Kind.BITS not in kinds:
-                self.zero_divisor(value)
-                return shared
-            shared = self.default(value.left)
-        for each in (value.left, value.right):
-            self.fits(each, shared)
-        self.zero_divisor(value)
-        value.operand_type = shared
-        return self.operand(value.left, kinds, value.op, shared)
-
-    def shared(self, value: Binary) -> Type:
-        """The type that both operands can have; UNKNOWN, and told, if there is none."""
-        left, right = value.left.type, value.right.type
-        if untyped(left) and untyped(right):
-            if left is not right:
-                self.mixed(value)
-                return UNKNOWN
-            return left
-        if untyped(left) or untyped(right):
-            return plain(right if untyped(left) else left)
-        if same(left, right):
-            return plain(left)
-        self.unlike(value)
-        return UNKNOWN
-
-    def mixed(self, value: Binary) -> None:
-        """Tell of an integer beside a real, both without prefix."""
-        integer = value.left if value.left.type is UNTYPED_INTEGER else value.right
-        for each in (value.left, value.right):
-            self.settle(each, REAL)
-        if not isinstance(integer, Literal):
-            self.report.add(value.at, "type-mismatch", f"expected reals on both sides of {value.op}, found an integer")
-
-    def unlike(self, value: Binary) -> None:
-        """Tell of operands of two types."""
-        left, right = value.left.type, value.right.type
-        if UNKNOWN in (left, right) or Kind.POINTER in (left.kind, right.kind):
-            return
-        if left.kind in ANY_NUM | ANY_BIT and right.kind in ANY_NUM | ANY_BIT:
-            text = f"expected operands of one type for {value.op}, found {left} and {right}: convert one explicitly"
-            self.report.add(value.at, "implicit-conversion", text)
-        else:
-            text = f"expected operands of one type for {value.op}, found {left} and {right}"
-            self.report.add(value.at, "type-mismatch", text)
-
-    def zero_divisor(self, value: Binary) -> None:
-        """Tell of a division by a constant zero."""
-        if value.op in ("/", "MOD") and isinstance(value.right, Literal) and value.right.value == 0:
-            self.report.add(value.right.at, "literal-range", f"expected a divisor other than 0 for {value.op}")
-
-    def comparison(self, value: Binary, left: Type, right: Type) -> Type:
-        """Both operands of one elementary type; enumerations only for `=` and `<>`."""
-        shared = self.shared(value)
-        if untyped(shared):
-            shared = max((self.default(value.left), self.default(value.right)), key=lambda each: each.size)
-        if shared is UNKNOWN:
-            for each in (value.left, value.right):
-                self.settle(each, UNKNOWN)
-            return BOOL
-        for each in (value.left, value.right):
-            self.fits(each, shared)
-        value.operand_type = shared
-        ordered = value.op not in ("=", "<>")
-        if left.kind is not Kind.NONE and left.kind not in ANY_COMPARABLE:
-            self.report.add(
-                value.at, "type-mismatch", f"expected values of elementary types for {value.op}, found {left}"
-            )
-        elif ordered and Kind.ENUM in (left.kind, right.kind):
-            self.report.add(value.at, "type-mismatch", f"expected = or <> for values of {left}, found {value.op}")
-        return BOOL
-
-    def power(self, value: Binary) -> Type:
-        """`x ** n`: a real base, any number as exponent."""
-        if untyped(value.right.type):
-            self.settle(value.right, self.default(value.right))
-        self.operand(value.right, ANY_NUM, "**", value.right.type)
-        if value.left.type is UNTYPED_REAL:
-            return UNTYPED_REAL
-        self.settle(value.left, REAL)
-        base = value.left.type
-        value.operand_type = base
-        if base.kind is not Kind.REAL and base is not UNKNOWN:
-            self.report.add(value.left.at, "type-mismatch", f"expected REAL or LREAL before **, found {base}")
-            return UNKNOWN
-        return base
-
-    def time_arithmetic(self, value: Binary) -> Type:
-        """Durations and moments, by table 30."""
-        left, right = value.left, value.right
-        made = _TIMES.get((value.op, plain(left.type), plain(right.type)))
-        if value.op in ("*", "/") and left.type is TIME:
-            self.settle(right, self.default(right))
-            made = TIME if right.type.kind in ANY_NUM else None
-        elif value.op == "*" and right.type is TIME:
-            self.settle(left, self.default(left))
-            made = TIME if left.type.kind in ANY_NUM else None
-        value.operand_type = plain(left.type)
-        if made is None:
-            for each in (left, right):
-                self.settle(each, UNKNOWN)
-            text = f"{value.op} is not defined for {left.type} and {right.type}"
-            self.report.add(value.at, "type-mismatch", text)
-            return UNKNOWN
-        return made
-
     def call(self, value: Call) -> Type:
         """Defined by the checker of calls."""
         raise NotImplementedError
@@ -495,12 +307,6 @@ class ExpressionChecker(ValueChecker):
                     text = f"expected a variable {what}, found {value.name} of a block: only its inputs can be written"
                     self.report.add(value.at, "write-to-output", text)
             value = value.base
-
-
-def conversion_to_bits(have: Type) -> str:
-    """The function that makes a bit string of the same width from an integer."""
-    width = have.width if isinstance(have, Elementary) else 16
-    return f"{plain(have).name}_TO_{ {8: 'BYTE', 16: 'WORD', 32: 'DWORD'}.get(width, 'LWORD') }"
 
 
 def _bit_text(value: BitAccess, base: Elementary, made: Elementary) -> str:

@@ -63,3 +63,24 @@ def _small_step(value: Binary) -> bool:
     made = plain(value.type)
     signed = isinstance(made, Elementary) and made.signed
     return value.op == "+" or (value.op == "-" and signed)
+
+
+def tell_loose(scope: Scope, value: Expression, user: str) -> None:
+    """An operand whose bits beyond its type may be used."""
+    culprit = loose(value, scope)
+    if culprit is None:
+        return
+    if isinstance(culprit, Unary):
+        text = (
+            f"matiec keeps the bits that NOT sets beyond the type, and {user} sees them: XOR with a mask, or store it"
+        )
+        scope.add(culprit.at, "complement-compare", text)
+    elif isinstance(culprit, Call):
+        text = f"compilers differ on the bits that SHL pushes out of the type, and {user} sees them: store it first"
+        scope.add(culprit.at, "unstored-shift", text)
+    else:
+        text = (
+            f"this can leave {plain(culprit.type)}, and compilers differ on when it is cut before {user}: store it, "
+            "widen the operands first, or take MOD on the way"
+        )
+        scope.add(culprit.at, "intermediate-overflow", text)

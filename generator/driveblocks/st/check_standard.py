@@ -1,0 +1,168 @@
+"""Calls of standard functions (clause 2.5.1.5): what an overloaded name means in one call."""
+
+from __future__ import annotations
+
+from driveblocks.st.check_binding import BindingChecker
+from driveblocks.st.check_operator import conversion_to_bits
+from driveblocks.st.standard import Conversion, Group, Signature
+from driveblocks.st.tree import Argument, Binding, Call, Expression
+from driveblocks.st.types import (
+    ANY,
+    BOOL,
+    DINT,
+    REAL,
+    UNKNOWN,
+    UNTYPED_INTEGER,
+    UNTYPED_REAL,
+    Builtin,
+    Kind,
+    Parameter,
+    Type,
+    conversion,
+    plain,
+    same,
+    untyped,
+)
+
+
+class StandardChecker(BindingChecker):
+    """Resolves standard functions and conversions."""
+
+    def standard(self, value: Call, name: str, signature: Signature) -> Type:
+        """An overloaded standard function."""
+        formals = self.formals(value, signature)
+        parameters = [Parameter(each, UNKNOWN) for each, _ in formals]
+        given = self.sort_arguments(value, parameters, name)
+        for each in given.values():
+            if each.value is not None:
+                self.infer(each.value)
+        shared = self.shared_type(given, formals, signature.group, name)
+        if untyped(shared) and signature.result is BOOL:
+            shared = REAL if shared is UNTYPED_REAL else DINT
+        result = shared if signature.result == "T" else signature.result
+        made: list[Parameter] = []
+        for parameter, (_, wanted) in zip(parameters, formals, strict=True):
+            argument = given.get(parameter.name)
+            if argument is None or argument.value is None:
+                self.report.add(value.at, "call-arguments", f"expected an argument for {parameter.name} of {name}")
+            else:
+                self.standard_argument(argument, wanted, shared, name)
+            parameter.type = self.parameter_type(argument, wanted, shared)
+            made.append(parameter)
+            value.bindings.append(Binding(parameter, argument.value if argument else None))
+        value.target = Builtin(name, name, tuple(made), result if isinstance(result, Type) else UNKNOWN)
+        return value.target.result
+
+    @staticmethod
+    def parameter_type(argument: Argument | None, wanted: Type | Group | str, shared: Type) -> Type:
+        """What a formal parameter is in this very call."""
+        if isinstance(wanted, Type):
+            return wanted
+        if wanted == "T":
+            return shared
+        return plain(argument.value.type) if argument and argument.value else UNKNOWN
+
+    def formals(self, value: Call, signature: Signature) -> list[tuple[str, Type | Group | str]]:
+        """The formal parameters, with as many of the repeated ones as the call has arguments."""
+        formals = list(signature.formals)
+        extra = sum(1 for each in value.arguments if (each.name or "").upper() not in ("EN", "ENO")) - len(formals)
+        if signature.extensible:
+            last, wanted = formals[-1]
+            first = int(last.removeprefix("IN"))
+            formals += [(f"IN{first + number}", wanted) for number in range(1, extra + 1)]
+        return formals
+
+    def shared_type(
+        self, given: dict[str, Argument], formals: list[tuple[str, Type | Group | str]], group: Group, name: str
+    ) -> Type:
+        """The type that all "T" arguments have; untyped if all are numbers without prefix."""
+        values = [given[each].value for each, wanted in formals if wanted == "T" and each in given]
+        types = [each.type for each in values if each is not None]
+        typed = [each for each in types if not untyped(each)]
+        if UNKNOWN in typed or not types:
+            return UNKNOWN
+        if not typed:
+            return self.untyped_shared(values, group, name)
+        shared = plain(typed[0])
+        if shared.kind not in group and group != ANY:
+            at = next(each.at for each in values if each is not None)
+            self.report.add(at, *self.wrong_group(shared, group, name))
+            return UNKNOWN
+        return shared
+
+    def untyped_shared(self, values: list[Expression | None], group: Group, name: str) -> Type:
+        """What numbers without prefix share; told if the function is not for numbers."""
+        given = [each for each in values if each is not None]
+        if group & {Kind.INTEGER, Kind.REAL, Kind.BITS}:
+            return UNTYPED_REAL if any(each.type is UNTYPED_REAL for each in given) else UNTYPED_INTEGER
+        self.report.add(given[0].at, "type-mismatch", f"expected another type for {name}, found {given[0].type}")
+        for each in given:
+            self.settle(each, self.default(each))
+        return UNKNOWN
+
+    @staticmethod
+    def wrong_group(shared: Type, group: Group, name: str) -> tuple[str, str]:
+        """Rule and text for an argument that an overloaded function does not take."""
+        if shared.kind is Kind.BITS and Kind.INTEGER in group:
+            text = f"expected a number for {name}, found {shared}: convert it to an integer first"
+            return "bit-string-arithmetic", text
+        if shared.kind is Kind.INTEGER and Kind.BITS in group:
+            text = f"expected a bit string for {name}, found {shared}: write {conversion_to_bits(shared)}(...)"
+            return "implicit-conversion", text
+        if shared.kind is Kind.INTEGER and Kind.REAL in group:
+            text = f"expected REAL or LREAL for {name}, found {shared}: write {conversion(shared, REAL)}(...)"
+            return "implicit-conversion", text
+        shown = "a bit string" if Kind.BITS in group and Kind.INTEGER not in group else "another type"
+        return "type-mismatch", f"expected {shown} for {name}, found {shared}"
+
+    def standard_argument(self, argument: Argument, wanted: Type | Group | str, shared: Type, name: str) -> None:
+        """Type of one argument of a standard function."""
+        value = argument.value
+        if value is None:
+            return
+        if argument.output:
+            self.report.add(argument.at, "call-arguments", f"expected := for an input of {name}, found =>")
+        if isinstance(wanted, Type):
+            self.fits(value, wanted)
+        elif wanted == "T":
+            if not untyped(shared):
+                self.shared_argument(argument, shared)
+        elif isinstance(wanted, frozenset):
+            self.settle(value, self.default(value))
+            if value.type.kind not in wanted and value.type is not UNKNOWN:
+                rule = "implicit-conversion" if value.type.kind is Kind.BITS else "type-mismatch"
+                self.report.add(value.at, rule, f"expected an integer for {argument.name or name}, found {value.type}")
+
+    def shared_argument(self, argument: Argument, shared: Type) -> None:
+        """An argument that has the type of its fellows."""
+        value = argument.value
+        if value is None:
+            return
+        if untyped(value.type):
+            self.settle(value, shared)
+        elif shared is not UNKNOWN and not same(shared, value.type):
+            self.mismatch(value, shared)
+
+    def conversion(self, value: Call, name: str, found: Conversion) -> Type:
+        """`X_TO_Y(x)` and its kind."""
+        parameter = Parameter("IN", found.source or UNKNOWN)
+        given = self.sort_arguments(value, [parameter], name)
+        argument = given.get("IN")
+        source = argument.value if argument else None
+        if source is None:
+            self.report.add(value.at, "call-arguments", f"expected an argument for IN of {name}")
+        else:
+            self.infer(source)
+            if found.source is not None:
+                self.fits(source, found.source)
+            else:
+                self.settle(source, self.default(source))
+                parameter.type = source.type
+        if name.startswith("TO_"):
+            text = f"{name} is of the third edition: name the source too, as in {parameter.type.name}_{name}"
+            self.report.add(value.at, "generic-conversion", text)
+        if name == "TRUNC" and parameter.type.kind is not Kind.REAL and parameter.type is not UNKNOWN:
+            self.report.add(value.at, "type-mismatch", f"expected REAL or LREAL for TRUNC, found {parameter.type}")
+        value.bindings.append(Binding(parameter, source))
+        value.target = Builtin(name, found.family, (parameter,), found.result)
+        return found.result
