@@ -2,7 +2,7 @@
 
 import re
 
-from driveblocks.st.names import reserved
+from driveblocks.st.names import reserved, reserved_outside
 
 MAX_LENGTH = 31
 """Longest identifier that every target takes."""
@@ -28,8 +28,10 @@ def identifier(name: str) -> str:
 
 
 def block(prefix: str, name: str) -> str:
-    """The name of a drive's block, `SN300G5_DriveStatus`. Raises ValueError when it is too long."""
+    """The name of a drive's block, `SN300G5_DriveStatus`. Raises ValueError when it is too long or reserved."""
     made = f"{prefix}_{name}"
+    if why := reserved_outside(made):
+        raise ValueError(f"the block name {made} is {why}: give a `symbol`")
     if len(made) > MAX_LENGTH:
         raise ValueError(f"the block name {made} has {len(made)} characters; {MAX_LENGTH} are allowed: give a `symbol`")
     return made
