@@ -177,8 +177,15 @@ def _value_parts(row: Register) -> Iterator[Context]:
         test = bit_test("Value", value.value.bit_length() - 1) if row.masks else f"Value = {word(value.value)}"
         known.append(symbol(value))
         yield part(known[-1], "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
-    if known:
+    if known and row.masks:
+        yield part("Unknown", "BOOL", _unlisted_bits(row), "TRUE: no bit is set, or one that the manual does not list")
+    elif known:
         yield part("Unknown", "BOOL", _none_of(known), "TRUE: a value that the manual does not list")
+
+
+def _unlisted_bits(row: Register) -> str:
+    others = word(~sum({value.value for value in row.values}))
+    return f"(Value = {word(0)}) OR ((Value AND {others}) <> {word(0)})"
 
 
 def _none_of(names_: list[str]) -> str:

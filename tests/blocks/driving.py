@@ -1,0 +1,90 @@
+"""Commands and references of a drive, against the reference model."""
+
+import itertools
+import random
+from collections.abc import Iterator
+from math import inf, nan
+
+from tests.blocks.library import Blocks, number, result, scan
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference.command import Commands, Pins
+from driveblocks.reference.speed import Encoded, SpeedReference
+
+PIN_NAMES = {
+    "Enable": "enable",
+    "Stop": "stop",
+    "QuickStop": "quick_stop",
+    "CoastStop": "coast_stop",
+    "RunForward": "run_forward",
+    "RunReverse": "run_reverse",
+    "JogForward": "jog_forward",
+    "JogReverse": "jog_reverse",
+    "FaultReset": "fault_reset",
+}
+SPEEDS = (0.0, -0.0, 0.004, 0.005, 0.01, 0.5, 1.0, 25.0, 49.995, 50.0, 60.0, 299.99, 327.67, 327.68, 400.0, 655.35)
+WRONG = (nan, inf, -inf, -0.001, -1.0, 1.0e31, -1.0e31, 3.4e38)
+HUGE = (655.36, 1000.0, 40000.0, 65535.0, 1.0e6, 9.0e9, 1.0e30)
+MAXIMA = (0.0, 50.0, 60.0, 400.0, 0.1, nan, -1.0, inf)
+SCALES = (0.0, 10.0, 100.0, 0.5, -1.0, nan, inf)
+"""Counts per Hz; only asked for where the map has no scale."""
+
+
+def check_commands(blocks: Blocks, drive: Drive, steps: Iterator[Pins]) -> None:
+    """One instance and one reference model through the same steps."""
+    model = Commands(drive)
+    instance = blocks.library.instance(f"{drive.prefix}_Command")
+    bitwise = any(one.value is None for one in drive.operation.commands)
+    before: int | None = None
+    for pins in steps:
+        values: dict[str, bool | int] = {name: getattr(pins, field) for name, field in PIN_NAMES.items()}
+        scan(instance, {**values, "KeepWord": pins.keep} if bitwise else values)
+        told = model.step(pins)
+        found = (instance["Address"], instance["Value"], result(instance), instance["Stopping"])
+        assert found == (told.address, told.value, told.result, told.stopping), (pins, found, told)
+        assert instance["Changed"] is (told.value != before), pins
+        before = told.value
+
+
+def all_pins() -> Iterator[Pins]:
+    """Every combination of pins, one after the other in a fixed order by chance."""
+    combinations = list(itertools.product([False, True], repeat=len(PIN_NAMES)))
+    chance = random.Random(9)
+    chance.shuffle(combinations)
+    for each in combinations:
+        yield Pins(**dict(zip(PIN_NAMES.values(), each, strict=True)), keep=chance.choice([0, 0xFFFF, 0x2AF4, 0x5503]))
+
+
+def motions() -> Iterator[Pins]:
+    """Jogging, running, and letting go in turn: what the last motion leaves behind."""
+    asks = [{}, *({name: True} for name in list(PIN_NAMES.values())[1:]), {"enable": False}]
+    for first, second in itertools.product(asks, repeat=2):
+        for ask in (first, {}, second, {}):
+            yield Pins(**ask)
+
+
+def encode(blocks: Blocks, drive: Drive, hertz: float, maximum: float, scale: float) -> Encoded:
+    """Run the reference block once."""
+    own = SpeedReference(drive)
+    pins = {"SpeedReferenceHz": hertz, "MaximumHz": maximum}
+    done = blocks.run(f"{drive.prefix}_Reference", pins if own.factor is not None else {**pins, "ReferenceScale": scale})
+    assert done["Address"] == own.address
+    limited = done["Limited"]
+    assert isinstance(limited, bool)
+    return Encoded(result(done), number(done, "Value"), limited)
+
+
+def check_reference(blocks: Blocks, drive: Drive, hertz: float, maximum: float = 0.0, scale: float = 0.0) -> None:
+    """The result, and the word or one that arithmetic in single precision may give beside a half."""
+    wanted = SpeedReference(drive).encode(hertz, maximum, scale)
+    found = encode(blocks, drive, hertz, maximum, scale)
+    assert found.result == wanted.result, (hertz, maximum, scale, found, wanted)
+    assert found.value in wanted.near, (hertz, maximum, scale, found, wanted)
+    if wanted.value in wanted.near and len(wanted.near) == 1:
+        assert found.limited == wanted.limited, (hertz, maximum, scale, found, wanted)
+
+
+def references(drive: Drive) -> Iterator[tuple[float, float, float]]:
+    """Speeds, maxima and scales that try every limit."""
+    scales = SCALES if SpeedReference(drive).factor is None else (0.0,)
+    yield from itertools.product((*SPEEDS, *WRONG, *HUGE), MAXIMA, scales)

@@ -1,0 +1,160 @@
+"""Words through a drive's decoders, scales, fault numbers, standstill and texts, against the reference model."""
+
+import random
+from collections.abc import Iterable, Iterator
+
+from tests.blocks.library import Blocks, scan
+
+from driveblocks.maps.model import Drive, Register
+from driveblocks.reference import fault, register, standstill, text
+from driveblocks.reference.naming import name_of
+
+UNITS = {
+    "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
+    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
+}  # fmt: skip
+"""How a unit ends the name of a scale's function."""
+
+EDGES = (0x0000, 0x0001, 0x7FFF, 0x8000, 0x8001, 0xFFFF, 0xA5A5, 0x5A5A)
+TEXTS = {"En": (0, "ascii"), "Zh": (1, "utf-8")}
+
+
+def scale_name(drive: Drive, row: Register) -> str:
+    """The function that turns a register's word into its unit."""
+    return f"{drive.prefix}_{name_of(row)}{UNITS[row.unit or '']}"
+
+
+def interesting(row: Register) -> list[int]:
+    """Words that tell the bits, fields and values of a register apart, and some that mean nothing."""
+    single = [1 << bit for bit in range(16)]
+    listed = [value.value & 0xFFFF for value in row.values]
+    fields = [value.value << bit.bit.first for bit in row.bits for value in bit.values]
+    beside = [word ^ 1 << bit for word in listed[:3] for bit in (0, 5, 15)]
+    chance = random.Random(row.address.first)
+    others = [chance.randrange(0x10000) for _ in range(8)]
+    return list(dict.fromkeys([*EDGES, *single, *listed, *fields, *beside, *range(1, 20), *others]))
+
+
+def decoded(drive: Drive) -> Iterator[Register]:
+    """The registers that have a decoder."""
+    return (row for _, row in drive.registers() if register.decode(row, 0))
+
+
+def check_decoder(blocks: Blocks, drive: Drive, row: Register) -> None:
+    """Every output for every interesting word."""
+    instance = blocks.library.instance(f"{drive.prefix}_{name_of(row)}")
+    for word in interesting(row):
+        scan(instance, {"Value": word})
+        wanted = register.decode(row, word)
+        found = {name: instance[name] for name in wanted}
+        assert found == wanted, (f"{row.address.first:04X}H", f"{word:04X}H", differing(found, wanted))
+
+
+def differing(found: dict[str, object], wanted: dict[str, bool | int]) -> dict[str, object]:
+    """What was found where it is not what is wanted."""
+    return {name: found[name] for name, value in wanted.items() if found[name] != value}
+
+
+def scaled(drive: Drive) -> Iterator[Register]:
+    """The registers that have a scale."""
+    return (row for _, row in drive.registers() if row.scale is not None and row.unit is not None)
+
+
+def check_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int] = range(0, 0x10000, 257)) -> None:
+    """The nearest REAL to the exact value, within the last place that one operation may cost."""
+    for word in (*EDGES, *some):
+        value = blocks.call(scale_name(drive, row), {"Raw": word})
+        exact = register.exact(row, word)
+        assert isinstance(value, float)
+        assert abs(value - exact) <= abs(exact) / 2**23, (f"{row.address.first:04X}H", word, value, float(exact))
+
+
+def check_standstill(blocks: Blocks, drive: Drive) -> None:
+    """Each condition alone broken and kept, and words by chance."""
+    pins = {one.register: word_pin(drive, one.register) for one in drive.operation.standstill.all}
+    instance = blocks.library.instance(f"{drive.prefix}_Standstill")
+    for words in proofs(drive, list(pins)):
+        scan(instance, {pins[address]: word for address, word in words.items()})
+        assert instance["StandstillProven"] is standstill.proven(drive, words), words
+
+
+def word_pin(drive: Drive, address: int) -> str:
+    """The pin that takes a register's word."""
+    row = drive.register_at(address)
+    assert row is not None
+    return f"{name_of(row)}Word"
+
+
+def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:
+    """Words by register: the proof, then each single bit of it changed, then pairs of words by chance."""
+    good = dict.fromkeys(addresses, 0)
+    for one in drive.operation.standstill.all:
+        good[one.register] |= one.equals << (one.bit.first if one.bit else 0)
+    yield good
+    for address in addresses:
+        for bit in range(16):
+            yield {**good, address: good[address] ^ 1 << bit}
+    chance = random.Random(drive.prefix)
+    for _ in range(40):
+        yield {address: chance.choice([good[address], chance.randrange(0x10000)]) for address in addresses}
+
+
+def check_fault_number(blocks: Blocks, drive: Drive) -> None:
+    """Every bit alone, and words by chance: the lowest number and the count."""
+    relation = drive.faults.bits
+    assert relation is not None
+    addresses = range(relation.first, relation.last + 1)
+    instance = blocks.library.instance(f"{drive.prefix}_FaultNumber")
+    chance = random.Random(drive.prefix)
+    several = [[chance.randrange(0x10000) for _ in addresses] for _ in range(20)]
+    alone = [[1 << bit if at == there else 0 for there in addresses] for at in addresses for bit in range(16)]
+    for words in (*alone, *several, [0] * len(addresses), [0xFFFF] * len(addresses)):
+        scan(instance, {word_pin(drive, address): word for address, word in zip(addresses, words, strict=True)})
+        wanted = fault.numbered(drive, words)
+        assert (instance["FaultNumber"], instance["Count"]) == (wanted.number, wanted.count), words
+
+
+def codes(known: Iterable[int | None]) -> list[int]:
+    """Known codes, their neighbours, and some that nothing has."""
+    listed = [code for code in known if code is not None]
+    return sorted({*listed, *(code + 1 for code in listed), 0, 255, 65535})
+
+
+def check_text(blocks: Blocks, function: str, pins: dict[str, int], found: text.Texts | None) -> None:
+    """A text function in the language that its name ends in."""
+    which, encoding = TEXTS[function[-2:]]
+    wanted = text.shortened((found or text.UNKNOWN)[which] or (found or text.UNKNOWN).en, encoding)
+    assert blocks.call(function, dict(pins)) == wanted, (function, pins)
+
+
+def check_code_texts(blocks: Blocks, drive: Drive) -> None:
+    """Texts of faults and refusals, in both languages."""
+    faults = codes(one.code for one in drive.faults.codes)
+    errors = codes(text.error_number(one) for one in drive.errors.codes)
+    for language in TEXTS:
+        for code in faults:
+            check_text(blocks, f"{drive.prefix}_FaultText{language}", {"Code": code}, text.fault(drive, code))
+        for code in errors:
+            check_text(blocks, f"{drive.prefix}_ErrorText{language}", {"Code": code}, text.error(drive, code))
+
+
+def check_bit_texts(blocks: Blocks, drive: Drive) -> None:
+    """Texts of the bits of every register, in both languages; an address without bits has none."""
+    rows = [row.address.first for _, row in drive.registers() if any(bit.name for bit in row.bits)]
+    for language in TEXTS if rows else ():
+        for address in codes(rows):
+            for bit in range(17):
+                pins = {"Address": address, "Bit": bit}
+                found = text.bit(drive, address, bit) if address in rows else None
+                check_text(blocks, f"{drive.prefix}_BitText{language}", pins, found)
+
+
+def check_value_texts(blocks: Blocks, drive: Drive) -> None:
+    """Texts of the values of every register, in both languages."""
+    rows = {row.address.first: row for _, row in drive.registers() if row.values}
+    for language in TEXTS if rows else ():
+        for address in codes(rows):
+            listed = rows[address].values if address in rows else ()
+            for value in codes(one.value for one in listed):
+                pins = {"Address": address, "Value": value}
+                check_text(blocks, f"{drive.prefix}_ValueText{language}", pins, text.value(drive, address, value))
