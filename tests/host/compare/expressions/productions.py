@@ -260,6 +260,14 @@ def _positions(g: Grammar, *least: int) -> list[Term]:
     return [call(kind, "limit", "LIMIT", *each) for each in bounds]
 
 
+def _string_from_real(g: Grammar, kind: str, depth: int) -> Term:
+    """The text of a finite number: C says nothing about the sign of a NaN."""
+    source = g.draws.one_of(REALS)
+    bounds = [atom(source, "literal", text) for text in ("-1.0E30", "1.0E30")]
+    finite = call(source, "limit", "LIMIT", bounds[0], g.anchored(source, depth), bounds[1])
+    return call(kind, "string-from-real", f"{source}_TO_STRING", finite)
+
+
 def _string_part(g: Grammar, kind: str, depth: int) -> Term:
     if g.draws.chance(0.5):
         name = g.draws.one_of(["LEFT", "RIGHT"])
@@ -344,7 +352,7 @@ PRODUCTIONS: list[tuple[str, tuple[str, ...], Production]] = [
     ("time-conversion", (*_INTO_WHOLE, *REALS), _conversion_from("time-conversion", ("TIME",))),
     ("time-conversion", ("TIME",), _conversion_from("time-conversion", (*_INTO_WHOLE, *REALS, "BOOL"))),
     ("string-from", ("STRING",), _conversion_from("string-from", (*_INTO_WHOLE, "BOOL"))),
-    ("string-from-real", ("STRING",), _conversion_from("string-from-real", REALS)),
+    ("string-from-real", ("STRING",), _string_from_real),
     ("string-from-time", ("STRING",), _conversion_from("string-from-time", ("TIME",))),
     ("string-to", (*_INTO_WHOLE, "BOOL"), _conversion_from("string-to", ("STRING",))),
     ("string-to-real", REALS, _conversion_from("string-to-real", ("STRING",))),
