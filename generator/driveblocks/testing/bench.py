@@ -70,17 +70,22 @@ def sample(length: int) -> bytes:
     return bytes(7 * (index + 1) % 256 for index in range(min(length, 600)))
 
 
-def ramp(box: str, length: int) -> str:
-    """A statement that fills an array like `sample`."""
-    return (
-        f"Index := 0; WHILE Index < {length} DO {box}[Index] := UINT_TO_BYTE((7 * (Index + 1)) MOD 256);"
-        " Index := Index + 1; END_WHILE;"
-    )
+def ramp(box: str, length: int) -> list[str]:
+    """Statements that fill an array like `sample`."""
+    step = f"{box}[Index] := UINT_TO_BYTE(Octet); Octet := (Octet + 7) MOD 256; Index := Index + 1;"
+    return ["Index := 0;", "Octet := 7;", f"WHILE Index < {length} DO {step} END_WHILE;"] if length else []
 
 
-def cleared(box: str, length: int) -> str:
-    """A statement that puts zeros into an array."""
-    return f"Index := 0; WHILE Index < {max(length, 1)} DO {box}[Index] := BYTE#16#00; Index := Index + 1; END_WHILE;"
+def declare_ramp(program: Script) -> None:
+    """Declare what `ramp` and `cleared` count with."""
+    program.variables["Index"] = ("UINT", "next byte")
+    program.variables["Octet"] = ("UINT", "value of the next byte")
+
+
+def cleared(box: str, length: int) -> list[str]:
+    """Statements that put zeros into an array."""
+    step = f"{box}[Index] := BYTE#16#00; Index := Index + 1;"
+    return ["Index := 0;", f"WHILE Index < {max(length, 1)} DO {step} END_WHILE;"]
 
 
 def last_bytes(box: str, data: bytes) -> Iterator[Probe]:

@@ -27,14 +27,14 @@ def _seal() -> Script:
         program.stage(
             f"{length} bytes: {WORDS[found.result]}",
             *bench.fill("Adu", data[: min(length, 8)]),
-            *([bench.ramp("Adu", length)] if 8 < length <= 254 else []),
+            *(bench.ramp("Adu", length) if 8 < length <= 254 else ()),
             f"Seal(Length := {length}, Adu := Adu);",
             bench.has_result("Seal", found.result),
             bench.is_number("Seal.AduLength", len(found.data), "bytes of the frame"),
             *bench.same_bytes("Adu", found.data[:8]),
             *bench.last_bytes("Adu", found.data),
         )
-    program.variables["Index"] = ("UINT", "next byte")
+    bench.declare_ramp(program)
     return program
 
 
@@ -78,13 +78,13 @@ def _opened(program: Script, block: str, words: str, data: bytes, length: int) -
 def _encode() -> Script:
     program = bench.generic("AsciiEncode", "ASCII framing, outgoing", f"{LINE}, 2.5.2.")
     bench.declare(program, "Adu", "Chars", Encode="MB_AsciiEncode")
-    program.variables["Index"] = ("UINT", "next byte")
+    bench.declare_ramp(program)
     for length in (0, 1, 2, 3, 6, 16, 253, 254, 255, 256, 65535):
         data = bench.sample(length)
         found = ascii_encode(data)
         program.stage(
             f"{length} bytes: {WORDS[found.result]}",
-            *([bench.ramp("Adu", length)] if length <= 254 else []),
+            *(bench.ramp("Adu", length) if length <= 254 else ()),
             f"Encode(Length := {length}, Adu := Adu, Chars := Chars);",
             bench.has_result("Encode", found.result),
             bench.is_number("Encode.CharCount", len(found.data), "characters of the frame"),

@@ -1,5 +1,6 @@
 """Literals and comments of the test programs."""
 
+import re
 import textwrap
 
 WIDTH = 110
@@ -53,11 +54,30 @@ def paragraph(lead: str, text: str, end: str = "", width: int = WIDTH) -> list[s
 
 
 def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]:
-    """Statements side by side, as many to a line as fit."""
+    """Statements side by side, as many to a line as fit; one that does not fit by itself is broken at its blanks."""
     lines: list[str] = []
     for statement in statements:
         if lines and len(lines[-1]) + 1 + len(statement) <= width:
             lines[-1] += f" {statement}"
         else:
-            lines.append(indent + statement)
+            lines += broken(statement, indent, width)
     return lines
+
+
+def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
+    """A statement on as many lines as it needs; a blank in a text is no place to break."""
+    lines = [indent]
+    for piece in re.findall(r"(?:'(?:\$.|[^$'])*'|[^\s'])+", statement):
+        if lines[-1].strip() and len(lines[-1]) + 1 + len(piece) > width:
+            lines.append(f"{indent}  {piece}")
+        else:
+            lines[-1] += f" {piece}" if lines[-1].strip() else piece
+    return lines
+
+
+def remarked(statement: str, words: str, indent: str, width: int = WIDTH) -> list[str]:
+    """A statement and a remark behind it, or before it where both together are too long."""
+    lines, remark = broken(statement, indent, width), f"(* {comment(words)} *)"
+    if len(lines[-1]) + 1 + len(remark) <= width + 10:
+        return [*lines[:-1], f"{lines[-1]} {remark}"]
+    return [*paragraph(f"{indent}(* ", words, " *)", width), *lines]

@@ -24,7 +24,7 @@ def _packing(box: str, most: int) -> Script:
     source = "JSCC instructions, section 6, tables D0 to D8: one byte or two characters per register."
     program = bench.generic(f"Packing{box}", f"{box} into registers and back, 8 and 16 bits", source)
     bench.declare(program, box, "Registers")
-    program.variables["Index"] = ("UINT", "next byte")
+    bench.declare_ramp(program)
     for bits in (8, 16):
         block, back = f"Pack{box}{bits}", f"Unpack{box}{bits}"
         bench.declare(program, **{block: f"MB_{block}", back: f"MB_{back}"})
@@ -41,7 +41,7 @@ def _packed(box: str, bits: int, count: int, data: bytes) -> Iterator[Item]:
     """Pack; the registers are compared at both ends."""
     registers = pack(data, bits)
     ends = sorted({*range(min(4, len(registers))), *range(max(len(registers) - 3, 0), len(registers))})
-    yield bench.ramp(box, len(data))
+    yield from bench.ramp(box, len(data))
     yield from bench.fill_words("Registers", [STALE] * 3)
     yield f"Pack{box}{bits}(CharCount := {count}, {box} := {box}, Registers := Registers);"
     yield bench.is_number(f"Pack{box}{bits}.RegisterCount", len(registers), "registers")
@@ -55,7 +55,7 @@ def _unpacked(box: str, bits: int, count: int, data: bytes) -> Iterator[Item]:
     """Unpack what was packed before; in 8-bit mode with something in the high bytes, which says nothing."""
     registers = [register | (0x5500 if bits == 8 else 0) for register in pack(data, bits)]
     yield from bench.fill_words("Registers", registers[:4])
-    yield bench.cleared(box, len(data))
+    yield from bench.cleared(box, len(data))
     yield f"Unpack{box}{bits}(CharCount := {count}, Registers := Registers, {box} := {box});"
     yield bench.is_number(f"Unpack{box}{bits}.Unpacked", len(data), "characters")
     again = unpack(registers, len(data), bits)

@@ -50,7 +50,7 @@ def _decoder(drive: Drive, stem: str, section: Section, row: Register) -> Script
         wanted = {f"Flags{at}": _packed(found, flags[at : at + PER_WORD]) for at in range(0, len(flags), PER_WORD)}
         wanted |= {f"Number{index}": found[name] for index, name in enumerate(numbers)}
         said = [name for name in flags if found[name]] + [f"{name} {found[name]}" for name in numbers]
-        table.row(f"{number:04X}H: {', '.join(said) or 'nothing'}", {"Word": number} | wanted)
+        table.row(f"{number:04X}H: {', '.join(said) or 'nothing'}", {"Raw": number} | wanted)
     return program
 
 
@@ -61,8 +61,8 @@ def _packed(found: dict[str, bool | int], names: list[str]) -> int:
 
 def _table(program: Script, groups: list[list[str]], numbers: list[str]) -> Table:
     table = Table(program)
-    table.column("Word", "WORD", 0, "the register")
-    table.do("Decode(Value := Word);")
+    table.column("Raw", "WORD", 0, "the register")
+    table.do("Decode(Value := Raw);")
     for index, names in enumerate(groups):
         wanted = f"Flags{index * PER_WORD}"
         table.column(wanted, "DWORD", 0, f"outputs that must be TRUE, {names[0]} in bit 0")

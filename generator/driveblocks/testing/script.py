@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.testing.harness import PER_SCAN
-from driveblocks.testing.literal import comment, flowing, paragraph
+from driveblocks.testing.literal import comment, flowing, paragraph, remarked
 
 MOST_STAGES = 100
 """Stages of one program; what needs more becomes several programs."""
@@ -181,15 +181,16 @@ class _Printer:
             run = []
             words = f"{stage.words}: {item.words}"
             self.checks.append(Check(words, item, index, len(self.lines) + 1))
-            self.lines.append(f"      {item.call} (* {len(self.checks)}: {comment(item.words)} *)")
+            self.lines += remarked(item.call, f"{len(self.checks)}: {item.words}", "      ")
         self.lines += flowing(run, "      ")
 
     def _tail(self) -> None:
         self.lines += ["  IF NOT Done THEN"]
         for item in self.script.tail:
-            self.lines.append(
-                f"    {item.call} (* {comment(item.words)} *)" if isinstance(item, Probe) else f"    {item}"
-            )
+            if isinstance(item, Probe):
+                self.lines += remarked(item.call, item.words, "    ")
+            else:
+                self.lines += flowing([item], "    ")
         self.lines += ["    Stage := Stage + 1;", "  END_IF;"]
         names = [name for name, _, _ in _COUNTERS if name != "Done"]
         self.lines += flowing([f"{name} := Report.{name};" for name in names], "  ")

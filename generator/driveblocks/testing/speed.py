@@ -25,7 +25,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program."""
     source = drive.operation.reference.source
     program = bench.script(drive, stem, "Reference", "a frequency as the word for the reference register", source)
-    bench.declare(program, Reference=f"{drive.prefix}_Reference")
+    bench.declare(program, Encode=f"{drive.prefix}_Reference")
     model = SpeedReference(drive)
     table = _table(program, model)
     for case in dict.fromkeys(_cases(model)):
@@ -41,16 +41,16 @@ def _table(program: Script, model: SpeedReference) -> Table:
     if model.factor is None:
         table.column("Scale", "REAL", USUAL_SCALE, "ReferenceScale")
         pins += ", ReferenceScale := Scale"
-    table.column("WantedError", "UINT", 0, "ErrorID that Reference must give")
+    table.column("WantedError", "UINT", 0, "ErrorID that Encode must give")
     table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
     table.column("Lowest", "UINT", 0, "Value that it must give, at least")
     table.column("Highest", "UINT", 0, "... and at most: more only where REAL leaves two")
     table.do(
-        f"Reference({pins});",
-        bench.is_number("Reference.ErrorID", "WantedError", "ErrorID"),
-        bench.is_flag("Reference.Limited", "WantedLimited", "Limited"),
-        bench.is_between("WORD_TO_UINT(Reference.Value)", "Lowest", "Highest", "Value"),
-        bench.is_word("Reference.Address", word(model.address), "Address"),
+        f"Encode({pins});",
+        bench.is_number("Encode.ErrorID", "WantedError", "ErrorID"),
+        bench.is_flag("Encode.Limited", "WantedLimited", "Limited"),
+        bench.is_between("WORD_TO_UINT(Encode.Value)", "Lowest", "Highest", "Value"),
+        bench.is_word("Encode.Address", word(model.address), "Address"),
     )
     return table
 
