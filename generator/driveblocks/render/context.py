@@ -218,7 +218,8 @@ def command(drive: Drive) -> Context:
     moving = [one for one in commands.values() if one.value is None]
     mask = _mask(moving)
     printed: dict[str, Context] = {
-        does: {"text": _command_text(one, mask), "word": one.value or 0} for does, one in commands.items()
+        does: {"text": _command_text(one, mask), "word": one.value or 0, "register": one.register}
+        for does, one in commands.items()
     }
     asked = [
         ("ResetEdge", printed.get("fault_reset")),
@@ -232,6 +233,7 @@ def command(drive: Drive) -> Context:
         "drive": identity(drive),
         "source": source_of(drive, commands["stop"].source),
         "register": commands["stop"].register,
+        "elsewhere_too": len({one.register for one in commands.values()}) > 1,
         "stop": printed["stop"],
         "keep": mask if moving else None,
         "asked": asked,
@@ -285,8 +287,6 @@ def _verify(conditions: tuple[Condition, ...]) -> str:
 def _counts(row: Register, percent: bool) -> str:
     if percent and row.scale is not None:
         return f"Asked / MaximumHz * {real(100 / row.scale.factor)}"
-    if percent:
-        return "Asked / MaximumHz * 100.0 * ReferenceScale"
     return f"Asked * {real(1 / row.scale.factor)}" if row.scale else "Asked * ReferenceScale"
 
 
