@@ -1,28 +1,7 @@
-"""Explainers of the shipped drives, of the example, and of the standard alone."""
-
-from pathlib import Path
+"""One set of explainers for all tests."""
 
 import pytest
-
-from driveblocks.explain.explanation import Explainer, Explanation
-from driveblocks.explain.paste import read
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
-
-EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
-
-
-class Explain:
-    """Explains frames by the prefix of a drive; "" is the standard."""
-
-    def __init__(self) -> None:
-        """Load every map once."""
-        drives = {drive.prefix: drive for drive in map(load, (EXAMPLE, *catalog.shipped()))}
-        self.of = {"": Explainer(), **{prefix: Explainer(drive) for prefix, drive in drives.items()}}
-
-    def __call__(self, prefix: str, frame: str, request: str | None = None) -> Explanation:
-        """Explain a pasted frame."""
-        return self.of[prefix].explain(read(frame), read(request, "request") if request is not None else None)
+from tests.explain.explaining import Explain
 
 
 @pytest.fixture(scope="session")

@@ -23,11 +23,11 @@ Tries = Iterator[Guess]
 def guesses(wire: Wire, manners: Manners) -> list[Guess]:
     """What comes out, best first: causes that the checksum proves, then those that only the length speaks for."""
     if not wire.aligned:
-        return list(_lookalikes(wire))
+        return [*_seven_bits(wire, manners), *_lookalikes(wire)]
     proved = _PROVED_RTU if wire.mode == "rtu" else _PROVED_ASCII
     found = [guess for attempt in proved for guess in attempt(wire, manners)]
     found = found or (list(_one_byte(wire, manners)) if wire.mode == "rtu" else [])
-    if not found and not (wire.found and _fits(wire.body, manners)):
+    if not found:
         found = [guess for attempt in _LIKELY for guess in attempt(wire, manners)]
     return list({guess.says: guess for guess in found}.values())[:4]
 
@@ -281,10 +281,15 @@ _PROVED_ASCII = (_lrc_of_characters, _crc_in_ascii, _other_lrc)
 
 def _no_checksum(wire: Wire, manners: Manners) -> Tries:
     data = wire.body + wire.found
-    if _fits(data, manners):
+    if _fits(data, manners) and not _whole(wire, manners):
         sealed = wire.sealed(data)
         check = shown(sealed[-2:]) if wire.mode == "rtu" else f"{lrc(data):02X}"
         yield Guess(f"the checksum is missing: {wire.name} {check} belongs behind it", sealed)
+
+
+def _whole(wire: Wire, manners: Manners) -> bool:
+    """Whether the frame has the right length as it is, so that only its checksum is wrong."""
+    return bool(wire.found) and _fits(wire.body, manners)
 
 
 def _truncated(wire: Wire, manners: Manners) -> Tries:
@@ -296,7 +301,8 @@ def _truncated(wire: Wire, manners: Manners) -> Tries:
     kinds: dict[int, list[str]] = {}
     for one in layout.readings(data, manners):
         size = one.size + check
-        if one.function in layout.KNOWN and size > len(data):
+        counted = one.number("quantity") is not None and one.number("byte count") is not None and one.agrees
+        if one.function in layout.KNOWN and size > len(data) and (counted or not _whole(wire, manners)):
             open_end = one.direction == "reply" and one.body[1] in _COUNTED_REPLIES and one.number("byte count") is None
             least = "at least " if open_end else ""
             kinds.setdefault(size, []).append(

@@ -206,7 +206,7 @@ class Reader:
             yield f"{kind} has {one.size} bytes and the checksum; {_bytes(-one.missing)} too many", _surplus(one)
         if one.missing <= 0 and not one.agrees:
             count, quantity = one.number("byte count"), one.number("quantity")
-            fits = f"{quantity} registers are {2 * quantity}" if quantity else "registers have two bytes each"
+            fits = f"a quantity of {quantity} needs {2 * quantity}" if quantity else "registers have two bytes each"
             yield f"the byte count {count} does not fit: {fits}", ""
         if one.two_byte_count and not self.manners.two_byte_count:
             yield (

@@ -57,8 +57,9 @@ def seal(mode: Mode, body: bytes) -> bytes:
 
 def mode_of(data: bytes) -> Mode:
     """RTU or ASCII: a colon, and mostly hexadecimal digits behind it, unless it is an RTU frame with a right CRC."""
-    digits = sum(byte in DIGITS for byte in data[1:])
-    if data[:1] != b":" or 3 * digits < 2 * (len(data) - 1) or _rtu(data).right:
+    text = data[1:].rstrip(b"\r\n")
+    digits = sum(byte & 0x7F in DIGITS for byte in text)
+    if data[:1] != b":" or 2 * digits < len(text) or _rtu(data).right:
         return "rtu"
     return "ascii"
 
