@@ -24,7 +24,7 @@ PIN_NAMES = {
 }
 SPEEDS = (0.0, -0.0, 0.004, 0.005, 0.01, 0.5, 1.0, 25.0, 49.995, 50.0, 60.0, 299.99, 327.67, 327.68, 400.0, 655.35)
 WRONG = (nan, inf, -inf, -0.001, -1.0, 1.0e31, -1.0e31, 3.4e38)
-HUGE = (655.36, 1000.0, 40000.0, 65535.0, 1.0e6, 9.0e9, 1.0e30)
+HUGE = (655.36, 1000.0, 40000.0, 65535.0, 1.0e6, 9.0e9, 9.0e29)
 MAXIMA = (0.0, 50.0, 60.0, 400.0, 0.1, nan, -1.0, inf)
 SCALES = (0.0, 10.0, 100.0, 0.5, -1.0, nan, inf)
 """Counts per Hz; only asked for where the map has no scale."""
@@ -67,7 +67,9 @@ def encode(blocks: Blocks, drive: Drive, hertz: float, maximum: float, scale: fl
     """Run the reference block once."""
     own = SpeedReference(drive)
     pins = {"SpeedReferenceHz": hertz, "MaximumHz": maximum}
-    done = blocks.run(f"{drive.prefix}_Reference", pins if own.factor is not None else {**pins, "ReferenceScale": scale})
+    done = blocks.run(
+        f"{drive.prefix}_Reference", pins if own.factor is not None else {**pins, "ReferenceScale": scale}
+    )
     assert done["Address"] == own.address
     limited = done["Limited"]
     assert isinstance(limited, bool)
