@@ -62,6 +62,8 @@ TIME_ROWS: list[Row] = [
     ("MULTIME(t, n)", "TIME", T, {"t": MS, "n": 5}, 5 * MS, 5 * MS, 5 * MS),
     ("MAX(t, v)", "TIME", T, {"t": MS, "v": 2 * MS}, 2 * MS, 2 * MS, 2 * MS),
     ("LIMIT(T#0s, t, v)", "TIME", T, {"t": 3 * MS, "v": 2 * MS}, 2 * MS, 2 * MS, 2 * MS),
+    ("STRING_TO_TIME('T#-1m30.5s')", "TIME", T, {}, -90_500 * MS, 0, FAULT),
+    ("STRING_TO_TIME('12')", "TIME", T, {}, FAULT, 12_000 * MS, FAULT),
     ("TIME_TO_STRING(t)", "STRING", T, {"t": 90_061_500 * MS}, b"T#1d1h1m1s500ms", b"T#1d1h1m1s500ms", FAULT),
 ]
 
@@ -75,6 +77,26 @@ DATE_ROWS: list[Row] = [
     ("DT_TO_TOD(dt1)", "TOD", DATES, {"dt1": MOMENT}, 3_600 * 10**9, 3_600 * 10**9, 3_600 * 10**9),
     ("CONCAT_DATE_TOD(d1, tod1)", "DT", DATES, {"d1": 5 * DAY, "tod1": 3_600 * 10**9}, MOMENT, MOMENT, MOMENT),
     ("DT#1970-01-06-01:00:00", "DT", DATES, {}, MOMENT, MOMENT, MOMENT),
+    ("DATE_TO_STRING(d1)", "STRING", DATES, {"d1": 5294 * DAY}, b"D#1984-06-30", b"D#1984-06-30", FAULT),
+    ("TOD_TO_STRING(tod1)", "STRING", DATES, {"tod1": 56_215 * 10**9}, b"TOD#15:36:55", b"TOD#15:36:55", FAULT),
+    (
+        "TOD_TO_STRING(tod1)",
+        "STRING",
+        DATES,
+        {"tod1": 55_360_000_000},
+        b"TOD#00:00:55.360000",
+        b"TOD#00:00:55.360000",
+        FAULT,
+    ),
+    (
+        "DT_TO_STRING(dt1)",
+        "STRING",
+        DATES,
+        {"dt1": MOMENT},
+        b"DT#1970-01-06-01:00:00",
+        b"DT#1970-01-06-01:00:00",
+        FAULT,
+    ),
     ("dt1 > dt2", "BOOL", DATES, {"dt1": 2, "dt2": 1}, True, True, True),
 ]
 

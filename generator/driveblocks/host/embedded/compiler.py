@@ -9,9 +9,9 @@ from typing import Any
 from driveblocks.host.embedded import standard_blocks
 from driveblocks.host.embedded.calls import function_name
 from driveblocks.host.embedded.certainty import present
-from driveblocks.host.embedded.expressions import c_moment
 from driveblocks.host.embedded.faults import Accesses
 from driveblocks.host.embedded.invocation import body_name
+from driveblocks.host.embedded.operands import c_moment
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.runtime import namespace

@@ -35,6 +35,8 @@ _COMPARISONS = {"GT": ">", "GE": ">=", "EQ": "=", "LE": "<=", "LT": "<", "NE": "
 _STRINGS = ("LEFT", "RIGHT", "MID", "CONCAT", "INSERT", "DELETE", "REPLACE")
 _SHIFTS = {"SHL": "shift_left", "SHR": "shift_right", "ROL": "rotate_left", "ROR": "rotate_right"}
 
+_DATES = (Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME)
+
 Emitter = Callable[[Builtin, list[Term]], Term]
 
 
@@ -295,7 +297,8 @@ class Functions(Expressions):
     def _text(self, node: ast.expr, source: Type, result: Type) -> Term:
         """To and from STRING."""
         if result.kind is Kind.STRING:
-            return Plain(self.pen.call(_to_string(source), node), result)
+            which = [self.pen.constant(source.name)] if source.kind in _DATES else []
+            return Plain(self.pen.call(_to_string(source), node, *which), result)
         if result.kind is Kind.BOOL:
             return Plain(self.pen.call("string_to_bool", node), result)
         if result.kind is Kind.REAL:
@@ -304,7 +307,7 @@ class Functions(Expressions):
             kind = elementary(result)
             facts = (self.pen.constant(kind.name), self.pen.constant(kind.width), self.pen.constant(kind.signed))
             return self.result(self.pen.call("string_to_whole", node, *facts), result)
-        return Plain(self.pen.call("string_to_time", node), result)
+        return Plain(self.pen.call("string_to_time", node, self.pen.constant(result.name)), result)
 
     def _temporal(self, term: Term, source: Type, result: Type) -> Term:
         """Durations and dates: to each other, and to and from numbers, where the unit is everybody's own."""

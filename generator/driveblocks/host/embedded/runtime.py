@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from driveblocks.host.embedded import integers, reals, strings, times
+from driveblocks.host.embedded import integers, reals, spellings, strings, times
 from driveblocks.host.embedded.faults import MARK, FaultError, below_bounds
 from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.engine import Overflow
@@ -81,8 +81,8 @@ _COMMON: dict[str, Any] = {
     "c_remainder": integers.c_remainder,
     "from_bcd": integers.from_bcd,
     "to_bcd": integers.to_bcd,
-    "string_from_bool": strings.from_bool,
-    "string_from_whole": strings.from_whole,
+    "string_from_bool": spellings.from_bool,
+    "string_from_whole": spellings.from_whole,
     "endless": _endless,
     "aliased": _aliased,
     "not_once": _not_once,
@@ -107,9 +107,9 @@ def _standard() -> dict[str, Any]:
     }
     table |= {"LEFT": strings.left, "RIGHT": strings.right, "MID": strings.mid, "CONCAT": strings.concat}
     table |= {"INSERT": strings.insert, "DELETE": strings.delete, "REPLACE": strings.replace, "FIND": strings.find}
-    table |= {"string_from_bits": strings.from_bits, "string_from_real": strings.from_real}
-    table |= {"string_to_bool": strings.to_bool, "string_to_real": strings.to_real}
-    table |= {"string_to_whole": _whole_from_string(strings.to_whole, True)}
+    table |= {"string_from_bits": spellings.from_bits, "string_from_real": spellings.from_real}
+    table |= {"string_to_bool": spellings.to_bool, "string_to_real": spellings.to_real}
+    table |= {"string_to_whole": _whole_from_string(spellings.to_whole, True)}
     table |= _plain_times()
     return table
 
@@ -147,17 +147,17 @@ def _plain_times() -> dict[str, Any]:
         "time_to_whole": lambda span: int(span / _MILLISECOND) if span < 0 else span // _MILLISECOND,
         "time_to_real": lambda span: span / _MILLISECOND,
         "time_to_bool": bool,
-        "string_from_time": lambda span: strings.from_time(*times.pair(span)),
-        "string_from_date": _nowhere("a date as STRING"),
-        "string_to_time": _nowhere("a STRING as a time"),
+        "string_from_time": lambda span: spellings.from_time(*times.pair(span)),
+        "string_from_date": lambda span, kind: spellings.from_date(kind, *times.pair(span)),
+        "string_to_time": _to_time,
     }
 
 
-def _nowhere(what: str) -> Callable[..., Any]:
-    def refuse(*_: Any) -> Any:
-        raise FaultError(f"{what}: every compiler has its own way, and this engine has none")
-
-    return refuse
+def _to_time(text: bytes, kind: str) -> int:
+    """STRING_TO_TIME of a literal; a STRING as a date is not implemented. FaultError."""
+    if kind != "TIME":
+        raise FaultError(f"this engine does not read {kind} from a STRING")
+    return times.parsed(text.decode("latin-1"))
 
 
 # ------------------------------------------------------------ fail where the standard and C can differ
@@ -172,8 +172,8 @@ def _careful() -> dict[str, Any]:
         "shift_right": integers.careful_shift_right,
         "limit": _careful_limit,
         "string_order": strings.careful_order,
-        "string_to_whole": _whole_from_string(strings.careful_to_whole, True),
-        "string_to_real": strings.careful_to_real,
+        "string_to_whole": _whole_from_string(spellings.careful_to_whole, True),
+        "string_to_real": spellings.careful_to_real,
         "REPLACE": strings.careful_replace,
         "FIND": strings.careful_find,
         "time_add": times.careful_add,
@@ -182,8 +182,10 @@ def _careful() -> dict[str, Any]:
         "time_divide": times.careful_divide,
     }
     seconds = "a number as TIME, or a TIME as a number: seconds on matiec, milliseconds elsewhere"
-    for name in ("time_from_number", "time_to_whole", "time_to_real", "string_from_time"):
+    for name in ("time_from_number", "time_to_whole", "time_to_real"):
         table[name] = _differing(seconds)
+    for name in ("string_from_time", "string_from_date", "string_to_time"):
+        table[name] = _differing("a time as STRING, or a STRING as a time: every compiler writes it in its own way")
     for name in ("string_from_bits", "string_from_real"):
         table[name] = _differing("a bit string or REAL as STRING: every compiler writes it in its own way")
     return table
@@ -242,9 +244,9 @@ def _c() -> dict[str, Any]:
     table |= {"LEFT": strings.c_left, "RIGHT": strings.c_right, "MID": strings.c_mid, "CONCAT": strings.c_concat}
     table |= {"INSERT": strings.c_insert, "DELETE": strings.c_delete, "REPLACE": strings.c_replace}
     table |= {"FIND": strings.c_find, "string_order": strings.order}
-    table |= {"string_from_bits": strings.c_from_bits, "string_from_real": strings.c_from_real}
-    table |= {"string_to_bool": strings.c_to_bool, "string_to_real": strings.c_to_real}
-    table |= {"string_to_whole": _whole_from_string(strings.c_to_whole, False)}
+    table |= {"string_from_bits": spellings.c_from_bits, "string_from_real": spellings.c_from_real}
+    table |= {"string_to_bool": spellings.c_to_bool, "string_to_real": spellings.c_to_real}
+    table |= {"string_to_whole": _whole_from_string(spellings.c_to_whole, False)}
     table |= _c_times()
     return table
 
@@ -286,9 +288,9 @@ def _c_times() -> dict[str, Any]:
         "time_to_whole": lambda span: span[0],
         "time_to_real": lambda span: float(span[0]) + span[1] / _SECOND,
         "time_to_bool": lambda span: span[0] != 0 or span[1] != 0,
-        "string_from_time": lambda span: strings.from_time(*span),
-        "string_from_date": _nowhere("a date as STRING"),
-        "string_to_time": _nowhere("a STRING as a time"),
+        "string_from_time": lambda span: spellings.from_time(*span),
+        "string_from_date": lambda span, kind: spellings.from_date(kind, *span),
+        "string_to_time": lambda text, _: times.Span(int(spellings.c_to_real(text)), 0),
     }
 
 

@@ -76,7 +76,7 @@ class Shapes:
         if isinstance(kind, Enum):
             return next(iter(kind.values.values())).number
         if isinstance(kind, Subrange):
-            return min(max(kind.first, 0), kind.last) if kind.first > 0 or kind.last < 0 else 0
+            return kind.first
         return self.zero(kind)
 
     def zero(self, kind: Type) -> Any:

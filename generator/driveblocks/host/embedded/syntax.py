@@ -31,6 +31,14 @@ class Pen:
         left = self.column - 1
         self.here = {"lineno": self.line, "end_lineno": self.line, "col_offset": left, "end_col_offset": left + 1}
 
+    def mark(self) -> tuple[dict[str, Any], int, int]:
+        """Where the pen is, for `back`."""
+        return self.here, self.line, self.column
+
+    def back(self, mark: tuple[dict[str, Any], int, int]) -> None:
+        """Return to a marked place."""
+        self.here, self.line, self.column = mark
+
     # ------------------------------------------------------------ expressions
 
     def name(self, name: str) -> ast.Name:

@@ -182,6 +182,7 @@ def _sound(duration: int, span: Span) -> int:
 # ------------------------------------------------------------ literals, dates
 
 
+_UNITS = {"d": DAY, "h": 3_600 * SECOND, "m": 60 * SECOND, "s": SECOND, "ms": SECOND // 1_000}
 _PARTS = re.compile(r"([\d.]+)(ms|d|h|m|s)")
 
 
@@ -202,6 +203,16 @@ def c_literal(text: str, duration: int) -> Span:
     total = _extended(total + parts.get("s", none))
     total = _extended(total + _extended(parts.get("ms", none) / 1000))
     return _split(-total if spelling.startswith("-") else total)
+
+
+def parsed(text: str) -> int:
+    """The nanoseconds of a TIME literal such as T#-1h30m. FaultError for anything else."""
+    prefix, mark, spelling = text.replace("_", "").upper().partition("#")
+    parts = _PARTS.findall(spelling.lower())
+    sign, digits = (-1, spelling[1:]) if spelling.startswith("-") else (1, spelling)
+    if prefix not in ("T", "TIME") or not mark or "".join(a + b for a, b in parts) != digits.lower() or not parts:
+        raise FaultError(f"{text!r} is no literal of TIME")
+    return sign * round(sum(Fraction(number) * _UNITS[unit] for number, unit in parts))
 
 
 def c_time_of_day_literal(duration: int) -> Span:
