@@ -93,7 +93,8 @@ def checksum(mode: str, body: bytes) -> bytes:
 
 
 def _split_rtu(frame: bytes) -> tuple[bytes, bytes]:
-    if frame[:1] == b":":
+    # 3AH is also unit address 58, but no function code is the character of a digit
+    if frame[:1] == b":" and frame[1:2] in b"0123456789ABCDEF":
         raise FrameError("this is an ASCII frame", "write `mode: ascii`, or the bytes in hexadecimal")
     if len(frame) < 5:
         raise FrameError(

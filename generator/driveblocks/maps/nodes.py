@@ -51,8 +51,9 @@ def parse(text: str, report: Report) -> Node | None:
     if "\t" in text:
         _tabs(text, report)
         return None
-    parser = _LOADER(text)
+    parser = None
     try:
+        parser = _LOADER(text)
         return _document(_Events(parser, text, report))
     except _StopError:
         return None
@@ -63,7 +64,8 @@ def parse(text: str, report: Report) -> Node | None:
         report.add((1, 1), "not YAML: a number in it is out of all bounds", "write plain characters, no \\U escapes")
         return None
     finally:
-        parser.dispose()
+        if parser is not None:
+            parser.dispose()
 
 
 def _tabs(text: str, report: Report) -> None:

@@ -47,7 +47,8 @@ class Report:
         self.problems.append(Problem(self.file, place[0], place[1], wrong, right))
         if len(self.problems) >= MAX_PROBLEMS:
             wrong = f"more than {MAX_PROBLEMS} mistakes, of which the first are shown"
-            self.problems.append(Problem(self.file, place[0], place[1], wrong, "correct these and check again"))
+            line = max(self.problems).line + 1  # so that it stands behind all others
+            self.problems.append(Problem(self.file, line, 1, wrong, "correct these and check again"))
             self.raise_if_any()
 
     def miss(self, place: Place, wrong: str, right: str) -> None:

@@ -1,0 +1,163 @@
+"""The strict YAML: places of nodes, what is refused, and agreement with PyYAML on what is not."""
+
+from typing import Any
+
+import pytest
+import yaml
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from driveblocks.maps import nodes, trap
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import Report
+
+NUMBER_LIKE = r"[-+]?[0-9][0-9_]*(\.[0-9_]*)?([eE][-+]?[0-9]+)?|[0-9:]{1,6}|0[xob]?[0-9a-fA-F_]{1,6}"
+DOCUMENTS = st.recursive(
+    st.text("ab:,#[]{}'\" \n", max_size=8),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text("abc", min_size=1), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@pytest.fixture(params=["c", "python"])
+def parser(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """Both parsers that PyYAML has."""
+    if request.param == "python":
+        monkeypatch.setattr(nodes, "_LOADER", yaml.SafeLoader)
+    return str(request.param)
+
+
+def parsed(text: str) -> Node:
+    report = Report("map.yaml")
+    root = nodes.parse(text, report)
+    assert report.problems == []
+    assert root is not None
+    return root
+
+
+def wrong(text: str) -> list[str]:
+    report = Report("map.yaml")
+    nodes.parse(text, report)
+    return [f"{problem.line}:{problem.column}: {problem.wrong}" for problem in report.problems]
+
+
+def plain(node: Node) -> Any:
+    if isinstance(node, Entries):
+        return {key: plain(value) for key, (_, value) in node.entries.items()}
+    return [plain(item) for item in node.items] if isinstance(node, Items) else node.text
+
+
+def test_every_node_knows_its_place(parser: str) -> None:
+    root = parsed("# head\na: x\nb:\n  - 'y'\n  - {c: [z]}\n")
+    assert isinstance(root, Entries)
+    assert root.at == (2, 1)
+    assert root.entries["a"] == (Scalar("a", True, (2, 1)), Scalar("x", True, (2, 4)))
+    items = root.entries["b"][1]
+    assert isinstance(items, Items)
+    assert items.at == (4, 3)
+    assert items.items[0] == Scalar("y", False, (4, 5))
+    assert items.items[1].at == (5, 5)
+
+
+def test_columns_count_characters_and_not_bytes(parser: str) -> None:
+    root = parsed("a: {zh: 频率给定, b: x}\n")
+    assert isinstance(root, Entries)
+    inner = root.entries["a"][1]
+    assert isinstance(inner, Entries)
+    assert inner.entries["b"][1].at == (1, 18)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_line_ends_of_every_system(end: str, parser: str) -> None:
+    root = parsed(f"a: x{end}b: z{end}")
+    assert isinstance(root, Entries)
+    assert root.entries["b"][1].at == (2, 4)
+
+
+def test_texts_over_several_lines(parser: str) -> None:
+    assert plain(parsed("a: >-\n  one\n  two\nb: |-\n  one\n  two\nc: one\n  two\n")) == {
+        "a": "one two",
+        "b": "one\ntwo",
+        "c": "one two",
+    }
+
+
+@pytest.mark.parametrize("text", ["yes", "~", "null", "0x1F", "1e3", "2016-04-18", "<<", "=", "010", "5:4", ".inf"])
+def test_a_trap_in_quotes_is_a_text(text: str, parser: str) -> None:
+    root = parsed(f"a: '{text}'\nb: \"{text}\"\n")
+    assert plain(root) == {"a": text, "b": text}
+
+
+@pytest.mark.parametrize("text", ["yes", "Off", "~", "0x1F", "0b1", "0o7", "1_000", "5:4", "1e3", ".5", "+1", "<<"])
+def test_a_trap_without_quotes_is_refused_and_marked(text: str, parser: str) -> None:
+    report = Report("map.yaml")
+    root = nodes.parse(f"[{text}]", report)
+    assert isinstance(root, Items)
+    assert root.items[0] == Scalar(text, True, (1, 2), refused=True)
+    assert report.problems[0].wrong.startswith(f"`{text}` without quotes is a trap: ")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("0", "1", "-5", "0.1", "-0.5", "10", "3.5", "100000", "true", "false", "nothing", "yes_no", "on/off"),
+        *("0026H", "01H", "8-F", "0106H-0125H", "A2-01..A2-32", "T1", "1.2.3", "9.2 (3)", "00nnH", "12:", "e5"),
+    ],
+)
+def test_what_is_no_trap_passes(text: str) -> None:
+    assert trap.find(text) is None
+
+
+@settings(deadline=None)
+@given(st.from_regex(NUMBER_LIKE, fullmatch=True))
+def test_a_number_that_yaml_reads_otherwise_is_a_trap(text: str) -> None:
+    """Whatever PyYAML's safe loader makes of plain text, it is the same number in decimal, or a trap."""
+    try:
+        read = yaml.safe_load(text)
+    except (yaml.YAMLError, ValueError):
+        return
+    if trap.find(text) is None and not isinstance(read, dict):
+        assert isinstance(read, str) or (isinstance(read, (int, float)) and float(text) == read)
+
+
+@settings(deadline=None, max_examples=50)
+@given(DOCUMENTS)
+def test_what_pyyaml_writes_in_quotes_is_read_back(value: Any) -> None:
+    text = yaml.safe_dump(value, default_style='"', allow_unicode=True)
+    assert plain(parsed(text)) == value
+
+
+@settings(deadline=None)
+@given(st.text(max_size=60))
+def test_no_text_makes_the_parser_fail(text: str) -> None:
+    """Any text ends in nodes or in problems, and both parsers agree on which."""
+    outcomes = []
+    for loader in (nodes._LOADER, yaml.SafeLoader):
+        report = Report("map.yaml")
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(nodes, "_LOADER", loader)
+            outcomes.append(nodes.parse(text.encode("utf-8", "replace").decode(), report) is None)
+        assert outcomes[-1] is False or report.problems
+    assert outcomes[0] == outcomes[1] or "\\" in text or "%" in text
+
+
+def test_depth_has_an_end(parser: str) -> None:
+    fits, deeper = nodes.MAX_DEPTH, nodes.MAX_DEPTH + 1
+    parsed("[" * fits + "]" * fits)
+    assert wrong("[" * (deeper + 1) + "]" * (deeper + 1)) == ["1:18: nested deeper than 16 levels"]
+
+
+def test_number_of_values_has_an_end(parser: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(nodes, "MAX_NODES", 4)
+    parsed("[a, b, c]")
+    assert wrong("[a, b, c, d]") == ["1:11: more than 4 values in one file"]
+
+
+def test_length_of_a_value_has_an_end(parser: str) -> None:
+    parsed("a: " + "x" * nodes.MAX_TEXT)
+    assert wrong("a: " + "x" * (nodes.MAX_TEXT + 1)) == ["1:4: a value of 4001 characters"]
+
+
+def test_all_traps_of_a_file_come_at_once(parser: str) -> None:
+    lines = [line.partition(":")[0] for line in wrong("a: yes\nb: 010\nc: 1e3\na: &x !!str z\n")]
+    assert lines == ["1", "2", "3", "4", "4", "4"]
