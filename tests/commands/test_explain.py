@@ -1,0 +1,184 @@
+"""`driveblocks explain`: status, words, JSON for scripts, standard input, and pages that fit any width."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from rich.cells import cell_len
+from typer.testing import CliRunner, Result
+
+from driveblocks.cli import app
+from driveblocks.maps import catalog
+from driveblocks.maps.load import load
+
+READ = "01 03 20 00 00 01 8F CA"
+REPLY = "01 03 02 01 F4 B8 53"
+FAULTS = "01 03 0C 00 A3 00 18 00 00 00 00 00 42 20 00 8D E2"
+MAPS = {path.stem: load(path) for path in catalog.shipped()}
+
+
+def explain(*words: str, columns: int = 80, stdin: str | bytes | None = None) -> Result:
+    """Run `driveblocks explain` as if in a terminal of some width."""
+    return CliRunner().invoke(app, ["explain", *words], input=stdin, env={"COLUMNS": str(columns)})
+
+
+def squeezed(text: str) -> str:
+    """A text with every run of blanks and line ends as one blank, so that folding does not matter."""
+    return " ".join(text.split())
+
+
+def examples() -> Iterator[tuple[str, ...]]:
+    """Words of the command for every example frame of the shipped maps, and for frames that are wrong."""
+    for stem, drive in MAPS.items():
+        frames = {frame.id: frame for frame in drive.frames}
+        for frame in frames.values():
+            request = ("--request", frames[frame.answers].correct.hex()) if frame.answers else ()
+            yield (frame.correct.hex(), "--drive", stem, *request)
+    for wrong in ("01 03 20 00 00 01 CA 8F", READ + REPLY, "01 03", ":010320000001DC", "01 10 FF FF 00 02 04 00 00"):
+        yield (wrong, "--drive", "jscc")
+    yield (FAULTS, "--drive", "sn300", "--request", "01 03 00 10 00 06 C4 0D")
+    yield (FAULTS,)
+
+
+def test_the_first_example_of_the_readme() -> None:
+    result = explain(REPLY, "--drive", "jscc", "--request", READ)
+    assert result.exit_code == 0
+    shown = squeezed(result.stdout)
+    for words in (
+        "Good RTU reply of unit 1: 1 register read",
+        "frame 01 03 02 01 F4 B8 53",
+        "length 7 bytes",
+        "request 01 03 20 00 00 01 8F CA",
+        "drive JSCC series inverters",
+        "function 03 03H Read registers 读寄存器内容",
+        "byte count 02 2 bytes, 1 register",
+        "CRC B8 53 right",
+        "2000H 01F4H Output frequency 实时输出频率读取 500 = 50.0 Hz",
+    ):
+        assert words in shown
+
+
+def test_a_wrong_frame_is_told_repaired_and_read() -> None:
+    result = explain("01 03 20 00 00 01 CA 8F", "--drive", "jscc")
+    assert result.exit_code == 1
+    shown = squeezed(result.stdout)
+    assert "Wrong RTU frame" in shown
+    assert "wrong the CRC does not fit: the frame has CA 8F, and 8F CA would be right" in shown
+    assert "perhaps the CRC bytes are swapped: the low byte goes first" in shown
+    assert "Read as RTU 01 03 20 00 00 01 8F CA: Request to unit 1: read 1 register from 2000H" in shown
+
+
+def test_glued_frames_are_shown_one_after_the_other() -> None:
+    result = explain(READ + REPLY, "--drive", "jscc")
+    assert result.exit_code == 1
+    parts = re.split(r"Frame \d of 2\n", result.stdout)
+    assert len(parts) == 3
+    assert "half-duplex echo" in parts[0]
+    assert parts[1].startswith("Good RTU request")
+    assert "50.0 Hz" in parts[2]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("01 0G",), "frame:1:5: `G` is no hexadecimal digit; is the digit 6 meant?\n"),
+        (("01 03 244",), "frame:1:7: `244` has 3 digits; a byte is two hexadecimal digits, and decimal 244 is F4\n"),
+        ((REPLY, "--request", "01 0G"), "request:1:5: `G` is no hexadecimal digit; is the digit 6 meant?\n"),
+        ((REPLY, "--request", REPLY), "request:1:1: this is no good request: it reads as a reply; paste the request"),
+        ((REPLY, "--drive", "jscd"), "there is no drive `jscd`; did you mean jscc?"),
+        ((REPLY, "--drive", "nowhere.yaml"), "nowhere.yaml:1:1: "),
+    ],
+)
+def test_unusable_input(words: tuple[str, ...], message: str) -> None:
+    result = explain(*words)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith(message)
+
+
+@pytest.mark.parametrize(
+    ("text", "status"),
+    [
+        (REPLY + "\n", 0),
+        ("00000000  01 03 02 01 f4 b8 53                              |......S|\n00000007\n", 0),
+        (":010320000001DB\r\n", 0),
+        ("\ufeff01 03 02 01 F4 B8 53", 0),
+        ("01 03 02 01 F4 B8 54", 1),
+        ("", 2),
+        (b"\xff\xfe0\x001\x00", 2),
+        ("0" * 100_001, 2),
+    ],
+)
+def test_standard_input(text: str | bytes, status: int) -> None:
+    result = explain("-", stdin=text)
+    assert result.exit_code == status
+    assert result.stderr.startswith("stdin:1:") if status == 2 else result.stderr == ""
+
+
+def test_json_of_a_good_frame() -> None:
+    result = explain(REPLY, "--drive", "jscc", "--request", READ, "--json")
+    assert result.exit_code == 0
+    made = json.loads(result.stdout)
+    assert [made[key] for key in ("drive", "good", "mode", "frame", "request")] == ["jscc", True, "rtu", REPLY, READ]
+    assert made["checksum"] == {"kind": "CRC", "found": "B8 53", "expected": "B8 53", "right": True}
+    assert made["wrong"] == []
+    (reading,) = made["readings"]
+    assert reading["direction"] == "reply"
+    assert [field["name"] for field in reading["fields"]] == ["unit", "function", "byte count", "data", "CRC"]
+    (register,) = reading["registers"]
+    expected = {"address": 0x2000, "name": "Output frequency", "name_zh": "实时输出频率读取", "word": 500}
+    assert expected.items() <= register.items()
+    assert (register["value"], register["unit"]) == (50, "Hz")
+
+
+def test_json_of_a_wrong_frame() -> None:
+    result = explain(READ + REPLY, "--json")
+    assert result.exit_code == 1
+    made = json.loads(result.stdout)
+    assert (made["drive"], made["good"]) == (None, False)
+    assert made["wrong"][0]["what"] == "the request stands before the reply: bytes 1 to 8"
+    assert [one["good"] for one in made["inside"]] == [True, True]
+
+
+def test_json_of_bits() -> None:
+    result = explain(FAULTS, "--drive", "sn300", "--request", "01 03 00 10 00 06 C4 0D", "--json")
+    registers = json.loads(result.stdout)["readings"][0]["registers"]
+    assert registers[5]["parts"] == [
+        {"mark": ".D", "id": "OPR", "name": "Operator disconnected", "name_zh": "操作器拔出", "value": 1}
+    ]
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+@pytest.mark.parametrize("words", list(examples()), ids=lambda words: f"{words[2:3]}{words[0]}"[:40])
+def test_no_line_is_wider_than_the_terminal(words: tuple[str, ...], columns: int) -> None:
+    result = explain(*words, columns=columns)
+    assert result.exit_code in (0, 1), result.output
+    assert max(map(cell_len, result.stdout.splitlines())) <= columns
+    assert "\x1b" not in result.stdout
+    assert not re.search(r"[ \t]$", result.stdout, re.MULTILINE)
+
+
+@pytest.mark.parametrize("words", list(examples()), ids=lambda words: f"{words[2:3]}{words[0]}"[:40])
+def test_folding_loses_no_character(words: tuple[str, ...]) -> None:
+    wide, narrow = (explain(*words, columns=columns).stdout for columns in (1000, 80))
+    assert Counter(re.sub(r"[\s─]", "", wide)) == Counter(re.sub(r"[\s─]", "", narrow))
+
+
+def test_a_map_by_its_path(tmp_path: Path) -> None:
+    copy = tmp_path / "mine.yaml"
+    copy.write_bytes((catalog.folder() / "jscc.yaml").read_bytes())
+    assert "Output frequency" in explain(READ, "--drive", str(copy)).stdout
+
+
+@pytest.mark.parametrize("flags", [[], ["--json"]])
+def test_chinese_under_a_c_locale(flags: list[str]) -> None:
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    command = [sys.executable, "-m", "driveblocks.cli", "explain", READ, "--drive", "jscc", *flags]
+    done = subprocess.run(command, capture_output=True, env=environment, check=True)
+    assert "实时输出频率读取" in done.stdout.decode("utf-8")
