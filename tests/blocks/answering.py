@@ -31,22 +31,18 @@ def refusal(manner: Manners, asked: Asked, reason: int) -> bytes:
 
 def spoilt(body: bytes, other: bytes, chance: random.Random) -> bytes:
     """A body with a bit, a byte or a length changed, or the tail of another one."""
-    at = chance.randrange(len(body)) if body else 0
-    match chance.randrange(7):
-        case 0:
-            return body[:at] + bytes([body[at] ^ 1 << chance.randrange(8)]) + body[at + 1 :]
-        case 1:
-            return body[:at] + chance.randbytes(1) + body[at + 1 :]
-        case 2:
-            return body[:at]
-        case 3:
-            return body + chance.randbytes(chance.randrange(1, 9))
-        case 4:
-            return body[:at] + other[at:]
-        case 5:
-            return body[: 2 + chance.randrange(2)] + chance.randbytes(chance.randrange(6))
-        case _:
-            return body[:at] + body[at + 1 :]
+    at = chance.randrange(len(body))
+    return chance.choice(
+        (
+            body[:at] + bytes([body[at] ^ 1 << chance.randrange(8)]) + body[at + 1 :],
+            body[:at] + chance.randbytes(1) + body[at + 1 :],
+            body[:at],
+            body + chance.randbytes(chance.randrange(1, 9)),
+            body[:at] + other[at:],
+            body[: 2 + chance.randrange(2)] + chance.randbytes(chance.randrange(6)),
+            body[:at] + body[at + 1 :],
+        )
+    )
 
 
 def questions(unit: int, functions: list[int], most: int, addresses: list[int], chance: random.Random) -> Asked:

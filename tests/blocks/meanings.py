@@ -1,7 +1,7 @@
 """Words through a drive's decoders, scales, fault numbers, standstill and texts, against the reference model."""
 
 import random
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from tests.blocks.library import Blocks, scan
 
@@ -50,7 +50,7 @@ def check_decoder(blocks: Blocks, drive: Drive, row: Register) -> None:
         assert found == wanted, (f"{row.address.first:04X}H", f"{word:04X}H", differing(found, wanted))
 
 
-def differing(found: dict[str, object], wanted: dict[str, bool | int]) -> dict[str, object]:
+def differing(found: Mapping[str, object], wanted: Mapping[str, object]) -> dict[str, object]:
     """What was found where it is not what is wanted."""
     return {name: found[name] for name, value in wanted.items() if found[name] != value}
 

@@ -47,10 +47,10 @@ def test_hexadecimal_digits(engine: Engine) -> None:
     for value, digit in enumerate(b"0123456789ABCDEF"):
         assert blocks.call("MB_HexDigit", {"Number": value}) == digit
     for character in range(256):
-        value = blocks.call("MB_HexValue", {"Character": character})
-        assert isinstance(value, int)
         known = b"0123456789ABCDEF".find(character)
-        assert value == known if known >= 0 else value > 15, character
+        found = blocks.call("MB_HexValue", {"Character": character})
+        assert isinstance(found, int)
+        assert found == known if known >= 0 else found > 15, character
 
 
 @pytest.mark.parametrize("length", LENGTHS)

@@ -55,7 +55,7 @@ def test_wrong_tables_unpack_to_something_that_is_no_such_frame(engine: Engine, 
     assert frame.plc is not None
     registers = [int(text.replace("--", "00"), 16) for text in frame.plc.printed]
     blocks = built(engine)
-    done = blocks.run("MB_UnpackChars16", {"CharCount": len(frame.correct), "Registers": registers})
+    done = blocks.run("MB_UnpackChars16", {"CharCount": len(frame.correct), "Registers": list(registers)})
     chars = bytes(done["Chars"][: len(frame.correct)])  # type: ignore[index, arg-type]
     assert chars != frame.correct
     assert wire.unframe(blocks, chars, ascii_mode=True).result == "CHECKSUM"

@@ -1,4 +1,4 @@
-"""The manuals' example frames through the blocks: every byte against what is printed, every meaning as typed by hand."""
+"""The manuals' example frames through the blocks: bytes as printed, meanings as typed by hand."""
 
 from collections.abc import Iterator
 
@@ -92,5 +92,5 @@ def check_table(blocks: Blocks, frame: Frame) -> None:
     for box in ("Adu", "Chars"):
         packed = blocks.run(f"MB_Pack{box}{frame.plc.bits}", {"CharCount": count, box: frame.correct})
         assert words(packed, "Registers", number(packed, "RegisterCount")) == tuple(registers), (frame.id, box)
-        back = blocks.run(f"MB_Unpack{box}{frame.plc.bits}", {"CharCount": count, "Registers": registers})
+        back = blocks.run(f"MB_Unpack{box}{frame.plc.bits}", {"CharCount": count, "Registers": list(registers)})
         assert octets(back, box, number(back, "Unpacked")) == frame.correct, (frame.id, box)

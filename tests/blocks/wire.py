@@ -30,7 +30,7 @@ def pins(asked: Asked) -> dict[str, Value]:
         "Quantity": asked.quantity,
         "Value": asked.value,
         "SubFunction": asked.sub_function,
-        "Words": list(asked.words)[:125],
+        "Words": [*asked.words[:125]],
     }
 
 
