@@ -192,3 +192,9 @@ def test_any_bytes_are_explained(explain: Explain, data: bytes, prefix: str) -> 
 def test_any_characters_are_explained(explain: Explain, characters: str, prefix: str) -> None:
     made = explain(prefix, f":{characters}00")
     assert made.good or made.all_wrongs
+
+
+def test_of_very_many_frames_the_first_are_explained(explain: Explain) -> None:
+    made = explain("", READ * 1000)
+    assert len(made.inside) == 16
+    assert made.notes == ("984 more frames follow; paste them separately.",)

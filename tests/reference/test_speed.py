@@ -35,6 +35,8 @@ from driveblocks.reference.speed import Encoded, SpeedReference
         ("JSCC", (50.0, 0.0, -10.0), ("NO_SCALE", 0, False)),
         ("JSCC", (50.0, 0.0, nan), ("NO_SCALE", 0, False)),
         ("JSCC", (50.0, 0.0, inf), ("NO_SCALE", 0, False)),
+        ("JSCC", (50.0, 0.0, 1.0e6), ("OK", 65535, True)),
+        ("JSCC", (50.0, 0.0, 2.0e6), ("NO_SCALE", 0, False)),
         ("JSCC", (-1.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
         ("JSCC", (50.0, 40.0, 10.0), ("OK", 400, True)),
         # CHF: percent of the maximum frequency, 0.01 % per count, up to 10000

@@ -15,6 +15,9 @@ from driveblocks.reference.framing import ASCII_CHARS, RTU_BYTES
 from driveblocks.reference.reply import Manners, manners
 from driveblocks.reference.request import Asked
 
+MOST_INSIDE = 16
+"""Frames that are explained one by one when many are glued together."""
+
 
 @dataclass(frozen=True)
 class Explanation:
@@ -155,7 +158,8 @@ class Explainer:
         """One frame with something around it, or several."""
         inside: list[Explanation] = []
         before = (asked, sent)
-        for piece in (one for one in pieces if one.good or wire.mode == "ascii"):
+        frames = [one for one in pieces if one.good or wire.mode == "ascii"]
+        for piece in frames[:MOST_INSIDE]:
             made = self._explained(piece.data, *before)
             if not made.good and (piece.data == before[1] or before[1] != sent):
                 made = self._explained(piece.data, None, None)
@@ -164,7 +168,9 @@ class Explainer:
             inside.append(made)
         echo = any(one.good and one.asked == inside[0].wire.frame for one in inside[1:])
         wrong = _glue(pieces, inside[0].wire.frame if echo else None)
-        return Explanation(wire, (wrong, *_size(wire)), inside=tuple(inside), asked=sent)
+        rest = len(frames) - len(inside)
+        notes = (f"{rest} more frames follow; paste them separately.",) if rest else ()
+        return Explanation(wire, (wrong, *_size(wire)), inside=tuple(inside), asked=sent, notes=notes)
 
     # ------------------------------------------------------------ the manual's examples
 
@@ -229,7 +235,7 @@ def _echo_note(asked: Asked | None, sent: bytes | None, wire: Wire) -> tuple[str
 def _glue(pieces: tuple[scan.Piece, ...], echo: bytes | None) -> Wrong:
     """What the bytes around the good frames are."""
     good = [piece for piece in pieces if piece.good]
-    places = " and ".join(f"{one.start + 1} to {one.start + len(one.data)}" for one in pieces)
+    places = " and ".join(f"{one.start + 1} to {one.start + len(one.data)}" for one in pieces[:MOST_INSIDE])
     if echo is not None and len(good) > 1:
         return Wrong(
             f"the request stands before the reply: bytes 1 to {len(echo)}",
@@ -244,10 +250,14 @@ def _glue(pieces: tuple[scan.Piece, ...], echo: bytes | None) -> Wrong:
         )
     before, behind = pieces[0], pieces[-1]
     if behind.good:
-        return Wrong(f"{_bytes(before)} before the frame: {shown(before.data)}", (_why_extra(before.data),))
+        return Wrong(f"{_bytes(before)} before the frame: {_few(before.data)}", (_why_extra(before.data),))
     if before.good:
-        return Wrong(f"{_bytes(behind)} behind the frame: {shown(behind.data)}", (_why_extra(behind.data),))
+        return Wrong(f"{_bytes(behind)} behind the frame: {_few(behind.data)}", (_why_extra(behind.data),))
     return Wrong(f"bytes before and behind the frame, which is {shown(good[0].data)}", ("noise, or pieces of others",))
+
+
+def _few(data: bytes) -> str:
+    return shown(data[:16]) + " ..." * (len(data) > 16)
 
 
 def _bytes(piece: scan.Piece) -> str:

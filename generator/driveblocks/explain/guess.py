@@ -8,6 +8,9 @@ from driveblocks.explain.wire import DIGITS, Wire, open_, seal
 from driveblocks.reference.checksum import change, crc16, crc_bytes, lrc
 from driveblocks.reference.reply import Manners
 
+LONGEST = 2 * 513
+"""Bytes beyond which nothing is tried: the longest ASCII frame as PLC registers with a character in each."""
+
 
 @dataclass(frozen=True)
 class Guess:
@@ -22,6 +25,8 @@ Tries = Iterator[Guess]
 
 def guesses(wire: Wire, manners: Manners) -> list[Guess]:
     """What comes out, best first: causes that the checksum proves, then those that only the length speaks for."""
+    if len(wire.frame) > LONGEST:
+        return []
     if not wire.aligned:
         return [*_seven_bits(wire, manners), *_lookalikes(wire)]
     proved = _PROVED_RTU if wire.mode == "rtu" else _PROVED_ASCII

@@ -8,7 +8,7 @@ from rich.table import Table
 from rich.text import Text
 
 from driveblocks.explain.explanation import Explanation
-from driveblocks.explain.guess import shown
+from driveblocks.explain.guess import LONGEST, shown
 from driveblocks.explain.meaning import Held, Line
 from driveblocks.explain.reading import Field, Reading, Wrong
 from driveblocks.explain.wire import Wire
@@ -34,10 +34,11 @@ def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
 
 
 def written(wire: Wire) -> str:
-    """A frame as it is written: bytes, or characters with CR and LF by name."""
+    """A frame as it is written: bytes, or characters with CR and LF by name; what is far too long is cut off."""
+    frame, more = wire.frame[:LONGEST], " ..." * (len(wire.frame) > LONGEST)
     if wire.mode == "rtu":
-        return shown(wire.frame)
-    return wire.frame.decode("latin-1").replace("\r", " CR").replace("\n", " LF")
+        return shown(frame) + more
+    return frame.decode("latin-1").replace("\r", " CR").replace("\n", " LF") + more
 
 
 def _verdict(made: Explanation) -> Text:

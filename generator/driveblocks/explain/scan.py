@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from driveblocks.explain import layout
 from driveblocks.explain.wire import mode_of, open_
 from driveblocks.reference.checksum import crc_bytes
+from driveblocks.reference.framing import RTU_BYTES
 from driveblocks.reference.reply import Manners
 
 
@@ -26,7 +27,7 @@ def _rtu(data: bytes, manners: Manners) -> tuple[Piece, ...]:
     found: list[Piece] = []
     at = between = 0
     while at < len(data):
-        size = _size(data[at:], manners)
+        size = _size(data[at : at + RTU_BYTES], manners)
         if size == 0:
             at += 1
             continue

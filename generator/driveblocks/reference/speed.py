@@ -13,6 +13,9 @@ from driveblocks.reference.single import stored
 BEYOND = Fraction(stored(1.0e30))
 """A pin above this size is taken for no number, as infinity is."""
 
+MOST_COUNTS = 1_000_000
+"""Counts per Hz; a word ends at 65535, so more is a mistake, and what it gives, clamped, would be full speed."""
+
 SLACK = Fraction(1, 2**21)
 """What a few roundings to single precision may change, as a part of the count."""
 
@@ -55,7 +58,7 @@ class SpeedReference:
             return Encoded("NEGATIVE")
         if most is None or most < 0 or (self.percent and most == 0):
             return Encoded("NO_SCALE")
-        if self.factor is None and (counts is None or counts <= 0):
+        if self.factor is None and (counts is None or not 0 < counts <= MOST_COUNTS):
             return Encoded("NO_SCALE")
         limited = most > 0 and asked > most
         return self._counted(self._counts(most if limited else asked, most, counts), limited)
