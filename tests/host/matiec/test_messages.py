@@ -39,6 +39,23 @@ def test_syntax_error_has_our_file_and_line(matiec: MatiecEngine) -> None:
     assert [(each.path, each.line) for each in caught.value.messages] == [("bad.st", 5)]
 
 
+def test_text_that_iec2c_gives_up_on_is_refused(matiec: MatiecEngine) -> None:
+    """It names no place then."""
+    with pytest.raises(BuildError, match="too many consecutive syntax errors"):
+        matiec.build([GOOD, block("  X = 1;")])
+
+
+def test_configuration_that_makes_no_sense_has_our_line(matiec: MatiecEngine) -> None:
+    """Found late, while the C is written, and told in other words."""
+    text = (
+        "PROGRAM Once\n  VAR\n    N : INT;\n  END_VAR\n  N := 1;\nEND_PROGRAM\nCONFIGURATION Plant\n"
+        "  RESOURCE Cpu ON PLC\n    PROGRAM P1 : Once;\n  END_RESOURCE\nEND_CONFIGURATION\n"
+    )
+    with pytest.raises(BuildError, match="at least one periodic task") as caught:
+        matiec.build([Source("plant.st", text)])
+    assert (caught.value.messages[0].path, caught.value.messages[0].line) == ("plant.st", 7)
+
+
 def test_c_that_does_not_compile_is_told_apart_and_placed(matiec: MatiecEngine) -> None:
     """matiec cannot pass an array to a function; the C of such a call has several lines."""
     text = "FUNCTION First : BYTE\n  VAR_INPUT\n    F : Frame;\n  END_VAR\n  First := F[0];\nEND_FUNCTION\n"

@@ -16,8 +16,10 @@ _OPTIONS = ("-f", "-p", "-i", "-O", "l")
 # `file:line-column..line-column: error: text`; the second place may name its file, some messages have a line only.
 _MESSAGE = re.compile(
     r"^(?P<path>[^:]+(?::[\\/][^:]+)?):(?P<line>\d+)(?:-(?P<column>\d+)\.\.(?:.*:)?\d+-\d+)?: "
-    r"(?P<kind>error|warning)\s?: (?P<text>.*)$"
+    r"(?P<kind>error|warning)(?: while generating C code)?\s?: (?P<text>.*)$"
 )
+# The one refusal that has no place.
+_LOST = re.compile(r"^Parsing failed because of too many consecutive syntax errors", re.MULTILINE)
 _INTERNAL = re.compile(r"^Internal compiler error.*$", re.MULTILINE)
 # Said without a place: a limit was reached, a file is not readable ...
 _SUMMARY = re.compile(r"^(\d+ error\(s\) found\. Bailing out!|.*\.(c|h|csv)|)$")
@@ -46,6 +48,8 @@ class Translator:
         command = [program, *_OPTIONS, "-I", str(self.installation.library), "-T", ".", listing.NAME]
         outcome = run(command, directory, self.seconds)
         errors, warnings = _messages(outcome.output)
+        if not errors and (lost := _LOST.search(outcome.output)):
+            errors.append(Message(listing.NAME, 1, 0, lost[0]))
         if errors and all(each.path != listing.NAME for each in errors):
             errors.append(Message(listing.NAME, 1, 0, _COLLISION))
         if outcome.status != 0 or errors:
