@@ -26,7 +26,8 @@ RUN = "01 06 10 00 00 01 4C CA"
         (rtu("01 10 10 00 00 01"), rtu("01 10 10 00 00 02 04 00 01 00 00"), "quantity: 0001H answers", "a late reply"),
         (READ, READ, "this is the request itself", "half-duplex echo"),
         (rtu("01 03 30 00 00 01"), READ, "byte count: 48; the request asks", "this is a request, not a reply"),
-        (":01030201F405", READ, "", ""),
+        (":01030201F405", READ, "this is ASCII, and the request was sent in RTU", ""),
+        (":01030201F405", ":010320000001DB", "", ""),
     ],
 )
 def test_jscc(explain: Explain, frame: str, request_frame: str, wrong: str, perhaps: str) -> None:

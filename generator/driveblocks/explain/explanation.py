@@ -74,7 +74,7 @@ class Explainer:
         wire = open_(data)
         pieces = scan.pieces(data, self.manners)
         broken = tuple(Wrong(what, (instead,) if instead else ()) for what, instead in wire.broken)
-        broken = (*broken, *self._mode(wire), *_size(wire))
+        broken = (*broken, *self._mode(wire), *_other_mode(wire, asked), *_size(wire))
         if len(pieces) > 1 and any(piece.good for piece in pieces) and not self._whole(wire):
             return self._zeros_behind(wire, asked, sent) or self._glued(wire, pieces, asked, sent)
         if not wire.right:
@@ -217,6 +217,12 @@ def _nothing_found(wire: Wire) -> tuple[str, ...]:
     if not wire.found:
         return ()
     return ("noise, a wrong bit rate or parity, or a typing error: none of the usual causes comes out",)
+
+
+def _other_mode(wire: Wire, asked: Asked | None) -> tuple[Wrong, ...]:
+    if asked is None or asked.ascii == (wire.mode == "ascii"):
+        return ()
+    return (Wrong(f"this is {wire.mode.upper()}, and the request was sent in {'ASCII' if asked.ascii else 'RTU'}"),)
 
 
 def _size(wire: Wire) -> tuple[Wrong, ...]:

@@ -29,7 +29,8 @@ def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
         yield f"\nNote: {note}"
     for number, one in enumerate(made.inside, 1):
         yield ""
-        yield Text(f"Frame {number} of {len(made.inside)}", style="bold underline")
+        several = len(made.inside) > 1
+        yield Text(f"Frame {number} of {len(made.inside)}" if several else "The frame in it", style="bold underline")
         yield from pages(one, None)
 
 

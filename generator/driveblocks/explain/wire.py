@@ -90,13 +90,15 @@ def _broken(text: bytes, end: bytes, digits: bytes) -> Iterator[tuple[str, str]]
     """What is wrong with the characters of an ASCII frame."""
     if end != b"\r\n":
         yield f"the frame ends with {_end(end)}, not with CR LF (0D 0A)", _why_end(end)
-    for place, byte in enumerate(text[1:], 2):
-        if byte not in DIGITS:
-            yield f"character {place}, `{chr(byte)}`, is no hexadecimal digit", _meant(byte)
+    strange = [(place, byte) for place, byte in enumerate(text[1:], 2) if byte not in DIGITS]
+    for place, byte in strange[:3]:
+        yield f"character {place}, `{chr(byte)}`, is no hexadecimal digit", _meant(byte)
+    if len(strange) > 3:
+        yield f"{len(strange) - 3} more characters are no hexadecimal digits", ""
     if digits.upper() != digits:
         yield "hexadecimal digits are in lower case", "the standard has upper case, and drives may refuse lower case"
-    if len(digits) % 2:
-        yield f"{len(digits)} digits are an odd number", "a character is missing or one too many: each byte has two"
+    if len(text) % 2 == 0:
+        yield f"{len(text) - 1} digits are an odd number", "a character is missing or one too many: each byte has two"
 
 
 def _end(end: bytes) -> str:
