@@ -117,7 +117,7 @@ def check_fault_number(blocks: Blocks, drive: Drive) -> None:
 def codes(known: Iterable[int | None]) -> list[int]:
     """Known codes, their neighbours, and some that nothing has."""
     listed = [code for code in known if code is not None]
-    return sorted({*listed, *(code + 1 for code in listed), 0, 255, 65535})
+    return sorted({*listed, *((code + 1) % 0x10000 for code in listed), 0, 255, 65535})
 
 
 def check_text(blocks: Blocks, function: str, pins: dict[str, int], found: text.Texts | None) -> None:

@@ -8,6 +8,7 @@ from tests.blocks import answering, wire
 from tests.blocks.library import Blocks, built, shipped
 
 from driveblocks.host.engine import Engine
+from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Answer, Manners, manners, parse
 from driveblocks.reference.request import Asked
 
@@ -104,19 +105,25 @@ def check(blocks: Blocks, prefix: str, manner: Manners, asked: Asked, body: byte
     return found.result
 
 
-@DRIVES
-def test_replies_by_chance_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
-    manner, chance, blocks = manners(shipped()[prefix]), random.Random(prefix), built(engine)
-    seen = set()
-    for _ in range(1200):
-        asked = answering.questions(chance.choice([1, 1, 7]), [3, 4, 6, 8, 16], 16, [0, 0x1000, 0x5001], chance)
+def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
+    """Right and wrong replies by chance; answers the names of all results seen."""
+    manner, chance, seen = manners(drive), random.Random(drive.prefix), set()
+    unit, places = drive.serial.unit.min, [0, 0x1000, manner.address or 0]
+    for _ in range(count):
+        asked = answering.questions(chance.choice([unit, unit, unit + 6]), [3, 4, 6, 8, 16], 16, places, chance)
         body = answering.good(manner, asked, chance)
         other = answering.good(manner, replace(asked, function=chance.choice([3, 6, 16])), chance)
         if chance.random() < 0.2:
             body = answering.refusal(manner, asked, chance.randrange(256))
         if chance.random() < 0.7:
             body = answering.spoilt(body, other, chance)
-        seen.add(check(blocks, prefix, manner, asked, body))
+        seen.add(check(blocks, drive.prefix, manner, asked, body))
+    return seen
+
+
+@DRIVES
+def test_replies_by_chance_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
+    seen = check_by_chance(built(engine), shipped()[prefix], 1200)
     assert {"OK", "REFUSED", "SHORT", "LONG", "BYTE_COUNT", "OTHER_FUNCTION", "OTHER_VALUE", "OTHER_ADDRESS"} <= seen
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
-from driveblocks.maps.plan import Plan, plan
+from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, plan
 from driveblocks.render import names
 from driveblocks.render.literal import word
 
@@ -67,11 +67,13 @@ def request(drive: Drive) -> Context:
     allowed: Plan = plan(drive)
     functions = sorted(allowed.functions & {3, 4, 6, 8, 16})
     modes = drive.serial.mode.modes
+    most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     return {
         "drive": identity(drive),
         "functions": functions,
         "reads": bool({3, 4} & set(functions)),
-        "rtu": allowed.rtu,
+        "most": most,
+        "longest": min(most.write, allowed.ascii.write) if modes == ("ascii",) else most.write,
         "ascii": allowed.ascii,
         "sub_functions": allowed.sub_functions,
         "modes": {"rtu": "rtu" in modes, "ascii": "ascii" in modes},
@@ -79,6 +81,14 @@ def request(drive: Drive) -> Context:
         "broadcast": drive.serial.broadcast,
         "example_read": allowed.readable[0].first if allowed.readable else 0,
     }
+
+
+def _without_framing(drive: Drive) -> Words:
+    """Words per frame of a drive without RTU, before the ASCII frame sets its own limit."""
+    limits = drive.limits
+    read = limits.read_words.value if limits.read_words else READ_WORDS
+    write = limits.write_words.value if limits.write_words else WRITE_WORDS
+    return Words(read, min(write, WRITE_WORDS))
 
 
 def reply(drive: Drive) -> Context:
