@@ -453,12 +453,18 @@ def _sub_function(document: Document, path: Path, _: str) -> bool:
 
 
 def _equals(document: Document, path: Path, new: str) -> bool:
-    """A number that its bits cannot hold, or that the register does not list."""
+    """A number that its bits cannot hold, or that the register does not list, or that it calls turning."""
     condition = document.at(path[:-1])
     row = document.rows[number(condition["register"])].entry
     width = len(bits(condition["bit"])) if "bit" in condition else 16
-    listed = {number(value["value"]) for value in row.get("values", [])} if "bit" not in condition else set()
-    return not 0 <= number(new) < 1 << width or (bool(listed) and number(new) not in listed)
+    named = {number(value["value"]): value["zh"] for value in row.get("values", [])} if "bit" not in condition else {}
+    turning = "standstill" in path and any(word in named.get(number(new), "") for word in ("运行", "故障"))
+    return (
+        not 0 <= number(new) < 1 << width
+        or (bool(named) and number(new) not in named)
+        or turning
+        or ("standstill" in path and "bit" in condition and width == 1)
+    )
 
 
 _MEANS = ("unit", "function", "address", "words", "byte_count", "values[]", "sub_function", "data", "error")

@@ -14,10 +14,14 @@ from driveblocks.maps.rules import (
     record,
     register,
     setting,
+    standstill,
     vector,
 )
 
-_PARTS = (register, name, parameter, area, line, setting, command, operation, condition, fault, vector, record)
+_PARTS = (
+    *(register, name, parameter, area, line, setting),
+    *(command, operation, standstill, condition, fault, vector, record),
+)
 
 
 def check(drive: Drive, report: Report) -> None:

@@ -1,20 +1,15 @@
-"""Rules on the speed reference and on what proves standstill."""
+"""Rules on how the speed reference is given."""
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Condition, Drive, Operation, Reference
+from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.parameter import of_form
 
-_SPEED = ("frequency", "speed", "频率", "转速", "速度")
-_WANTED = ("set ", "setting", "reference", "command", "target", "设定", "给定", "指令", "目标")
-"""Words for a frequency that is asked for: it may be 0 while the motor turns."""
-
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that reference or standstill break."""
+    """Note every rule that the reference breaks."""
     _reference(drive, drive.operation.reference, report)
-    _standstill(drive, drive.operation, report)
 
 
 def _reference(drive: Drive, reference: Reference, report: Report) -> None:
@@ -49,20 +44,3 @@ def _maximum(drive: Drive, reference: Reference, report: Report) -> None:
     if reference.maximum not in ids:
         wrong = f"there is no parameter `{reference.maximum}`"
         report.miss(reference.place("maximum"), wrong, "name the id of a register or setting")
-
-
-def _standstill(drive: Drive, operation: Operation, report: Report) -> None:
-    proof = operation.standstill
-    if len({condition.register for condition in proof.all}) < 2:
-        wrong = "one register alone does not prove standstill"
-        report.miss(proof.place("all"), wrong, "ask for the status and for an output frequency of 0")
-    if not any(_says_frequency_is_0(drive, condition) for condition in proof.all):
-        wrong = "no condition says that an output frequency or speed is 0"
-        report.miss(proof.place("all"), wrong, "add {register: its address, equals: 0}")
-
-
-def _says_frequency_is_0(drive: Drive, condition: Condition) -> bool:
-    row = drive.register_at(condition.register)
-    words = f"{row.name or ''} {row.text_zh or ''}".lower() if row is not None else ""
-    is_speed = any(word in words for word in _SPEED) and not any(word in words for word in _WANTED)
-    return condition.bit is None and condition.equals == 0 and is_speed
