@@ -3,7 +3,7 @@
 What the generator never makes, because C leaves it undefined and compilers differ, or the processor stops there: a
 divisor that can be zero; a signed dividend over -1; a literal number of places of 32 or more in a shift; a conversion
 to an integer of a REAL that came from an integer and does not fit; a position before the first character of a string;
-the text of NaN.
+the text of NaN; BCD of more than sixteen digits.
 And what matiec refuses: an operation of literals alone, a sign before a sign. Everything else goes: overflows, shifts
 by a variable beyond the width or below zero, conversions of any other REAL, NaN.
 """

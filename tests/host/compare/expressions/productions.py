@@ -228,7 +228,11 @@ def _from_bcd(g: Grammar, kind: str, depth: int) -> Term:
 
 def _to_bcd(g: Grammar, kind: str, depth: int) -> Term:
     source = g.draws.one_of(list(UNSIGNED))
-    return call(kind, "bcd", f"{source}_TO_BCD_{kind}", g.anchored(source, depth))
+    term = g.anchored(source, depth)
+    if source == "ULINT":  # a digit beyond the sixteenth is shifted by 64 places or more, which C does not define
+        ends = [atom(source, "literal", text) for text in ("0", "9999999999999999")]
+        term = call(source, "limit", "LIMIT", ends[0], term, ends[1])
+    return call(kind, "bcd", f"{source}_TO_BCD_{kind}", term)
 
 
 # ------------------------------------------------------------ TIME and STRING
