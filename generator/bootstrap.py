@@ -19,11 +19,9 @@ BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 
 DEMO = (
     ("check the vendor maps", "driveblocks", "check"),
-    ("list the drives", "driveblocks", "list"),
-    ("show one register of each drive", "driveblocks", "show", "sn300g5", "0010H"),
-    ("", "driveblocks", "show", "jscc", "2000H"),
-    ("", "driveblocks", "show", "chf", "1001H"),
-    ("look for ST compilers", "driveblocks", "doctor"),
+    ("build their function blocks", "driveblocks", "build"),
+    ("test the blocks against the manuals", "driveblocks", "test"),
+    ("look for other ST compilers", "driveblocks", "doctor"),
 )
 TEST = (
     ("lint", "ruff", "check", "."),
