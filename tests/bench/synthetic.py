@@ -91,13 +91,17 @@ def _commands() -> str:
 
 def _status() -> str:
     words = (
-        f"      - address: {0x10 + word:04X}H\n        name: Status word {word}\n        zh: 状态{word}\n"
-        + "        bits:\n"
-        + "".join(f"          - {{bit: {bit:X}, name: Signal {word} {bit}, zh: 信号{bit}}}\n" for bit in range(12))
-        + "          - {bit: C-F, unused: true}\n"
+        f"      - address: {0x10 + word:04X}H\n        name: Status word {word}\n        zh: 状态{word}\n        bits:\n"
         for word in range(STATUS_WORDS)
     )
-    return _section("status", "r") + "".join(words)
+    bits = ("".join(_bit(word, bit) for bit in range(12)) for word in range(STATUS_WORDS))
+    hole = "          - {bit: C-F, unused: true}\n"
+    return _section("status", "r") + "".join(word + named + hole for word, named in zip(words, bits, strict=True))
+
+
+def _bit(word: int, bit: int) -> str:
+    name, zh = ("Running", "运行中") if word == bit == 0 else (f"Signal {word} {bit}", f"信号{bit}")
+    return f"          - {{bit: {bit:X}, name: {name}, zh: {zh}}}\n"
 
 
 def _monitors(number: int) -> Iterator[str]:
