@@ -91,7 +91,8 @@ def _commands() -> str:
 
 def _status() -> str:
     words = (
-        f"      - address: {0x10 + word:04X}H\n        name: Status word {word}\n        zh: 状态{word}\n        bits:\n"
+        f"      - address: {0x10 + word:04X}H\n        name: Status word {word}\n        zh: 状态{word}\n"
+        "        bits:\n"
         for word in range(STATUS_WORDS)
     )
     bits = ("".join(_bit(word, bit) for bit in range(12)) for word in range(STATUS_WORDS))
