@@ -1,0 +1,40 @@
+"""Every program of the accept/reject corpus that the checker passes builds, runs, and shows its state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+
+import pytest
+from tests.host.accept.programs import load_programs
+from tests.host.embedded.snippets import MODELS
+
+from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
+from driveblocks.host.engine import BuildError, Overflow, ScanError, Source
+
+
+def accepted(model: Overflow) -> Iterator[EmbeddedLibrary]:
+    """The libraries of all programs that build."""
+    for name, text in load_programs().items():
+        with suppress(BuildError):
+            yield EmbeddedEngine(model).build([Source(name, text)])
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_nothing_but_scan_errors(model: Overflow) -> None:
+    """No construct that is let through makes the engine itself stumble."""
+    count = 0
+    for library in accepted(model):
+        count += 1
+        for block in library.blocks():
+            instance = library.instance(block)
+            with suppress(ScanError):
+                for scan in range(3):
+                    instance.scan(scan * 10_000_000)
+            instance.state()
+        for name in library.compiler.checked.configurations:
+            running = library.configuration(name)
+            with suppress(ScanError):
+                running.run(3)
+            running.state()
+    assert count > 300
