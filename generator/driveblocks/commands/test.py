@@ -91,7 +91,8 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         state = "runs" if each in chosen else "does not run" if each.engine is None else "was not asked for"
         typer.echo(f"engine {each.name}: {state}, {each.note}")
     names = [each.name for each in chosen]
-    made = table("drive", "program", "checks", *names, numbers=("checks", *names))
+    heads = [name.removeprefix("matiec-") for name in names]
+    made = table("drive", "program", "checks", *heads, numbers=("checks", *heads))
     for unit, program, results in _rows(run):
         most = max(len(result.outcomes) for result in results)
         made.add_row(unit, program, str(most), *(_cell(name, results) for name in names))

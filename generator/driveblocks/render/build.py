@@ -1,4 +1,4 @@
-"""Build the library: maps -> all files in memory -> one folder, exchanged as a whole; or compare with what is there."""
+"""Build the library and its tests: maps -> all files in memory -> folders, exchanged as a whole; or compare."""
 
 import shutil
 from collections.abc import Iterable
@@ -12,8 +12,11 @@ from driveblocks.render import library
 from driveblocks.render.overview import overview
 from driveblocks.render.text import Language
 from driveblocks.render.vet import vet
+from driveblocks.testing import programs
 
 PLATFORM = "iec61131"
+TREES = (PLATFORM, "tests")
+"""Folders that the generator owns: what it does not write there is left over."""
 
 
 @dataclass(frozen=True)
@@ -66,13 +69,15 @@ def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     texts = {f"{PLATFORM}/{file.path}": file.text for file in made}
-    order = "".join(f"{file.path}\n" for file in made)
-    return {**texts, f"{PLATFORM}/order.txt": order, "README.md": overview(made, [source.drive for source in sources])}
+    texts[f"{PLATFORM}/order.txt"] = "".join(f"{file.path}\n" for file in made)
+    texts["README.md"] = overview(made, [source.drive for source in sources])
+    return texts | programs(sources, languages)
 
 
 def stale(folder: Path, wanted: dict[str, str]) -> list[str]:
     """Files that differ, are missing or are left over, as paths below the output folder."""
-    there = {str(path.relative_to(folder)) for path in (folder / PLATFORM).rglob("*") if path.is_file()}
+    found = (path for tree in TREES for path in (folder / tree).rglob("*") if path.is_file())
+    there = {path.relative_to(folder).as_posix() for path in found}
     wrong = {name for name, text in wanted.items() if _text(folder / name) != text}
     return sorted(wrong | (there - set(wanted)))
 
@@ -82,19 +87,33 @@ def _text(path: Path) -> str | None:
 
 
 def write(folder: Path, wanted: dict[str, str]) -> None:
-    """Write all files. The platform's folder is exchanged as a whole, so that a failure leaves the old one. OSError."""
-    new, old = folder / f".{PLATFORM}.new", folder / f".{PLATFORM}.old"
+    """Write all files. Folders are exchanged as a whole, so that a failure leaves the old ones. Raises OSError."""
+    new, old = folder / ".driveblocks.new", folder / ".driveblocks.old"
     for path in (new, old):
         shutil.rmtree(path, ignore_errors=True)
+        path.mkdir(parents=True)
     for name, text in wanted.items():
         path = new / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8", newline="\n")
-    if (folder / PLATFORM).exists():
-        (folder / PLATFORM).rename(old)
-    (new / PLATFORM).rename(folder / PLATFORM)
-    for name in wanted:
-        if not name.startswith(f"{PLATFORM}/"):
-            (new / name).replace(folder / name)
+    _exchange(folder, new, old)
     for path in (new, old):
         shutil.rmtree(path, ignore_errors=True)
+
+
+def _exchange(folder: Path, new: Path, old: Path) -> None:
+    """Put what is in `new` into the folder, all of it or nothing; what it replaces goes to `old`. Raises OSError."""
+    done: list[str] = []
+    try:
+        for name in sorted(path.name for path in new.iterdir()):
+            if (folder / name).exists():
+                (folder / name).rename(old / name)
+            done.append(name)
+            (new / name).rename(folder / name)
+    except OSError:
+        for name in done:
+            if (folder / name).exists():
+                (folder / name).rename(new / name)
+            if (old / name).exists():
+                (old / name).rename(folder / name)
+        raise

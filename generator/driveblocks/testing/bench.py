@@ -44,6 +44,12 @@ def fill(box: str, data: bytes) -> list[str]:
     return [f"{box}[{index}] := {byte(octet)};" for index, octet in enumerate(data)]
 
 
+def changed(box: str, usual: bytes, data: bytes) -> list[str]:
+    """Statements that put bytes into Adu or Chars where others stand by now."""
+    filled = fill(box, data)
+    return [filled[index] for index in range(len(data)) if data[index : index + 1] != usual[index : index + 1]]
+
+
 def fill_words(box: str, words: list[int] | tuple[int, ...]) -> list[str]:
     """Statements that put words into Words or Registers."""
     return [f"{box}[{index}] := {word(value)};" for index, value in enumerate(words)]

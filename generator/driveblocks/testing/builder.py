@@ -46,6 +46,7 @@ def scripts() -> Iterator[Script]:
 def _program(subject: str, title: str, section: str, block: str, cases: Iterable[Case]) -> Script:
     program = bench.generic(subject, title, f"{PROTOCOL}, {section}; broadcast by {LINE}, 2.1.")
     bench.declare(program, "Adu", "Request", Build=block)
+    program.defaults += bench.fill("Adu", UNTOUCHED)
     for case in cases:
         _built(program, case)
     return program
@@ -75,7 +76,6 @@ def _built(program: Script, case: Case) -> None:
     data = body(case.asked) if case.result == "OK" else b""
     program.stage(
         f"{case.about}: {WORDS[case.result]}",
-        *bench.fill("Adu", UNTOUCHED),
         f"Build({_pins(case.asked, case.most)});",
         bench.has_result("Build", case.result),
         bench.is_number("Build.Length", len(data), "Length"),
@@ -147,6 +147,7 @@ def _diagnostics() -> Iterator[Case]:
 
 
 def _multiple(program: Script) -> None:
+    program.defaults += bench.fill("Adu", UNTOUCHED)
     words = tuple(0x0102 * (index + 1) & 0xFFFF for index in range(MOST[16]))
     last = bench.is_word("Words[122]", word(words[122]), "last word")
     program.stage("the words that all cases write", *bench.fill_words("Words", words), last)

@@ -1,5 +1,6 @@
 """One test program on one engine: scan until it is done, and note each check as the program reports it."""
 
+import struct
 import time
 from dataclasses import dataclass
 
@@ -28,7 +29,7 @@ def execute(library: Library, program: Program, setting: Setting) -> Result:
     try:
         run.scan(library.instance(program.name))
     except (EngineError, KeyError, ValueError) as error:
-        run.give_up(f"cannot be run: {error}")
+        run.give_up(f"cannot be run: {error.args[0] if error.args else error}")
     seconds = time.perf_counter() - start
     return Result(setting.engine, setting.unit, program.name, tuple(run.outcomes), seconds)
 
@@ -56,15 +57,20 @@ class _Run:
                 return
             trouble = self._once(instance, stage)
             self._note(instance, checks, trouble)
-            if instance["Stage"] != stage + 1:
-                instance["Stage"] = stage + 1
-                instance["Report.Checks"] = len(self.outcomes)
+            self._go_on(instance, stage + 1)
         self._once(instance, self.program.stages)
         if instance["Done"] is not True:
             scans = self.program.stages + 1
             self.outcomes.append(
                 Outcome("ends", FAILED, f"the program is not Done after {scans} scans", path=self.path)
             )
+
+    def _go_on(self, instance: Instance, stage: int) -> None:
+        """Let the program stand where it would after a good scan: a bad one may have left it behind."""
+        if instance["Stage"] != stage:
+            instance["Stage"] = stage
+        if instance["Report.Checks"] != len(self.outcomes):
+            instance["Report.Checks"] = len(self.outcomes)
 
     def _once(self, instance: Instance, stage: int) -> str:
         """Scan once; what went wrong, or nothing."""
@@ -142,10 +148,22 @@ def _text(data: bytes) -> str:
     return data.hex(" ").upper()
 
 
+def _real(value: float) -> str:
+    """A REAL with as few digits as tell it from its neighbours."""
+    texts = (f"{value:.{digits}g}" for digits in range(6, 10))
+    return next((text for text in texts if _single(float(text)) == value), f"{value:.9g}")
+
+
+def _single(value: float) -> float:
+    """The nearest REAL."""
+    found: float = struct.unpack("f", struct.pack("f", value))[0]
+    return found
+
+
 def printed(check: Check, value: Value) -> str:
     """A value as the check's kind is read: 16#01F4, 500, TRUE, 01 F4, 50.0."""
     if isinstance(value, float):
-        return f"{value:.9g}"
+        return _real(value)
     number = _number(value)
     if check.probe.block == "Word":
         return f"16#{number:04X}"

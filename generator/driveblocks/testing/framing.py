@@ -42,11 +42,23 @@ def _open() -> Script:
     program = bench.generic("RtuOpen", "RTU framing, incoming", f"{LINE}, 2.5.1.")
     bench.declare(program, "Adu", Open="MB_RtuOpen")
     frame = rtu_seal(BODY).data
-    for words, data, length in _received(frame, 256):
-        _opened(program, "Open", words, data, length)
+    program.defaults += bench.fill("Adu", _padded(frame))
     swapped = frame[:-2] + frame[:-3:-1]
-    _opened(program, "Open", "the two bytes of the CRC the other way round", swapped, len(swapped))
+    for words, data, length in (*_received(frame, 256), ("the bytes of the CRC the other way round", swapped, 8)):
+        found = rtu_open(data[:length].ljust(length, b"\x00"))
+        program.stage(
+            f"{words}: {WORDS[found.result]}",
+            *bench.changed("Adu", _padded(frame), data[:length]),
+            f"Open(AduLength := {length}, Adu := Adu);",
+            bench.has_result("Open", found.result),
+            bench.is_number("Open.Length", len(found.data), "bytes without checksum"),
+        )
     return program
+
+
+def _padded(frame: bytes) -> bytes:
+    """A frame with four more bytes behind it, which are there but were not sent."""
+    return frame + b"\x00" * 4
 
 
 def _received(frame: bytes, most: int) -> Iterator[tuple[str, bytes, int]]:
@@ -58,21 +70,6 @@ def _received(frame: bytes, most: int) -> Iterator[tuple[str, bytes, int]]:
         for bit in range(8):
             changed = frame[:index] + bytes([octet ^ 1 << bit]) + frame[index + 1 :]
             yield f"bit {bit} of byte {index} changed", changed, len(changed)
-
-
-def _opened(program: Script, block: str, words: str, data: bytes, length: int) -> None:
-    """Hand over the first `length` bytes of data, with zeros behind them."""
-    box, count, opener = ("Adu", "AduLength", rtu_open) if block == "Open" else ("Chars", "CharCount", ascii_decode)
-    found = opener(data[:length].ljust(length, b"\x00"))
-    pins = f"{count} := {length}, {box} := {box}" + (", Adu := Adu" if box == "Chars" else "")
-    program.stage(
-        f"{words}: {WORDS[found.result]}",
-        *bench.fill(box, data[:length] + b"\x00" * 4),
-        f"{block}({pins});",
-        bench.has_result(block, found.result),
-        bench.is_number(f"{block}.Length", len(found.data), "bytes without checksum"),
-        *(bench.same_bytes("Adu", found.data) if box == "Chars" else ()),
-    )
 
 
 def _encode() -> Script:
@@ -98,10 +95,18 @@ def _decode() -> Script:
     program = bench.generic("AsciiDecode", "ASCII framing, incoming", f"{LINE}, 2.5.2.")
     bench.declare(program, "Adu", "Chars", Decode="MB_AsciiDecode")
     frame = ascii_encode(BODY).data
-    for words, data, length in _received(frame, 513):
-        _opened(program, "Decode", words, data, length)
-    for words, data in _garbled(frame):
-        _opened(program, "Decode", words, data, len(data))
+    program.defaults += bench.fill("Chars", _padded(frame))
+    garbled = ((words, data, len(data)) for words, data in _garbled(frame))
+    for words, data, length in (*_received(frame, 513), *garbled):
+        found = ascii_decode(data[:length].ljust(length, b"\x00"))
+        program.stage(
+            f"{words}: {WORDS[found.result]}",
+            *bench.changed("Chars", _padded(frame), data[:length]),
+            f"Decode(CharCount := {length}, Chars := Chars, Adu := Adu);",
+            bench.has_result("Decode", found.result),
+            bench.is_number("Decode.Length", len(found.data), "bytes without checksum"),
+            *bench.same_bytes("Adu", found.data),
+        )
     return program
 
 

@@ -124,12 +124,8 @@ def _padded(right: bytes) -> bytes:
 def _row(table: Table, subject: Subject, base: Asked, case: Case) -> None:
     found = parse(subject.manners, case.asked, case.data)
     usual = _padded(answer(base))
-    shown = case.data[: len(usual) + 8]
-    changed = [
-        statement
-        for index, statement in enumerate(bench.fill("Adu", shown))
-        if shown[index : index + 1] != usual[index : index + 1]
-    ]
+    assert not any(case.data[len(usual) :])  # noqa: S101  (nothing but zeros is behind it, in any case)
+    changed = bench.changed("Adu", usual, case.data[: len(usual)])
     words = (*found.words, *STALE[len(found.words) :])
     asked_ = {variable: getattr(case.asked, name) for name, (variable, _, _) in _REQUEST.items()}
     wanted = {

@@ -76,6 +76,15 @@ class Program:
         return f"{self.folder}/{self.name}.st"
 
 
+@dataclass(frozen=True)
+class Suite:
+    """The programs of one drive, or of the shared blocks; `vectors` is how many example frames they are made from."""
+
+    name: str
+    programs: tuple[Program, ...]
+    vectors: int
+
+
 @dataclass
 class Script:
     """Collects the stages of a program.

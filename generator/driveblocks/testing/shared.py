@@ -23,8 +23,8 @@ def _replies() -> Iterator[Script]:
     standard = reply.Subject(f"Parse(Length := Length, {rest}", Manners(), (5, 6))
     pins = "ExceptionAdd := 0, ErrorFunction := 6, ErrorAddress := WORD#16#5001, TwoByteCount := TRUE"
     other = reply.Subject(f"Parse(Length := Length, {pins}, {rest}", Manners(None, 6, 0x5001, True), (8, 33))
-    for kind, subject in (("Standard", standard), ("Other", other)):
-        for function in (3, 4, 6, 8, 16):
+    for kind, subject, functions in (("Standard", standard, (3, 4, 6, 8, 16)), ("Other", other, (3, 6))):
+        for function in functions:
             title = f"replies to function {function:02X}H, {kind.lower()} form of refusal"
             program = bench.generic(f"{kind}{function:02X}H", title, f"{PROTOCOL}, 6.3 to 6.12 and 7.")
             bench.declare(program, "Adu", "Words", "Request", Parse="MB_ParseReply")

@@ -1,17 +1,19 @@
 """All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from driveblocks.maps.model import Drive
-from driveblocks.testing import command, harness, proof, register, reply, request, shared, speed, text, vector
+from driveblocks.testing import command, harness, page, proof, register, reply, request, shared, speed, text, vector
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.script import Program, Script
+from driveblocks.testing.script import Program, Script, Suite
 
 ROOT = "tests/iec61131/"
 """Where the programs are shipped, below the folder of all blocks."""
+
+PAGE = "tests/README.md"
+"""The page that lists them."""
 
 
 class Mapped(Protocol):
@@ -24,15 +26,6 @@ class Mapped(Protocol):
     @property
     def drive(self) -> Drive:
         """What it says."""
-
-
-@dataclass(frozen=True)
-class Suite:
-    """The programs of one drive, or of the shared blocks; `vectors` is how many example frames they are made from."""
-
-    name: str
-    programs: tuple[Program, ...]
-    vectors: int
 
 
 def shared_suite(languages: Sequence[text.Language]) -> Suite:
@@ -63,7 +56,8 @@ def suites(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> lis
 
 def programs(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> dict[str, str]:
     """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
-    made = [program for suite in suites(sources, languages) for program in suite.programs]
-    texts = harness.texts() | {program.path: program.text for program in made}
+    made = suites(sources, languages)
+    texts = harness.texts() | {program.path: program.text for suite in made for program in suite.programs}
     order = "".join(f"{path}\n" for path in texts)
-    return {ROOT + path: text for path, text in (texts | {"order.txt": order}).items()}
+    files = {ROOT + path: content for path, content in (texts | {"order.txt": order}).items()}
+    return files | {PAGE: page.page(made)}

@@ -9,7 +9,8 @@ from driveblocks.render.build import PLATFORM
 from driveblocks.render.build import Source as Map
 from driveblocks.render.text import Language
 from driveblocks.testing import harness
-from driveblocks.testing.suite import ROOT, Suite, drive_suite, shared_suite
+from driveblocks.testing.script import Suite
+from driveblocks.testing.suite import ROOT, drive_suite, shared_suite
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,37 @@
+"""`blocks/tests/README.md`: how to run the test programs on a controller, and what each of them checks."""
+
+from collections.abc import Sequence
+
+from driveblocks.testing.harness import PER_SCAN
+from driveblocks.testing.script import MOST_STAGES, Suite
+
+_HEAD = f"""# The test programs
+
+Everything in this folder is written by `driveblocks build` from the vendor maps; nothing in the library needs it.
+`driveblocks test` runs these programs on your computer. They are plain Structured Text, so a controller can run them
+too: on the bench, without a drive, to see that its compiler makes of the blocks what they should be.
+
+1. Import the library in the order of `../iec61131/order.txt`, then the files named in `iec61131/order.txt`: those of
+   `harness`, those of `modbus`, and those of your drive. A controller short of memory takes one program at a time.
+2. Call a program from a cyclic task. Each scan does one case, at most {PER_SCAN} checks; a program has at most
+   {MOST_STAGES} cases.
+3. When `Done` is TRUE, `Failures` must be 0 and `Checks` the number in the table below.
+4. Otherwise `FirstFailed` is the number of the first check that failed. The comments of the program carry these
+   numbers, with what is checked and where it stands in the manual; `Expected` and `Actual` are the two values.
+
+What the checks expect comes from the example frames of the manuals and from a model of the blocks that shares no code
+with what writes them.
+"""
+
+
+def page(suites: Sequence[Suite]) -> str:
+    """The page's text."""
+    return _HEAD + "".join(_table(suite) for suite in suites)
+
+
+def _table(suite: Suite) -> str:
+    total = sum(len(program.checks) for program in suite.programs)
+    lines = [f"\n## {suite.name}: {total} checks\n", "| program | checks | what it checks |", "|---|---:|---|"]
+    for program in suite.programs:
+        lines.append(f"| [`{program.name}`](iec61131/{program.path}) | {len(program.checks)} | {program.title} |")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,156 @@
+"""`driveblocks test`: what is printed and written, and the exit status."""
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from driveblocks.cli import app
+from driveblocks.host import discovery
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Source
+from driveblocks.render import library
+
+EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
+
+
+@pytest.fixture
+def my_drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A user's map in the folder where the user stands."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my_drive.yaml").write_text(EXAMPLE.read_text(encoding="utf-8"), encoding="utf-8")
+    return "my_drive.yaml"
+
+
+def invoke(*arguments: str) -> Result:
+    return CliRunner().invoke(app, ["test", *arguments])
+
+
+def test_a_good_map_passes_and_nothing_is_written_but_the_xml(my_drive: str) -> None:
+    result = invoke(my_drive)
+    assert result.exit_code == 0, result.output
+    assert sorted(path.name for path in Path.cwd().iterdir()) == ["junit.xml", "my_drive.yaml"]
+    last = result.stdout.splitlines()[-1]
+    match = re.fullmatch(r"(\d+) checks of 1 drive on embedded: all passed in [\d.]+ s; junit\.xml", last)
+    assert match
+    root = ElementTree.parse("junit.xml").getroot()  # noqa: S314  (our own file)
+    assert (root.attrib["tests"], root.attrib["failures"], root.attrib["errors"]) == (match[1], "0", "0")
+    assert "my_drive.EX100_TestFrames" in {case.attrib["classname"] for case in root.iter("testcase")}
+
+
+def test_the_table_has_a_row_per_program_and_a_column_per_engine(my_drive: str) -> None:
+    lines = invoke(my_drive).stdout.splitlines()
+    assert lines[0] == "engine embedded: runs, part of DriveBlocks"
+    assert [line.split(":")[0] for line in lines[1:3]] == ["engine matiec-beremiz", "engine matiec-openplc"]
+    assert lines[3].split() == ["drive", "program", "checks", "embedded"]
+    row = next(line for line in lines if "EX100_TestScales" in line)
+    assert re.fullmatch(r"my_drive +EX100_TestScales +\d+ +[\d.]+ ms", row)
+
+
+def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
+    my_drive: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rendered = library.drive
+
+    def wrong(*arguments: object) -> object:
+        for file in rendered(*arguments):  # type: ignore[arg-type]
+            yield library.File(file.folder, file.name, file.text.replace("/ 10.0", "/ 100.0"))
+
+    monkeypatch.setattr(library, "drive", wrong)
+    result = invoke(my_drive, "--junit", "results.xml")
+    assert result.exit_code == 1
+    place = r"tests/iec61131/my_drive/EX100_TestFrames\.st:\d+: my_drive\.EX100_TestFrames on embedded"
+    assert re.search(
+        rf"^{place}\n  12: read_voltage_reply: .*: 548\.8 V\n  expected 548\.8, found 54\.88$", result.stdout, re.M
+    )
+    assert re.search(r"^my_drive +EX100_TestScales +\d+ +\d+ failed$", result.stdout, re.MULTILINE)
+    assert re.search(r"checks of 1 drive on embedded: \d+ failed in", result.stdout.splitlines()[-1])
+    assert "and " in result.stdout.splitlines()[-2]
+    failures = list(ElementTree.parse("results.xml").iter("failure"))  # noqa: S314  (our own file)
+    assert any(each.text and each.text.endswith("expected: 548.8\nactual: 54.88") for each in failures)
+
+
+def test_a_bad_map_gives_status_2_and_is_told_with_its_place(my_drive: str) -> None:
+    text = Path(my_drive).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")
+    Path("bad.yaml").write_text(text, encoding="utf-8")
+    result = invoke(my_drive, "bad.yaml")
+    assert result.exit_code == 2
+    assert re.search(r"^bad\.yaml:\d+:\d+: ", result.stderr, re.MULTILINE)
+    assert not Path("junit.xml").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["no_such_drive"], "there is no drive `no_such_drive`"),
+        (["missing.yaml"], "missing.yaml"),
+        (["--engine", "codesys"], "there is no engine `codesys`; write one of embedded, matiec, all"),
+    ],
+)
+def test_what_cannot_be_meant_gives_status_2(my_drive: str, arguments: list[str], said: str) -> None:
+    result = invoke(*arguments)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert "Traceback" not in result.output
+
+
+def without_matiec(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine that has nothing but the embedded engine."""
+    found = discovery.survey({"PATH": ""})
+    monkeypatch.setattr(discovery, "survey", lambda: discovery.Survey(found.embedded, None, found.cache))
+
+
+def test_an_engine_that_is_not_there_gives_status_2_and_the_reason(
+    my_drive: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_matiec(monkeypatch)
+    result = invoke(my_drive, "--engine", "matiec")
+    assert result.exit_code == 2
+    assert "engine matiec-beremiz cannot be used: no iec2c found" in result.stderr
+    assert "engine matiec-openplc cannot be used: no iec2c found" in result.stderr
+
+
+def test_all_engines_are_those_that_are_there(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    without_matiec(monkeypatch)
+    result = invoke(my_drive, "--engine", "all")
+    assert result.exit_code == 0
+    assert result.stdout.splitlines()[1].startswith("engine matiec-beremiz: does not run, no iec2c found")
+
+
+def test_several_engines_stand_side_by_side(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    class Second(EmbeddedEngine):
+        name = "matiec-openplc"
+
+    found = discovery.survey({"PATH": ""})
+
+    class Both(discovery.Survey):
+        def candidates(self) -> list[discovery.Candidate]:
+            return [found.embedded, discovery.Candidate("matiec-openplc", Second(), "here")]
+
+    monkeypatch.setattr(discovery, "survey", lambda: Both(found.embedded, None, found.cache))
+    result = invoke(my_drive, "--engine", "all")
+    assert result.exit_code == 0
+    assert "drive     program" in result.stdout
+    assert re.search(r"^drive +program +checks +embedded +openplc$", result.stdout, re.MULTILINE)
+    assert "on embedded, matiec-openplc: all passed" in result.stdout
+    suites = [each.attrib["name"] for each in ElementTree.parse("junit.xml").iter("testsuite")]  # noqa: S314
+    assert {name.rpartition(" on ")[2] for name in suites} == {"embedded", "matiec-openplc"}
+
+
+def test_an_xml_that_cannot_be_written_gives_status_2(my_drive: str) -> None:
+    result = invoke(my_drive, "--junit", "no/such/folder/junit.xml")
+    assert result.exit_code == 2
+    assert "no/such/folder/junit.xml: cannot be written" in result.stderr
+
+
+def test_loops_beyond_the_engines_limit_fail_and_the_run_goes_on(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def slow(engine: object, sources: list[Source]) -> object:
+        return build(EmbeddedEngine(loop_limit=100), sources)
+
+    build = EmbeddedEngine.build
+    monkeypatch.setattr(EmbeddedEngine, "build", slow)
+    result = invoke(my_drive, "--time-limit", "0.1")
+    assert result.exit_code == 1
+    assert "loop" in result.stdout

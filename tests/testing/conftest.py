@@ -1,0 +1,63 @@
+"""The units of the example map, and ways to change a library and to run some of its programs."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Source
+from driveblocks.render import build
+from driveblocks.render.text import languages
+from driveblocks.testing import runner
+from driveblocks.testing.outcome import Run
+from driveblocks.testing.unit import Unit, units
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "tests/maps/example.yaml"
+BOTH = languages(["en", "zh"], "utf-8")
+
+Change = Callable[[Unit, str, str, str], Unit]
+Only = Callable[..., Unit]
+
+
+@pytest.fixture(scope="session")
+def made() -> dict[str, Unit]:
+    """The units of the example map by name: `modbus` for the shared blocks, `example`."""
+    return {unit.suite.name: unit for unit in units(build.read([EXAMPLE]), BOTH)}
+
+
+@pytest.fixture(scope="session")
+def example(made: dict[str, Unit]) -> Unit:
+    """The unit of the example map."""
+    return made["example"]
+
+
+@pytest.fixture(scope="session")
+def shared(made: dict[str, Unit]) -> Unit:
+    """The unit of the shared blocks."""
+    return made["modbus"]
+
+
+def only(unit: Unit, *programs: str) -> Unit:
+    """The unit with some of its programs, by the beginning of what stands behind `_Test`."""
+    chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
+    assert chosen, programs
+    return replace(unit, suite=replace(unit.suite, programs=tuple(chosen)))
+
+
+def changed(unit: Unit, block: str, old: str, new: str) -> Unit:
+    """The unit with one change in one block."""
+    found = [source for source in unit.blocks if source.path.endswith(f"/{block}.st") and old in source.text]
+    assert found, f"{block} has no {old}"
+    blocks = [
+        Source(source.path, source.text.replace(old, new, 1)) if source is found[0] else source
+        for source in unit.blocks
+    ]
+    return replace(unit, blocks=tuple(blocks))
+
+
+def run(*given: Unit) -> Run:
+    """All programs of the units on the embedded engine."""
+    return runner.run(given, [EmbeddedEngine()])

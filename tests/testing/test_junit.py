@@ -1,0 +1,114 @@
+"""The JUnit XML: its shape, its counts, what a failure says, and that only times differ from run to run."""
+
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from driveblocks.testing import junit
+from driveblocks.testing.outcome import Outcome, Result, Run
+from driveblocks.testing.unit import Unit
+
+from .conftest import changed, only, run
+
+RUN = Run(
+    [
+        Result("embedded", "ex", "EX_TestA", (Outcome("1: right", path="a.st", line=3),), 0.5),
+        Result(
+            "embedded",
+            "ex",
+            "EX_TestB",
+            (
+                Outcome("1: a & b < c", "failed", "expected 1, found 2", "1", "2", "b.st", 7),
+                Outcome("2: never", "error", "b.st:9: index 4", path="b.st", line=9),
+                Outcome("3: text", "failed", "expected `x`, found `\x00\x1b`", "x", "\x00\x1b", "b.st", 11),
+            ),
+            0.25,
+        ),
+    ],
+    1.5,
+)
+
+SHAPE: dict[str, tuple[set[str], set[str], set[str]]] = {
+    # element: attributes that must be there, that may be there, elements inside
+    "testsuites": ({"tests", "failures", "errors", "time"}, {"name"}, {"testsuite"}),
+    "testsuite": (
+        {"name", "tests", "failures", "errors", "skipped", "time"},
+        {"timestamp", "hostname"},
+        {"properties", "testcase"},
+    ),
+    "properties": (set(), set(), {"property"}),
+    "property": ({"name", "value"}, set(), set()),
+    "testcase": ({"classname", "name", "time"}, set(), {"failure", "error", "skipped"}),
+    "failure": ({"message", "type"}, set(), set()),
+    "error": ({"message", "type"}, set(), set()),
+}
+
+
+def valid(element: ElementTree.Element) -> None:
+    """Fail where an element is none of JUnit's, lacks an attribute, or stands where it may not."""
+    must, may, inside = SHAPE[element.tag]
+    assert must <= set(element.attrib) <= must | may, element.tag
+    for name in set(element.attrib) & {"tests", "failures", "errors", "skipped"}:
+        assert element.attrib[name].isdecimal()
+    if "time" in element.attrib:
+        assert float(element.attrib["time"]) >= 0
+    for child in element:
+        assert child.tag in inside
+        valid(child)
+
+
+def counted(root: ElementTree.Element) -> None:
+    """Fail where a count differs from what is there."""
+    for element in (root, *root.iter("testsuite")):
+        assert int(element.attrib["tests"]) == len(list(element.iter("testcase")))
+        assert int(element.attrib["failures"]) == len(list(element.iter("failure")))
+        assert int(element.attrib["errors"]) == len(list(element.iter("error")))
+
+
+@pytest.fixture(scope="module")
+def real(example: Unit) -> Run:
+    unit = only(
+        changed(example, "EX100_FaultTextZh", "$E8$BF$87$E6$B5$81", "$E8$BF$87$E5$8E$8B"), "FaultText", "Scales"
+    )
+    return run(unit)
+
+
+def test_the_shape_is_that_of_junit(real: Run) -> None:
+    for each in (RUN, real, Run()):
+        root = ElementTree.fromstring(junit.text(each))  # noqa: S314  (our own text)
+        valid(root)
+        counted(root)
+
+
+def test_a_case_is_named_for_its_check_and_classed_by_drive_and_program() -> None:
+    root = ElementTree.fromstring(junit.text(RUN))  # noqa: S314  (our own text)
+    cases = [(case.attrib["classname"], case.attrib["name"]) for case in root.iter("testcase")]
+    assert cases == [
+        ("ex.EX_TestA", "1: right"),
+        ("ex.EX_TestB", "1: a & b < c"),
+        ("ex.EX_TestB", "2: never"),
+        ("ex.EX_TestB", "3: text"),
+    ]
+    assert [suite.attrib["name"] for suite in root] == ["ex.EX_TestA on embedded", "ex.EX_TestB on embedded"]
+    assert [each.attrib["value"] for each in root.iter("property")] == ["embedded", "embedded"]
+
+
+def test_a_failure_has_place_expected_and_actual() -> None:
+    root = ElementTree.fromstring(junit.text(RUN))  # noqa: S314  (our own text)
+    first, second = root.iter("failure")
+    assert first.attrib == {"message": "expected 1, found 2", "type": "failed"}
+    assert first.text == "b.st:7: 1: a & b < c\nexpected: 1\nactual: 2"
+    assert second.text == "b.st:11: 3: text\nexpected: x\nactual: \\x00\\x1B"
+    (error,) = root.iter("error")
+    assert error.text == "b.st:9: 2: never\nb.st:9: index 4"
+
+
+def test_chinese_stays_chinese(real: Run) -> None:
+    (failure,) = ElementTree.fromstring(junit.text(real)).iter("failure")  # noqa: S314  (our own text)
+    assert failure.attrib["message"] == "expected `过流`, found `过压`"
+
+
+def test_only_times_differ_from_run_to_run(example: Unit) -> None:
+    texts = {re.sub(r' time="[0-9.]+"', "", junit.text(run(only(example, "Scales", "Frames")))) for _ in range(2)}
+    assert len(texts) == 1

@@ -1,0 +1,89 @@
+"""Whole runs: every unit on every engine, all green for the maps as they are, red for a map without vectors."""
+
+import gc
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Engine, EngineError, Library, Source
+from driveblocks.maps import catalog
+from driveblocks.render import build
+from driveblocks.testing import runner
+from driveblocks.testing.unit import Unit, units
+
+from .conftest import BOTH, EXAMPLE, only, run
+
+
+def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
+    made = units(build.read(catalog.shipped()), BOTH)
+    done = run(*made)
+    assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
+    assert done.passed
+    assert {result.unit for result in done.results} == {"modbus", *(path.stem for path in catalog.shipped())}
+
+
+def test_the_example_is_green_on_every_engine(engine: Engine, example: Unit) -> None:
+    done = runner.run([example], [engine])
+    assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
+    assert {result.engine for result in done.results} == {engine.name}
+    assert done.count() == 2 + sum(len(program.checks) for program in example.suite.programs)
+
+
+def test_results_come_in_the_order_of_engines_units_and_programs(example: Unit, shared: Unit) -> None:
+    class Second(EmbeddedEngine):
+        name = "second"
+
+    given = [only(shared, "Digits", "RtuSeal"), only(example, "Scales", "0010H")]
+    done = runner.run(given, [EmbeddedEngine(), Second()])
+    assert [(result.engine, result.unit, result.program) for result in done.results] == [
+        (engine, unit, program)
+        for engine in ("embedded", "second")
+        for unit, program in (
+            ("modbus", "build"),
+            ("modbus", "MB_TestDigits"),
+            ("modbus", "MB_TestRtuSeal"),
+            ("example", "build"),
+            ("example", "EX100_Test0010H"),
+            ("example", "EX100_TestScales"),
+        )
+    ]
+
+
+def test_a_map_without_vectors_fails() -> None:
+    (source,) = build.read([EXAMPLE])
+    bare = build.Source(source.path, replace(source.drive, frames=()))
+    _, unit = units([bare], BOTH)
+    done = run(only(unit, "Scales"))
+    assert not done.passed
+    (result,) = [result for result in done.results if not result.passed]
+    assert [(outcome.words, outcome.status) for outcome in result.bad] == [("there are vectors", "failed")]
+    assert "no example frames" in result.bad[0].message
+
+
+def test_an_engine_that_breaks_down_is_told_and_the_others_go_on(example: Unit) -> None:
+    class Broken:
+        name = "broken"
+
+        def build(self, sources: Sequence[Source]) -> Library:
+            raise EngineError(f"the compiler crashed on {len(sources)} files")
+
+    done = runner.run([only(example, "Scales")], [Broken(), EmbeddedEngine()])
+    assert [(result.engine, result.program, result.passed) for result in done.results] == [
+        ("broken", "build", False),
+        ("embedded", "build", True),
+        ("embedded", "EX100_TestScales", True),
+    ]
+    assert "the compiler crashed" in done.results[0].bad[0].message
+
+
+@pytest.mark.parametrize("enabled", [True, False])
+def test_garbage_is_collected_afterwards_as_before(example: Unit, enabled: bool) -> None:
+    was = gc.isenabled()
+    try:
+        (gc.enable if enabled else gc.disable)()
+        run(only(example, "Scales"))
+        assert gc.isenabled() is enabled
+    finally:
+        (gc.enable if was else gc.disable)()
