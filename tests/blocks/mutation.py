@@ -1,0 +1,212 @@
+"""Change every fact of the shipped maps, one at a time, and see that something notices.
+
+A change is refused by the loader, or a test of facts typed from the manuals turns red, or the blocks made from the
+changed map are judged by the manuals' frames and by the reference model of the map as it was. What none of them
+notices has survived, and `survivors.yaml` must say why that is right. A change that alters no block is only counted.
+
+    python -m tests.blocks.mutation [--rounds N] [--seed S] [--sample N]
+"""
+
+import argparse
+import random
+import re
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+
+import yaml
+from tests.blocks import judges
+from tests.blocks.library import Blocks, sources
+from tests.maps import mutate
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import EngineError, Source
+from driveblocks.maps import catalog
+from driveblocks.maps.load import loads
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError, Report
+from driveblocks.render import library, text
+from driveblocks.render.vet import vet
+
+LANGUAGES = text.languages(["en", "zh"], "utf-8")
+SURVIVORS = Path(__file__).with_name("survivors.yaml")
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Original:
+    """A shipped map: its text with the places of its facts, the drive, and its blocks by name."""
+
+    text: mutate.Text
+    drive: Drive
+    blocks: dict[str, str]
+
+
+@dataclass
+class Tally:
+    """What became of the changes."""
+
+    seen: Counter[str] = field(default_factory=Counter)
+    model_only: Counter[str] = field(default_factory=Counter)
+    survived: list[tuple[str, str, str]] = field(default_factory=list)
+    seconds: float = 0.0
+
+
+@cache
+def originals() -> tuple[Original, ...]:
+    """The shipped maps."""
+    found = []
+    for path in catalog.shipped():
+        data = path.read_text(encoding="utf-8")
+        drive = loads(data, path.name)
+        found.append(Original(mutate.Text(path.name, data), drive, rendered(path.stem, drive)))
+    return tuple(found)
+
+
+def rendered(stem: str, drive: Drive) -> dict[str, str]:
+    """A drive's blocks by name."""
+    return {file.name: file.text for file in library.drive(stem, drive, LANGUAGES)}
+
+
+def changes(original: Original, leaf: mutate.Leaf, chance: random.Random) -> mutate.Change | None:
+    """One change of a fact, if there is another value for it."""
+    for _ in range(20):
+        new = mutate.altered(leaf, chance, original.text)
+        if new is not None:
+            return mutate.replaced(original.text, leaf, new)
+    return None
+
+
+def verdict(original: Original, change: mutate.Change) -> str:
+    """Who notices a change first: rules, facts, blocks; `alters no block`, or `survived`."""
+    try:
+        drive = loads(change.data.decode(), original.text.name)
+        report = Report(original.text.name)
+        vet(drive, report)
+        report.raise_if_any()
+        made = rendered(Path(original.text.name).stem, drive)
+    except (MapError, ValueError):
+        return "rules"
+    altered = [name for name in original.blocks.keys() | made.keys() if original.blocks.get(name) != made.get(name)]
+    if not altered:
+        return "alters no block"
+    found = [
+        name for name, by in (("facts", by_facts(drive)), ("blocks", by_blocks(original, drive, made, altered))) if by
+    ]
+    if not found and all(bare(original.blocks.get(name)) == bare(made.get(name)) for name in altered):
+        return "alters comments alone"
+    return " and ".join(found) or "survived"
+
+
+def bare(block: str | None) -> str | None:
+    """A block's text without its comments."""
+    return None if block is None else _COMMENT.sub("", block)
+
+
+def by_facts(drive: Drive) -> bool:
+    """Whether a test of typed facts turns red."""
+    try:
+        judges.facts(drive)
+    except (AssertionError, KeyError, StopIteration, IndexError, AttributeError):
+        return True
+    return False
+
+
+def by_blocks(original: Original, drive: Drive, made: dict[str, str], altered: list[str]) -> bool:
+    """Whether the blocks of the changed map are judged wrong, or do not compile."""
+    same = [name for name in altered if bare(original.blocks.get(name)) != bare(made.get(name))]
+    if not same:
+        return False
+    try:
+        blocks = Blocks(EmbeddedEngine().build([*shared(), *closure(original.drive.prefix, made, same)]))
+        judges.judge(blocks, original.drive, same, drive)
+    except (AssertionError, KeyError, EngineError, ValueError):
+        return True
+    return False
+
+
+@cache
+def shared() -> tuple[Source, ...]:
+    """Types and blocks that every drive uses, without the long texts of results."""
+    wanted = (each for each in sources() if each.path.startswith(("types/", "modbus/MB_")))
+    return tuple(each for each in wanted if not re.search("ResultText|Pack|Compact", each.path))
+
+
+def closure(prefix: str, made: dict[str, str], altered: Iterable[str]) -> Iterator[Source]:
+    """The altered blocks and those that they belong to, functions first."""
+    wanted = set(altered)
+    group = {f"{prefix}_{name}" for name in judges.EXCHANGE}
+    if wanted & group:
+        wanted |= group
+    if any("Text" in name for name in wanted):
+        wanted |= {name for name in made if "Text" in name}
+    for name, block in made.items():
+        if name in wanted:
+            yield Source(name, block)
+
+
+def run(rounds: int, seed: int, sample: int | None = None) -> Tally:
+    """Change every fact so many times, or a sample of them."""
+    judges.shipped_is_good()
+    tally, start = Tally(), time.perf_counter()
+    places = [(original, leaf) for original in originals() for leaf in original.text.leaves] * rounds
+    if sample is not None:
+        places = random.Random(seed).sample(places, sample)
+    for number, (original, leaf) in enumerate(places):
+        change = changes(original, leaf, random.Random(f"{seed} {number}"))
+        if change is None:
+            tally.seen["has no other value"] += 1
+            continue
+        name = verdict(original, change)
+        tally.seen[name] += 1
+        if name == "blocks":
+            tally.model_only[f"{original.drive.prefix} {leaf.kind}"] += 1
+        if name in {"survived", "alters comments alone"}:
+            tally.survived.append((original.drive.prefix, leaf.kind, change.said))
+    tally.seconds = time.perf_counter() - start
+    return tally
+
+
+def explained() -> dict[tuple[str, str], str]:
+    """Why a kind of change may survive, by drive and kind."""
+    rows = yaml.safe_load(SURVIVORS.read_text(encoding="utf-8"))
+    return {(row["drive"], row["kind"]): row["why"] for row in rows}
+
+
+def unexplained(tally: Tally) -> list[str]:
+    """Survivors without an explanation."""
+    known = explained()
+    return [said for drive, kind, said in tally.survived if (drive, kind) not in known]
+
+
+def report(tally: Tally) -> str:
+    """What a run found."""
+    total = tally.seen.total()
+    lines = [f"{total} changes in {tally.seconds:.0f} s"]
+    lines += [f"  {number:5} {name}" for name, number in tally.seen.most_common()]
+    lines += ["noticed by the reference of the map as it was alone, so held by no typed fact:"]
+    lines += [f"  {number:5} {kind}" for kind, number in tally.model_only.most_common()]
+    why = explained()
+    lines += ["survived:"]
+    lines += [f"  {said}\n        {why.get((drive, kind), 'NOT EXPLAINED')}" for drive, kind, said in tally.survived]
+    return "\n".join(lines)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run over all facts. Exit status 1 when a change survives without an explanation."""
+    parser = argparse.ArgumentParser(description="Change every fact of the shipped maps and see that it is noticed.")
+    parser.add_argument("--rounds", type=int, default=1, help="changes per fact")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--sample", type=int, help="so many changes by chance instead of all")
+    given = parser.parse_args(arguments)
+    tally = run(given.rounds, given.seed, given.sample)
+    print(report(tally))
+    return int(bool(unexplained(tally)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

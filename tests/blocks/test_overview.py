@@ -1,0 +1,139 @@
+"""The figures of blocks/README.md: memory summed a second time, loops counted while each block does its worst."""
+
+import functools
+import re
+from pathlib import Path
+
+import pytest
+from tests.blocks.library import BLOCKS, Blocks, sources
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.embedded.library import EmbeddedLibrary
+from driveblocks.host.engine import Value
+
+WIDTHS = {"BOOL": 1, "BYTE": 1, "USINT": 1, "WORD": 2, "UINT": 2, "INT": 2, "DINT": 4, "UDINT": 4, "REAL": 4}
+TYPES = {"MB_Adu": 256, "MB_Chars": 513, "MB_Words": 250, "MB_Registers": 1026, "MB_Request": 12}
+"""ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes."""
+
+_ROW = re.compile(r"^\| \[`(\w+)`\]\(\S+\)( FB| function)? \|.*\| *(\d*) *\| *([^|]*?) *\|$", re.MULTILINE)
+_TYPE = re.compile(r"^\| \[`(\w+)`\]\(\S+types/\w+\.st\) \|[^|]*\| (\d+) \|$", re.MULTILINE)
+_VARIABLE = re.compile(r"^  (\w+) : (\w+)(?:\[0\.\.(\d+)\] OF (\w+))?\s*(?::=|;)", re.MULTILINE)
+README = (Path(BLOCKS).parent / "README.md").read_text(encoding="utf-8")
+TEXTS = {Path(source.path).stem: source.text for source in sources()}
+ROWS = {name: (kind.strip(), size, loops) for name, kind, size, loops in _ROW.findall(README) if kind}
+
+
+def size_of(type_: str) -> int:
+    """Bytes of a type or of an instance of a block."""
+    return WIDTHS.get(type_) or TYPES.get(type_) or memory(type_)
+
+
+@functools.cache
+def memory(block: str) -> int:
+    """The sum of the widths of a block's variables, read from its text."""
+    declared = re.sub(r"\(\*.*?\*\)", "", TEXTS[block], flags=re.DOTALL).rpartition("END_VAR")[0]
+    total = 0
+    for _, type_, last, element in _VARIABLE.findall(declared.replace("ARRAY[", "ARRAY[")):
+        total += (int(last) + 1) * size_of(element) if last else size_of(type_)
+    return total
+
+
+def test_every_block_is_listed() -> None:
+    assert set(ROWS) == set(TEXTS) - set(TYPES)
+
+
+def test_sizes_of_types_are_published() -> None:
+    assert {name: int(size) for name, size in _TYPE.findall(README)} == TYPES
+
+
+@pytest.mark.parametrize("block", [name for name, (kind, _, _) in ROWS.items() if kind == "FB"])
+def test_memory(block: str) -> None:
+    assert int(ROWS[block][1]) == memory(block)
+
+
+LONGEST = b":" + b"00" * 255 + b"\r\n"
+PACKED = {
+    f"MB_{way}{box}{bits}": {"CharCount": 513}
+    for way in ("Pack", "Unpack")
+    for box in ("Adu", "Chars")
+    for bits in (8, 16)
+}
+OPEN: dict[str, Value] = {
+    "Length": 253,
+    "Adu": bytes((1, 3, 250)),
+    "Request.UnitAddress": 1,
+    "Request.FunctionCode": 3,
+    "Request.Quantity": 125,
+}
+WRITE: dict[str, Value] = {"UnitAddress": 1, "FunctionCode": 16, "Quantity": 10, "MaxWords": 123}
+WORST: dict[str, dict[str, Value]] = {
+    "MB_Crc16": {"Length": 256},
+    "MB_Crc16Compact": {"Length": 256},
+    "MB_Lrc": {"Length": 256},
+    "MB_RtuSeal": {"Length": 254},
+    "MB_RtuOpen": {"AduLength": 256},
+    "MB_AsciiEncode": {"Length": 254},
+    "MB_AsciiDecode": {"CharCount": 513, "Chars": LONGEST},
+    "MB_BuildWriteMultiple": {**WRITE, "Quantity": 123},
+    "MB_ParseReply": OPEN,
+    "CHF_Reply": OPEN,
+    "JSCC_Reply": OPEN,
+    "SN300G5_Reply": OPEN,
+    "JSCC_Request": {**WRITE, "Address": 0x0000},
+    "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
+    "SN300G5_FaultNumber": dict.fromkeys((f"FaultContents{n}Word" for n in (1, 2, 3)), 0xFFFF),
+    **{name: dict(pins) for name, pins in PACKED.items()},
+}
+"""Pins with which a block turns as often as it can."""
+
+SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 11}
+"""Turns that the stated bound has to spare: the LRC is not summed with itself; bits that no fault has are masked."""
+
+
+@functools.cache
+def counted() -> EmbeddedLibrary:
+    """The library with a count for each line."""
+    return EmbeddedEngine(coverage=True).build(sources())
+
+
+def turns(library: EmbeddedLibrary) -> int:
+    """How often the first statement in a loop has run, in all files."""
+    total = 0
+    for source in sources():
+        hits = library.coverage().get(source.path, {})
+        lines = source.text.splitlines()
+        starts = (number for number, text in enumerate(lines, start=1) if text.endswith(" DO"))
+        total += sum(hits[min(line for line in hits if line > start)] for start in starts if hits)
+    return total
+
+
+def bound(block: str) -> int:
+    """The stated number of loops."""
+    numbers = re.findall(r"\d+", ROWS[block][2])
+    return int(numbers[-1]) if numbers else 0
+
+
+@pytest.mark.parametrize("block", WORST)
+def test_loops_at_their_worst(block: str) -> None:
+    library = counted()
+    before = turns(library)
+    done = Blocks(library).run(block, {pin: value for pin, value in WORST[block].items() if has(block, pin)})
+    rounds = turns(library) - before
+    assert rounds <= bound(block)
+    assert rounds >= bound(block) - SLACK.get(block, 0), (rounds, done.state())
+
+
+def has(block: str, pin: str) -> bool:
+    """Whether a block has a pin."""
+    return re.search(rf"^  {pin.partition('.')[0]} :", TEXTS[block], re.MULTILINE) is not None
+
+
+@pytest.mark.parametrize("block", [name for name, (_, _, loops) in ROWS.items() if loops == "none"])
+def test_blocks_without_loops_have_none_inside(block: str) -> None:
+    assert " DO\n" not in TEXTS[block]
+    inner = {type_ for _, type_, _, _ in _VARIABLE.findall(TEXTS[block])} & set(ROWS)
+    assert all(ROWS[one][2] == "none" for one in inner)
+
+
+def test_every_block_with_loops_is_tried_at_its_worst() -> None:
+    assert {name for name, (_, _, loops) in ROWS.items() if loops != "none"} == set(WORST)
