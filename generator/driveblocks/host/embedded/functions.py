@@ -216,7 +216,7 @@ class Functions(Expressions):
         return self.result(node, target.result)
 
     def _limit(self, target: Builtin, arguments: list[Term]) -> Term:
-        node = self.pen.call(self._of_times("limit", target), *(each.node for each in arguments))
+        node = self.pen.call(self._ordered("limit", target), *(each.node for each in arguments))
         low, value, high = arguments
         if isinstance(low, Whole) and isinstance(value, Whole) and isinstance(high, Whole):
             least = min(max(value.low, low.low), high.low)
@@ -225,12 +225,15 @@ class Functions(Expressions):
         return self.result(node, target.result)
 
     def _extreme(self, target: Builtin, arguments: list[Term]) -> Term:
-        node = self.pen.call(self._of_times(target.family.lower(), target), *(each.node for each in arguments))
+        node = self.pen.call(self._ordered(target.family.lower(), target), *(each.node for each in arguments))
         return self._between(node, target.result, arguments)
 
-    def _of_times(self, function: str, target: Builtin) -> str:
-        """The variant of a function for pairs of seconds and nanoseconds."""
-        return f"time_{function}" if self.scope.model == "c" and target.result.kind in TEMPORAL else function
+    def _ordered(self, function: str, target: Builtin) -> str:
+        """The variant of a function for pairs of seconds and nanoseconds, or for strings where a line has its own."""
+        if self.scope.model == "c" and target.result.kind in TEMPORAL:
+            return f"time_{function}"
+        own = target.result.kind is Kind.STRING and self.scope.options.line == "openplc"
+        return f"string_{function}" if own else function
 
     # ------------------------------------------------------------ strings
 

@@ -26,6 +26,7 @@ def namespace(model: Overflow, line: str, run: Run) -> dict[str, Any]:
     table |= {"standard": _standard, "fail": _careful, "c": _c}[model]()
     if line == "openplc":
         table |= {"string_order": _openplc_order, "FIND": strings.openplc_find}
+        table |= {"string_max": _openplc_greatest, "string_min": _openplc_least, "string_limit": _openplc_limit}
     # Variables of ST are in upper case too, and must not hide a function of the same name.
     return {f"std_{name}" if name.isupper() else name: each for name, each in table.items()}
 
@@ -288,7 +289,7 @@ def _c_times() -> dict[str, Any]:
         "time_to_whole": lambda span: span[0],
         "time_to_real": lambda span: float(span[0]) + span[1] / _SECOND,
         "time_to_bool": lambda span: span[0] != 0 or span[1] != 0,
-        "string_from_time": lambda span: spellings.from_time(*span),
+        "string_from_time": lambda span: spellings.c_from_time(*span),
         "string_from_date": lambda span, kind: spellings.from_date(kind, *span),
         "string_to_time": lambda text, _: times.Span(int(spellings.c_to_real(text)), 0),
     }
@@ -298,3 +299,21 @@ def _openplc_order(left: bytes, right: bytes) -> int:
     """Compare no more characters than the shorter one has."""
     shorter = min(len(left), len(right))
     return strings.order(left[:shorter], right[:shorter])
+
+
+def _openplc_greatest(first: bytes, *others: bytes) -> bytes:
+    for each in others:
+        first = each if _openplc_order(first, each) < 0 else first
+    return first
+
+
+def _openplc_least(first: bytes, *others: bytes) -> bytes:
+    for each in others:
+        first = each if _openplc_order(first, each) > 0 else first
+    return first
+
+
+def _openplc_limit(low: bytes, value: bytes, high: bytes) -> bytes:
+    if _openplc_order(value, low) <= 0:
+        return low
+    return value if _openplc_order(value, high) < 0 else high

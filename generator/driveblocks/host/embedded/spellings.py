@@ -54,6 +54,11 @@ def from_time(seconds: int, nanoseconds: int) -> bytes:
     return b"T#" + b"".join(parts)
 
 
+def c_from_time(seconds: int, nanoseconds: int) -> bytes:
+    """The same on matiec itself, which counts the seconds in 32 bits."""
+    return from_time(wrap(seconds, 32, True), nanoseconds)
+
+
 def from_date(kind: str, seconds: int, nanoseconds: int) -> bytes:
     """DATE_TO_STRING and its like: a literal, with six decimals where there is a fraction of a second."""
     moment = datetime(1970, 1, 1) + timedelta(seconds=seconds)
@@ -136,9 +141,9 @@ def _c_based(digits: bytes, bits: int) -> int:
 
 
 def c_to_real(text: bytes) -> float:
-    """STRING_TO_REAL as matiec reads it: with a point by atof, without one as an integer."""
+    """STRING_TO_REAL as matiec reads it: with a point by atof, without one as a signed integer of 64 bits."""
     if b"." not in text[1:]:
-        return float(c_to_whole(text))
+        return float(wrap(c_to_whole(text), 64, True))
     for end in range(len(text), 0, -1):
         try:
             return float(text[:end])

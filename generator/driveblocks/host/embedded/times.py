@@ -120,7 +120,7 @@ def c_divide(left: Span, divisor: float) -> Span:
 def c_from_number(number: float) -> Span:
     """A number of seconds as matiec converts it."""
     if isinstance(number, int):
-        return Span(_long(number), 0)
+        return Span(_long(int(number)), 0)  # a BOOL becomes a number of seconds
     whole = c_cut(number, 64)
     return Span(whole, c_cut((number - whole) * SECOND, 64))
 
