@@ -20,6 +20,7 @@ from tests.host.compare.expressions.grammar import (
     limits,
     variable,
 )
+from tests.host.compare.expressions.productions import PRODUCTIONS
 from tests.host.compare.expressions.terms import Term
 from tests.host.compare.lockstep import alike
 
@@ -88,7 +89,7 @@ def _block(number: int, terms: Sequence[Term]) -> str:
 def make_batch(seed: object, count: int, vectors: int, without: Sequence[str] = ()) -> Batch:
     """So many random expressions with so many random inputs."""
     draws = Draws("expressions", seed)
-    grammar = Grammar(draws, without)
+    grammar = Grammar(draws, [each for each in PRODUCTIONS if each.rule not in without])
     terms = tuple(grammar.expression(draws.one_of(TYPES), draws.one_of(DEPTHS)) for _ in range(count))
     return Batch(terms, tuple(dict(_vector(draws)) for _ in range(vectors)))
 

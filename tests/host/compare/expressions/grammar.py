@@ -10,10 +10,11 @@ by a variable beyond the width or below zero, conversions of any other REAL, NaN
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 from tests.host.compare.draws import Draws
-from tests.host.compare.expressions.terms import Term, atom, binary, call, unary
+from tests.host.compare.expressions.terms import Term, atom, binary, call
 
 SIGNED = {"SINT": 8, "INT": 16, "DINT": 32, "LINT": 64}
 UNSIGNED = {"USINT": 8, "UINT": 16, "UDINT": 32, "ULINT": 64}
@@ -32,7 +33,16 @@ TEXTS = {
     "STRING": ["'a'", "'abc'", "'TRUE'", "'12'", "'-7'", "'b'", "'12.5'", "'16#1F'"],
 }
 
-Production = Callable[["Grammar", str, int], Term]
+Make = Callable[["Grammar", str, int], Term]
+
+
+@dataclass(frozen=True)
+class Production:
+    """A way to make an expression: the name of its rule, the types that it can make, and how."""
+
+    rule: str
+    kinds: tuple[str, ...]
+    make: Make
 
 
 def limits(kind: str) -> tuple[int, int]:
@@ -62,12 +72,12 @@ def function(kind: str) -> str:
 
 
 class Grammar:
-    """Draws expressions of any type; `without` names the rules that are left out."""
+    """Draws expressions of any type from a stream by productions."""
 
-    def __init__(self, draws: Draws, without: Iterable[str] = ()) -> None:
-        """Draw from a stream."""
+    def __init__(self, draws: Draws, productions: Sequence[Production]) -> None:
+        """Take what is to be made, and the stream."""
         self.draws = draws
-        self.productions = {kind: _productions(kind, frozenset(without)) for kind in TYPES}
+        self.productions = {kind: [each.make for each in productions if kind in each.kinds] for kind in TYPES}
 
     def expression(self, kind: str, depth: int) -> Term:
         """An expression of a type, at most `depth` operations deep."""
@@ -155,13 +165,3 @@ def is_typed(term: Term) -> bool:
 def _edges(kind: str) -> list[int]:
     low, high = limits(kind)
     return [0, 1, 2, high, high - 1, *([low + 1, -1, -2] if low else [])]
-
-
-def _productions(kind: str, without: frozenset[str]) -> list[Production]:
-    # Imported here because the productions are written in terms of Grammar.
-    from tests.host.compare.expressions.productions import PRODUCTIONS
-
-    return [make for rule, kinds, make in PRODUCTIONS if kind in kinds and rule not in without]
-
-
-__all__ = ["BITS", "REALS", "SIGNED", "TYPES", "UNSIGNED", "WHOLE", "Grammar", "call", "limits", "unary", "variable"]
