@@ -42,8 +42,9 @@ class Tally:
 
 
 def maps() -> list[mutate.Text]:
-    """The good maps: the example, and those vendor maps that load."""
-    paths = [ROOT / "tests/maps/example.yaml", *sorted((ROOT / "vendor_maps").glob("*.yaml"))]
+    """The good maps: the example, and those vendor maps and other drives of the tests that load."""
+    folders = (ROOT / "vendor_maps", ROOT / "tests/blocks/fourth_drive")
+    paths = [ROOT / "tests/maps/example.yaml", *(path for folder in folders for path in sorted(folder.glob("*.yaml")))]
     return [mutate.Text(path.name, path.read_text(encoding="utf-8")) for path in paths if _loads(path)]
 
 
@@ -103,7 +104,7 @@ def _facts(text: mutate.Text, change: mutate.Change) -> Iterator[tuple[pins.Path
     if _skeleton(old) == _skeleton(new) and _unordered(old) != _unordered(new):
         for leaf in text.leaves:
             value = pins.Document(new).at(leaf.path)
-            if value != leaf.scalar.text:
+            if mutate.meaning(leaf, value) != mutate.meaning(leaf, leaf.scalar.text):
                 yield leaf.path, value
 
 

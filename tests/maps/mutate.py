@@ -144,8 +144,13 @@ def altered(leaf: Leaf, rng: random.Random, text: Text) -> str | None:
     if shape is form.TEXT:
         return str(int(old) + rng.choice((1, -1, 10))) if old.isdecimal() else old[:-1] + rng.choice("QXYZ")
     new = _ALTER[shape.name](old, rng)
-    same = shape.pattern.fullmatch(new) is None or shape.parse(new) == shape.parse(old)
-    return None if same else new
+    return None if shape.pattern.fullmatch(new) is None or meaning(leaf, new) == meaning(leaf, old) else new
+
+
+def meaning(leaf: Leaf, text: str) -> object:
+    """What a text means in a place: 0000H and 00H are one number."""
+    fits = isinstance(leaf.shape, Form) and leaf.shape.pattern.fullmatch(text)
+    return leaf.shape.parse(text) if isinstance(leaf.shape, Form) and fits else text
 
 
 def _frame_ids(text: Text) -> list[str]:

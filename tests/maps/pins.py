@@ -369,7 +369,7 @@ def _setting_default(document: Document, path: Path, new: str) -> bool:
     setting = document.at(path[:-1])
     values = [number(value["value"]) for value in setting.get("values", [])]
     chosen = any(choice.get("setting") == setting["id"] and "default" in choice for choice in document.choices)
-    return chosen or (bool(values) and decimal(new) not in values)
+    return decimal(new) is not None and (chosen or (bool(values) and decimal(new) not in values))
 
 
 def _choice(document: Document, path: Path) -> tuple[Plain, Plain]:
@@ -442,8 +442,8 @@ def _unit_bound(document: Document, path: Path, new: str) -> bool:
 
 
 def _function(document: Document, path: Path, _: str) -> bool:
-    code = number(document.at(path))
-    return code in {number(frame["means"]["function"]) for frame in document.root["frames"]}
+    code, frames = number(document.at(path)), document.root["frames"]
+    return code in {number(frame["means"]["function"]) for frame in frames if "error" not in frame["means"]}
 
 
 def _sub_function(document: Document, path: Path, _: str) -> bool:
