@@ -1,15 +1,35 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
-.PHONY: demo test fuzz bench counts schema traces compare
+DB := .venv/bin/driveblocks
+.PHONY: demo test blocks counts schema fuzz mutation compare traces verdicts bench
 
-demo test:            ## set up, then run the main job / every test (demo: 1 min, test: under 5 min)
+demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
 
-fuzz:                 ## 10^4 random mutations of the vendor maps (some minutes)
+blocks:               ## blocks/ from the maps and templates
+	$(DB) build
+
+counts:               ## the tables of drives in the READMEs, from the maps
+	$(DB) counts README.md vendor_maps/README.md
+
+schema:               ## vendor_maps/schema.json and the key tables of the format page, from the model
+	$(DB) schema vendor_maps
+
+fuzz:                 ## 10^4 random mutations of the vendor maps, 10^6 damaged replies per reply parser
 	$(PY) tests/maps/fuzz.py
+	$(PY) -m tests.blocks.fuzz
 
-bench:                ## every figure, side by side in one run (some minutes)
+mutation:             ## change every fact of the maps that reaches a block, and see a test turn red
+	$(PY) -m tests.blocks.mutation
+
+compare:              ## 10^5 scans of every block of the corpus and 10^6 expressions, embedded against matiec
+	$(PY) -m tests.host.compare.long
+
+traces:               ## record how matiec runs the corpus (needs both lines of matiec)
+	$(PY) -m tests.host.traces.record
+
+verdicts:             ## record what matiec says of the accept/reject corpus
+	$(PY) -m tests.host.accept.record
+
+bench:                ## every figure, side by side in one run
 	$(PY) tests/bench/run.py
-
-schema:               ## write vendor_maps/schema.json from the model
-	.venv/bin/driveblocks schema vendor_maps
