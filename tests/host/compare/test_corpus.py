@@ -9,14 +9,25 @@ from tests.host.compare.models import MODELS, double
 
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Engine
+from driveblocks.st.lint import lint_sources
 
 CASES = load_cases()
 SEED = 7
+
+# What a block of the corpus is about, although the linter keeps the library out of it.
+ON_PURPOSE = {"strings": {"string-function"}, "real_maths": {"real-to-int"}, "conversions": {"real-to-int"}}
 
 
 @pytest.fixture(params=CASES, name="case")
 def _case(request: pytest.FixtureRequest) -> Case:
     return CASES[request.param]
+
+
+def test_the_corpus_is_canonical_text(case: Case) -> None:
+    """The linter has nothing to say but about what a block is there to show."""
+    found = lint_sources([(source.path, source.text) for source in case.sources])
+    assert [str(each) for each in found if each.rule not in ON_PURPOSE.get(case.name, ())] == []
+    assert {each.rule for each in found} == ON_PURPOSE.get(case.name, set())
 
 
 def test_canonical_text_means_the_same_in_every_model(case: Case) -> None:

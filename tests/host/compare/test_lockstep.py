@@ -29,7 +29,7 @@ MISTAKES = [
     ("control_flow", "2, 10..19", "2, 11..19"),
     ("enums", "NOT Blocked AND Open", "Open"),
     ("bits", "ROL(D, 7)", "ROL(D, 6)"),
-    ("queue", "Queue.First + 7", "Queue.First + 6"),
+    ("queue", "MOD 8 + 7", "MOD 8 + 6"),
     ("two_tasks", "T#70ms", "T#80ms"),
 ]
 
