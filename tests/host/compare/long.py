@@ -107,6 +107,8 @@ def _expressions(count: int, seed: int, without: list[str]) -> int:
             for text, compared, failed in pool.map(_long_batch, jobs):
                 done, failures = done + compared, failures + failed
                 print(text, end="", flush=True)
+                if done % (25 * PER_BATCH) < PER_BATCH:
+                    print(f"{engine.name}: {done} expressions so far", flush=True)
             print(f"{engine.name}: {done} expressions with {VECTORS} inputs each", flush=True)
     return failures
 
