@@ -1,8 +1,9 @@
-"""Change every fact of the shipped maps, one at a time, and see that something notices.
+"""Change every fact of the shipped maps, one at a time, and see that the blocks made from it are judged wrong.
 
-A change is refused by the loader, or a test of facts typed from the manuals turns red, or the blocks made from the
-changed map are judged by the manuals' frames and by the reference model of the map as it was. What none of them
-notices has survived, and `survivors.yaml` must say why that is right. A change that alters no block is only counted.
+The judges are the manuals' frames and the reference model of the map as it was. Beside them the run says whether the
+loader's rules refuse the change, and, if not, whether a test of facts typed from the manuals turns red. A change that
+alters a block and that the judges of blocks do not notice has survived them: `survivors.yaml` must say why that is
+right. A change that alters no block is only counted.
 
     python -m tests.blocks.mutation [--rounds N] [--seed S] [--sample N]
 """
@@ -25,10 +26,12 @@ from tests.maps import mutate
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import EngineError, Source
-from driveblocks.maps import catalog
+from driveblocks.maps import catalog, nodes
+from driveblocks.maps.check import check
+from driveblocks.maps.decode import decode
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError, Report
+from driveblocks.maps.problem import Report
 from driveblocks.render import library, text
 from driveblocks.render.vet import vet
 
@@ -82,24 +85,38 @@ def changes(original: Original, leaf: mutate.Leaf, chance: random.Random) -> mut
 
 
 def verdict(original: Original, change: mutate.Change) -> str:
-    """Who notices a change first: rules, facts, blocks; `alters no block`, or `survived`."""
+    """Who notices a change: rules, facts, blocks; else `nothing`, or why there is nothing to notice."""
+    drive, refused = read(change, original.text.name)
+    if drive is None:
+        return "is no map"
     try:
-        drive = loads(change.data.decode(), original.text.name)
-        report = Report(original.text.name)
-        vet(drive, report)
-        report.raise_if_any()
         made = rendered(Path(original.text.name).stem, drive)
-    except (MapError, ValueError):
-        return "rules"
+    except (ValueError, AssertionError, LookupError, ArithmeticError):
+        return "makes no block"
     altered = [name for name in original.blocks.keys() | made.keys() if original.blocks.get(name) != made.get(name)]
     if not altered:
         return "alters no block"
-    found = [
-        name for name, by in (("facts", by_facts(drive)), ("blocks", by_blocks(original, drive, made, altered))) if by
-    ]
-    if not found and all(bare(original.blocks.get(name)) == bare(made.get(name)) for name in altered):
-        return "alters comments alone"
-    return " and ".join(found) or "survived"
+    code = [name for name in altered if bare(original.blocks.get(name)) != bare(made.get(name))]
+    notice = ["rules"] * refused + ["facts"] * (not refused and by_facts(drive))
+    if not code:
+        return f"alters comments, noticed by {' and '.join(notice) or 'nothing'}"
+    notice += ["blocks"] * by_blocks(original, drive, made, code)
+    return f"noticed by {' and '.join(notice) or 'nothing'}"
+
+
+def read(change: mutate.Change, name: str) -> tuple[Drive | None, bool]:
+    """The changed map even where rules refuse it, and whether they do; None where it has not the form of a map."""
+    report = Report(name)
+    root = nodes.parse(change.data.decode(), report)
+    drive: Drive | None = decode(Drive, root, report) if root is not None else None
+    if drive is None or report.problems:
+        return None, True
+    try:
+        check(drive, report)
+        vet(drive, report)
+    except (ValueError, ArithmeticError, LookupError):
+        return drive, True
+    return drive, bool(report.problems)
 
 
 def bare(block: str | None) -> str | None:
@@ -118,13 +135,10 @@ def by_facts(drive: Drive) -> bool:
 
 def by_blocks(original: Original, drive: Drive, made: dict[str, str], altered: list[str]) -> bool:
     """Whether the blocks of the changed map are judged wrong, or do not compile."""
-    same = [name for name in altered if bare(original.blocks.get(name)) != bare(made.get(name))]
-    if not same:
-        return False
     try:
-        blocks = Blocks(EmbeddedEngine().build([*shared(), *closure(original.drive.prefix, made, same)]))
-        judges.judge(blocks, original.drive, same, drive)
-    except (AssertionError, KeyError, EngineError, ValueError):
+        blocks = Blocks(EmbeddedEngine().build([*shared(), *closure(original.drive.prefix, made, altered)]))
+        judges.judge(blocks, original.drive, altered, drive)
+    except (AssertionError, LookupError, EngineError, ValueError):
         return True
     return False
 
@@ -163,10 +177,10 @@ def run(rounds: int, seed: int, sample: int | None = None) -> Tally:
             continue
         name = verdict(original, change)
         tally.seen[name] += 1
-        if name == "blocks":
+        if name == "noticed by blocks":
             tally.model_only[f"{original.drive.prefix} {leaf.kind}"] += 1
-        if name in {"survived", "alters comments alone"}:
-            tally.survived.append((original.drive.prefix, leaf.kind, change.said))
+        if (name.startswith("noticed") and not name.endswith("blocks")) or name.endswith("nothing"):
+            tally.survived.append((original.drive.prefix, leaf.kind, f"{change.said}: {name}"))
     tally.seconds = time.perf_counter() - start
     return tally
 
