@@ -89,12 +89,9 @@ def _noted(asked: Asked) -> Iterator[Item]:
     """Checks of the other fields of the open request."""
     yield bench.is_number("Request.UnitAddress", asked.unit, "unit noted")
     yield bench.is_number("Request.Quantity", asked.quantity, "number of registers noted")
-    if asked.function == 8:
-        yield bench.is_word("Request.SubFunction", word(asked.sub_function), "sub-function noted")
-    else:
-        yield bench.is_word("Request.Address", word(asked.address), "address noted")
-    if asked.function in (6, 8):
-        yield bench.is_word("Request.Value", word(asked.value), "word noted")
+    yield bench.is_word("Request.SubFunction", word(asked.sub_function), "sub-function noted, 0 without")
+    yield bench.is_word("Request.Address", word(asked.address), "address noted, 0 without")
+    yield bench.is_word("Request.Value", word(asked.value), "word noted, 0 without")
 
 
 # ---------------------------------------------------------------- the cases
@@ -148,7 +145,7 @@ def _diagnostics() -> Iterator[Case]:
 
 def _multiple(program: Script) -> None:
     program.defaults += bench.fill("Adu", UNTOUCHED)
-    words = tuple(0x0102 * (index + 1) & 0xFFFF for index in range(MOST[16]))
+    words = tuple(0x0103 * (index + 1) & 0xFFFF for index in range(MOST[16]))
     last = bench.is_word("Words[122]", word(words[122]), "last word")
     program.stage("the words that all cases write", *bench.fill_words("Words", words), last)
     good = Asked(16, 1, 0x2100, 2, words=words)

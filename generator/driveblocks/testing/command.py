@@ -14,7 +14,7 @@ from driveblocks.testing.table import Table
 _PINS = {field.name: "".join(part.capitalize() for part in field.name.split("_")) for field in fields(Pins)}
 """Name in the reference model -> pin: run_forward -> RunForward."""
 
-KEPT = 0x5A5A
+KEPT = 0xFFFF
 """What stands in the command register beside the commands' bits, unless a case says otherwise."""
 
 STOPS = ("enable", "stop", "quick_stop", "coast_stop")
@@ -142,6 +142,14 @@ def _named(about: str, *steps: Iterable[str]) -> Iterator[tuple[str, Pins]]:
 def _kept(drive: Drive) -> Iterator[tuple[str, Pins]]:
     """Each command with all sorts of bits beside its own; nothing where whole words are written."""
     for keep in (0x0000, 0xFFFF, 0xAAAA, 0x5555) if keeps(drive) else ():
-        for names in ((), ("run_forward",), ("run_reverse",), ("jog_forward",), ("coast_stop",), ("fault_reset",)):
+        for names in (
+            (),
+            ("run_forward",),
+            ("run_reverse",),
+            ("jog_forward",),
+            ("coast_stop",),
+            ("fault_reset",),
+            MOTIONS,
+        ):
             words, pins = _pins(*names, keep=keep)
             yield f"kept bits {keep:04X}H: {words}", pins

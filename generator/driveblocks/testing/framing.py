@@ -114,6 +114,8 @@ def _garbled(frame: bytes) -> Iterator[tuple[str, bytes]]:
     yield "lower case", frame.replace(b"8", b"e").lower()
     yield "lower case, otherwise right", ascii_encode(b"\x01\x83\xab\xcd").data.lower()
     yield "upper case", ascii_encode(b"\x01\x83\xab\xcd").data
+    yield "every digit as the second of two", ascii_encode(bytes(range(16))).data
+    yield "every digit as the first of two", ascii_encode(bytes(range(0, 256, 16))).data
     yield "LF CR instead of CR LF", frame[:-2] + b"\n\r"
     yield "without CR", frame[:-2] + b"\n"
     yield "one digit too few", frame[:-3] + b"\r\n"

@@ -8,10 +8,11 @@ from driveblocks.reference.reply import Manners, manners, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
+from driveblocks.testing.literal import word
 from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
 
-STALE = (0xDEAD, 0xBEEF)
+STALE = (0xDEAD, 0xBEEF, 0xF00D)
 """What stands in the words before each reply: one that is not believed must leave it."""
 
 STANDARD_ADD = 0x80
@@ -112,6 +113,7 @@ def _table(program: Script, subject: Subject, base: Asked) -> Table:
         bench.is_number("Parse.WordCount", "WantedCount", "WordCount"),
         bench.is_word("Words[0]", "WantedFirst", "first word"),
         bench.is_word("Words[1]", "WantedSecond", "second word"),
+        bench.is_word("Words[2]", word(STALE[2]), "third word, which was not asked for"),
     )
     return table
 
@@ -176,6 +178,9 @@ def _lengths(base: Asked, right: bytes) -> Iterator[Case]:
         yield Case(f"{length} bytes instead of {len(right)}", base, whole[:length])
     for length in (254, 255, 256, 65535):
         yield Case(f"{length} bytes instead of {len(right)}", base, whole.ljust(length, b"\x00"))
+    for length in (254, 255):
+        other = bytes([base.unit + 1]) + whole[1:]
+        yield Case(f"{length} bytes of another unit", base, other.ljust(length, b"\x00"))
 
 
 def _counts(base: Asked, right: bytes) -> Iterator[Case]:
@@ -222,6 +227,7 @@ def _write_replies(subject: Subject, base: Asked) -> Iterator[Case]:
     yield Case(f"a write reply of {address:04X}H, one byte too long", base, data + b"\x00")
     yield Case(f"a write reply of {address:04X}H by another function", base, data[:1] + b"\x10" + data[2:])
     yield Case(f"a write reply of {address:04X}H by another unit", base, bytes([base.unit + 1]) + data[1:])
+    yield Case("a reply of function 00H for 0000H", base, bytes([base.unit, 0, 0, 0, 0, 5]))
     if base.function == function:
         own = replace(base, address=address, value=5, quantity=1)
         yield Case(f"a write reply of {address:04X}H that was asked for", own, data)
@@ -242,5 +248,7 @@ def _requests(base: Asked, right: bytes) -> Iterator[Case]:
     yield Case("another address was asked", replace(base, address=base.address ^ 1), right)
     yield Case("an address that differs in its high byte was asked", replace(base, address=base.address ^ 0x100), right)
     yield Case("another number of registers was asked", replace(base, quantity=base.quantity + 1), right)
+    odd = bytes([base.unit, 5]) + right[2:6].ljust(4, b"\x00")
+    yield Case("a function that no block asks for was asked", replace(base, function=5), odd)
     yield Case("another word was asked", replace(base, value=base.value ^ 0x8000), right)
     yield Case("another sub-function was asked", replace(base, sub_function=base.sub_function ^ 1), right)

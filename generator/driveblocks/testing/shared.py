@@ -2,8 +2,10 @@
 
 from collections.abc import Iterable, Iterator
 
-from driveblocks.reference.reply import Manners
+from driveblocks.reference.permission import MOST_READ
+from driveblocks.reference.reply import Manners, parse
 from driveblocks.testing import bench, builder, checksum, framing, packing, reply, text
+from driveblocks.testing.literal import word
 from driveblocks.testing.script import Script
 
 PROTOCOL = "MODBUS Application Protocol V1.1b3"
@@ -30,3 +32,27 @@ def _replies() -> Iterator[Script]:
             bench.declare(program, "Adu", "Words", "Request", Parse="MB_ParseReply")
             reply.fill(program, subject, reply.asked(function))
             yield program
+    yield _longest()
+
+
+def _longest() -> Script:
+    """As many registers as a frame can carry."""
+    asked = reply.asked(3, quantity=MOST_READ)
+    program = bench.generic("Longest", "a reply with as many registers as a frame carries", f"{PROTOCOL}, 6.3.")
+    bench.declare(program, "Adu", "Words", "Request", Parse="MB_ParseReply")
+    bench.declare_ramp(program)
+    size = 3 + 2 * MOST_READ
+    head = bytes([asked.unit, asked.function, 2 * MOST_READ])
+    words = parse(Manners(), asked, head + bench.sample(size)[3:]).words
+    ends = (0, 1, 62, 123, 124)
+    program.stage(
+        f"{MOST_READ} registers",
+        *bench.ramp("Adu", size),
+        *bench.fill("Adu", head),
+        *bench.open_request(asked),
+        f"Parse(Length := {size}, Adu := Adu, Request := Request, Words := Words);",
+        bench.has_result("Parse", "OK"),
+        bench.is_number("Parse.WordCount", MOST_READ, "WordCount"),
+        *(bench.is_word(f"Words[{index}]", word(words[index]), f"word {index}") for index in ends),
+    )
+    return program

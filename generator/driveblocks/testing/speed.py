@@ -85,6 +85,8 @@ def _cases(model: SpeedReference) -> Iterator[Case]:
             yield from _at(model, 50.0, scale)
         for scale in (0.0, -1.0, -9.0e29, 2.0e30):
             yield "bad scale" if scale else "scale not set", 10.0, 50.0, scale
+    for hertz in (0.0, 0.25, 0.5, 1.0):
+        yield "a low maximum", hertz, 0.5, USUAL_SCALE
     for maximum in (0.0, -1.0, -2.0e30, 2.0e30):
         yield "maximum" if maximum else "maximum not set", 10.0, maximum, USUAL_SCALE
     for hertz in (-0.001, -50.0, -9.0e29, -1.1e30, 1.1e30, 3.0e38, -3.0e38):
