@@ -91,7 +91,7 @@ def verdict(original: Original, change: mutate.Change) -> str:
         return "is no map"
     try:
         made = rendered(Path(original.text.name).stem, drive)
-    except (ValueError, AssertionError, LookupError, ArithmeticError):
+    except (ValueError, TypeError, AssertionError, LookupError, ArithmeticError):
         return "makes no block"
     altered = [name for name in original.blocks.keys() | made.keys() if original.blocks.get(name) != made.get(name)]
     if not altered:
