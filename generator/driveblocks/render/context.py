@@ -4,6 +4,7 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 from driveblocks.maps.form import Span, address_text, bits_text
@@ -136,11 +137,14 @@ def scales(drive: Drive) -> Iterator[Context]:
 
 
 def times(factor: Decimal) -> str:
-    """` / 100.0` for 0.01, ` * 2.5` for 2.5: a division by a whole number is exact where the product is not."""
-    inverse = 1 / factor
-    if factor < 1 and inverse == inverse.to_integral_value():
-        return f"/ {int(inverse)}.0"
-    return f"* {real(factor)}"
+    """`/ 100.0` for 0.01, `* 2.5` for 2.5, `* 3.0 / 1000.0` for 0.003: whole numbers where REAL cannot hold the factor.
+
+    A literal such as 0.003 is a double to a C compiler and a REAL elsewhere; 3.0 and 1000.0 are the same in both.
+    """
+    ratio = Fraction(factor)
+    if ratio.denominator & (ratio.denominator - 1) == 0:
+        return f"* {real(factor)}"
+    return f"/ {ratio.denominator}.0" if ratio.numerator == 1 else f"* {ratio.numerator}.0 / {ratio.denominator}.0"
 
 
 def real(value: Decimal) -> str:
