@@ -145,7 +145,7 @@ def test_an_xml_that_cannot_be_written_gives_status_2(my_drive: str) -> None:
     assert "no/such/folder/junit.xml: cannot be written" in result.stderr
 
 
-def test_loops_beyond_the_engines_limit_fail_and_the_run_goes_on(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loops_beyond_the_limit_fail_and_the_run_goes_on(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def slow(engine: object, sources: list[Source]) -> object:
         return build(EmbeddedEngine(loop_limit=100), sources)
 
