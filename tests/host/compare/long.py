@@ -1,5 +1,5 @@
-"""The long forms: `python -m tests.host.compare.long [corpus] [expressions] [--scans N] [--expressions N] [--seed N]
-[--without PRODUCTION,...]`.
+"""The long forms: `python -m tests.host.compare.long [corpus] [expressions] [--scans N] [--blocks NAME,...]
+[--expressions N] [--seed N] [--without PRODUCTION,...]`.
 
 `corpus`: 10^5 random scans of every block, the full state compared after each, between the three models of the embedded
 engine and with each line of matiec. `expressions`: 10^6 random expressions with four inputs each, between C's model and
@@ -39,13 +39,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Compare the engines at length.")
     parser.add_argument("what", nargs="*", default=["corpus", "expressions"], help="corpus, expressions")
     parser.add_argument("--scans", type=int, default=100_000, help="per block of the corpus")
+    parser.add_argument("--blocks", default=",".join(load_cases()), help="of the corpus, with commas between")
     parser.add_argument("--expressions", type=int, default=1_000_000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--without", default="", help="productions to leave out, with commas between")
     options = parser.parse_args()
     failures = 0
     if "corpus" in options.what:
-        failures += _corpus(options.scans, options.seed)
+        failures += _corpus(options.blocks.split(","), options.scans, options.seed)
     if "expressions" in options.what:
         failures += _expressions(options.expressions, options.seed, options.without.split(","))
     return 1 if failures else 0
@@ -62,8 +63,8 @@ def _matiec() -> Iterator[MatiecEngine]:
 # ------------------------------------------------------------ corpus
 
 
-def _corpus(scans: int, seed: int) -> int:
-    jobs = [(name, scans, seed) for name in load_cases()]
+def _corpus(blocks: list[str], scans: int, seed: int) -> int:
+    jobs = [(name, scans, seed) for name in blocks]
     with ProcessPoolExecutor() as pool:
         failures = 0
         for text, failed in pool.map(_long_case, jobs):
