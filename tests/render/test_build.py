@@ -115,6 +115,17 @@ def test_two_maps_of_one_prefix_are_refused(tmp_path: Path) -> None:
         build.read([EXAMPLE, other])
 
 
+@pytest.mark.parametrize("names", [["modbus.yaml"], ["types.yaml"], ["a/one.yaml", "b/one.yaml"]])
+def test_two_drives_in_one_folder_are_refused(tmp_path: Path, names: list[str]) -> None:
+    paths = [tmp_path / name for name in names]
+    for number, path in enumerate(paths):
+        path.parent.mkdir(exist_ok=True)
+        text = EXAMPLE.read_text(encoding="utf-8").replace("prefix: EX100", f"prefix: EX10{number}")
+        path.write_text(text, encoding="utf-8")
+    with pytest.raises(MapError, match="the folder .* is taken"):
+        build.read(paths)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [

@@ -37,6 +37,7 @@ def read(paths: Iterable[Path]) -> list[Source]:
         except MapError as error:
             problems.extend(error.problems)
     problems.extend(_shared_prefixes(sources))
+    problems.extend(_shared_folders(sources))
     if problems:
         raise MapError(problems)
     return sources
@@ -60,6 +61,19 @@ def _shared_prefixes(sources: list[Source]) -> list[Problem]:
             line, column = source.drive.place("prefix")
             wrong = f"prefix {source.drive.prefix} is taken by {other.path}"
             problems.append(Problem(str(source.path), line, column, wrong, "give each map a prefix of its own"))
+    return problems
+
+
+def _shared_folders(sources: list[Source]) -> list[Problem]:
+    """A drive's folder has the name of its map's file; some names belong to the library itself."""
+    problems = []
+    taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
+    for source in sources:
+        stem = source.path.stem
+        if stem in taken:
+            wrong = f"the folder {stem}/ is taken by {taken[stem]}"
+            problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
+        taken[stem] = str(source.path)
     return problems
 
 
