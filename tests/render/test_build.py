@@ -122,7 +122,7 @@ def test_two_drives_in_one_folder_are_refused(tmp_path: Path, names: list[str]) 
         path.parent.mkdir(exist_ok=True)
         text = EXAMPLE.read_text(encoding="utf-8").replace("prefix: EX100", f"prefix: EX10{number}")
         path.write_text(text, encoding="utf-8")
-    with pytest.raises(MapError, match="the folder .* is taken"):
+    with pytest.raises(MapError, match=r"the folder .* is taken"):
         build.read(paths)
 
 
