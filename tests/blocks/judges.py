@@ -5,6 +5,7 @@ Each judge raises AssertionError, or KeyError where a block, pin or function is 
 
 import itertools
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 from tests.blocks import asking, driving, meanings, vectors
@@ -127,6 +128,7 @@ def _named(names: str | tuple[str, ...], value: Any) -> dict[str, Any]:
     return dict(zip(listed, value, strict=True)) if len(listed) > 1 else {listed[0]: value}
 
 
+@cache
 def shipped_is_good() -> None:
     """The facts hold for the shipped maps as they are: otherwise every change would seem to be noticed."""
     for drive in shipped().values():

@@ -1,0 +1,35 @@
+"""Mistakes that templates once had, each by the least that showed it."""
+
+import pytest
+from tests.blocks import wire
+from tests.blocks.library import built, result
+from tests.blocks.test_fourth_drive import fourth
+
+from driveblocks.host.engine import Engine
+from driveblocks.reference.request import Asked
+
+
+def test_a_drive_that_speaks_ascii_alone_can_be_read(engine: Engine) -> None:
+    """Its RTU limit, which does not exist, was taken for 0 registers."""
+    assert wire.build(fourth(engine), "BH", Asked(3, 31, 0x9001, 1, ascii=True)).built.result == "OK"
+
+
+@pytest.mark.parametrize(("word", "unknown"), [(0x0004, False), (0x0005, False), (0x0014, True), (0, True)])
+def test_a_bit_that_the_manual_does_not_list_is_unknown_beside_one_that_it_lists(
+    engine: Engine, word: int, unknown: bool
+) -> None:
+    """One listed bit was enough to call the whole word known."""
+    assert built(engine).run("JSCC_DriveStatus", {"Value": word})["Unknown"] is unknown
+
+
+def test_a_percentage_without_a_scale_counts_per_hertz_as_its_pin_says(engine: Engine) -> None:
+    """The setting was multiplied with the percentage, twice the speed for a maximum of 50 Hz."""
+    pins = {"SpeedReferenceHz": 25.0, "MaximumHz": 50.0, "ReferenceScale": 200.0}
+    done = fourth(engine).run("BH_Reference", pins)
+    assert (done["Value"], result(done)) == (5000, "OK")
+
+
+def test_a_reset_is_never_written_into_the_command_register(engine: Engine) -> None:
+    """16 in the command register of this drive is the bit that runs it forward."""
+    done = fourth(engine).run("BH_Command", {"Enable": True, "FaultReset": True})
+    assert (done["Address"], done["Value"]) == (0x8002, 16)
