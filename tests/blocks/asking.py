@@ -22,6 +22,9 @@ class Asking:
         self.chance = random.Random(f"{drive.prefix} {seed}")
         edges = {address for allowed in (self.model.readable, self.model.writable) for address in borders(allowed)}
         self.addresses = sorted({*edges, 0, 0xFFFF, 0xFF00, 0x7FFF, 0x8000})
+        cast = drive.serial.broadcast
+        named = cast.start_addresses if cast else ()
+        self.starts = sorted({*self.addresses[:8], *(one + beside for one in named for beside in (0, 1))})
         unit = drive.serial.unit
         self.units = sorted({0, 1, unit.min - 1, unit.min, unit.max, unit.max + 1, 247, 248, 255, 256, 65535} - {-1})
         counts = {self.model.rtu.read, self.model.rtu.write, self.model.ascii.read, self.model.ascii.write}
@@ -70,6 +73,9 @@ class Asking:
                 for address in self.addresses[:: max(1, len(self.addresses) // 4)]:
                     for in_ascii in modes:
                         yield Asked(function, unit, address, count, words=tuple(range(125)), ascii=in_ascii)
+        for address in self.starts:
+            for function in (6, 16):
+                yield Asked(function, 0, address, 1, words=(1,), ascii="rtu" not in self.drive.serial.mode.modes)
         for sub_function in self.subs:
             yield Asked(8, unit, 0, 1, 0xA55A, sub_function, ascii="rtu" not in self.drive.serial.mode.modes)
 

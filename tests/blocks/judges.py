@@ -50,7 +50,8 @@ def _requests(blocks: Blocks, drive: Drive, other: Drive) -> None:
     unit, words = drive.serial.unit.min, tuple(range(125))
     first = (Asked(code, unit, at, 1, words=words) for at in sorted(apart)[:16] for code in (3, 6, 16))
     limits = [*draw.limits()]
-    for asked in itertools.chain(first, limits[:: max(1, len(limits) // 400)], (draw.any() for _ in range(400))):
+    casts = (asked for asked in limits if asked.unit == 0)
+    for asked in itertools.chain(first, casts, limits[:: max(1, len(limits) // 400)], (draw.any() for _ in range(400))):
         asking.check_request(blocks, draw, asked)
 
 

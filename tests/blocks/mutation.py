@@ -180,21 +180,26 @@ def run(rounds: int, seed: int, sample: int | None = None) -> Tally:
         if name == "noticed by blocks":
             tally.model_only[f"{original.drive.prefix} {leaf.kind}"] += 1
         if (name.startswith("noticed") and not name.endswith("blocks")) or name.endswith("nothing"):
-            tally.survived.append((original.drive.prefix, leaf.kind, f"{change.said}: {name}"))
+            tally.survived.append((original.drive.prefix, dotted(leaf.path), f"{change.said}: {name}"))
     tally.seconds = time.perf_counter() - start
     return tally
 
 
+def dotted(path: tuple[str | int, ...]) -> str:
+    """Keys and indices from the root of a map to a fact, as `survivors.yaml` writes them."""
+    return ".".join(map(str, path))
+
+
 def explained() -> dict[tuple[str, str], str]:
-    """Why a kind of change may survive, by drive and kind."""
+    """Why changes of a fact may survive, by drive and fact."""
     rows = yaml.safe_load(SURVIVORS.read_text(encoding="utf-8"))
-    return {(row["drive"], row["kind"]): row["why"] for row in rows}
+    return {(row["drive"], row["fact"]): row["why"] for row in rows}
 
 
 def unexplained(tally: Tally) -> list[str]:
     """Survivors without an explanation."""
     known = explained()
-    return [said for drive, kind, said in tally.survived if (drive, kind) not in known]
+    return [said for drive, fact, said in tally.survived if (drive, fact) not in known]
 
 
 def report(tally: Tally) -> str:
@@ -206,7 +211,7 @@ def report(tally: Tally) -> str:
     lines += [f"  {number:5} {kind}" for kind, number in tally.model_only.most_common()]
     why = explained()
     lines += ["survived:"]
-    lines += [f"  {said}\n        {why.get((drive, kind), 'NOT EXPLAINED')}" for drive, kind, said in tally.survived]
+    lines += [f"  {said}\n        {why.get((drive, fact), 'NOT EXPLAINED')}" for drive, fact, said in tally.survived]
     return "\n".join(lines)
 
 
