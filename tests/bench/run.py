@@ -61,7 +61,15 @@ def library_sources() -> list[Source]:
 
 def engines() -> Table:
     """Build time, CRC and scans of each engine found, with the ratio to the embedded one."""
-    table = Table("engine", "build library s", "CRC MB/s", "scans/s", "CRC ratio", "scan ratio", title="engines")
+    table = Table(
+        "engine",
+        "build library s",
+        "CRC MB/s",
+        "scans/s",
+        "CRC ratio",
+        "scan ratio",
+        title="engines (matiec builds from its cache)",
+    )
     sources = library_sources()
     first: tuple[float, float] | None = None
     for candidate in survey().candidates():

@@ -3,6 +3,7 @@
 import gc
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -15,6 +16,8 @@ from driveblocks.testing.unit import Unit, units
 
 from .conftest import BOTH, EXAMPLE, only, run
 
+FOURTH = sorted((Path(__file__).parents[1] / "blocks/fourth_drive").glob("*.yaml"))
+
 
 def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
     made = units(build.read(catalog.shipped()), BOTH)
@@ -22,6 +25,13 @@ def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
     assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
     assert done.passed
     assert {result.unit for result in done.results} == {"modbus", *(path.stem for path in catalog.shipped())}
+
+
+@pytest.mark.parametrize("path", FOURTH, ids=lambda path: path.stem)
+def test_a_drive_that_only_a_map_describes_is_green(path: Path) -> None:
+    done = run(*units(build.read([path]), BOTH))
+    assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
+    assert done.passed
 
 
 def test_the_example_is_green_on_every_engine(engine: Engine, example: Unit) -> None:

@@ -65,7 +65,7 @@ def _codes(drive: Drive, stem: str, language: Language, kind: str, codes: list[i
     source = drive.faults.source if kind == "Fault" else drive.errors.source
     title = f"texts of {kind.lower()} codes"
     program = bench.script(drive, stem, f"{kind}Text{language.suffix}", title, source)
-    for code in dict.fromkeys((*codes, 0, max(codes, default=0) + 1, 256, 65535)):
+    for code in dict.fromkeys((*codes, 0, min(max(codes, default=0) + 1, 65535), 256, 65535)):
         call = f"{drive.prefix}_{kind}Text{language.suffix}(Code := {code})"
         program.stage(f"{kind.lower()} {code}", bench.is_text(call, _bytes(find(drive, code), language), "text"))
     return program
@@ -88,7 +88,7 @@ def _values(drive: Drive, stem: str, language: Language) -> Script:
     for section, row in drive.registers():
         address = row.address.first
         listed = {value.value for value in row.values}
-        for number in sorted({*listed, *({max(listed) + 1} if listed else ())}):
+        for number in sorted({*listed, *({min(max(listed) + 1, 65535)} if listed else ())}):
             probe = _place(drive, language, "Value", address, number)
             program.stage(f"{address_text(address)} = {number}", probe, source=row.source or section.source)
     program.stage("a register that is in no table", _place(drive, language, "Value", 0xFFFF, 0))
