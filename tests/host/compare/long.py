@@ -12,6 +12,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -30,8 +31,12 @@ from driveblocks.host.matiec.cache import Cache
 
 PER_BATCH = 4000
 VECTORS = 4
+PER_POOL = 25  # batches
 # A compilation without optimisation takes a fifth of the time of one with -O2; every level has its turn.
 OPTIMISATION = ("1", *("0",) * 7, "2", *("0",) * 7)
+
+# Engine, seed, number of the batch, productions to leave out.
+Job = tuple[str, int, int, list[str]]
 
 
 def main() -> int:
@@ -100,21 +105,26 @@ def _pairs(case: Case) -> Iterator[tuple[str, list[Run], tuple[str, ...]]]:
 def _expressions(count: int, seed: int, without: list[str]) -> int:
     batches = -(-count // PER_BATCH)
     failures = 0
-    # What a C compiler makes of a batch stays loaded, so a process does not do many of them.
-    with ProcessPoolExecutor(max_tasks_per_child=20) as pool:
-        for engine in _matiec():
-            jobs = [(engine.name, seed, number, without) for number in range(batches)]
-            done = 0
-            for text, compared, failed in pool.map(_long_batch, jobs):
-                done, failures = done + compared, failures + failed
-                print(text, end="", flush=True)
-                if done % (25 * PER_BATCH) < PER_BATCH:
-                    print(f"{engine.name}: {done} expressions so far", flush=True)
-            print(f"{engine.name}: {done} expressions with {VECTORS} inputs each", flush=True)
+    for engine in _matiec():
+        done = 0
+        jobs = [(engine.name, seed, number, without) for number in range(batches)]
+        for text, compared, failed in chain.from_iterable(_in_turns(jobs)):
+            done, failures = done + compared, failures + failed
+            print(text, end="", flush=True)
+            if done % (25 * PER_BATCH) < PER_BATCH:
+                print(f"{engine.name}: {done} expressions so far", flush=True)
+        print(f"{engine.name}: {done} expressions with {VECTORS} inputs each", flush=True)
     return failures
 
 
-def _long_batch(job: tuple[str, int, int, list[str]]) -> tuple[str, int, int]:
+def _in_turns(jobs: list[Job]) -> Iterator[list[tuple[str, int, int]]]:
+    """Results in order. What a C compiler makes of a batch stays loaded, so that processes are renewed now and then."""
+    for start in range(0, len(jobs), PER_POOL):
+        with ProcessPoolExecutor() as pool:
+            yield list(pool.map(_long_batch, jobs[start : start + PER_POOL]))
+
+
+def _long_batch(job: Job) -> tuple[str, int, int]:
     """One batch on one line: the differences made small, how many were compared, how many differ."""
     name, seed, number, without = job
     (engine,) = (each for each in _quietly() if each.name == name)
