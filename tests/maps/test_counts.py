@@ -67,11 +67,11 @@ def test_the_table_has_a_line_for_each_drive_and_register_table(drive: Drive) ->
     lines = inventory.table({EXAMPLE: drive}, CHECKOUT).splitlines()
     assert lines[2] == (
         "| [**EX100**](tests/maps/example.yaml) Example Drives EX100 series "
-        "| 26 | 17 | 13 | 4 | 4 | 4 | 9 | 8 | 2 |"
+        "| 26 | 17 | 5 | 13 | 4 | 4 | 4 | 9 | 8 | 2 |"
     )  # fmt: skip
-    assert lines[3] == "| · Commands | 4 | 6 | 5 |  |  |  |  |  |  |"
-    assert lines[-1] == "| · keypad settings |  |  | 3 | 4 |  |  |  |  |  |"
-    assert {line.count("|") for line in lines} == {11}
+    assert lines[3] == "| · Commands | 4 | 6 | 2 | 5 |  |  |  |  |  |  |"
+    assert lines[-1] == "| · keypad settings |  |  | 1 | 3 | 4 |  |  |  |  |  |"
+    assert {line.count("|") for line in lines} == {12}
 
 
 def test_links_lead_from_the_page_to_the_map(drive: Drive) -> None:

@@ -11,7 +11,7 @@ from driveblocks.maps.model import Drive
 BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
 
 _COLUMNS = (
-    "drive and its register tables", "registers", "bits", "enum values",
+    "drive and its register tables", "registers", "bits", "enums", "enum values",
     "settings", "faults", "errors", "frames", "errata", "absent",
 )  # fmt: skip
 
@@ -43,11 +43,12 @@ def _drive(drive: Drive, link: Path) -> Iterator[tuple[str, ...]]:
     blank = ("",) * len(_kinds(held))
     for section in drive.sections:
         yield f"· {section.title.en}", *_numbers(held.sections[section.id]), *blank
-    yield "· keypad settings", "", "", str(held.setting_values.enum_values), str(held.settings), *blank[1:]
+    lists = str(held.setting_values.enums), str(held.setting_values.enum_values)
+    yield "· keypad settings", "", "", *lists, str(held.settings), *blank[1:]
 
 
 def _numbers(tally: Tally) -> tuple[str, ...]:
-    return str(tally.registers), str(tally.bits), str(tally.enum_values)
+    return str(tally.registers), str(tally.bits), str(tally.enums), str(tally.enum_values)
 
 
 def _kinds(held: Counts) -> tuple[str, ...]:
