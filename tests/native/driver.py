@@ -1,0 +1,79 @@
+"""Drivers in C around the library as matiec translates it: programs, so that millions of scans cost no Python.
+
+A driver is C text that is compiled behind `prelude.h`, with the C of iec2c in the same unit. It prints what it found;
+its exit status is 0 if all was well.
+"""
+
+import hashlib
+import json
+import shutil
+import subprocess
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.blocks.library import sources
+
+from driveblocks.host.discovery import MATIEC_NAMES, survey
+from driveblocks.host.engine import EngineError, Source
+from driveblocks.host.matiec import MatiecEngine
+
+PRELUDE = Path(__file__).with_name("prelude.h")
+OPTIONS = ("-std=gnu11", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-w")
+"""As the matiec engine compiles: iec2c writes C that leans on what compilers do. Its warnings are judged elsewhere."""
+PROGRAM = "driver"
+
+
+@dataclass(frozen=True)
+class Driver:
+    """C text and how to compile it; `compiler` is the engine's own unless another is named, such as clang."""
+
+    text: str
+    options: tuple[str, ...] = ("-O2",)
+    compiler: tuple[str, ...] = ()
+    prelude: bool = True
+
+    def build(self, engine: MatiecEngine, texts: Sequence[Source] = ()) -> Path:
+        """Compile it with the library (or other ST) as this line of matiec translates it, or take it from the cache.
+
+        Gives the path of the program. Raises BuildError if the ST does not compile, EngineError with what the C
+        compiler says if the C does not.
+        """
+        translated = engine.build(list(texts) or sources()).folder
+        key = json.dumps([self.text, PRELUDE.read_text("utf-8"), translated.name, self._command(engine)])
+
+        def make(folder: Path) -> None:
+            self._compile(engine, translated, folder)
+
+        return engine.cache.entry(hashlib.sha256(key.encode()).hexdigest(), make) / PROGRAM
+
+    def _command(self, engine: MatiecEngine) -> list[str]:
+        return [*(self.compiler or engine.compiler.command), *OPTIONS, *self.options]
+
+    def _compile(self, engine: MatiecEngine, translated: Path, folder: Path) -> None:
+        head = f'#include "{PRELUDE}"\n#line 1 "driver.c"\n' if self.prelude else ""
+        (folder / "unit.c").write_text(head + self.text, encoding="utf-8")
+        headers = ["-I", str(translated), "-isystem", str(engine.installation.headers)]
+        command = [*self._command(engine), *headers, "-o", PROGRAM, "unit.c", "-lm"]
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, errors="replace", check=False)
+        if done.returncode:
+            raise EngineError(f"the driver does not compile: {done.stderr[:4000]}")
+
+
+def run(program: Path, *arguments: object, seconds: float = 600.0) -> subprocess.CompletedProcess[str]:
+    """Run a driver; its output as text. Raises subprocess.TimeoutExpired."""
+    command = [str(program), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=seconds, check=False)
+
+
+def lines() -> Iterator[MatiecEngine]:
+    """The engine of each line of matiec that is found."""
+    for each in survey().candidates():
+        if each.name in MATIEC_NAMES and isinstance(each.engine, MatiecEngine):
+            yield each.engine
+
+
+def clang() -> tuple[str, ...] | None:
+    """The command of clang, if it is there."""
+    found = shutil.which("clang")
+    return (found,) if found else None
