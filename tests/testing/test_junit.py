@@ -98,10 +98,10 @@ def test_a_failure_has_place_expected_and_actual() -> None:
     root = ElementTree.fromstring(junit.text(RUN))  # noqa: S314  (our own text)
     first, second = root.iter("failure")
     assert first.attrib == {"message": "expected 1, found 2", "type": "failed"}
-    assert first.text == "b.st:7: 1: a & b < c\nexpected: 1\nactual: 2"
-    assert second.text == "b.st:11: 3: text\nexpected: x\nactual: \\x00\\x1B"
+    assert first.text == "1: a & b < c\nat b.st:7\nexpected: 1\nactual: 2"
+    assert second.text == "3: text\nat b.st:11\nexpected: x\nactual: \\x00\\x1B"
     (error,) = root.iter("error")
-    assert error.text == "b.st:9: 2: never\nb.st:9: index 4"
+    assert error.text == "2: never\nat b.st:9\nb.st:9: index 4"
 
 
 def test_chinese_stays_chinese(real: Run) -> None:

@@ -61,7 +61,8 @@ def _case(classname: str, outcome: Outcome, seconds: float) -> ElementTree.Eleme
 
 
 def _detail(outcome: Outcome) -> str:
-    lines = [f"{outcome.place}: {outcome.words}" if outcome.path else outcome.words]
+    """What failed, where and how. The place follows a blank: readers of JUnit XML look for ` file:line` in the text."""
+    lines = [outcome.words, f"at {outcome.place}"] if outcome.path else [outcome.words]
     if outcome.expected or outcome.actual:
         lines += [f"expected: {outcome.expected}", f"actual: {outcome.actual}"]
     else:
