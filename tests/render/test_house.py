@@ -8,9 +8,10 @@ import pytest
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.render import build, text
+from driveblocks.st.checker import check
 from driveblocks.st.lint import lint
 from driveblocks.st.parser import parse
-from driveblocks.st.tree import Pou, TypeDecl
+from driveblocks.st.tree import Pou, TypeDecl, Unit
 
 ROOT = Path(__file__).parents[2]
 MAPS = [*catalog.shipped(), ROOT / "tests/maps/example.yaml"]
@@ -25,6 +26,11 @@ TEMPLATES = sorted((ROOT / "generator").rglob("*.j2"))
 def library() -> dict[str, str]:
     files = build.files(build.read(MAPS), text.languages(["en", "zh"], "utf-8"))
     return {name: content for name, content in files.items() if name.startswith("iec61131/") and name.endswith(".st")}
+
+
+@pytest.fixture(scope="module")
+def units(library: dict[str, str]) -> list[Unit]:
+    return [parse(content, name) for name, content in library.items()]
 
 
 @pytest.mark.parametrize("path", CODE, ids=lambda path: str(path.relative_to(ROOT)))
@@ -42,24 +48,24 @@ def test_no_template_decides_by_a_drive(path: Path) -> None:
         assert not [name for name in NAMES if re.search(rf"\b{name}\b", tag, re.IGNORECASE)], tag
 
 
-def test_every_declaration_has_a_comment(library: dict[str, str]) -> None:
+def test_every_declaration_has_a_comment(units: list[Unit]) -> None:
     bare: list[str] = []
-    for name, content in library.items():
-        pous = [element for element in parse(content, name).elements if isinstance(element, Pou)]
+    for unit in units:
+        pous = [element for element in unit.elements if isinstance(element, Pou)]
         variables = [each for pou in pous for group in pou.blocks for each in group.variables]
-        bare.extend(f"{name}: {each.name}" for each in variables if not each.trailing and not each.leading)
+        bare.extend(f"{unit.path}: {each.name}" for each in variables if not each.trailing and not each.leading)
     assert bare == []
 
 
-def test_every_file_is_clean_by_the_linter(library: dict[str, str]) -> None:
-    units = [parse(content, name) for name, content in library.items()]
+def test_every_file_is_clean_by_the_linter(units: list[Unit]) -> None:
+    assert check(units).blocks
     assert [str(problem) for problem in lint(units)] == []
 
 
-def test_every_file_holds_one_thing_named_like_it(library: dict[str, str]) -> None:
-    for name, content in library.items():
-        declared = [element.name for element in parse(content, name).elements if isinstance(element, (Pou, TypeDecl))]
-        assert declared == [Path(name).stem]
+def test_every_file_holds_one_thing_named_like_it(units: list[Unit]) -> None:
+    for unit in units:
+        declared = [element.name for element in unit.elements if isinstance(element, (Pou, TypeDecl))]
+        assert declared == [Path(unit.path).stem]
         assert len(declared[0]) <= 31
 
 

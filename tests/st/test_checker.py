@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from driveblocks.st.checker import analyse, check
+from driveblocks.st.lint import lint, lint_sources
 from driveblocks.st.parser import parse
 from driveblocks.st.problems import CheckError
 from driveblocks.st.tree import (
@@ -519,3 +520,32 @@ def test_functions_and_blocks_of_one_name_in_two_files() -> None:
     assert {each.path for each in problems} == {"two.st"}
     assert isinstance(checked.blocks["INNER"], FunctionBlock)
     assert checked.blocks["INNER"].unit is first
+
+
+def test_a_tree_is_analysed_once_however_often_it_is_asked_for() -> None:
+    unit = parse(INNER, "one.st")
+    checked = check([unit])
+    assert lint([unit]) == lint_sources([("one.st", INNER)])
+    assert check([unit]) is checked
+    assert analyse([unit])[0] is checked
+
+
+def test_the_problems_of_a_tree_stay_the_same_whoever_asks_again() -> None:
+    text = block("i := r; x := b AND TRUE; b := 1; r := 5; i := MISSING(i);")
+    unit = parse(text, "t.st")
+    first = lint([unit])
+    assert first
+    assert lint([unit]) == first
+    with pytest.raises(CheckError) as raised:
+        check([unit])
+    assert set(raised.value.problems) <= set(first)
+    assert analyse([unit])[1] == list(raised.value.problems)
+
+
+def test_a_tree_cannot_be_analysed_beside_other_files_later() -> None:
+    user = "PROGRAM Go VAR n : INT; END_VAR n := Twice(n, 2); END_PROGRAM"
+    first, second = parse(INNER, "one.st"), parse(user, "two.st")
+    check([first])
+    with pytest.raises(ValueError, match=r"one\.st was analysed with other files already: parse it again"):
+        check([first, second])
+    assert check([parse(INNER, "one.st"), second]).programs.keys() == {"GO"}

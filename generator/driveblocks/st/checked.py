@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from driveblocks.st.problems import Problem
 from driveblocks.st.tree import Configuration, Function, FunctionBlock, Program, Unit
 from driveblocks.st.types import Type
 
@@ -23,3 +24,11 @@ class Checked:
     programs: dict[str, Program] = field(default_factory=dict)
     configurations: dict[str, Configuration] = field(default_factory=dict)
     callees_first: list[Function | FunctionBlock] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class Analysis:
+    """What files that were analysed together came to: what could be typed, and every problem in order of place."""
+
+    checked: Checked
+    problems: list[Problem]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import is_not
 
 from driveblocks.st.check_declaration import DeclarationChecker
-from driveblocks.st.checked import Checked
+from driveblocks.st.checked import Analysis, Checked
 from driveblocks.st.collector import paused
 from driveblocks.st.library import Library
 from driveblocks.st.problems import CheckError, Problem
@@ -37,7 +38,7 @@ DEEPEST_BLOCKS = 40
 def check(units: Sequence[Unit]) -> Checked:
     """Resolve and type files as one text in the given order. Raises CheckError with everything that is wrong.
 
-    A unit can be checked once only: its tree is completed in place.
+    Raises ValueError as `analyse` does.
     """
     checked, problems = analyse(units)
     if problems:
@@ -46,12 +47,30 @@ def check(units: Sequence[Unit]) -> Checked:
 
 
 def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
-    """As `check`, but give what could be typed together with the problems, for those who go on nevertheless."""
-    report = Report()
-    checker = _Checker(Library(list(units), report), report)
-    with paused():
-        checked = checker.run()
-    return checked, report.problems()
+    """As `check`, but give what could be typed together with the problems, for those who go on nevertheless.
+
+    The trees are completed in place, once: asked again for the same files, it gives what it gave. Raises ValueError for
+    a file that was analysed with others before, since its tree refers to those.
+    """
+    found = _analysed(units)
+    if found is None:
+        report = Report()
+        checker = _Checker(Library(list(units), report), report)
+        with paused():
+            checked = checker.run()
+        found = Analysis(checked, report.problems())
+        for unit in units:
+            unit.analysis = found
+    return found.checked, list(found.problems)
+
+
+def _analysed(units: Sequence[Unit]) -> Analysis | None:
+    """What was made of these very files, in this order, before. Raises ValueError as `analyse` does."""
+    for unit in units:
+        known = unit.analysis.checked.units if unit.analysis is not None else units
+        if len(known) != len(units) or any(map(is_not, known, units)):
+            raise ValueError(f"{unit.path} was analysed with other files already: parse it again")
+    return units[0].analysis if units else None
 
 
 class _Checker(DeclarationChecker):

@@ -55,7 +55,8 @@ def _named(word: str) -> list[str]:
 def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Problem]:
     """Everything that the rules say about files that belong together, in order of place. Never raises for their text.
 
-    A unit can be linted or checked once only: its tree is completed in place.
+    Trees that were checked together before can be linted as well. Raises ValueError for a file that was checked with
+    others, as `analyse` does.
     """
     checked, problems = analyse(units)
     report = Report()

@@ -17,8 +17,12 @@ from __future__ import annotations
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import TYPE_CHECKING
 
 from driveblocks.st.types import UNKNOWN, Block, Builtin, EnumValue, Field, Parameter, Type
+
+if TYPE_CHECKING:
+    from driveblocks.st.checked import Analysis
 
 LiteralValue = bool | int | float | bytes | str
 
@@ -632,7 +636,8 @@ class Unit:
     """One source file. `elements` in source order; `comments` holds every comment and pragma, attached or not.
 
     `starts` holds the offset of each line. `notes` are spellings that leave no trace in the tree but matter to a
-    portability rule, as (name, offset): a missing semicolon, a byte order mark.
+    portability rule, as (name, offset): a missing semicolon, a byte order mark. `analysis` is what the checker made
+    of the unit and those beside it: a tree is completed once.
     """
 
     path: str
@@ -641,6 +646,7 @@ class Unit:
     comments: list[Comment]
     starts: list[int]
     notes: list[tuple[str, int]]
+    analysis: Analysis | None = field(default=None, init=False, repr=False)
 
     def place(self, at: int) -> tuple[int, int]:
         """The 1-based line and column of an offset."""
