@@ -1,0 +1,95 @@
+"""A fixed typical input for every block and function of the library, so that a count of instructions means something.
+
+A program reads ten registers of unit 1 by function 03H and gets its reply; the drive runs forward without a fault.
+"""
+
+from tests.bench.synthetic import crc16
+
+from driveblocks.st.tree import Function, FunctionBlock, VarDecl, VarKind
+
+Pin = bool | int | float | bytes | list[int] | dict[str, int]
+
+WORDS = [1000 + 17 * index for index in range(10)]
+ASKED = bytes((1, 3, 0, 0, 0, 10))
+BODY = bytes((1, 3, 20)) + b"".join(word.to_bytes(2, "big") for word in WORDS)
+ASKED_RTU = ASKED + crc16(ASKED)
+REPLY_RTU = BODY + crc16(BODY)
+REPLY_ASCII = b":" + (BODY + bytes((-sum(BODY) % 256,))).hex().upper().encode() + b"\r\n"
+REQUEST = {"UnitAddress": 1, "FunctionCode": 3, "Address": 0, "Quantity": 10, "SubFunction": 0, "Value": 0}
+
+USUAL: dict[str, Pin] = {
+    "Number": 10,
+    "Character": 0x41,
+    "Length": len(BODY),
+    "AduLength": len(REPLY_RTU),
+    "CharCount": len(ASKED_RTU),
+    "Adu": REPLY_RTU,
+    "Chars": REPLY_ASCII,
+    "Words": WORDS,
+    "Registers": [*ASKED_RTU],
+    "Request": REQUEST,
+    "UnitAddress": 1,
+    "FunctionCode": 3,
+    "Address": 0,
+    "Quantity": 10,
+    "MaxWords": 123,
+    "SubFunction": 0,
+    "Ascii": False,
+    "ExceptionAdd": 128,
+    "ErrorFunction": 0,
+    "ErrorAddress": 0,
+    "TwoByteCount": False,
+    "Enable": True,
+    "RunForward": True,
+    "SpeedReferenceHz": 42.5,
+    "MaximumHz": 50.0,
+    "ReferenceScale": 100.0,
+    "FaultContents1Word": 0x0040,
+    "Value": 1,
+    "Raw": 5000,
+    "Code": 2,
+}
+"""Pin -> its value in every block that has it and does not say otherwise; 0 or FALSE for all others."""
+
+SPECIAL: dict[str, dict[str, Pin]] = {
+    "MB_RtuSeal": {"Length": len(ASKED), "Adu": ASKED},
+    "MB_AsciiEncode": {"Length": len(ASKED), "Adu": ASKED},
+    "MB_AsciiDecode": {"CharCount": len(REPLY_ASCII)},
+    "MB_PackAdu8": {"Adu": ASKED_RTU},
+    "MB_PackAdu16": {"Adu": ASKED_RTU},
+    "MB_PackChars8": {"CharCount": 17},
+    "MB_PackChars16": {"CharCount": 17},
+    "MB_UnpackChars8": {"CharCount": 17},
+    "MB_UnpackChars16": {"CharCount": 17},
+    "MB_ResultTextEn": {"Code": 23},
+    "MB_ResultTextZh": {"Code": 23},
+    "CHF_Request": {"Address": 0x1000, "Quantity": 2},
+    "CHF_CanRead": {"Address": 0x1000, "Quantity": 2},
+    "CHF_CanWrite": {"Address": 0x1000, "Quantity": 1},
+    "CHF_ValueTextEn": {"Address": 0x1000},
+    "CHF_ValueTextZh": {"Address": 0x1000},
+    "JSCC_ValueTextEn": {"Address": 0x1000},
+    "JSCC_ValueTextZh": {"Address": 0x1000},
+    "SN300G5_BitTextEn": {"Address": 0x0010},
+    "SN300G5_BitTextZh": {"Address": 0x0010},
+    "SN300G5_Request": {"Address": 0x0020},
+    "SN300G5_CanRead": {"Address": 0x0020},
+    "SN300G5_CanWrite": {"Address": 0x0001, "Quantity": 1},
+}
+"""Block -> what is special in it: the addresses that a drive has, the frame that goes the other way."""
+
+
+def pins(block: Function | FunctionBlock) -> dict[str, Pin]:
+    """The typical input of a block: a value for every input and in-out, in the order of their declaration."""
+    declared = [
+        variable
+        for group in block.blocks
+        if group.kind in {VarKind.INPUT, VarKind.IN_OUT}
+        for variable in group.variables
+    ]
+    return {variable.name: _value(block.name, variable) for variable in declared}
+
+
+def _value(block: str, variable: VarDecl) -> Pin:
+    special = SPECIAL.get(block, {})
+    return special.get(variable.name, USUAL.get(variable.name, 0))
