@@ -33,3 +33,13 @@ def test_a_reset_is_never_written_into_the_command_register(engine: Engine) -> N
     """16 in the command register of this drive is the bit that runs it forward."""
     done = fourth(engine).run("BH_Command", {"Enable": True, "FaultReset": True})
     assert (done["Address"], done["Value"]) == (0x8002, 16)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("prefix", ["SN300G5", "JSCC", "CHF"])
+def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine, prefix: str, sign: int) -> None:
+    """The REAL nearest to 1.0E30 is above it: C compared with the literal as a double, and took it for no number."""
+    scale = {"ReferenceScale": 10.0} if prefix == "JSCC" else {}
+    pins = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 1.0e30, **scale}
+    done = built(engine).run(f"{prefix}_Reference", pins)
+    assert result(done) == ("OK" if sign > 0 else "NEGATIVE")
