@@ -35,6 +35,14 @@ class Expressions(Operands):
         super().__init__(scope)
         self.terms |= {tree.Unary: self._unary, tree.Binary: self._binary, tree.Call: self.call}
 
+    def term(self, expression: tree.Expression) -> Term:
+        """As everywhere; a number whose type nothing tells must be the same in all types that compilers choose."""
+        made = super().term(expression)
+        if isinstance(expression, tree.Unary | tree.Binary | tree.Call) and expression.open and isinstance(made, Whole):
+            self.pen.move(expression.at)
+            return self.widths.in_any_type(made, expression.open)
+        return made
+
     def call(self, call: tree.Call) -> Term:
         """A call of a function."""
         raise NotImplementedError

@@ -55,6 +55,14 @@ def leaves_c(number: int, name: str) -> int:
     raise FaultError(f"the result {number} leaves {name}: C does not define what happens then")
 
 
+def leaves_open(number: int, high: int) -> int:
+    """Fail: nothing tells the type of a number that is not the same in every type that compilers choose."""
+    raise FaultError(
+        f"nothing tells the type of this number, and {number} is outside 0..{high}, where all compilers agree:"
+        " store it in a variable first"
+    )
+
+
 def leaves_range(number: int, first: int, last: int) -> int:
     """Fail: a value outside its subrange (IEC 61131-3 2.3.3.1)."""
     raise FaultError(f"{number} is outside the subrange {first}..{last}")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import repeat
 from typing import Any
 
+from driveblocks.host.coverage import Branches, Lines
 from driveblocks.host.embedded.calls import returned
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.configuration import EmbeddedConfiguration, globals_of
@@ -107,9 +108,15 @@ class EmbeddedLibrary:
             raise KeyError(f"there is no configuration {name}")
         return EmbeddedConfiguration(self.compiler, found, self.paths, self.loop_limit)
 
-    def coverage(self) -> dict[str, dict[int, int]]:
+    def coverage(self) -> Lines:
         """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
-        prefix = "hits_"
+        return self._counters("hits_")
+
+    def branches(self) -> Branches:
+        """How often each outcome of each decision came about: path -> outcome -> hits. Empty unless for coverage."""
+        return self._counters("outcomes_")
+
+    def _counters(self, prefix: str) -> dict[str, dict[Any, int]]:
         found = {name: each for name, each in self.compiler.objects.items() if name.startswith(prefix)}
         return {name.removeprefix(prefix): dict(sorted(hits.items())) for name, hits in found.items()}
 

@@ -10,6 +10,7 @@ import ast
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from driveblocks.host.coverage import Outcome
 from driveblocks.host.embedded.calls import Calls
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.ranges import Ranges
@@ -35,6 +36,35 @@ class _Loop:
     continues: list[Ranges] = field(default_factory=list)
 
 
+class LoopCount:
+    """The statements that count what becomes of a WHILE or FOR; none unless coverage is asked for."""
+
+    def __init__(self, loops: Loops, at: int, keyword: str) -> None:
+        """Count at the decision at `at`."""
+        self.loops, self.at, self.keyword = loops, at, keyword
+        self.fresh = loops.scope.fresh() if loops.scope.options.coverage else ""
+
+    def begin(self) -> list[ast.stmt]:
+        """Before the loop: no turn so far."""
+        return self._note(True)
+
+    def turn(self) -> list[ast.stmt]:
+        """At the head of a turn."""
+        return [*self.loops.outcome(self.at, f"{self.keyword} TRUE"), *self._note(False)]
+
+    def end(self) -> list[ast.stmt]:
+        """Where no turn follows: behind some, or at once."""
+        counted = self.loops.outcome(self.at, f"{self.keyword} FALSE")
+        at_once = self.loops.outcome(self.at, f"{self.keyword} without a turn")
+        if at_once:
+            counted.append(self.loops.pen.branch(self.loops.pen.name(self.fresh), at_once, []))
+        return counted
+
+    def _note(self, fresh: bool) -> list[ast.stmt]:
+        pen = self.loops.pen
+        return [pen.assign(pen.name(self.fresh), pen.constant(fresh))] if self.fresh else []
+
+
 class Loops(Calls):
     """Compiles loops; other statements are left to a subclass."""
 
@@ -52,20 +82,24 @@ class Loops(Calls):
     def while_loop(self, statement: tree.While) -> list[ast.stmt]:
         """WHILE: the condition is tested before each turn."""
 
+        count = LoopCount(self, statement.condition.at, "WHILE")
+
         def turn() -> list[ast.stmt]:
-            test = self._leave_unless(self.truth(statement.condition))
+            test = self._leave_unless(self.truth(statement.condition), count)
             self._open[-1].exits.append(self.supposing(statement.condition, False))
             self.scope.ranges.assume(statement.condition, True, self.interval)
-            return [test, *self.body(statement.body)]
+            return [*test, *self.body(statement.body)]
 
-        return self._loop(statement, turn, list)
+        return [*count.begin(), *self._loop(statement, turn, list)]
 
     def repeat_loop(self, statement: tree.RepeatUntil) -> list[ast.stmt]:
         """REPEAT: the condition is tested behind each turn, also one that CONTINUE cuts short."""
 
         def until() -> list[ast.stmt]:
             self.pen.move(statement.condition.at)
-            test = self.pen.branch(self.truth(statement.condition), [self.pen.stop()], [])
+            truth = self.truth(statement.condition)
+            ended, again = (self.outcome(statement.condition.at, f"UNTIL {word}") for word in ("TRUE", "FALSE"))
+            test = self.pen.branch(truth, [*ended, self.pen.stop()], again)
             self._open[-1].exits.append(self.supposing(statement.condition, True))
             self.scope.ranges.assume(statement.condition, False, self.interval)
             return [test]
@@ -80,8 +114,10 @@ class Loops(Calls):
         head, stop, step = self._limits(statement)
         if self.scope.model == "fail":
             head += self._not_once(statement, stop(), step())
+        count = LoopCount(self, statement.at, "FOR")
+        head += count.begin()
         if self.scope.options.line == "beremiz":
-            return [*head, *self._beremiz_loop(statement, stop, step)]
+            return [*head, *self._beremiz_loop(statement, stop, step, count)]
 
         def advance() -> list[ast.stmt]:
             self.pen.move(statement.at)
@@ -90,13 +126,13 @@ class Loops(Calls):
         def turn() -> list[ast.stmt]:
             self.pen.move(statement.at)
             last, by = stop(), step()
-            test = self._leave_unless(self._goes_on(self.whole(statement.variable), last, by))
+            test = self._leave_unless(self._goes_on(self.whole(statement.variable), last, by), count)
             self._open[-1].exits.append(self.scope.ranges.copy())
             if by.low > 0:
                 self.scope.ranges.narrow(statement.variable, "<=", (last.low, last.high))
             elif by.high < 0:
                 self.scope.ranges.narrow(statement.variable, ">=", (last.low, last.high))
-            return [test, *self.body(statement.body), *advance()]
+            return [*test, *self.body(statement.body), *advance()]
 
         return [*head, *self._loop(statement, turn, advance)]
 
@@ -149,7 +185,7 @@ class Loops(Calls):
         return [self.pen.statement(self.pen.call("not_once", now, stop.node, step.node))]
 
     def _beremiz_loop(
-        self, statement: tree.For, stop: Callable[[], Whole], step: Callable[[], Whole]
+        self, statement: tree.For, stop: Callable[[], Whole], step: Callable[[], Whole], count: LoopCount
     ) -> list[ast.stmt]:
         """FOR as Beremiz' compiler has it: it looks one step ahead, and so leaves out a single turn."""
         started = self.scope.fresh()
@@ -160,12 +196,12 @@ class Loops(Calls):
             now = self.whole(statement.variable)
             ahead = self.operation(now, "+", by, now.type)
             ahead = known(ahead, Whole)
-            test = self._leave_unless(self._goes_on(ahead, stop(), by))
+            test = self._leave_unless(self._goes_on(ahead, stop(), by), count)
             self._open[-1].exits.append(self.scope.ranges.copy())
             advance = self._set(statement.variable, self._sum(statement.variable, by))
             self.forget(statement.variable)
             first = self.pen.assign(self.pen.name(started), self.pen.constant(True))
-            return [test, self.pen.branch(self.pen.name(started), advance, [first]), *self.body(statement.body)]
+            return [*test, self.pen.branch(self.pen.name(started), advance, [first]), *self.body(statement.body)]
 
         return [self.pen.assign(self.pen.name(started), self.pen.constant(False)), *self._loop(statement, turn, list)]
 
@@ -184,8 +220,17 @@ class Loops(Calls):
         self.scope.ranges.dead = True
         return [*before, self.pen.again()]
 
-    def _leave_unless(self, test: ast.expr) -> ast.stmt:
-        return self.pen.branch(self.pen.unary(ast.Not(), test), [self.pen.stop()], [])
+    def outcome(self, at: int, text: str) -> list[ast.stmt]:
+        """A statement that counts an outcome of the decision at `at`; nothing unless coverage is asked for."""
+        if not self.scope.options.coverage:
+            return []
+        outcome = Outcome(*self.pen.unit.place(at), text)
+        counters = self.pen.name(self.scope.outcomes(outcome))
+        return [self.pen.increment(self.pen.item(counters, self.pen.constant(tuple(outcome))))]
+
+    def _leave_unless(self, test: ast.expr, count: LoopCount) -> list[ast.stmt]:
+        leave = self.pen.branch(self.pen.unary(ast.Not(), test), [*count.end(), self.pen.stop()], [])
+        return [leave, *count.turn()]
 
     def supposing(self, condition: tree.Expression, truth: bool) -> Ranges:
         """What would be known if a condition were so."""

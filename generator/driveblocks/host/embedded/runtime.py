@@ -74,6 +74,7 @@ _COMMON: dict[str, Any] = {
     "below_bounds": below_bounds,
     "leaves_type": integers.leaves_type,
     "leaves_c": integers.leaves_c,
+    "leaves_open": integers.leaves_open,
     "leaves_range": integers.leaves_range,
     "divide": integers.divide,
     "remainder": integers.remainder,

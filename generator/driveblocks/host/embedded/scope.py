@@ -6,6 +6,7 @@ import ast
 from dataclasses import dataclass, field
 from typing import Any
 
+from driveblocks.host.coverage import Outcome
 from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.faults import Access, Accesses
 from driveblocks.host.embedded.ranges import Ranges
@@ -94,6 +95,12 @@ class Scope:
         """The global name of the counters of this source's lines; the line is entered among them."""
         name = f"hits_{self.pen.unit.path}"
         self.objects.setdefault(name, {}).setdefault(line, 0)
+        return name
+
+    def outcomes(self, outcome: Outcome) -> str:
+        """The global name of the counters of this source's outcomes of decisions; the outcome is entered among them."""
+        name = f"outcomes_{self.pen.unit.path}"
+        self.objects.setdefault(name, {}).setdefault(outcome, 0)
         return name
 
     def note_access(self, name: str, low: int, high: int, offset: ast.expr) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable
 
+from driveblocks.host.coverage import case_outcome
 from driveblocks.host.embedded.calls import returned
 from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.invocation import Invocation
@@ -89,7 +90,9 @@ class Statements(Invocation):
     def _if(self, statement: tree.If) -> list[ast.stmt]:
         return self._branches(statement.branches, statement.otherwise)
 
-    def _branches(self, branches: list[tree.Branch], otherwise: list[tree.Statement] | None) -> list[ast.stmt]:
+    def _branches(
+        self, branches: list[tree.Branch], otherwise: list[tree.Statement] | None, keyword: str = "IF"
+    ) -> list[ast.stmt]:
         """IF with its first branch, the rest as what stands behind ELSE."""
         ranges = self.scope.ranges
         first = branches[0]
@@ -102,12 +105,13 @@ class Statements(Invocation):
         ranges.become(refuted)
         rest: list[ast.stmt] = []
         if len(branches) > 1:
-            rest = self._branches(branches[1:], otherwise)
+            rest = self._branches(branches[1:], otherwise, "ELSIF")
         elif otherwise:
             rest = self.body(otherwise)
         ranges.join(taken)
         self.pen.move(first.at)
-        return [self.pen.branch(test, body, rest)]
+        yes, no = (self.outcome(first.condition.at, f"{keyword} {word}") for word in ("TRUE", "FALSE"))
+        return [self.pen.branch(test, [*yes, *body], [*no, *rest])]
 
     def _case(self, statement: tree.Case) -> list[ast.stmt]:
         selector = self.term(statement.selector)
@@ -123,7 +127,8 @@ class Statements(Invocation):
             tests.append(self._case_branch(statement, branch, name, before))
             ends.append(self.scope.ranges.copy())
         self.scope.ranges.become(before)
-        rest = self.body(statement.otherwise) if statement.otherwise else []
+        rest = self.outcome(statement.at, "CASE ELSE")
+        rest += self.body(statement.otherwise) if statement.otherwise else []
         for each in ends:
             self.scope.ranges.join(each)
         for test, body in reversed(tests):
@@ -141,7 +146,8 @@ class Statements(Invocation):
             lows, highs = zip(*bounds, strict=True)
             self._narrow_selector(statement.selector, min(lows), max(highs))
         tests = [self._matches(name, low, high) for low, high in bounds]
-        return self.pen.junction(ast.Or(), *tests), self.body(branch.body)
+        test = self.pen.junction(ast.Or(), *tests)
+        return test, [*self.outcome(branch.at, case_outcome(branch)), *self.body(branch.body)]
 
     def _narrow_selector(self, selector: tree.Name, low: int, high: int) -> None:
         if isinstance(self.term(selector), Whole):

@@ -61,6 +61,13 @@ class Widths:
         """An operand in the type that it has in common with the other one (C's model only)."""
         return self.wrapped(self.exact(raw), kind) if self.model == "c" else self.exact(raw)
 
+    def in_any_type(self, raw: Whole, bits: int) -> Whole:
+        """Fail at run time if the value is negative or has more bits: the types that compilers choose then differ."""
+        high = (1 << bits) - 1
+        if self.model != "fail" or raw.within(0, high):
+            return raw
+        return self._guarded(raw, 0, high, "leaves_open", (self.pen.constant(high),))
+
     def _checked(self, raw: Whole, kind: CInteger) -> Whole:
         """Fail at run time if the value has left its type."""
         if raw.within(kind.low, kind.high):

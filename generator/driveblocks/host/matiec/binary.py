@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from driveblocks.host.engine import EngineError, Message
+from driveblocks.host.matiec.counters import Counters
 from driveblocks.host.matiec.declarations import Declarations
 from driveblocks.host.matiec.header import ConfigurationC
 from driveblocks.host.matiec.plan import Plan
@@ -48,9 +49,9 @@ class Binary:
         """Read the table of sizes and offsets."""
         return list((ctypes.c_int64 * max(count, 1)).in_dll(self.handle, "dbk_sizes"))
 
-    def hits(self, last_line: int) -> list[int]:
-        """Read how often each line of the joined text has run."""
-        return list((ctypes.c_uint32 * (last_line + 1)).in_dll(self.handle, "dbk_hits"))
+    def counts(self, table: str, size: int) -> list[int]:
+        """Read the counters `dbk_hits` or `dbk_begun`."""
+        return list((ctypes.c_uint64 * size).in_dll(self.handle, table))
 
     def places(self, count: int) -> list[int | None]:
         """Read the addresses of what a CONFIGURATION holds."""
@@ -68,7 +69,7 @@ class Built:
     configuration: ConfigurationC | None
     warnings: tuple[Message, ...]
     places: Mapping[str, tuple[str, int]]
-    counted: Mapping[int, tuple[str, int]]
+    counters: Counters | None
 
     def place(self, name: str) -> tuple[str, int]:
         """File and line where a block or function is declared; line 0 if that is not in the sources."""

@@ -6,8 +6,9 @@ seems to lie three lines further down, on another statement; hence the directive
 
 import re
 from bisect import bisect_right
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import count
 
 _DIRECTIVE = re.compile(r'^#line (?P<line>\d+) "[^"\n]*"$', re.MULTILINE)
 _START = re.compile(r"^(?:void (?P<block>\w+)_(?:init|body)__\(.*|\w+ (?P<function>\w+)\()$", re.MULTILINE)
@@ -26,19 +27,26 @@ class LineTable:
         return self.lines[place] if place >= 0 else 0
 
 
-_COUNTER = re.compile(r"^dbk_hits\[(\d+)\]\+\+;$", re.MULTILINE)
+_COUNTER = re.compile(r"^DBK_STATEMENT\(\d+, (\d+)\)", re.MULTILINE)
 
 
-def counted_lines(c_text: str) -> set[int]:
-    """The ST lines whose runs the C counts."""
-    return {int(line) for line in _COUNTER.findall(c_text)}
+def directives(c_text: str) -> list[int]:
+    """The ST line of each #line directive, in the order of the C."""
+    return [int(match["line"]) for match in _DIRECTIVE.finditer(c_text)]
 
 
-def take_lines(c_text: str, unit_lines: Mapping[str, int], count: bool = False) -> tuple[str, LineTable]:
+def counted(c_text: str) -> list[int]:
+    """The ST line of each counter that `take_lines` has put in place of a directive, in the order of the C."""
+    return [int(line) for line in _COUNTER.findall(c_text)]
+
+
+def take_lines(
+    c_text: str, unit_lines: Mapping[str, int], mark: Callable[[int], str] | None = None
+) -> tuple[str, LineTable]:
     """Take the #line directives out (the C keeps its own lines), and make the table.
 
     What stands in a unit before its first statement belongs to the line of `unit_lines` where the unit is declared.
-    With `count` each directive becomes a counter of its ST line: it stands where a statement begins.
+    `mark` gives the C that goes into the place of a directive, by its number from 0: a statement begins there.
     """
     stretches = {}
     number, at = 1, 0
@@ -50,5 +58,6 @@ def take_lines(c_text: str, unit_lines: Mapping[str, int], count: bool = False) 
             stretches[number] = int(groups["line"])
         else:
             stretches[number] = unit_lines.get(groups["block"] or groups["function"], 0)
-    instead = r"dbk_hits[\g<line>]++;" if count else ""
-    return _DIRECTIVE.sub(instead, c_text), LineTable(tuple(stretches), tuple(stretches.values()))
+    numbers = count()
+    text = _DIRECTIVE.sub(lambda _: mark(next(numbers)) if mark else "", c_text)
+    return text, LineTable(tuple(stretches), tuple(stretches.values()))

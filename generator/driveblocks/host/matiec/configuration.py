@@ -15,24 +15,24 @@ from driveblocks.host.matiec.plan import Plan
 
 
 class MatiecConfiguration:
-    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has a library of its own."""
+    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has a library of its own, `binary`."""
 
     def __init__(self, built: Built, configuration: ConfigurationC) -> None:
         """Load a copy of the library and let the C initialise it."""
-        self._binary = _private(built.binary)
+        self.binary = _private(built.binary)
         self._name = configuration.name
         self._place = built.place(configuration.name)
-        self._run = self._binary.function("dbk_config_run", ctypes.c_int64, ctypes.c_int64)
+        self._run = self.binary.function("dbk_config_run", ctypes.c_int64, ctypes.c_int64)
         self._now = 0
-        self._tick = self._binary.function("dbk_config_tick")()
+        self._tick = self.binary.function("dbk_config_tick")()
         self._roots = dict(self._find(built.plan, configuration))
-        self._binary.function("dbk_config_init")()
+        self.binary.function("dbk_config_init")()
 
     def _find(self, plan: Plan, configuration: ConfigurationC) -> Iterator[tuple[str, tuple[Memory, Paths]]]:
         """Path -> memory of every global and program; those of a resource carry its name."""
         nodes = [(each.owner, each.name, plan.globals[each.owner, each.name]) for each in configuration.globals]
         nodes += [(owner, name, plan.blocks[type_name]) for owner, name, type_name in configuration.programs]
-        addresses = self._binary.places(len(nodes))
+        addresses = self.binary.places(len(nodes))
         for (owner, name, node), address in zip(nodes, addresses, strict=False):
             path = name if owner == configuration.name else f"{owner}.{name}"
             yield path, ((ctypes.c_char * node.size).from_address(address or 0), Paths(node))

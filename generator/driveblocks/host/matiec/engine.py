@@ -10,9 +10,10 @@ from pathlib import Path
 from driveblocks.host.engine import EngineError, Message, Source
 from driveblocks.host.matiec import runtime
 from driveblocks.host.matiec.binary import Binary, Built
-from driveblocks.host.matiec.c_lines import LineTable, counted_lines, take_lines
+from driveblocks.host.matiec.c_lines import LineTable, counted, directives, take_lines
 from driveblocks.host.matiec.cache import Cache, cache_folder
 from driveblocks.host.matiec.ccompiler import CCompiler, Flags, Job
+from driveblocks.host.matiec.counters import Counters
 from driveblocks.host.matiec.declarations import Declarations, Unit, read_declarations
 from driveblocks.host.matiec.guard import load_guard
 from driveblocks.host.matiec.header import (
@@ -89,23 +90,23 @@ class MatiecEngine:
         configuration = c_sources.configuration
         functions = c_sources.header.functions.values()
         text = runtime.unit(planner.plan.blocks, functions, expressions.found, configuration, read_locations(folder))
-        if self.flags.coverage:
-            text = f"#define DBK_COVERAGE {listing.text.count(chr(10)) + 1}\n{text}"
-        (folder / runtime.UNIT).write_text(text, encoding="utf-8")
         (folder / EXPRESSIONS).write_text(json.dumps(list(expressions.found)), encoding="utf-8")
-        lines = self._move_pous(folder, c_sources.declared)
+        lines, counters = self._move_pous(folder, listing, c_sources.declared)
+        if counters is not None:
+            text = f"#define DBK_COVERAGE {max(len(counters.lines), 1)}\n{text}"
+        (folder / runtime.UNIT).write_text(text, encoding="utf-8")
         files = [runtime.UNIT, *(configuration.files if configuration else ())]
         return self.compiler.compile(Job(folder, files, LIBRARY, self.installation.headers, self.flags, listing, lines))
 
-    def _move_pous(self, folder: Path, declared: Declarations) -> LineTable:
+    def _move_pous(self, folder: Path, listing: Listing, declared: Declarations) -> tuple[LineTable, Counters | None]:
         old = folder / "POUS.c"
         c_text = old.read_text(encoding="utf-8", errors="replace")
-        text, lines = take_lines(
-            c_text, {name: unit.line for name, unit in declared.units.items()}, self.flags.coverage
-        )
+        counters = Counters(listing, directives(c_text)) if self.flags.coverage else None
+        starts = {name: unit.line for name, unit in declared.units.items()}
+        text, lines = take_lines(c_text, starts, counters.mark if counters else None)
         (folder / runtime.POUS_MOVED).write_text(text, encoding="utf-8")
         old.write_text("", encoding="utf-8")
-        return lines
+        return lines, counters
 
     def _load(self, listing: Listing, folder: Path) -> Built:
         c_sources = _CSources.read(folder, self.installation, listing)
@@ -118,9 +119,9 @@ class MatiecEngine:
         rows = json.loads((folder / WARNINGS).read_text(encoding="utf-8"))
         warnings = tuple(listing.locate(Message(path, line, column, text) for path, line, column, text in rows))
         places = {name: listing.place(unit.line) for name, unit in c_sources.declared.units.items()}
-        counted = counted_lines((folder / runtime.POUS_MOVED).read_text("utf-8")) if self.flags.coverage else ()
-        coverage = {line: listing.place(line) for line in sorted(counted)}
-        return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places, coverage)
+        moved = (folder / runtime.POUS_MOVED).read_text("utf-8")
+        counters = Counters(listing, counted(moved)) if self.flags.coverage else None
+        return Built(folder, binary, plan, c_sources.declared, c_sources.configuration, warnings, places, counters)
 
 
 @dataclass(frozen=True)

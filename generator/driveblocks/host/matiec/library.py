@@ -5,9 +5,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from driveblocks.host.coverage import Branches, Lines
 from driveblocks.host.engine import Message, ScanError, Value
 from driveblocks.host.matiec.binary import Built, cause
 from driveblocks.host.matiec.configuration import MatiecConfiguration
+from driveblocks.host.matiec.counters import COUNTS, Counters
 from driveblocks.host.matiec.declarations import Unit
 from driveblocks.host.matiec.layout import Memory, RecordNode, Snapshot
 from driveblocks.host.matiec.literal import constant
@@ -110,6 +112,9 @@ class MatiecLibrary:
         self._binary = built.binary
         self._types: dict[str, BlockType] = {}
         self._clock = Clock()
+        size = len(built.counters.lines) if built.counters else 0
+        self._before = {table: built.binary.counts(table, size) if size else [] for table in COUNTS}
+        self._counting = [built.binary]
 
     def blocks(self) -> Iterator[str]:
         """The function blocks and programs, spelled as declared."""
@@ -172,18 +177,32 @@ class MatiecLibrary:
             memories.append(memory)
         return memories
 
-    def coverage(self) -> dict[str, dict[int, int]]:
+    def coverage(self) -> Lines:
         """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
-        found: dict[str, dict[int, int]] = {}
-        counted = self._built.counted
-        hits = self._binary.hits(max(counted)) if counted else []
-        for line, (path, own) in counted.items():
-            found.setdefault(path, {})[own] = hits[line]
-        return found
+        counters = self._built.counters
+        return {} if counters is None else counters.hits(self._counts(counters, "dbk_hits"))
+
+    def branches(self) -> Branches:
+        """How often each outcome of each decision came about: path -> outcome -> hits. Empty unless for coverage.
+
+        Raises EngineError where the statements of the C are not those of the ST.
+        """
+        counters = self._built.counters
+        if counters is None:
+            return {}
+        hits, begun = (self._counts(counters, table) for table in COUNTS)
+        return counters.branches(hits, begun)
+
+    def _counts(self, counters: Counters, table: str) -> list[int]:
+        """Counts since this library was built: the C has one set for all that load the same file."""
+        tables = [each.counts(table, len(counters.lines)) for each in self._counting]
+        return [sum(counts) - before for before, *counts in zip(self._before[table], *tables, strict=True)]
 
     def configuration(self, name: str | None = None) -> MatiecConfiguration:
         """Start the CONFIGURATION with variables of its own. KeyError."""
         found = self._built.configuration
         if found is None or (name is not None and name.upper() != found.name):
             raise KeyError(f"there is no configuration {name}" if name else "there is no configuration")
-        return MatiecConfiguration(self._built, found)
+        made = MatiecConfiguration(self._built, found)
+        self._counting.append(made.binary)
+        return made

@@ -5,7 +5,13 @@ TIME __CURRENT_TIME;
 BOOL __DEBUG;
 
 #ifdef DBK_COVERAGE
-uint32_t dbk_hits[DBK_COVERAGE];
+/* How often each statement ran, and, of those that are loops, how often it came to a first turn. */
+uint64_t dbk_hits[DBK_COVERAGE];
+uint64_t dbk_begun[DBK_COVERAGE];
+static char dbk_fresh[DBK_COVERAGE];
+#define DBK_STATEMENT(NUMBER, LINE) dbk_hits[NUMBER]++;
+#define DBK_LOOP(NUMBER) dbk_fresh[NUMBER] = 1;
+#define DBK_TURN(NUMBER) dbk_begun[NUMBER] += dbk_fresh[NUMBER], dbk_fresh[NUMBER] = 0;
 #endif
 
 static void dbk_set_clock(int64_t nanoseconds)
