@@ -211,7 +211,7 @@ class ExpressionChecker(OperatorChecker):
         """An index is an integer."""
         kind = self.infer(value).kind
         if untyped(value.type):
-            self.settle(value, self.default(value))
+            self.choose(value)
         elif kind is Kind.BITS:
             text = f"expected an integer as index, found {value.type}: write {plain(value.type).name}_TO_UINT(...)"
             self.report.add(value.at, "implicit-conversion", text)

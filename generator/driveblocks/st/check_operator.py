@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from driveblocks.st.check_value import ValueChecker
+from driveblocks.st.check_value import ValueChecker, leave_open
 from driveblocks.st.tree import Binary, Expression, Literal, Unary
 from driveblocks.st.types import (
     ANY_BIT,
@@ -166,6 +166,8 @@ class OperatorChecker(ValueChecker):
         shared = self.shared(value)
         if untyped(shared):
             shared = max((self.default(value.left), self.default(value.right)), key=lambda each: each.size)
+            leave_open(value.left)
+            leave_open(value.right)
         if shared is UNKNOWN:
             for each in (value.left, value.right):
                 self.settle(each, UNKNOWN)
@@ -185,7 +187,7 @@ class OperatorChecker(ValueChecker):
     def power(self, value: Binary) -> Type:
         """`x ** n`: a real base, any number as exponent."""
         if untyped(value.right.type):
-            self.settle(value.right, self.default(value.right))
+            self.choose(value.right)
         self.operand(value.right, ANY_NUM, "**", value.right.type)
         if value.left.type is UNTYPED_REAL:
             return UNTYPED_REAL
@@ -202,10 +204,10 @@ class OperatorChecker(ValueChecker):
         left, right = value.left, value.right
         made = _TIMES.get((value.op, plain(left.type), plain(right.type)))
         if value.op in ("*", "/") and left.type is TIME:
-            self.settle(right, self.default(right))
+            self.choose(right)
             made = TIME if right.type.kind in ANY_NUM else None
         elif value.op == "*" and right.type is TIME:
-            self.settle(left, self.default(left))
+            self.choose(left)
             made = TIME if left.type.kind in ANY_NUM else None
         value.operand_type = plain(left.type)
         if made is None:

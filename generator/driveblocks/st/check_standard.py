@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from driveblocks.st.check_binding import BindingChecker
 from driveblocks.st.check_operator import conversion_to_bits
+from driveblocks.st.check_value import BITS_OF_SINT, leave_open
 from driveblocks.st.standard import Conversion, Group, Signature
 from driveblocks.st.tree import Argument, Binding, Call, Expression
 from driveblocks.st.types import (
@@ -39,6 +40,7 @@ class StandardChecker(BindingChecker):
         shared = self.shared_type(given, formals, signature.group, name)
         if untyped(shared) and signature.result is BOOL:
             shared = REAL if shared is UNTYPED_REAL else DINT
+            self.leave_all_open(given)
         result = shared if signature.result == "T" else signature.result
         made: list[Parameter] = []
         for parameter, (_, wanted) in zip(parameters, formals, strict=True):
@@ -128,10 +130,17 @@ class StandardChecker(BindingChecker):
             if not untyped(shared):
                 self.shared_argument(argument, shared)
         elif isinstance(wanted, frozenset):
-            self.settle(value, self.default(value))
+            self.choose(value, bits=BITS_OF_SINT)
             if value.type.kind not in wanted and value.type is not UNKNOWN:
                 rule = "implicit-conversion" if value.type.kind is Kind.BITS else "type-mismatch"
                 self.report.add(value.at, rule, f"expected an integer for {argument.name or name}, found {value.type}")
+
+    @staticmethod
+    def leave_all_open(given: dict[str, Argument]) -> None:
+        """Mark the arguments of a comparison in which nothing tells a type."""
+        for each in given.values():
+            if each.value is not None:
+                leave_open(each.value, BITS_OF_SINT)
 
     def shared_argument(self, argument: Argument, shared: Type) -> None:
         """An argument that has the type of its fellows."""
@@ -156,7 +165,7 @@ class StandardChecker(BindingChecker):
             if found.source is not None:
                 self.fits(source, found.source)
             else:
-                self.settle(source, self.default(source))
+                self.choose(source)
                 parameter.type = source.type
         if name.startswith("TO_"):
             text = f"{name} is of the third edition: name the source too, as in {parameter.type.name}_{name}"

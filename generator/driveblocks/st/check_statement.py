@@ -144,7 +144,7 @@ class StatementChecker(CallChecker):
         selector = statement.selector
         have = self.infer(selector)
         if untyped(have):
-            self.settle(selector, INT)
+            self.choose(selector, INT)
             have = selector.type
         if have.kind is Kind.BITS:
             text = f"CASE on {have} is refused by matiec: write {plain(have).name}_TO_UINT(...)"

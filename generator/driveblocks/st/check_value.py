@@ -31,11 +31,15 @@ from driveblocks.st.types import (
     same,
     untyped,
 )
+from driveblocks.st.walk import children, expressions
 
 _LITERAL_KINDS = frozenset([Kind.INTEGER, Kind.BITS, Kind.REAL, Kind.BOOL])
 # The largest value that rounds to a finite IEEE single, and the largest double.
 _LARGEST_REAL = 3.4028235677973366e38
 _LARGEST_LREAL = sys.float_info.max
+# How many bits a positive number has in an INT, which is the least type that stands for one, and in a SINT.
+_BITS_OF_INT = 15
+BITS_OF_SINT = 7
 
 
 class ValueChecker:
@@ -79,6 +83,11 @@ class ValueChecker:
             self.unsuitable(value, wanted)
             return
         self.push(value, wanted)
+
+    def choose(self, value: Expression, wanted: Type | None = None, bits: int = _BITS_OF_INT) -> None:
+        """Settle a number without prefix that stands where any number may; what is computed is marked as open."""
+        leave_open(value, bits)
+        self.settle(value, wanted or self.default(value))
 
     def unsuitable(self, value: Expression, wanted: Type) -> None:
         """Tell of a number without prefix that cannot be of the wanted type."""
@@ -177,6 +186,19 @@ class ValueChecker:
         if not isinstance(value, Literal) or not isinstance(value.value, int):
             return INT
         return next((each for each in (INT, DINT, LINT) if each.low <= value.value <= each.high), ULINT)
+
+
+def leave_open(value: Expression, bits: int = _BITS_OF_INT) -> None:
+    """Mark the calls without a type, and what is computed from them: compilers choose their types as they like.
+
+    matiec takes ULINT or LINT, but SINT for an argument of a standard function, where `bits` is 7.
+    """
+    if not untyped(value.type) or not any(isinstance(each, Call) for each in expressions(value)):
+        return
+    if isinstance(value, Unary | Binary | Call):
+        value.open = bits
+    for each in children(value):
+        leave_open(each, bits)
 
 
 def untyped_of(kind: LiteralKind) -> Type:

@@ -56,6 +56,9 @@ def _builtin(scope: Scope, value: Call, target: Builtin) -> None:
         _real_to_integer(scope, value, target)
     elif target.family in ("SHR", "ROR", "ROL") and value.bindings[0].value is not None:
         tell_loose(scope, value.bindings[0].value, target.name)
+    if value.open:
+        text = f"nothing tells which type {target.name} gives here, and compilers choose as they like: store it first"
+        scope.add(value.at, "open-type", text)
     kinds = {parameter.type.kind for parameter in target.parameters}
     _ordering(scope, value, target, kinds)
     if target.family in _SHIFTS and plain(target.parameters[0].type) is BOOL:

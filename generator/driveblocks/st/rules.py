@@ -131,6 +131,7 @@ _REMARKS = """
 311 empty-string           comparison with ''
 312 in-out-alias           one variable bound twice in a call
 313 short-circuit          AND and OR whose right side needs the left one
+314 open-type              LEN, FIND, TRUNC or a function of literals where nothing tells its type
 401 case-without-else      a CASE without ELSE
 402 continue               CONTINUE
 403 en-eno                 EN and ENO

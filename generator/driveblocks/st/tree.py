@@ -147,10 +147,11 @@ class Direct(Expression):
 
 @dataclass(slots=True, eq=False)
 class Unary(Expression):
-    """`-x`, `+x` or `NOT x`; `op` upper case."""
+    """`-x`, `+x` or `NOT x`; `op` upper case. `open` as in Call."""
 
     op: str
     operand: Expression
+    open: int = field(default=0, init=False)
 
 
 @dataclass(slots=True, eq=False)
@@ -159,12 +160,14 @@ class Binary(Expression):
 
     Both operands have the same type afterwards, except for `**` and for TIME with a number.
     `operand_type` is the type in which the operation is done (of a comparison: that of its operands).
+    `open` as in Call.
     """
 
     op: str
     left: Expression
     right: Expression
     operand_type: Type = field(default=UNKNOWN, init=False)
+    open: int = field(default=0, init=False)
 
 
 @dataclass(slots=True, eq=False)
@@ -197,6 +200,8 @@ class Call(Expression):
     that the call does not mention have value None and keep what they had; of a function they take their default.
     `en`, `eno`: what the implicit parameters are bound to. `type` is the function's result, VOID for a block.
     The `callee` of a function is its bare Name, which has neither type nor symbol; that of a block is the instance.
+    `open` is not 0 where nothing tells the type that an overloaded function gives, as in `LEN(s) < 5`, and the checker
+    chose one: how many bits a positive number has in the least type that compilers choose.
     """
 
     callee: Expression
@@ -205,6 +210,7 @@ class Call(Expression):
     bindings: list[Binding] = field(default_factory=list, init=False)
     en: Expression | None = field(default=None, init=False)
     eno: Expression | None = field(default=None, init=False)
+    open: int = field(default=0, init=False)
 
 
 @dataclass(slots=True, eq=False)

@@ -72,6 +72,11 @@ ROWS: list[Row] = [
     ("INT_TO_SINT(i1)", "SINT", I, {"i1": 200}, -56, -56, -56),
     ("INT_TO_UDINT(i1)", "UDINT", I, {"i1": -1}, 4294967295, 4294967295, 4294967295),
     ("SINT_TO_WORD(s1)", "WORD", S, {"s1": -1}, 65535, 65535, 65535),
+    # A number of no type in particular: what is the same in every type that compilers choose.
+    ("TRUNC(r1) > 1000", "BOOL", "r1 : REAL;", {"r1": 32767.0}, True, True, True),
+    ("TRUNC(r1) < 0", "BOOL", "r1 : REAL;", {"r1": 0.5}, False, False, False),
+    ("GT(TRUNC(r1), 100)", "BOOL", "r1 : REAL;", {"r1": 127.0}, True, True, True),
+    ("1 - 2 < 0", "BOOL", "i1 : INT;", {}, True, True, True),
 ]
 
 
@@ -95,3 +100,21 @@ def test_subranges_are_checked_at_stores() -> None:
     results = outcomes("i1", "INT(0..9)", I, {"i1": 10})
     assert results == {"standard": FAULT, "c": 10, "fail": FAULT}
     assert outcomes("i1", "INT(0..9)", I, {"i1": 9})["fail"] == 9
+
+
+@pytest.mark.parametrize(
+    ("expression", "value", "agreed"),
+    [
+        ("TRUNC(r1) < 0", -1.0, "-1 is outside 0..32767"),
+        ("TRUNC(r1) - 5 < 3", 4.0, "-1 is outside 0..32767"),
+        ("-TRUNC(r1) < 3", 4.0, "-4 is outside 0..32767"),
+        ("MAX(TRUNC(r1), 3) < 5", -1.0, "-1 is outside 0..32767"),
+        ("GT(TRUNC(r1), 100)", 128.0, "128 is outside 0..127"),
+    ],
+)
+def test_a_number_whose_type_nothing_tells_is_the_same_in_all_that_compilers_choose(
+    expression: str, value: float, agreed: str
+) -> None:
+    text = fault(expression, "BOOL", "r1 : REAL;", r1=value)
+    assert text.startswith("nothing tells the type of this number")
+    assert agreed in text
