@@ -160,7 +160,7 @@ def _fill(pou: Pou, place: Callable[[Pin], str]) -> Iterator[str]:
     bits = [pin for pin in given if pin.type == "BOOL"]
     if bits:
         yield "uint64_t bits = some_bits();"
-        yield from (f"{place(pin)} = bits >> {at} & 1;" for at, pin in enumerate(bits))
+        yield from (f"{place(pin)} = (BOOL)(bits >> {at} & 1);" for at, pin in enumerate(bits))
     for pin in given:
         if pin.type != "BOOL":
             yield from _chance(pin, place(pin), telling)
@@ -179,9 +179,9 @@ def _chance(pin: Pin, place: str, telling: str) -> Iterator[str]:
         count = len(LIKELY[pin.name])
         yield f"{{ static const uint16_t likely[] = {{{values}}}; {place} = word_among({telling}, likely, {count}); }}"
     elif pin.type in ("WORD", "UINT", "INT", "BYTE", "USINT"):
-        yield f"{place} = some_word({telling});"
+        yield f"{place} = ({pin.type})some_word({telling});"
     elif pin.type in ("DWORD", "UDINT", "DINT"):
-        yield f"{place} = one_in(2) ? some_word({telling}) : chance();"
+        yield f"{place} = one_in(2) ? some_word({telling}) : ({pin.type})(chance() >> 32);"
     else:
         raise ValueError(f"nobody has said how to make a {pin.type}")
 

@@ -79,11 +79,11 @@ static void take_body(Frame *frame, unsigned number)
     memcpy(frame->bytes, BODY_BYTES + BODIES[number].at, frame->length);
 }
 
-/* A reply to a line, one in sixteen as it is: damaged before it gets its checksum, or behind, or both. */
+/* A reply to a line, one in eight as it is: damaged before it gets its checksum, or behind, or both. */
 static void receive(Frame *frame, const Line *line, int framing)
 {
     static Frame other;
-    unsigned ways = one_in(16) ? 0 : 1 + below(3), sealed = one_in(2);
+    unsigned ways = one_in(8) ? 0 : 1 + below(3), sealed = one_in(2);
     take_body(frame, line->first + below(line->count));
     take_body(&other, below(COUNT(BODIES)));
     if (framing == 0) {

@@ -1,0 +1,82 @@
+"""Which sanitizers a compiler has, and the options that turn them on so that the first find ends the program."""
+
+import functools
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.native.driver import clang, lines
+
+from driveblocks.host.matiec import MatiecEngine
+
+FIRM = ("-fno-sanitize-recover=all", "-fno-omit-frame-pointer", "-fno-wrapv", "-g1", "-O1")
+"""`-fno-wrapv`: the blocks' sums must not wrap, so the sanitizer may look for it, though matiec's C is compiled with it
+otherwise. `-O1`: as fast as -O2 here, and frames stay readable."""
+
+GCC = ("-fsanitize=address,undefined,bounds-strict,float-cast-overflow,float-divide-by-zero",)
+"""An array of ST is the only member of a C structure, so `bounds` alone takes it for one of open length: hence
+`bounds-strict`, which sees an index that reaches the next variable of the same instance, as AddressSanitizer cannot."""
+
+CLANG = (
+    "-fsanitize=address,undefined,float-cast-overflow,float-divide-by-zero,"
+    "implicit-unsigned-integer-truncation,implicit-signed-integer-truncation",
+)
+"""The last two see a sum that leaves its 16 bits, which wraps on one compiler and not on another."""
+STRICT_ARRAYS = "-fstrict-flex-arrays=3"
+"""clang 16 and later: what `bounds-strict` is to gcc; clang 14 and 15 do so on their own."""
+
+_PROBE = '#include <stdio.h>\nint main(int c, char **v) { int a[4] = {0}; printf("%d", a[c & 3]); return v == 0; }\n'
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A compiler with its sanitizers: `name` for reports, the command (none: the engine's own) and the options."""
+
+    name: str
+    command: tuple[str, ...]
+    options: tuple[str, ...]
+
+
+def compilers(engine: MatiecEngine) -> list[Checked]:
+    """The engine's compiler and clang, those whose sanitizers run here."""
+    commands = [engine.compiler.command]
+    other = clang()
+    if other and not _is_clang(engine.compiler.command):
+        commands.append(other)
+    return [found for command in commands if (found := _checked(tuple(command)))]
+
+
+def why_none(engine: MatiecEngine) -> str:
+    """What a test says that cannot run."""
+    return f"{engine.compiler.command[0]} and clang lack the sanitizers' libraries (gcc: libasan, libubsan)"
+
+
+@functools.cache
+def _checked(command: tuple[str, ...]) -> Checked | None:
+    name, sets = ("clang", [(*CLANG, STRICT_ARRAYS), CLANG]) if _is_clang(command) else ("gcc", [GCC])
+    for options in sets:
+        if _runs(command, (*options, *FIRM)):
+            return Checked(name, command, (*options, *FIRM))
+    return None
+
+
+@functools.cache
+def _is_clang(command: tuple[str, ...]) -> bool:
+    done = subprocess.run([*command, "--version"], capture_output=True, text=True, errors="replace", check=False)
+    return "clang" in done.stdout
+
+
+def _runs(command: tuple[str, ...], options: tuple[str, ...]) -> bool:
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "probe.c").write_text(_PROBE, encoding="utf-8")
+        build = [*command, *options, "-o", "probe", "probe.c"]
+        if subprocess.run(build, cwd=folder, capture_output=True, check=False).returncode:
+            return False
+        program = str(Path(folder, "probe"))
+        return subprocess.run([program], cwd=folder, capture_output=True, check=False).returncode == 0
+
+
+def found_lines() -> list[MatiecEngine]:
+    """The lines of matiec on this computer."""
+    return list(lines())
