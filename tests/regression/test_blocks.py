@@ -43,3 +43,11 @@ def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine,
     pins = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 1.0e30, **scale}
     done = built(engine).run(f"{prefix}_Reference", pins)
     assert result(done) == ("OK" if sign > 0 else "NEGATIVE")
+
+
+@pytest.mark.parametrize(("function", "add", "answered"), [(65408, 128, 0), (65411, 128, 3), (8, 65531, 3)])
+def test_a_refusal_is_never_told_by_a_sum_that_wraps(engine: Engine, function: int, add: int, answered: int) -> None:
+    """The function code of a refusal was a sum in 16 bits: 65408 + 128 was 0, the function of a damaged reply."""
+    request = {"Request.UnitAddress": 1, "Request.FunctionCode": function, "Request.Quantity": 1}
+    pins = {"Length": 3, "ExceptionAdd": add, "Adu": bytes([1, answered, 2]), **request}
+    assert result(built(engine).run("MB_ParseReply", pins)) == "OTHER_FUNCTION"
