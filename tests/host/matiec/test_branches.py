@@ -102,14 +102,19 @@ def test_nothing_is_counted_unless_asked(matiec: MatiecEngine) -> None:
     [
         ("FUNCTION F : INT\nVAR_INPUT A : INT; END_VAR\nF := A; F := 1;\nEND_FUNCTION\n", [3], "f.st:3: iec2c has 1"),
         ("FUNCTION F : INT\nVAR_INPUT A : INT; END_VAR\nF := A;\nEND_FUNCTION\n", [3, 4], "f.st:4: iec2c has 1"),
+        (
+            "FUNCTION F : INT\nVAR_INPUT A : INT; END_VAR\nWHILE F < A DO\nF := A;\nEND_WHILE;\nEND_FUNCTION\n",
+            [3, 3],
+            "f.st:3: iec2c has 2 statements here, the source 1",
+        ),
         ("FUNCTION F : INT\nVAR_INPUT A : INT; END_VAR\nF := ;\nEND_FUNCTION\n", [3], "f.st:3:6: "),
     ],
-    ids=["one too few", "one too many", "not read"],
+    ids=["one too few", "one too many", "two for a loop", "not read"],
 )
 def test_statements_that_do_not_fit_the_source_are_told_and_lines_are_counted(
     text: str, lines: list[int], why: str
 ) -> None:
     counters = Counters(Listing([Source("f.st", text)]), lines)
-    assert counters.hits([7] * len(lines)) == {"f.st": dict.fromkeys(lines, 7)}
+    assert counters.hits([7] * len(lines)) == {"f.st": {line: 7 * lines.count(line) for line in lines}}
     with pytest.raises(EngineError, match=f"branches cannot be counted: {why}"):
         counters.branches([7] * len(lines), [0] * len(lines))

@@ -15,7 +15,7 @@ from driveblocks.host.matiec.plan import Plan
 
 
 class MatiecConfiguration:
-    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has a library of its own, `binary`."""
+    """A CONFIGURATION on virtual time. Its variables are static in the C, so each has its own library, `binary`."""
 
     def __init__(self, built: Built, configuration: ConfigurationC) -> None:
         """Load a copy of the library and let the C initialise it."""

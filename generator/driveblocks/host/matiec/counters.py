@@ -40,6 +40,7 @@ class Counters:
             self._match()
         except (ParseError, EngineError) as error:
             self.problem = str(error)
+            self.numbers.clear()
         loops = [each for each in self.numbers if isinstance(each, tree.While | tree.For)]
         self._turns = {self.numbers[each.body[0]]: self.numbers[each] for each in loops}
 
