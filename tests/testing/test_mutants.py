@@ -9,7 +9,7 @@ from .conftest import changed, only, run
 
 DRIVE = [
     ("EX100_Request", "Most := 16;", "Most := 17;", "Request"),
-    ("EX100_Request", "Fits := 16;", "Fits := 15;", "Request"),
+    ("EX100_Request", "(Quantity < 1)", "(Quantity < 2)", "Request"),
     ("EX100_Request", "(UnitAddress > 247)", "(UnitAddress > 246)", "Request"),
     ("EX100_Request", "AND (Address <> WORD#16#0001)", "AND (Address <> WORD#16#0002)", "Request"),
     ("EX100_Request", "Behind > 65536", "Behind > 65535", "Request"),

@@ -189,6 +189,7 @@ def _counts(base: Asked, right: bytes) -> Iterator[Case]:
         return
     for quantity in (base.quantity - 1, base.quantity + 1):
         yield Case(f"{quantity} registers instead of {base.quantity}", base, answer(replace(base, quantity=quantity)))
+    yield Case("no register was asked, and none came", replace(base, quantity=0), answer(replace(base, quantity=0)))
     head, data = right[:2], right[3:]
     yield Case("a byte count of two bytes", base, head + bytes([0, len(data)]) + data)
     yield Case("a byte count of two bytes, the high one 01H", base, head + bytes([1, len(data)]) + data)

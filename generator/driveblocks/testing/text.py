@@ -76,7 +76,9 @@ def _bits(drive: Drive, stem: str, language: Language) -> Script:
     for section, row in drive.registers():
         address = row.address.first
         lowest = {bit.bit.first: bits_text(bit.bit) for bit in row.bits}
-        for number, bits in sorted(lowest.items()):
+        other = next((number for number in range(17) if number not in lowest), 16)
+        unnamed = {other: f"{other}, which has no name"} if lowest else {}
+        for number, bits in sorted({**lowest, **unnamed}.items()):
             probe = _place(drive, language, "Bit", address, number)
             program.stage(f"{address_text(address)}.{bits}", probe, source=row.source or section.source)
     program.stage("a register that is in no table", _place(drive, language, "Bit", 0xFFFF, 0))
