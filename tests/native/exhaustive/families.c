@@ -1,0 +1,41 @@
+/* What the parts that are compiled once for each family share: NAME(NOUN) is FAMILY_NOUN. */
+#define GLUE(left, right) left##_##right
+#define GLUE_VALUES(left, right) GLUE(left, right)
+#define NAME(noun) GLUE_VALUES(FAMILY, noun)
+#define START_NAMED(TYPE, instance) START(TYPE, instance)
+
+/* 0 to 8, each power of two, FFFFH. */
+static int is_edge(unsigned word)
+{
+    return word < 8 || (word & (word - 1)) == 0 || word == 0xFFFF;
+}
+
+/* The next of these words; 65536 behind the last. */
+static unsigned next_edge(unsigned word)
+{
+    return word < 8 || word == 0xFFFF ? word + 1 : word == 0x8000 ? 0xFFFF : 2 * word;
+}
+
+static float real(uint32_t pattern)
+{
+    float value;
+    memcpy(&value, &pattern, sizeof(value));
+    return value;
+}
+
+/* What a reference block answers. */
+typedef struct {
+    uint16_t error, value;
+    uint8_t limited, address_is_right;
+} Encoded;
+
+typedef struct {
+    uint64_t cases, words, beside, falling, wrong;
+} Swept;
+
+typedef struct {
+    const char *name;
+    int (*standstill)(const char *, int);
+    int (*sweep)(int, uint32_t[3], uint32_t, uint32_t, uint32_t);
+    int (*patterns)(void);
+} Family;

@@ -1,0 +1,54 @@
+/* Records through blocks: `scan NAME IN OUT`. A record is the pins that a scan is given, an answer those that it gives,
+ * both in the machine's own form without gaps. The functions that make the scans stand behind this text; each is one
+ * instance that lives through all records, as in a PLC. */
+typedef struct {
+    const char *name;
+    void (*scan)(void);
+} Scanning;
+
+static FILE *from, *to;
+
+static void take(void *place, size_t size)
+{
+    if (fread(place, 1, size, from) != size) {
+        fprintf(stderr, "a record is cut short\n");
+        exit(2);
+    }
+}
+
+static void give(const void *place, size_t size)
+{
+    if (fwrite(place, 1, size, to) != size) {
+        fprintf(stderr, "cannot write an answer\n");
+        exit(2);
+    }
+}
+
+static int more(void)
+{
+    int next = getc(from);
+    return next != EOF && ungetc(next, from) != EOF;
+}
+
+#define TAKE(place) take(&(place), sizeof(place))
+#define GIVE(place) give(&(place), sizeof(place))
+#define GIVE_FIRST(array, count) give_first((array), (size_t)(count) * sizeof((array)[0]), sizeof(array))
+
+/* The first bytes of an array and 0 for the others. */
+static void give_first(const void *array, size_t size, size_t room)
+{
+    static const uint8_t nothing[1024];
+    if (size > room)
+        size = room;
+    give(array, size);
+    give(nothing, room - size);
+}
+
+/* A text as its length and 127 bytes, of which those behind the text are 0. */
+static void give_text(STRING text)
+{
+    uint8_t answer[128] = {text.len};
+    if (text.len > 0)
+        memcpy(answer + 1, text.body, text.len < 127 ? text.len : 127);
+    give(answer, sizeof(answer));
+}

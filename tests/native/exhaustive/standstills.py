@@ -1,0 +1,41 @@
+"""Whether the motor stands: all pairs of words, against a truth table for each word from the reference model."""
+
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from tests.blocks.library import shipped
+from tests.blocks.meanings import word_pin
+from tests.native.exhaustive.bench import Bench, Finding
+
+from driveblocks.maps.model import Drive
+from driveblocks.reference.standstill import holds
+
+
+def pins(drive: Drive) -> list[str]:
+    """The block's two words. Raises ValueError if there are not two."""
+    found = [word_pin(drive, address) for address in addresses(drive)]
+    if len(found) != 2:
+        raise ValueError(f"{drive.prefix}: {len(found)} words prove the standstill, not two")
+    return found
+
+
+def addresses(drive: Drive) -> list[int]:
+    """The registers that prove standstill."""
+    return list(dict.fromkeys(one.register for one in drive.operation.standstill.all))
+
+
+def truths(drive: Drive, address: int) -> bytes:
+    """For each word of a register whether the conditions on it hold. All conditions together are those of each word."""
+    conditions = [one for one in drive.operation.standstill.all if one.register == address]
+    return bytes(all(holds(one, word) for one in conditions) for word in range(0x10000))
+
+
+def standstills(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
+    """2^32 pairs of words of each drive; short: the pairs with a word that has at most one bit, or all."""
+    for prefix, drive in shipped().items():
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "truths")
+            path.write_bytes(b"".join(truths(drive, address) for address in addresses(drive)))
+            for bench in benches:
+                yield bench.command("standstill", prefix, path, 0 if short else 1)
