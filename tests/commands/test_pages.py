@@ -1,0 +1,70 @@
+"""What the pages name is there: files of the project, subcommands, targets of make."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+import typer
+
+from driveblocks.cli import app
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "docs" / "ci.md", ROOT / "docs" / "testing.md"]
+EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+AWAITED = {
+    "tests/native/fuzz/regressions/",
+    "tests/blocks/uncovered.yaml",
+    "performance.md",
+    "--coverage",
+    "ci-jobs",
+    "exhaustive",
+    "libfuzzer",
+    "sanitize",
+}
+"""Named by the pages before they are there; to be emptied as they arrive."""
+
+
+def code(page: Path) -> Iterator[str]:
+    """What stands between backticks, a line of a table or of prose."""
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    yield from re.findall(r"`([^`\n]+)`", text)
+
+
+def paths(page: Path) -> set[str]:
+    """Files and folders of the project by their paths, and modules that are to be run, as paths without an ending."""
+    words = {word for words in code(page) for word in words.split()}
+    modules = {found[1] for text in code(page) if (found := re.fullmatch(r"python -m ([\w.]+).*", text))}
+    return {word for word in words if re.match(r"(tests|generator)/", word) and "iec61131" not in word} | {
+        module.replace(".", "/") for module in modules
+    }
+
+
+@EACH
+def test_files_and_modules_are_there(page: Path) -> None:
+    missing = {path for path in paths(page) if not any((ROOT / (path + end)).exists() for end in ("", ".py"))}
+    assert missing <= AWAITED
+
+
+@EACH
+def test_links_lead_somewhere(page: Path) -> None:
+    links = re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8"))
+    assert {link for link in links if not (page.parent / link).exists()} <= AWAITED
+
+
+@EACH
+def test_commands_and_their_options_are_there(page: Path) -> None:
+    commands = cast(Any, typer.main.get_command(app)).commands
+    for text in code(page):
+        name, *words = text.removeprefix("driveblocks ").split()
+        if text.startswith("driveblocks ") and "*" not in text:
+            known = {option for each in commands[name].params for option in each.opts}
+            assert {word for word in words if word.startswith("-")} <= known | AWAITED, text
+
+
+@EACH
+def test_targets_of_make_are_there(page: Path) -> None:
+    targets = set(re.findall(r"^([\w -]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
+    known = {name for names in targets for name in names.split()}
+    assert {text.split()[1] for text in code(page) if text.startswith("make ")} <= known | AWAITED
