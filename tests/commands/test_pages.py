@@ -11,7 +11,7 @@ import typer
 from driveblocks.cli import app
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "docs" / "ci.md", ROOT / "docs" / "testing.md"]
+PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md")]
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 AWAITED = {
     "tests/native/fuzz/regressions/",
