@@ -31,7 +31,10 @@ def jobs(page: Path) -> dict[str, Job]:
     found = {}
     for text in re.findall(r"^```yaml\n(.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
         file = yaml.safe_load(text)
-        found["github" if "jobs" in file else "gitlab"] = file
+        if "jobs" in file:
+            found["github"] = file
+        elif any("script" in job for job in file.values()):
+            found["gitlab"] = file
     return found
 
 
