@@ -77,7 +77,7 @@ class DeclarationChecker(StatementChecker):
                 self.declare_variable(pou, variable)
                 direction = _DIRECTIONS.get(variable.kind)
                 if direction is not None:
-                    made = Parameter(variable.name, variable.type, direction, variable.initial, variable)
+                    made = Parameter(variable.name, variable.type, direction, variable.start, variable)
                     parameters.setdefault(variable.name.upper(), made)
         if isinstance(pou, Function):
             pou.parameters = parameters

@@ -149,7 +149,7 @@ def _initial(variable: VarDecl) -> Interval | None:
     """The range of the initial value."""
     if whole(variable.type) is None:
         return None
-    initial = variable.initial
+    initial = variable.start
     if initial is None:
         limits = whole(variable.type)
         return (0, 0) if limits and limits[0] <= 0 <= limits[1] else limits

@@ -57,6 +57,7 @@ class Resolver:
         self.open: set[str] = set()
         self.depths: dict[int, int] = {}
         self.declared: dict[str, Type] = {}
+        self.starts: dict[str, Expression | None] = {}
 
     def declaration(self, declared: TypeDecl) -> Type:
         """The type that a TYPE declaration makes; told if it contains itself."""
@@ -72,8 +73,10 @@ class Resolver:
         self.open.add(key)
         unit, self.report.unit = self.report.unit, self.library.names[key][1]
         made = self.spec(declared.spec, declared.name)
-        if isinstance(made, Struct | Array | Enum) and declared.initial is not None:
+        if isinstance(declared.spec, StructSpec | ArraySpec | EnumSpec) and isinstance(made, Struct | Array | Enum):
             made.initial = declared.initial
+        else:
+            self.starts[key] = declared.initial if declared.initial is not None else declared.spec.start
         self.report.unit = unit
         self.open.discard(key)
         made = self.shallow(declared, made)
@@ -135,7 +138,9 @@ class Resolver:
             return VOID
         found = self.library.find(upper)
         if isinstance(found, TypeDecl):
-            return self.declaration(found)
+            made = self.declaration(found)
+            spec.start = self.starts.get(upper)
+            return made
         if isinstance(found, FunctionBlock):
             return self.block(found)
         if upper in BLOCKS:
@@ -187,7 +192,7 @@ class Resolver:
         known = tuple(each for each in bounds if each is not None)
         if len(known) < len(bounds):
             return UNKNOWN
-        made = Array(name or f"ARRAY[{shown}] OF {element.name}", Kind.ARRAY, element, known)
+        made = Array(name or f"ARRAY[{shown}] OF {element.name}", Kind.ARRAY, element, known, start=spec.element.start)
         if made.length > MOST_ELEMENTS:
             self.report.add(spec.at, "literal-range", f"expected at most {MOST_ELEMENTS} elements, found {made.length}")
             return UNKNOWN
@@ -215,7 +220,7 @@ class Resolver:
             upper = each.name.upper()
             if upper in made.fields:
                 self.report.add(each.at, "duplicate-name", f"the field {each.name} is declared twice")
-            made.fields.setdefault(upper, Field(each.name, each.type, each.initial, each))
+            made.fields.setdefault(upper, Field(each.name, each.type, each.start, each))
         return made
 
     def enum(self, spec: EnumSpec, name: str) -> Type:

@@ -360,9 +360,13 @@ class Empty(Statement):
 
 @dataclass(slots=True, eq=False)
 class Spec(Node):
-    """What stands behind the colon of a declaration; `type` is set by the checker."""
+    """What stands behind the colon of a declaration; `type` is set by the checker.
+
+    So is `start`: the initial value that the named TYPE declares, None if it is the one that `type` itself has.
+    """
 
     type: Type = field(default=UNKNOWN, init=False)
+    start: Expression | None = field(default=None, init=False)
 
 
 @dataclass(slots=True, eq=False)
@@ -481,6 +485,11 @@ class VarDecl(Node):
     target: VarDecl | None = field(default=None, init=False)
     leading: tuple[Comment, ...] = field(default=(), init=False)
     trailing: Comment | None = field(default=None, init=False)
+
+    @property
+    def start(self) -> Expression | None:
+        """The initial value, its own or that of the TYPE it names (clause 2.4.3.2); None for that of `type`."""
+        return self.initial if self.initial is not None else self.spec.start
 
 
 @dataclass(slots=True, eq=False)

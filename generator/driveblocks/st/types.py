@@ -105,11 +105,15 @@ class String(Type):
 
 @dataclass(slots=True, eq=False)
 class Array(Type):
-    """An array; `bounds` holds (low, high) per dimension, both inclusive; row-major, the last index fastest."""
+    """An array; `bounds` holds (low, high) per dimension, both inclusive; row-major, the last index fastest.
+
+    `start` is the initial value of an element whose TYPE declares one; None for the element type's.
+    """
 
     element: Type
     bounds: tuple[tuple[int, int], ...]
     initial: tree.Expression | None = None
+    start: tree.Expression | None = None
 
     @property
     def length(self) -> int:
@@ -127,7 +131,7 @@ class Array(Type):
 
 @dataclass(slots=True, eq=False)
 class Field:
-    """A field of a structure; `initial` is its own initial value, None for the type's."""
+    """A field of a structure; `initial` is its own initial value or that of the TYPE it names, None for the type's."""
 
     name: str
     type: Type
@@ -183,6 +187,7 @@ class Direction(PythonEnum):
 class Parameter:
     """A formal parameter of a function or block. `default` is its declared initial value (None: the type's).
 
+    That is its own or the one of the TYPE that it names.
     For a standard function `type` is what the overload resolved to in this very call.
     """
 

@@ -157,11 +157,11 @@ class Compiler:
         if variable.kind is VarKind.INPUT:
             return [pen.assign(mine, pen.call(scope.object("cloned", self._cloner(kind)), mine))]
         if is_scalar(kind):
-            value = self.shapes.scalar(kind, variable.initial)
+            value = self.shapes.scalar(kind, variable.start)
             if is_integral(kind):
                 scope.ranges.set(variable, value, value)
             return [] if variable.constant else [pen.assign(mine, pen.constant(value))]
-        maker = self.shapes.maker(kind, variable.initial)
+        maker = self.shapes.maker(kind, variable.start)
         if variable.constant:
             return [pen.assign(mine, pen.name(scope.object("constant", maker(None))))]
         return [pen.assign(mine, pen.call(scope.object("make", maker), pen.constant(None)))]
@@ -202,7 +202,7 @@ class Compiler:
                 made = [(name, self.shapes.maker(each.type)) for name, each in block.parameters.items()]
                 made += [(name, _always(value)) for name, value in standard_blocks.inner_slots(block).items()]
             else:
-                made = [(each.name.upper(), self.shapes.maker(each.type, each.initial)) for each in kept(declaration)]
+                made = [(each.name.upper(), self.shapes.maker(each.type, each.start)) for each in kept(declaration)]
                 made.append((GLOBALS, lambda context: context))
             self._makers[block] = made
         return self._makers[block]

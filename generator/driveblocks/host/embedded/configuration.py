@@ -49,7 +49,7 @@ def globals_of(compiler: Compiler) -> Any:
     slots = [compiler.shapes.global_slot(each) for each in variables]
     made = type("Globals", (Record,), {"__slots__": tuple(slots)})()
     for slot, each in zip(slots, variables, strict=True):
-        setattr(made, slot, compiler.shapes.maker(each.type, each.initial)(made))
+        setattr(made, slot, compiler.shapes.maker(each.type, each.start)(made))
     return made
 
 

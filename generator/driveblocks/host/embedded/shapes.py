@@ -121,9 +121,9 @@ class Shapes:
         return make
 
     def _array_maker(self, kind: Array, initial: tree.Expression | None) -> Maker:
-        elements = [self.maker(kind.element)] * kind.length
+        elements = [self.maker(kind.element, kind.start)] * kind.length
         if isinstance(initial, tree.ArrayInitial):
-            given = self._elements(initial.items, kind.element)[: kind.length]
+            given = self._elements(initial.items, kind.element, kind.start)[: kind.length]
             elements[: len(given)] = given
         sizes = [high - low + 1 for low, high in kind.bounds]
         if len(sizes) == 1 and is_scalar(kind.element):
@@ -131,16 +131,16 @@ class Shapes:
             return lambda _: flat[:]
         return lambda context: nest([each(context) for each in elements], sizes)
 
-    def _elements(self, items: list[tree.Expression], kind: Type) -> list[Maker]:
+    def _elements(self, items: list[tree.Expression], kind: Type, start: tree.Expression | None) -> list[Maker]:
         """One maker per element of an initialiser, repetitions written out."""
         makers: list[Maker] = []
         for each in items:
             if isinstance(each, tree.Repeat):
                 count = self._count(each.count)
                 inner = [each.value] if each.value is not None else []
-                makers += (self._elements(inner, kind) or [self.maker(kind)]) * count
+                makers += (self._elements(inner, kind, start) or [self.maker(kind, start)]) * count
             elif isinstance(each, tree.ArrayInitial) and not isinstance(kind, Array):
-                makers += self._elements(each.items, kind)
+                makers += self._elements(each.items, kind, start)
             else:
                 makers.append(self.maker(kind, each))
         return makers
