@@ -1,111 +1,111 @@
-"""Every figure of the project, side by side in one run: `python tests/bench/run.py`, some minutes on two cores.
+"""Every figure of the project, side by side in one run: `python -m tests.bench.run`, some minutes on two cores.
 
-Ratios in one run are the point; the numbers themselves belong to the machine.
+Writes `docs/performance.json`, and from it the page `docs/performance.md` with its pictures. What cannot be measured
+here is told, and keeps the figures that it had. `--only crc,growth` measures some parts; `--page` none.
+
+Exit status 1 if forms of the same work differ, or if a count cannot be repeated.
 """
 
+import argparse
+import shutil
 import sys
 import time
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
-ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT))
+from tests.bench import blocks, checksums, engines, growth, machine, page, record
+from tests.bench.record import Part, Record, Rows
+from tests.native.driver import lines
 
-from rich.console import Console  # noqa: E402
-from rich.table import Table  # noqa: E402
-from tests.bench import maps as map_bench  # noqa: E402
-from tests.bench.synthetic import synthetic  # noqa: E402
-from tests.host.embedded import bench as engine_bench  # noqa: E402
-
-from driveblocks.host.discovery import survey  # noqa: E402
-from driveblocks.host.engine import Source  # noqa: E402
-from driveblocks.maps import catalog, load  # noqa: E402
-from driveblocks.maps.model import Drive  # noqa: E402
-from driveblocks.render import build, library, text  # noqa: E402
-from driveblocks.st import speed  # noqa: E402
-
-LANGUAGES = text.languages(["en", "zh"], "utf-8")
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import EngineError
+from driveblocks.host.matiec import MatiecEngine
 
 
-def main() -> None:
-    """Measure the maps, the front end, the engines and the build, and print one table for each."""
-    console = Console(width=110)
-    for line in map_bench.lines([10, 100, 1000], 400):
-        print(line, flush=True)
-    console.print(front_end())
-    console.print(engines())
-    console.print(builds())
+@dataclass(frozen=True)
+class Tools:
+    """What is there to measure with."""
+
+    matiec: tuple[MatiecEngine, ...]
+    valgrind: bool
+    pymodbus: bool
+
+    @classmethod
+    def found(cls) -> "Tools":
+        """Look for them."""
+        said = machine.describe()
+        return cls(tuple(lines()), shutil.which("valgrind") is not None, said["pymodbus"] != "none")
+
+    def missing(self, needs: Iterable[str]) -> str:
+        """Those of `needs` that are not there, as words; empty if all are."""
+        return " and ".join(need for need in needs if not getattr(self, need))
 
 
-def front_end() -> Table:
-    """Lines per second of each step on the generated library."""
-    lines = speed.measure(library_text())
-    table = Table("front end", "lines/s", "share of parse", title=f"ST front end on {lines.lines} generated lines")
-    for step in ("lex", "parse", "check", "lint"):
-        rate = getattr(lines, step)
-        table.add_row(step, f"{rate:,.0f}", f"{rate / lines.parse:.2f}")
-    return table
+@dataclass(frozen=True)
+class Measurement:
+    """How a part is measured, and with which tools."""
+
+    needs: tuple[str, ...]
+    run: Callable[[Tools], Rows]
 
 
-def library_text() -> str:
-    """The library of the shipped drives as one text."""
-    return "\n".join(source.text for source in library_sources())
+def _exchange(tools: Tools) -> Rows:
+    """Imported when pymodbus is known to be there."""
+    from tests.bench import exchange
+
+    return exchange.measure(tools.matiec)
 
 
-def library_sources() -> list[Source]:
-    """The library of the shipped drives as sources, in their order."""
-    files = build.files(build.read(catalog.shipped()), LANGUAGES)
-    order = files[f"{build.PLATFORM}/order.txt"].split()
-    return [Source(name, files[f"{build.PLATFORM}/{name}"]) for name in order]
+MEASUREMENTS: Mapping[str, Measurement] = {
+    "crc": Measurement(("matiec",), lambda tools: checksums.measure(tools.matiec)),
+    "exchange": Measurement(("matiec", "pymodbus"), _exchange),
+    "memory": Measurement(("matiec",), lambda tools: blocks.memory(tools.matiec)),
+    "instructions": Measurement(("matiec", "valgrind"), lambda tools: blocks.instructions(tools.matiec)),
+    "times": Measurement(("matiec",), lambda tools: blocks.all_times(tools.matiec)),
+    "growth": Measurement((), lambda _: growth.measure()),
+    "front end": Measurement((), lambda _: engines.front_end()),
+    "engines": Measurement((), lambda tools: engines.measure([EmbeddedEngine(), *tools.matiec])),
+}
+"""Part of the record -> how it is measured, in the order of the record."""
 
 
-def engines() -> Table:
-    """Build time, CRC and scans of each engine found, with the ratio to the embedded one."""
-    table = Table(
-        "engine",
-        "build library s",
-        "CRC MB/s",
-        "scans/s",
-        "CRC ratio",
-        "scan ratio",
-        title="engines (matiec builds from its cache)",
-    )
-    sources = library_sources()
-    first: tuple[float, float] | None = None
-    for candidate in survey().candidates():
-        if candidate.engine is None:
-            table.add_row(candidate.name, "-", "-", "-", "-", candidate.note)
-            continue
-        seconds = once(lambda engine=candidate.engine: engine.build(sources))  # type: ignore[misc]
-        crc, scans = engine_bench.crc_rate(candidate.engine), engine_bench.scan_rate(candidate.engine)
-        first = first or (crc, scans)
-        ratios = f"{crc / first[0]:.2f}", f"{scans / first[1]:.2f}"
-        table.add_row(candidate.name, f"{seconds:.2f}", f"{crc:.1f}", f"{scans:,.0f}", *ratios)
-    return table
+def main() -> int:
+    """Measure, and write the record, the page and its pictures. Exit status 0, or 1 if anything is wrong."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", default=",".join(MEASUREMENTS), help=f"parts, of {', '.join(MEASUREMENTS)}")
+    parser.add_argument("--page", action="store_true", help="only write the page from the record")
+    wanted = parser.parse_args()
+    names = [] if wanted.page else wanted.only.split(",")
+    if unknown := set(names) - set(MEASUREMENTS):
+        parser.error(f"there is no part {', '.join(sorted(unknown))}; the parts are {', '.join(MEASUREMENTS)}")
+    found, tools = record.read(), Tools.found()
+    good = [_measured(name, found, tools) for name in MEASUREMENTS if name in names]
+    page.write(_in_order(found))
+    print(f"{record.DOCS.name}/{page.NAME} and its pictures are written")
+    return 0 if all(good) else 1
 
 
-def builds() -> Table:
-    """Blocks from maps: the shipped ones from file to text, then growing numbers of synthetic ones."""
-    table = Table("maps", "seconds", "ms per map", title="build, after import (synthetic: 400 registers)")
-    shipped = once(lambda: build.files(build.read(catalog.shipped()), LANGUAGES))
-    each = 1000 * shipped / len(catalog.shipped())
-    table.add_row("the shipped drives, read and built", f"{shipped:.2f}", f"{each:.1f}")
-    for count in (10, 100, 1000):
-        seconds = sum(_rendered(load.loads(synthetic(number, 400), f"{number}.yaml")) for number in range(count))
-        table.add_row(f"{count} synthetic", f"{seconds:.2f}", f"{1000 * seconds / count:.1f}")
-    return table
+def _in_order(found: Record) -> Record:
+    return {name: found[name] for name in MEASUREMENTS if name in found}
 
 
-def _rendered(drive: Drive) -> float:
-    return once(lambda: list(library.drive("synthetic", drive, LANGUAGES)))
-
-
-def once(work: Callable[[], object]) -> float:
-    """Seconds of one run."""
+def _measured(name: str, found: Record, tools: Tools) -> bool:
+    """Measure one part into the record, or say why not; whether nothing is wrong."""
+    measurement = MEASUREMENTS[name]
+    if missing := tools.missing(measurement.needs):
+        print(f"{name}: not measured, there is no {missing}; its figures stay as they were", flush=True)
+        return True
     start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
+    try:
+        rows = measurement.run(tools)
+    except EngineError as error:
+        print(f"{name}: {error}", file=sys.stderr, flush=True)
+        return False
+    found[name] = Part(machine.describe(), record.rounded(rows))
+    record.write(_in_order(found))
+    print(f"{name}: {time.perf_counter() - start:.0f} s", flush=True)
+    return True
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

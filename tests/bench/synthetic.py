@@ -4,26 +4,28 @@ from collections.abc import Iterator
 
 PER_GROUP = 40
 """Parameters of one group; each group has a series of its own."""
-MONITORS = 60
+MOST_MONITORS = 60
+"""Monitors of a map of 120 registers or more; half of the registers in a smaller one."""
 STATUS_WORDS = 10
 
 
 def synthetic(number: int, registers: int) -> str:
-    """The text of a map with this many registers, at least 120; maps of different numbers differ."""
-    parameters = registers - MONITORS - STATUS_WORDS - 3
+    """The text of a map with this many registers, at least 30; maps of different numbers differ."""
+    monitors = min(MOST_MONITORS, registers // 2)
+    parameters = registers - monitors - STATUS_WORDS - 3
     frames = registers // 40
     parts = (
         _head(number),
         _commands(),
         _status(),
-        *_monitors(number),
+        *_monitors(number, monitors),
         *_parameters(number, parameters),
         _operation(),
         *(_exchange(index, number) for index in range(frames)),
         "errata:\n",
         *(_erratum(index) for index in range(0, parameters, 8)),
         "absent:\n",
-        *(_absence(index) for index in range(0, MONITORS, 3)),
+        *(_absence(index) for index in range(0, monitors, 3)),
     )
     return "".join(parts)
 
@@ -105,9 +107,9 @@ def _bit(word: int, bit: int) -> str:
     return f"          - {{bit: {bit:X}, name: {name}, zh: {zh}}}\n"
 
 
-def _monitors(number: int) -> Iterator[str]:
-    yield _section("monitors", "r", f"U1-01..U1-{MONITORS}", 0x100)
-    for index in range(MONITORS):
+def _monitors(number: int, count: int) -> Iterator[str]:
+    yield _section("monitors", "r", f"U1-01..U1-{count}", 0x100)
+    for index in range(count):
         name = "Output frequency" if index == 0 else f"Monitor {index} of {number}"
         row = f"address: {0x100 + index:04X}H, id: U1-{index + 1:02}, name: {name}, zh: 监测{index}"
         yield f"      - {{{row}, unit: V, scale: {{factor: 0.1, source: section 3}}}}\n"

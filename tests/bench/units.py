@@ -7,7 +7,7 @@ from tests.bench.inputs import Pin, pins
 from tests.blocks.library import sources
 from tests.native.driver import Driver
 
-from driveblocks.st.checked import Analysis
+from driveblocks.st.checked import Checked
 from driveblocks.st.checker import check
 from driveblocks.st.parser import parse
 from driveblocks.st.tree import Function, FunctionBlock
@@ -60,7 +60,7 @@ int main(int count, char **arguments)
 
 
 @functools.cache
-def library() -> Analysis:
+def library() -> Checked:
     """The library of the shipped drives, checked."""
     return check([parse("\n".join(source.text for source in sources()), "library")])
 
@@ -68,7 +68,9 @@ def library() -> Analysis:
 def units() -> list[Function | FunctionBlock]:
     """Every block and function in the order of the library."""
     checked = library()
-    found = {**checked.functions, **checked.blocks}
+    found: dict[str, Function | FunctionBlock] = {}
+    found.update(checked.functions)
+    found.update(checked.blocks)
     names = [source.path.rpartition("/")[2].removesuffix(".st").upper() for source in sources()]
     return [found[name] for name in names if name in found]
 

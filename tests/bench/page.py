@@ -1,0 +1,74 @@
+"""The page `docs/performance.md` and its pictures, written from the record and from nothing else."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+
+from tests.bench import chart
+from tests.bench.record import DOCS, Record, Rows
+from tests.bench.sections import blocks, checksum, engines, exchange, growth, summary
+
+NAME = "performance.md"
+HEAD = """# Performance
+
+Written by `make bench` from one run; the figures are in [`performance.json`](performance.json). Nanoseconds belong to
+the machine, ratios and counts say more. The least of many short rounds is shown, all forms of a comparison in turn in
+one process. Without matiec, valgrind or pymodbus a run says so and leaves what they measured as it was.
+"""
+UNKNOWN = "Not measured yet.\n"
+CHARTS: Mapping[str, Callable[[Rows], chart.Chart]] = {"crc": checksum.chart, "exchange": exchange.chart}
+"""Part -> its picture, `performance-<part>.svg`."""
+
+
+def files(record: Record) -> dict[str, str]:
+    """Name -> text of the page and of each picture whose figures are there."""
+    pictures = {
+        f"performance-{part}.svg": chart.svg(draw(record[part].rows)) for part, draw in CHARTS.items() if part in record
+    }
+    return {NAME: page(record), **pictures}
+
+
+def write(record: Record, folder: Path = DOCS) -> None:
+    """Write the page and the pictures."""
+    for name, text in files(record).items():
+        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+
+
+def page(record: Record) -> str:
+    """The text of the page."""
+    return "\n".join(_page(record)).rstrip("\n") + "\n"
+
+
+def _page(record: Record) -> Iterator[str]:
+    yield HEAD
+    yield from _machine(record)
+    yield from ("## In short", "", *summary.section(record))
+    yield from ("## CRC", "", *_part(record, ["crc"], checksum.section))
+    yield from ("## A request and its reply", "", *_part(record, ["exchange"], exchange.section))
+    yield from ("## Decoders", "", *_part(record, ["times"], blocks.decoding))
+    yield from ("## Every block", "", *_part(record, ["instructions", "memory", "times"], blocks.instructions))
+    yield from ("## Building", "", *_part(record, ["growth"], growth.section))
+    yield from ("## Engines", "", *_part(record, ["engines"], engines.section))
+    yield from _part(record, ["front end"], engines.front_end)
+
+
+def _part(record: Record, names: list[str], section: Callable[..., Iterable[str]]) -> Iterator[str]:
+    """A section from its parts, and their machine where it is not that of the page."""
+    if any(name not in record for name in names):
+        yield UNKNOWN
+        return
+    yield from section(*(record[name].rows for name in names))
+    usual = _usual(record)
+    for name in names:
+        other = {key: said for key, said in record[name].machine.items() if usual.get(key) != said}
+        if other:
+            yield f"Measured in another run ({name}): {', '.join(f'{key} {said}' for key, said in other.items())}.\n"
+
+
+def _usual(record: Record) -> Mapping[str, str]:
+    return next(iter(record.values())).machine if record else {}
+
+
+def _machine(record: Record) -> Iterator[str]:
+    for key, said in _usual(record).items():
+        yield f"- {key}: {said}"
+    yield ""

@@ -1,0 +1,132 @@
+"""Section of the page about the CRC: what the blocks cost beside C, what would be faster, and at what price."""
+
+from collections.abc import Iterator
+
+from tests.bench.chart import Bar, Chart, Group
+from tests.bench.record import Rows
+from tests.bench.table import prose, short, table, times
+
+AIM = 1.8
+"""Most that the table block may take of the time of a plain C table, 256 bytes, on matiec as it stands."""
+LINES = ("matiec-beremiz", "matiec-openplc")
+FORMS = {
+    "table": "C, one table of 256 words",
+    "two_tables": "C, two tables of 256 bytes",
+    "bitwise": "C, bit by bit",
+    "block": "MB_Crc16",
+    "called": "MB_Crc16, called by a block",
+    "compact": "MB_Crc16Compact",
+    "function": "FUNCTION with a table",
+}
+OURS = ("block", "called", "compact")
+UNFORCED = "block"
+LEGEND = {"c": "C by hand", "ours": "the library through matiec", "other": "not in the library"}
+
+
+def lines_of(rows: Rows) -> list[str]:
+    """The lines of matiec that were measured."""
+    return [line for line in LINES if any(column.startswith(line) for columns in rows.values() for column in columns)]
+
+
+def taken(rows: Rows, form: str, size: int, *, chained: bool = False, build: str = "stock") -> float:
+    """Nanoseconds of a call, on the slower line of matiec."""
+    row = rows[f"{form} {size} {'chained' if chained else 'independent'}"]
+    return max(row[f"{line} {build}"] for line in lines_of(rows))
+
+
+def ratio(rows: Rows, form: str, size: int, *, chained: bool = False, build: str = "stock") -> float:
+    """How much longer than the plain C table of the same program; of both lines of matiec the larger."""
+    kind = f"{size} {'chained' if chained else 'independent'}"
+    return max(
+        rows[f"{form} {kind}"][f"{line} {build}"] / rows[f"table {kind}"][f"{line} {build}"] for line in lines_of(rows)
+    )
+
+
+def section(rows: Rows) -> Iterator[str]:
+    """The section's text."""
+    yield from prose("""
+        One call over a frame of 8 and of 256 bytes, in nanoseconds, and how much longer than the plain C table beside
+        it in the same program. *Chained*: the frame begins with a byte of the result before, so that each call waits
+        for the one before it, as a program waits for its checksum; otherwise a processor overlaps the calls.
+
+        ![CRC per byte](performance-crc.svg)
+        """)
+    for line in lines_of(rows):
+        yield from (f"Through {line}, `-O2`:", "")
+        yield from _table(rows, line)
+    yield from _words(rows)
+
+
+def _table(rows: Rows, line: str) -> list[str]:
+    heads = ["form", "8 bytes, chained", "8 bytes", "256 bytes, chained", "256 bytes"]
+    body = [[name, *_cells(rows, form, line, "stock")] for form, name in FORMS.items()]
+    for form in ("block", "compact"):
+        body.append([f"{FORMS[form]}, nothing can be forced", *_cells(rows, form, line, "unforced")])
+    return table(heads, body)
+
+
+def _cells(rows: Rows, form: str, line: str, build: str) -> Iterator[str]:
+    for size in (8, 256):
+        for kind in ("chained", "independent"):
+            time, base = (rows[f"{one} {size} {kind}"][f"{line} {build}"] for one in (form, "table"))
+            yield f"{short(time)} ({times(time, base)})"
+
+
+def _words(rows: Rows) -> Iterator[str]:
+    found = ratio(rows, "block", 256)
+    verdict = "within" if found <= AIM else "above"
+    small, chained = ratio(rows, "block", 8), ratio(rows, "block", 8, chained=True)
+    function, function_small = ratio(rows, "function", 256), ratio(rows, "function", 8)
+    free = ratio(rows, "block", 256, build="unforced")
+    yield from prose(f"""
+        `MB_Crc16` takes {short(found)} x the plain C table over 256 bytes: {verdict} the aim of {AIM} x. What it has
+        beyond C are the writes: matiec asks before each one whether a debugger holds the variable, and keeps in the
+        instance what a C compiler keeps in a register. Called by another block, the frame is copied in and out, which
+        is how matiec passes an in-out. Over 8 bytes the calls themselves count: {short(small)} x, or
+        {short(chained)} x where each waits for the one before.
+
+        What would come nearer to C, and what it costs:
+
+        - **The same block compiled so that nothing can be forced**: {short(free)} x, with not a letter of the ST
+        changed. The runtime must be built that way, and its debugger can then force no variable. It is the choice of
+        who builds the runtime, not the library's.
+
+        - **A FUNCTION over the whole frame, with the table inside**: {short(function)} x over 256 bytes, because the
+        variables of a function are plain ones in C. But matiec copies the table to the stack on every call, so that 8
+        bytes take {short(function_small)} x; a function with an array as in-out is not taken by every compiler (IronPLC
+        refuses it); and a system that evaluates the constants of a function on each call writes 256 words for each
+        frame.
+
+        So the library keeps a block with its table in the instance. The least of all rounds is shown; over 256 bytes
+        the median lies within {spread(rows)} % of it.
+        """)
+
+
+def spread(rows: Rows) -> str:
+    """Largest distance of a median from its least, in per cent, over 256 bytes as shipped."""
+    worst = max(
+        columns[f"{line} stock median"] / columns[f"{line} stock"] - 1
+        for row, columns in rows.items()
+        for line in lines_of(rows)
+        if " 256 " in row
+    )
+    return short(100 * worst)
+
+
+def chart(rows: Rows) -> Chart:
+    """Nanoseconds per byte of each form, 8 and 256 bytes, chained; of both lines of matiec the slower."""
+    groups = tuple(Group(f"{size} bytes", tuple(_bars(rows, size))) for size in (8, 256))
+    return Chart("CRC-16, chained calls", "nanoseconds per byte, and times the plain C table", groups, LEGEND)
+
+
+def _bars(rows: Rows, size: int) -> Iterator[Bar]:
+    for form, name in FORMS.items():
+        kind = "ours" if form in OURS else "other" if form == "function" else "c"
+        yield _bar(rows, form, size, name, kind)
+    yield _bar(rows, "block", size, "MB_Crc16, nothing forced", "other", build="unforced")
+
+
+def _bar(rows: Rows, form: str, size: int, label: str, kind: str, *, build: str = "stock") -> Bar:
+    time = taken(rows, form, size, chained=True, build=build)
+    much = ratio(rows, form, size, chained=True, build=build)
+    return Bar(label, time / size, f"{short(time / size)}   {short(much)} x", kind)
