@@ -1,0 +1,63 @@
+"""What is set before each scan of a POU: first nothing, then every landmark in turn, then by chance without end.
+
+The inputs depend on the POU's text, on the maps and on the seed alone. A pin that a scan does not name stays as it was,
+arrays too, so that what a block left behind meets the next scan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tests.blocks.compare.pou import Pou
+from tests.blocks.compare.scenario import SCENARIOS, kind_of, scenario
+from tests.blocks.compare.value import Values
+from tests.host.compare.draws import Draws
+from tests.host.compare.scenarios import Inputs
+
+from driveblocks.st.types import Kind
+
+SCENARIO = 0.75
+LANDMARK = 0.2
+HANGING_TOGETHER, ON_ITS_OWN = 1500, 200
+CHANGE = 0.8
+CHANGE_OF_ARRAY = 0.3
+
+
+def stimuli(pou: Pou, seed: int) -> Iterator[Inputs]:
+    """The inputs before each scan, without end."""
+    draws = Draws(pou.name, seed)
+    values = Values(pou, draws, seed)
+    landmarks = [*_landmarks(pou, draws)]
+    yield {}
+    yield from landmarks
+    pins = [(pin.path, values.of(pin), CHANGE_OF_ARRAY if pin.length else CHANGE) for pin in pou.pins]
+    special = scenario(pou, values, seed)
+    while True:
+        if special is not None and draws.chance(SCENARIO):
+            yield next(special)
+        elif special is None and landmarks and draws.chance(LANDMARK):
+            yield draws.one_of(landmarks)
+        else:
+            yield {path: draw() for path, draw, change in pins if draws.chance(change)}
+
+
+def enough(pou: Pou) -> int:
+    """Scans that reach every line and outcome: all landmarks, then fewer or more by chance as it hangs together."""
+    landmarks = sum(1 for _ in _landmarks(pou, Draws()))
+    return 1 + landmarks + (HANGING_TOGETHER if kind_of(pou) in SCENARIOS else ON_ITS_OWN)
+
+
+def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
+    """Each arm of a CASE; of others each input at each literal of the text, the rest 0 or small; each BOOL alone TRUE."""
+    switches = {pin.path: False for pin in pou.of_kind(Kind.BOOL)}
+    wholes = pou.of_kind(Kind.BITS, Kind.INTEGER)
+    if pou.arms:
+        for arm in pou.arms:
+            yield {**dict(arm)}
+    elif len(wholes) <= 3:
+        for pin in wholes:
+            for value in (one for one in pou.whole if pin.span[0] <= one <= pin.span[1]):
+                yield {**{each.path: 0 for each in wholes}, pin.path: value}
+                yield {**{each.path: draws.whole(0, 2) for each in wholes}, pin.path: value}
+    for name in switches:
+        yield {**switches, name: True}

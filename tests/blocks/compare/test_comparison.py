@@ -1,0 +1,64 @@
+"""Every block and function of the library gives the same state after every scan, on every engine and in every model.
+
+The short form of `python -m tests.blocks.compare.long`.
+"""
+
+import functools
+from itertools import islice
+
+import pytest
+from tests.blocks.compare.comparison import Libraries, build, compare, models, subjects, with_double
+from tests.blocks.compare.pou import shipped
+from tests.blocks.compare.stimulus import enough, stimuli
+from tests.blocks.compare.subject import EmbeddedSubject
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Engine
+
+SEED = 7
+FOLDERS = sorted({pou.folder for pou in shipped().pous.values()})
+
+UNREACHED = {
+    "    IF Count > 10000.0 THEN",
+    "      Count := 10000.0; (* the range of the register ends here *)",
+    "      Limited := TRUE;",
+}
+"""CHF_Reference guards a quotient that the clamp before it keeps at 1.0 or less."""
+
+
+@functools.cache
+def _models() -> Libraries:
+    return build(models())
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_the_library_means_the_same_in_every_model(folder: str) -> None:
+    """No intermediate result leaves its type: `fail` never fails, and C's promotion changes nothing."""
+    _compare(_models(), folder)
+
+
+@pytest.mark.parametrize("folder", FOLDERS)
+def test_matiec_gives_the_same_state_after_every_scan(folder: str, matiec: Engine) -> None:
+    """Every variable of the instance and of all inside it."""
+    _compare(build(with_double(matiec)), folder)
+
+
+def _compare(libraries: Libraries, folder: str) -> None:
+    pous = [pou for pou in shipped().pous.values() if pou.folder == folder]
+    found = [compare(pou, subjects(libraries, pou), enough(pou), SEED) for pou in pous]
+    assert [str(each) for each in found if each is not None] == []
+
+
+def test_the_inputs_reach_every_line_and_outcome() -> None:
+    """What never ran was never compared; what cannot run is explained above."""
+    library = EmbeddedEngine(coverage=True).build(shipped().sources)
+    for pou in shipped().pous.values():
+        run = EmbeddedSubject(library, pou, "embedded", follows_c=False)
+        for inputs in islice(stimuli(pou, SEED), enough(pou)):
+            run.step(inputs)
+    texts = {source.path: source.text.splitlines() for source in shipped().sources}
+    lines = [(path, line, "") for path, hits in library.coverage().items() for line in hits if not hits[line]]
+    branches = library.branches().items()
+    outcomes = [(path, each.line, each.text) for path, hits in branches for each in hits if not hits[each]]
+    missed = [(path, line, text) for path, line, text in lines + outcomes if texts[path][line - 1] not in UNREACHED]
+    assert missed == []
