@@ -22,6 +22,8 @@ OTHER_INPUTS = 1_000_000
 SHARE = 2_500_000
 """The most that one process runs, so that every core has work to the end."""
 SECONDS = 3600.0
+EVERY = "*"
+"""The name that stands for every block."""
 
 
 def inputs(pou: Pou) -> int:
@@ -72,6 +74,11 @@ def build(engine: MatiecEngine, checked: Checked, texts: Sequence[Source] = (), 
     return Program(f"{engine.name} {checked.name}", driver.build(engine, texts), found)
 
 
+def at_once(program: Program, seed: int, count: int) -> Outcome:
+    """So many inputs to each block, one behind the other in one process; ends at the first find."""
+    return execute(Share(program, EVERY, seed, count))
+
+
 def shares(program: Program, pou: Pou, count: int, seed: int) -> Iterator[Share]:
     """Divide a block's inputs."""
     number = 0
@@ -90,12 +97,19 @@ def execute(share: Share) -> Outcome:
     if done.returncode:
         outcome.finds.append(f"{done.stdout}{done.stderr[:4000]}")
     else:
-        outcome.results.update({int(code): int(number) for code, _, number in _pairs(done.stdout)})
+        for counts in read(done.stdout).values():
+            outcome.results.update(counts)
     return outcome
 
 
-def _pairs(said: str) -> Iterator[tuple[str, str, str]]:
-    return (word.partition(":") for word in said.split())
+def read(said: str) -> dict[str, dict[int, int]]:
+    """How often each block gave which ErrorID, from what a program prints."""
+    rows = (line.split() for line in said.splitlines())
+    return {name: {int(code): int(number) for code, _, number in _pairs(words)} for name, *words in rows}
+
+
+def _pairs(words: Iterable[str]) -> Iterator[tuple[str, str, str]]:
+    return (word.partition(":") for word in words)
 
 
 def campaign(programs: Sequence[Program], scale: float, seed: int, workers: int | None = None) -> Iterator[Outcome]:

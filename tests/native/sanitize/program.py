@@ -14,17 +14,14 @@ from driveblocks.reference.reply import manners
 from driveblocks.render.results import RESULTS
 
 C = Path(__file__).with_name("c")
-INCLUDES = "#include <signal.h>\n#include <unistd.h>\n"
+INCLUDES = "#include <signal.h>\n#include <sys/time.h>\n#include <unistd.h>\n"
 
-FILLED = frozenset(
-    "MB_PARSEREPLY MB_RTUOPEN MB_ASCIIDECODE MB_RTUSEAL MB_ASCIIENCODE MB_CRC16 MB_CRC16COMPACT MB_LRC"
-    " MB_PACKADU8 MB_PACKADU16 MB_PACKCHARS8 MB_PACKCHARS16"
-    " MB_UNPACKADU8 MB_UNPACKADU16 MB_UNPACKCHARS8 MB_UNPACKCHARS16".split()
-)
+_PACKING = {f"MB_{way}{box}{bits}" for way in ("PACK", "UNPACK") for box in ("ADU", "CHARS") for bits in (8, 16)}
+_FRAMING = {"MB_RTUOPEN", "MB_RTUSEAL", "MB_ASCIIDECODE", "MB_ASCIIENCODE", "MB_CRC16", "MB_CRC16COMPACT", "MB_LRC"}
+_BUILDING = {"MB_BUILDREAD", "MB_BUILDWRITESINGLE", "MB_BUILDWRITEMULTIPLE", "MB_BUILDDIAGNOSTICS"}
+FILLED = frozenset(_PACKING | _FRAMING | {"MB_PARSEREPLY"})
 """Blocks whose input `c/` makes."""
-JUDGED = FILLED | frozenset(
-    "MB_BUILDREAD MB_BUILDWRITESINGLE MB_BUILDWRITEMULTIPLE MB_BUILDDIAGNOSTICS MB_HEXVALUE MB_HEXDIGIT".split()
-)
+JUDGED = frozenset(FILLED | _BUILDING | {"MB_HEXVALUE", "MB_HEXDIGIT"})
 """Blocks and functions whose result `c/` judges."""
 MOST = {"LENGTH": 254, "ADULENGTH": 256, "CHARCOUNT": 513, "WORDCOUNT": 125, "REGISTERCOUNT": 513, "UNPACKED": 513}
 """The highest count that an output may tell: what a frame carries (serial line 1.02, 2.5) and the types hold."""
@@ -233,5 +230,5 @@ def _main(pous: Sequence[Pou]) -> str:
     rows = ", ".join(f'{{"{pou.name}", {pou.c_name}_run}}' for pou in pous)
     return (
         f"static const Entry ENTRIES[] = {{{rows}}};\n"
-        "int main(int argc, char **argv) { return run_entry(ENTRIES, COUNT(ENTRIES), argc, argv); }\n"
+        "int main(int argc, char **argv) { return run_entries(ENTRIES, COUNT(ENTRIES), argc, argv); }\n"
     )

@@ -47,7 +47,9 @@ def _longest(chance: random.Random) -> Line:
 def tables() -> tuple[str, dict[str, tuple[int, int]]]:
     """The C tables LINES, BODIES and BODY_BYTES; and first line and number of lines by prefix of a drive."""
     spans: dict[str, tuple[int, int]] = {}
-    rows, places, data = [], [], b""
+    rows: list[str] = []
+    places: list[str] = []
+    data = b""
     for prefix, drive in shipped().items():
         own = lines(drive)
         spans[prefix] = (len(rows), len(own))

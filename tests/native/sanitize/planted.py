@@ -1,0 +1,93 @@
+"""ST that goes wrong on purpose, to see sanitizers stop it: an index beside its array, a number beside its type."""
+
+from pathlib import Path
+
+from tests.blocks.library import BLOCKS
+from tests.native.driver import Driver
+from tests.native.sanitize.sanitizers import Checked
+
+from driveblocks.host.engine import Source
+from driveblocks.host.matiec import MatiecEngine
+
+ACCESSES = ("read_own", "write_own", "read_inout", "write_inout", "read_field", "write_field")
+LENGTHS = {"own": 5, "inout": 256, "field": 3}
+"""Elements of each array."""
+TEXT = """
+TYPE PL_Table : ARRAY[0..4] OF WORD; END_TYPE
+TYPE PL_Few : ARRAY[0..2] OF BYTE; END_TYPE
+TYPE PL_Record : STRUCT Before : WORD; Few : PL_Few; Behind : WORD; END_STRUCT; END_TYPE
+FUNCTION_BLOCK PL_Index
+VAR_INPUT
+  Access : INT;
+  Index : DINT;
+END_VAR
+VAR_IN_OUT
+  Adu : MB_Adu;
+END_VAR
+VAR
+  Before : PL_Table;
+  Table : PL_Table;
+  Behind : PL_Table;
+  Rec : PL_Record;
+  Seen : WORD;
+END_VAR
+
+  CASE Access OF
+    0: Seen := Table[Index];
+    1: Table[Index] := Seen;
+    2: Seen := BYTE_TO_WORD(Adu[Index]);
+    3: Adu[Index] := BYTE#16#01;
+    4: Seen := BYTE_TO_WORD(Rec.Few[Index]);
+    5: Rec.Few[Index] := BYTE#16#01;
+  ELSE
+    Seen := WORD#16#0000;
+  END_CASE;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK PL_Number
+VAR_INPUT
+  Way : INT;
+  Big : UINT;
+  Number : REAL;
+END_VAR
+VAR
+  Sum : UINT;
+  Whole : DINT;
+END_VAR
+
+  CASE Way OF
+    0: Sum := Big + Big;
+    1: Whole := REAL_TO_DINT(Number);
+    2: Whole := 2147483647; Whole := Whole + UINT_TO_DINT(Big);
+  ELSE
+    Sum := 0;
+  END_CASE;
+END_FUNCTION_BLOCK
+"""
+
+MAIN = """
+static PL_INDEX index_block;
+static PL_NUMBER number_block;
+int main(int argc, char **argv)
+{
+    START(PL_INDEX, index_block);
+    START(PL_NUMBER, number_block);
+    if (argc == 3) {
+        index_block.ACCESS.value = atoi(argv[1]);
+        index_block.INDEX.value = atoi(argv[2]);
+        PL_INDEX_body__(&index_block);
+    } else {
+        number_block.WAY.value = atoi(argv[1]);
+        number_block.BIG.value = 40000;
+        number_block.NUMBER.value = 3.0e30f;
+        PL_NUMBER_body__(&number_block);
+    }
+    printf("went on\\n");
+    return 0;
+}
+"""
+
+
+def build(engine: MatiecEngine, checked: Checked) -> Path:
+    """Compile the blocks that go wrong. Raises what Driver.build raises."""
+    adu = Source("adu.st", (BLOCKS / "types" / "MB_Adu.st").read_text(encoding="utf-8"))
+    return Driver(MAIN, checked.options, checked.command).build(engine, [adu, Source("planted.st", TEXT)])

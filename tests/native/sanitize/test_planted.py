@@ -1,0 +1,36 @@
+"""The sanitizers see what they are there for: every index beside its array, and every number beside its type."""
+
+import pytest
+from tests.native.driver import run
+from tests.native.sanitize import planted
+from tests.native.sanitize.sanitizers import compilers, why_none
+
+from driveblocks.host.matiec import MatiecEngine
+
+OUTSIDE = (("first", -1), ("length", 0), ("length", 1), ("last", 65535))
+
+
+def test_an_index_beside_its_array_ends_the_program(matiec: MatiecEngine) -> None:
+    """-1, the length, the length + 1 and 65535, read and written; most of them still lie inside the instance."""
+    if not (found := compilers(matiec)):
+        pytest.skip(why_none(matiec))
+    for checked in found:
+        program = planted.build(matiec, checked)
+        for number, access in enumerate(planted.ACCESSES):
+            length = planted.LENGTHS[access.partition("_")[2]]
+            for good in (0, length - 1):
+                assert run(program, number, good).stdout == "went on\n", (checked.name, access, good)
+            for bad in (-1, length, length + 1, 65535):
+                done = run(program, number, bad)
+                assert done.returncode, (checked.name, access, bad)
+                assert "out of bounds" in done.stderr, (checked.name, access, bad)
+
+
+@pytest.mark.parametrize(("way", "compiler_names"), [(0, {"clang"}), (1, {"gcc", "clang"}), (2, {"gcc", "clang"})])
+def test_a_number_beside_its_type_ends_the_program(matiec: MatiecEngine, way: int, compiler_names: set[str]) -> None:
+    """A sum that leaves UINT (which only clang can see), a REAL that no integer holds, a sum that leaves DINT."""
+    if not (found := compilers(matiec)):
+        pytest.skip(why_none(matiec))
+    for checked in found:
+        done = run(planted.build(matiec, checked), way)
+        assert bool(done.returncode) is (checked.name in compiler_names), (checked.name, done.stderr)

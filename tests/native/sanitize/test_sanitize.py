@@ -1,0 +1,91 @@
+"""The short form: every block by damaged and odd inputs under sanitizers, and proof that the drivers would notice."""
+
+import functools
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from tests.blocks.library import sources
+from tests.native.sanitize.campaign import Program, Share, at_once, build, execute, inputs
+from tests.native.sanitize.pins import pous
+from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
+
+from driveblocks.host.engine import Source
+from driveblocks.host.matiec import MatiecEngine
+
+INPUTS = 20_000
+PARSED = {"CHF_Reply", "JSCC_Reply", "SN300G5_Reply", "MB_ParseReply", "MB_RtuOpen", "MB_AsciiDecode"}
+PARSED |= {f"MB_Unpack{box}{bits}" for box in ("Adu", "Chars") for bits in (8, 16)}
+
+
+def checked(engine: MatiecEngine) -> Checked:
+    """One compiler per line, another for the next line, so that all come up; the long form takes all with all."""
+    found = compilers(engine)
+    if not found:
+        pytest.skip(why_none(engine))
+    names = [each.name for each in found_lines()]
+    return found[names.index(engine.name) % len(found)]
+
+
+def test_no_block_goes_wrong(matiec: MatiecEngine) -> None:
+    done = at_once(build(matiec, checked(matiec)), seed=1, count=INPUTS)
+    assert done.finds == []
+    built = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}
+    received = {20, 21, 22, 23, 24, 25, 26, 27, 30, 31, 32, 33, 34, 35, 36, 37, 38, 40}
+    assert set(done.results) == {0} | built | received, "the inputs reach every ErrorID"
+
+
+def test_parsers_get_ten_times_as_much_in_the_long_form(matiec: MatiecEngine) -> None:
+    counts = {pou.name: inputs(pou) for pou in pous(matiec)}
+    assert len(counts) == len(sources()) - 5, "every file but the five types"
+    assert {name for name, count in counts.items() if count == 10_000_000} == PARSED
+    assert set(counts.values()) == {1_000_000, 10_000_000}
+
+
+FAULTS = {
+    "MB_RtuOpen": ("ELSIF AduLength > 256 THEN", "ELSIF AduLength > 257 THEN", "out of bounds"),
+    "MB_AsciiDecode": ("ELSIF CharCount > 513 THEN", "ELSIF CharCount > 515 THEN", "out of bounds"),
+    "MB_UnpackChars16": ("Last := 513;", "Last := 514;", "out of bounds"),
+    "MB_ParseReply": ("AND (Length = 6) AND", "AND", "what is no refusal is taken for one"),
+    "MB_Crc16Compact": ("Crc := WORD#16#FFFF;", "Crc := WORD#16#FFFE;", "the checksum is wrong"),
+    "MB_AsciiEncode": ("CharCount := 0;", "CharCount := CharCount;", "CHARCOUNT in spite of an error"),
+    "MB_BuildRead": ("UINT_TO_BYTE(Quantity)", "UINT_TO_BYTE(MaxWords)", "the frame is wrong"),
+    "MB_PackAdu16": ("Position + 1 < Last", "Position + 1 <= Last", "the low byte of the last register is not empty"),
+    "JSCC_Reply": ("WordCount := Parse.WordCount;", "WordCount := 0;", "the number of words is wrong"),
+    "JSCC_Reference": ("NOT Number THEN", "NOT Number AND (MaximumHz < 0.0) THEN", "what is no number is taken"),
+    "CHF_Reference": ("(MaximumHz > 0.0)", "(MaximumHz >= 0.0)", "division by zero"),
+    "JSCC_Command": ("IF Stop OR QuickStop", "IF Stop", "a stop does not win"),
+    "CHF_DriveStatus": ("Fault := Value", "Fault := Fault OR Value", "FAULT depends on the past"),
+    "SN300G5_FaultNumber": ("Rest := SHR(Rest, 1) AND WORD#16#7FFF;", "Count := 0;", "a scan does not end"),
+}
+"""By block: what is changed, into what, and what must be said of it."""
+
+
+def spoilt() -> list[Source]:
+    """The library with all faults at once, each in a block of its own."""
+    texts = []
+    for each in sources():
+        good, bad, _ = FAULTS.get(Path(each.path).stem, ("", "", ""))
+        assert good in each.text, each.path
+        texts.append(Source(each.path, each.text.replace(good, bad) if good else each.text))
+    return texts
+
+
+@functools.cache
+def spoilt_program(engine_name: str) -> Program:
+    """Its drivers, compiled once, and not patient with a scan that does not end."""
+    engine = next(each for each in found_lines() if each.name == engine_name)
+    hasty = checked(engine)
+    hasty = replace(hasty, options=(*hasty.options, "-DSECONDS_WITHOUT_END=1"))
+    return build(engine, hasty, spoilt(), [name.upper() for name in FAULTS])
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_in_a_block_is_found(name: str) -> None:
+    """On one line: the drivers are the same on the other."""
+    if not found_lines():
+        pytest.skip("iec2c was not found")
+    outcome = execute(Share(spoilt_program(found_lines()[0].name), name, 1, 1_000_000))
+    assert outcome.finds, "nothing was found"
+    assert FAULTS[name][2] in outcome.finds[0]
+    assert f"FOUND {name}, seed 1, input " in outcome.finds[0], "what to repeat is told, and the input"
