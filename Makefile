@@ -1,7 +1,7 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
-.PHONY: demo test blocks counts schema fuzz mutation compare traces verdicts bench
+.PHONY: demo test blocks counts schema fuzz mutation compare traces verdicts ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -30,6 +30,9 @@ traces:               ## record how matiec runs the corpus (needs both lines of 
 
 verdicts:             ## record what matiec says of the accept/reject corpus
 	$(PY) -m tests.host.accept.record
+
+ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
+	$(PY) -m tests.commands.ci_jobs
 
 bench:                ## every figure, side by side in one run
 	$(PY) tests/bench/run.py

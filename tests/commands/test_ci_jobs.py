@@ -24,7 +24,6 @@ def test_both_jobs_run_the_same_lines() -> None:
     assert words == [["pip", "install"], *(["driveblocks", each] for each in ("check", "build", "test"))]
 
 
-@pytest.mark.xfail(strict=True, reason="the README has no jobs yet; take this mark away with the first")
 def test_the_readme_shows_the_same_jobs() -> None:
     assert ci_jobs.jobs(ci_jobs.README) == ci_jobs.jobs(ci_jobs.PAGE)
 
