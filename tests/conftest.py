@@ -2,7 +2,7 @@
 
 `DRIVEBLOCKS_REQUIRE=matiec` (or `matiec-beremiz`, `matiec-openplc`; several with commas) makes a missing one a failure
 of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
-skipped, with the reason, where there is none.
+skipped, with the reason, where there is none. What a test records as the property `summary` is printed at the end.
 """
 
 import functools
@@ -52,6 +52,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         return
     for each in candidates():
         reporter.write_line(f"engine {each.name}: {'runs' if each.engine else 'does not run'}, {each.note}")
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print below the results what tests have recorded as their property `summary`, whichever process they ran in."""
+    reports = (report for status in ("passed", "failed") for report in terminalreporter.stats.get(status, ()))
+    recorded = (text for report in reports for name, text in report.user_properties if name == "summary")
+    for text in dict.fromkeys(recorded):
+        terminalreporter.write_line(str(text))
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

@@ -9,6 +9,7 @@ import typer
 if TYPE_CHECKING:
     from driveblocks.host.discovery import Candidate
     from driveblocks.render.build import Source
+    from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
 
 SHOWN, PER_PROGRAM = 20, 3
@@ -21,32 +22,56 @@ Maps = Annotated[
 EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
 Junit = Annotated[Path, typer.Option("--junit", metavar="FILE", help="Where to write the results as JUnit XML.")]
 Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
+Measure = Annotated[bool, typer.Option("--coverage", help="Say which lines and branches of the blocks have run.")]
+Least = Annotated[
+    float | None,
+    typer.Option(
+        "--require-coverage",
+        metavar="PERCENT",
+        min=0.0,
+        max=100.0,
+        help="Fail below so many percent of the lines or of the branches that can be reached; measures, too.",
+    ),
+]
 
 
-def run(
-    maps: Maps = None, engine: EngineName = "embedded", junit: Junit = Path("junit.xml"), time_limit: Seconds = 10.0
+def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
+    maps: Maps = None,
+    engine: EngineName = "embedded",
+    junit: Junit = Path("junit.xml"),
+    time_limit: Seconds = 10.0,
+    coverage: Measure = False,
+    require_coverage: Least = None,
 ) -> None:
     """Build the blocks of the drives in memory, make test programs from their maps, and run them on this computer.
 
     The programs check the blocks against the manual's example frames and against a reference model. The exit status
-    is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used.
+    is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. With --coverage it is
+    said what no program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below
+    what --require-coverage asks for; what no input can reach is explained and left out of the percentage.
 
-    Example: driveblocks test my_drive.yaml --engine all
+    Example: driveblocks test my_drive.yaml --engine all --require-coverage 100
     """
     from driveblocks.render.text import languages
     from driveblocks.testing import junit as xml
     from driveblocks.testing import runner
+    from driveblocks.testing.coverage import Coverage, counting, result
+    from driveblocks.testing.outcome import Run
     from driveblocks.testing.unit import units
 
     candidates, chosen = _engines(engine)
     sources = _read(maps)
     made = units(sources, languages(["en", "zh"], "utf-8"))
-    done = runner.run(made, [each.engine for each in chosen if each.engine is not None], time_limit)
+    engines = [each.engine for each in chosen if each.engine is not None]
+    measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
+    programs = runner.run(made, [counting(each) for each in engines] if measured else engines, time_limit, measured)
+    done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
     try:
         xml.write(done, junit)
     except OSError as error:
         _refuse(f"{junit}: cannot be written: {error.strerror}")
-    _print(done, candidates, chosen)
+    _print(programs, candidates, chosen)
+    _cover(measured)
     _say(done, len(sources), junit)
     raise typer.Exit(0 if done.passed else 1)
 
@@ -97,6 +122,17 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         most = max(len(result.outcomes) for result in results)
         made.add_row(unit, program, str(most), *(_cell(name, results) for name in names))
     console.write(made)
+
+
+def _cover(measured: "list[Coverage]") -> None:
+    """The files of which something was missed, what that was, and the figures of all."""
+    for each in measured:
+        for path in dict.fromkeys(miss.path for miss in each.misses):
+            typer.echo(f"{path} on {each.engine}: {each.count(path)}")
+            for miss in each.misses:
+                if miss.path == path:
+                    typer.echo(f"  {miss}")
+        typer.echo(f"coverage on {each.engine}: {each.count()}")
 
 
 def _rows(run: "Run") -> "Iterator[tuple[str, str, list[Result]]]":

@@ -42,7 +42,8 @@ def _suite(result: Result) -> ElementTree.Element:
         time=f"{result.seconds:.3f}",
     )
     properties = ElementTree.SubElement(suite, "properties")
-    ElementTree.SubElement(properties, "property", name="engine", value=result.engine)
+    for name, value in (("engine", result.engine), *result.properties):
+        ElementTree.SubElement(properties, "property", name=name, value=value)
     each = result.seconds / max(len(result.outcomes), 1)
     for outcome in result.outcomes:
         suite.append(_case(f"{result.unit}.{result.program}", outcome, each))

@@ -25,13 +25,14 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Result:
-    """One program on one engine. `seconds` is the time of its scans alone."""
+    """One program on one engine. `seconds` is the time of its scans alone; `properties` are figures about it."""
 
     engine: str
     unit: str
     program: str
     outcomes: tuple[Outcome, ...]
     seconds: float = 0.0
+    properties: tuple[tuple[str, str], ...] = ()
 
     def count(self, status: str) -> int:
         """How many checks ended like this."""

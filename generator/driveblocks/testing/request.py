@@ -236,7 +236,7 @@ def _quantities(model: Requests, asked: Asked) -> Iterator[Case]:
 
 def _addresses(model: Requests, asked: Asked) -> Iterator[Case]:
     spans = runs(model.readable if asked.function in READS else model.writable)
-    source = _Sources(model.drive).at
+    source = Sources(model.drive).at
     for span in spans:
         for address in (span.first - 1, span.first, span.last, span.last + 1):
             if 0 <= address <= 0xFFFF:
@@ -262,13 +262,15 @@ def _holes(model: Requests, asked: Asked, spans: list[Span]) -> Iterator[Case]:
             yield Case("a hole between", replace(asked, address=before.last, quantity=quantity))
 
 
-class _Sources:
+class Sources:
     """Where the manual lists an address."""
 
     def __init__(self, drive: Drive) -> None:
+        """Take the drive."""
         self.drive = drive
 
     def at(self, address: int) -> str:
+        """Section or table; words where it is in none."""
         found = self.drive.row_at(address)
         if found is not None:
             section, row = found

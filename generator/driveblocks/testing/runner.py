@@ -9,6 +9,7 @@ from functools import partial
 
 from driveblocks.host.discovery import EMBEDDED
 from driveblocks.host.engine import Engine, EngineError, Library
+from driveblocks.testing.coverage import Counted, Coverage
 from driveblocks.testing.execute import Setting, execute
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
 from driveblocks.testing.suite import ROOT
@@ -23,15 +24,32 @@ BUILDS = 2
 _Built = Library | EngineError
 
 
-def run(units: Sequence[Unit], engines: Sequence[Engine], seconds: float = SECONDS) -> Run:
-    """Run every program of every unit on every engine; results in the order of engines, units and programs."""
+def run(
+    units: Sequence[Unit], engines: Sequence[Engine], seconds: float = SECONDS, coverage: Sequence[Coverage] = ()
+) -> Run:
+    """Run every program of every unit on every engine; results in the order of engines, units and programs.
+
+    What has run of the blocks is added to the `coverage` of an engine's name, if the engine counts.
+    """
     start = time.perf_counter()
     results: list[Result] = []
     with _without_collection(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
+            sums = [each for each in coverage if each.engine == engine.name]
             for unit, built in zip(units, _builds(engine, units, pool), strict=True):
                 results += _results(engine, unit, built, seconds)
+                results += [trouble for each in sums for trouble in _counted(each, unit, built)]
     return Run(results, time.perf_counter() - start)
+
+
+def _counted(coverage: Coverage, unit: Unit, built: _Built) -> Iterator[Result]:
+    """Add what has run; a result only where that is not known."""
+    try:
+        if isinstance(built, Counted):
+            coverage.add(unit.blocks, built)
+    except EngineError as error:
+        outcome = Outcome("what has run is known", ERROR, str(error))
+        yield Result(coverage.engine, unit.suite.name, "coverage", (outcome,))
 
 
 @contextmanager

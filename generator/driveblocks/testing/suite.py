@@ -5,7 +5,20 @@ from pathlib import Path
 from typing import Protocol
 
 from driveblocks.maps.model import Drive
-from driveblocks.testing import command, harness, page, proof, register, reply, request, shared, speed, text, vector
+from driveblocks.testing import (
+    access,
+    command,
+    harness,
+    page,
+    proof,
+    register,
+    reply,
+    request,
+    shared,
+    speed,
+    text,
+    vector,
+)
 from driveblocks.testing.bench import GENERIC
 from driveblocks.testing.script import Program, Script, Suite
 
@@ -38,7 +51,7 @@ def drive_suite(source: Mapped, languages: Sequence[text.Language]) -> Suite:
     """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
     scripts: list[Script] = []
-    for subject in (vector, request, reply, register, command, speed, proof):
+    for subject in (vector, access, request, reply, register, command, speed, proof):
         scripts += subject.scripts(drive, stem)
     scripts += text.scripts(drive, stem, languages)
     return Suite(stem, tuple(_finished(scripts)), len(drive.frames))

@@ -1,0 +1,45 @@
+"""The generated programs reach every line and every outcome of a decision of the blocks, but for what is explained."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.maps import catalog
+from driveblocks.render import build
+from driveblocks.render.text import languages
+from driveblocks.testing import runner
+from driveblocks.testing.coverage import Coverage, exemptions
+from driveblocks.testing.unit import units
+
+FOURTH = sorted((Path(__file__).parent / "fourth_drive").glob("*.yaml"))
+BOTH = languages(["en", "zh"], "utf-8")
+
+Record = Callable[[str, object], None]
+
+
+def covered(maps: list[Path]) -> Coverage:
+    """What the programs of some maps have run on the embedded engine; all their checks must pass."""
+    measured = Coverage("embedded")
+    done = runner.run(units(build.read(maps), BOTH), [EmbeddedEngine(coverage=True)], coverage=[measured])
+    assert done.passed
+    return measured
+
+
+def unexplained(measured: Coverage) -> list[str]:
+    """What never ran or came about, without a reason."""
+    return [str(each) for each in measured.misses if not each.why]
+
+
+def test_the_programs_of_the_shipped_maps_reach_all_of_the_library(record_property: Record) -> None:
+    """Prints a line below the results; an explanation that no longer holds is as wrong as a line that never ran."""
+    measured = covered(list(catalog.shipped()))
+    record_property("summary", f"ST coverage of blocks/iec61131: {measured.count()}")
+    assert unexplained(measured) == []
+    order = Path(__file__).parents[2] / "blocks/iec61131/order.txt"
+    assert {path.partition("/")[2] for path in measured.texts} == set(order.read_text(encoding="utf-8").split())
+    reasons = {each.why for each in measured.misses}
+    assert [each for each in exemptions() if each.why not in reasons] == []
+
+
+def test_the_programs_of_drives_that_only_maps_describe_do() -> None:
+    assert unexplained(covered(FOURTH)) == []
