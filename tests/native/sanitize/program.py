@@ -38,6 +38,11 @@ LIKELY = {
 
 def text(pous: Sequence[Pou]) -> str:
     """The program, to be compiled behind prelude.h. It takes a name, a seed and a number of inputs."""
+    return f"{drivers(pous)}\n{_main(pous)}"
+
+
+def drivers(pous: Sequence[Pou]) -> str:
+    """All of it but the main function: for each block NAME_general and NAME_right, which judge a scan."""
     tables, spans = seeds.tables()
     codes = ", ".join(str(each.code) for each in RESULTS)
     parts = [
@@ -50,7 +55,6 @@ def text(pous: Sequence[Pou]) -> str:
         *map(_file, ("reply", "framing", "packing", "request", "run")),
         *_drives({pou.c_name for pou in pous}, spans),
         *(_block(pou) if pou.result is None else _function(pou) for pou in pous),
-        _main(pous),
     ]
     return "\n".join(parts)
 

@@ -56,7 +56,7 @@ def why_none(engine: MatiecEngine) -> str:
 def _checked(command: tuple[str, ...]) -> Checked | None:
     name, sets = ("clang", [(*CLANG, STRICT_ARRAYS), CLANG]) if _is_clang(command) else ("gcc", [GCC])
     for options in sets:
-        if _runs(command, (*options, *FIRM)):
+        if runs(command, (*options, *FIRM)):
             return Checked(name, command, (*options, *FIRM))
     return None
 
@@ -67,14 +67,21 @@ def _is_clang(command: tuple[str, ...]) -> bool:
     return "clang" in done.stdout
 
 
-def _runs(command: tuple[str, ...], options: tuple[str, ...]) -> bool:
+@functools.cache
+def runs(command: tuple[str, ...], options: tuple[str, ...], text: str = _PROBE) -> bool:
+    """Whether a program compiles with these options, and ends well (libFuzzer: without inputs, after none)."""
     with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "probe.c").write_text(_PROBE, encoding="utf-8")
+        Path(folder, "probe.c").write_text(text, encoding="utf-8")
         build = [*command, *options, "-o", "probe", "probe.c"]
         if subprocess.run(build, cwd=folder, capture_output=True, check=False).returncode:
             return False
         program = str(Path(folder, "probe"))
-        return subprocess.run([program], cwd=folder, capture_output=True, check=False).returncode == 0
+        return (
+            subprocess.run(
+                [program, *(["-runs=0"] if "LLVMFuzzer" in text else [])], cwd=folder, capture_output=True, check=False
+            ).returncode
+            == 0
+        )
 
 
 def found_lines() -> list[MatiecEngine]:
