@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from driveblocks.st.lint_scope import Scope
 from driveblocks.st.loose import tell_loose
+from driveblocks.st.ranges import whole
 from driveblocks.st.tree import (
     Binary,
     Call,
@@ -13,8 +14,9 @@ from driveblocks.st.tree import (
     Literal,
     Member,
     Name,
+    Unary,
 )
-from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, Kind, plain
+from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, Kind, Type, plain
 
 _ORDERS = frozenset(["<", ">", "<=", ">="])
 _ORDER_FUNCTIONS = frozenset(["LT", "GT", "LE", "GE", "MAX", "MIN", "LIMIT"])
@@ -110,7 +112,7 @@ def _widens(source: object, result: object) -> bool:
 def _real_to_integer(scope: Scope, value: Call, target: Builtin) -> None:
     """REAL_TO_INT and TRUNC of something that was not compared with both limits in this POU."""
     inner = value.bindings[0].value if value.bindings else None
-    if inner is None or isinstance(inner, Literal):
+    if inner is None or _fitting_literal(inner, plain(value.type)):
         return
     if isinstance(inner, Name) and _compared(scope, inner) == {"<", ">"}:
         return
@@ -119,6 +121,16 @@ def _real_to_integer(scope: Scope, value: Call, target: Builtin) -> None:
         "compare a REAL variable with both limits first, and convert that"
     )
     scope.add(value.at, "real-to-int", text)
+
+
+def _fitting_literal(value: Expression, target: Type) -> bool:
+    """Whether a value is a number, with a sign or without, within the limits of a type."""
+    sign = -1.0 if isinstance(value, Unary) and value.op == "-" else 1.0
+    number = value.operand if isinstance(value, Unary) else value
+    if not isinstance(number, Literal) or not isinstance(number.value, int | float):
+        return False
+    limits = whole(target)
+    return limits is not None and limits[0] <= sign * number.value <= limits[1]
 
 
 def _compared(scope: Scope, value: Name) -> set[str]:
