@@ -1,5 +1,5 @@
 """The long forms: `python -m tests.host.compare.long [corpus] [expressions] [--scans N] [--blocks NAME,...]
-[--expressions N] [--seed N] [--without PRODUCTION,...]`.
+[--expressions N] [--first BATCH] [--engine NAME] [--seed N] [--without PRODUCTION,...]`.
 
 `corpus`: 10^5 random scans of every block, the full state compared after each, between the three models of the embedded
 engine and with each line of matiec. `expressions`: 10^6 random expressions with four inputs each, between C's model and
@@ -46,6 +46,8 @@ def main() -> int:
     parser.add_argument("--scans", type=int, default=100_000, help="per block of the corpus")
     parser.add_argument("--blocks", default=",".join(load_cases()), help="of the corpus, with commas between")
     parser.add_argument("--expressions", type=int, default=1_000_000)
+    parser.add_argument("--first", type=int, default=0, help="batch of expressions to begin with")
+    parser.add_argument("--engine", choices=MATIEC_NAMES, action="append", help="for expressions; all without it")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--without", default="", help="productions to leave out, with commas between")
     options = parser.parse_args()
@@ -53,7 +55,7 @@ def main() -> int:
     if "corpus" in options.what:
         failures += _corpus(options.blocks.split(","), options.scans, options.seed)
     if "expressions" in options.what:
-        failures += _expressions(options.expressions, options.seed, options.without.split(","))
+        failures += _expressions(options)
     return 1 if failures else 0
 
 
@@ -102,12 +104,13 @@ def _pairs(case: Case) -> Iterator[tuple[str, list[Run], tuple[str, ...]]]:
 # ------------------------------------------------------------ expressions
 
 
-def _expressions(count: int, seed: int, without: list[str]) -> int:
-    batches = -(-count // PER_BATCH)
+def _expressions(options: argparse.Namespace) -> int:
+    batches = range(options.first, -(-options.expressions // PER_BATCH))
     failures = 0
     for engine in _matiec():
         done = 0
-        jobs = [(engine.name, seed, number, without) for number in range(batches)]
+        asked = not options.engine or engine.name in options.engine
+        jobs = [(engine.name, options.seed, number, options.without.split(",")) for number in batches if asked]
         for text, compared, failed in chain.from_iterable(_in_turns(jobs)):
             done, failures = done + compared, failures + failed
             print(text, end="", flush=True)

@@ -208,18 +208,22 @@ def _truncation(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _convertible(g: Grammar, source: str, target: str, depth: int) -> Term:
-    """A REAL that may be anything, NaN included; limited to the target if a compiler could see integers in it.
+    """A REAL that may be anything, NaN included; limited to the target if a compiler could see its value.
 
     C does not define the conversion of what does not fit. Of a value unknown to it the processor's conversion comes
-    out, but `TRUNC(DWORD_TO_LREAL(x))` is folded into a copy of the bits.
+    out, but `TRUNC(DWORD_TO_LREAL(x))` is folded into a copy of the bits, and `TRUNC(-3.7)` as an UINT into 0.
     """
     term = g.anchored(source, depth)
-    if not {part.rule for part in term.walk()} & INTEGRAL_SOURCES:
+    if not any(_foldable(part) for part in term.walk()):
         return term
     # A little inside the range of a wide type, whose bounds no six digits can name.
     inside = [bound * (0.999999 if abs(bound) > 1 << 20 else 1.0) for bound in limits(target)]
     first, last = (atom(source, "literal", f"{max(-9.0e18, min(bound, 9.0e18)):.6E}") for bound in inside)
     return call(source, "limit", "LIMIT", first, term, last)
+
+
+def _foldable(part: Term) -> bool:
+    return part.rule in INTEGRAL_SOURCES or (part.rule == "literal" and part.type in REALS)
 
 
 def _from_bcd(g: Grammar, kind: str, depth: int) -> Term:
