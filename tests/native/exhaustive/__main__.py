@@ -7,7 +7,7 @@ Exit status 1 if anything differs, 2 for an unknown name.
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 
 from tests.native.driver import lines
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str]) -> int:
     return report(parallel([program.bench(engine) for engine in engines], asked.checks or [*CHECKS], asked.short))
 
 
-def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool):  # type: ignore[no-untyped-def]
+def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool) -> Iterator[Report]:
     """The reports of some checks as they come."""
     with ProcessPoolExecutor(PROCESSES) as pool:
         jobs = [pool.submit(run, name, benches, short=short) for name in names]
@@ -43,7 +43,7 @@ def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool):  # ty
             yield job.result()
 
 
-def report(reports) -> int:  # type: ignore[no-untyped-def]
+def report(reports: Iterable[Report]) -> int:
     """Print each report. Exit status 1 if anything differs."""
     wrong = 0
     for one in reports:

@@ -65,7 +65,8 @@ class Report:
 
 def _row(name: str, seconds: float, one: Finding) -> str:
     result = f"{one.wrong:,} DIFFERENT" if one.wrong else "same"
-    return f"{name:27} {one.line:15} {one.cases:>14,} cases {seconds:7.1f} s  {result}{f' ({one.note})' if one.note else ''}"
+    note = f" ({one.note})" if one.note else ""
+    return f"{name:27} {one.line:15} {one.cases:>14,} cases {seconds:7.1f} s  {result}{note}"
 
 
 def run(name: str, benches: Sequence[Bench], *, short: bool) -> Report:

@@ -8,6 +8,6 @@ SEED = 20
 
 
 def checksums(benches: Sequence[Bench], _short: bool) -> Iterator[Finding]:
-    """2^24 pairs for each CRC block, 2^16 for the LRC, 65536 lengths for each, 256 entries; short enough to be whole."""
+    """2^24 pairs for each CRC block, 2^16 for the LRC, 65536 lengths for each, 256 entries; always whole."""
     for bench in benches:
         yield bench.command("checksums", SEED)

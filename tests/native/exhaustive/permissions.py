@@ -1,4 +1,4 @@
-"""Which registers may be read and written: every address with every quantity that matters, against the reference model."""
+"""Which registers may be read and written: every address with each quantity, against the reference model."""
 
 import tempfile
 from array import array
@@ -25,7 +25,7 @@ def table() -> str:
 
 
 def runs(allowed: frozenset[int]) -> bytes:
-    """For each address how many permitted registers stand there in a row: what is asked is permitted up to that many."""
+    """For each address how many permitted registers stand there in a row: up to that many are permitted."""
     longest = array("I", bytes(4 * 0x10000))
     for address in reversed(range(0x10000)):
         if address in allowed:

@@ -24,7 +24,14 @@ from driveblocks.host.matiec import MatiecEngine
 from driveblocks.maps.model import Drive
 from driveblocks.render.results import code
 
-SCANS = (*words.SCANS, *digits.SCANS, *texts.SCANS, *frames.SCANS, *requests.SCANS, *replies.SCANS)
+SCANS: tuple[scan.AnyScan, ...] = (
+    *words.SCANS,
+    *digits.SCANS,
+    *texts.SCANS,
+    *frames.SCANS,
+    *requests.SCANS,
+    *replies.SCANS,
+)
 RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE")
 
 

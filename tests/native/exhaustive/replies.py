@@ -1,7 +1,7 @@
-"""Every length of a reply with every function that may stand in it and every byte count, against the reference model."""
+"""Every length of a reply with every function that it may have and every byte count, against the reference model."""
 
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from tests.blocks.library import shipped
@@ -68,7 +68,7 @@ class Reply:
 
 def replies(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """The generic block with several forms of refusal, then each drive's."""
-    for manner in GENERIC:
+    for manner in GENERIC[2:] if short else GENERIC:
         yield from judged(benches, _parsed(PARSE, manner, short, _form(manner)))
     for prefix, drive in shipped().items():
         yield from judged(benches, _parsed(of_drive(prefix), manners(drive), short, b""))
@@ -93,7 +93,7 @@ def _open(asked: Asked) -> tuple[int, ...]:
     return asked.unit, asked.function, asked.address, quantity, asked.sub_function, asked.value
 
 
-def _teller(asked: Asked, cases: list[Reply]):  # type: ignore[no-untyped-def]
+def _teller(asked: Asked, cases: list[Reply]) -> Callable[[int], str]:
     return lambda at: f"to {asked}: {cases[at].length} bytes, {cases[at].head.hex(' ')}"
 
 

@@ -8,6 +8,7 @@ import struct
 from array import array
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
@@ -163,7 +164,8 @@ def _with(put: Put, pin: str, number: int) -> Put:
 
 
 def _changed(asked: Asked, pin: str, number: int) -> Asked:
-    return replace(asked, **{pin: number})  # type: ignore[arg-type]  (every such field is a number)
+    change: dict[str, Any] = {pin: number}
+    return replace(asked, **change)
 
 
 def _pin(put: Put, name: str) -> int:

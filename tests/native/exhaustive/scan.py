@@ -7,8 +7,8 @@ from dataclasses import dataclass
 class Scan:
     """Pins of a block, each as a path: `Length`, `Adu`, `Adu[3]`, `Request.Quantity`.
 
-    A record holds `given`, an answer `answered`; before each scan, in-outs named in `filled` get again what the head of
-    the input holds. An answer such as `Words[:WordCount]` is the whole array with 0 behind the first WordCount elements.
+    A record holds `given`, an answer `answered`; before each scan, in-outs named in `filled` get again what the head
+    of the input holds. An answer such as `Words[:WordCount]` is the whole array, with 0 behind the first WordCount.
     """
 
     block: str
@@ -69,8 +69,9 @@ class Call:
         given = ", ".join(f"given[{at}]" for at in range(self.arguments))
         call = f"{self.function.upper()}(1, NULL, {given})"
         answer = f"give_text({call});" if self.text else f"__typeof__({call}) answer = {call};\n        GIVE(answer);"
-        body = f"    uint16_t given[{self.arguments}];\n    while (more()) {{\n        TAKE(given);\n        {answer}\n    }}"
-        return f"static void scan_{self.function}(void)\n{{\n{body}\n}}\n"
+        loop = ["    while (more()) {", "        TAKE(given);", f"        {answer}", "    }"]
+        head = [f"static void scan_{self.function}(void)", "{", f"    uint16_t given[{self.arguments}];"]
+        return "\n".join([*head, *loop, "}", ""])
 
 
 AnyScan = Scan | Call
