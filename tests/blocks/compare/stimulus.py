@@ -27,37 +27,41 @@ def stimuli(pou: Pou, seed: int) -> Iterator[Inputs]:
     """The inputs before each scan, without end."""
     draws = Draws(pou.name, seed)
     values = Values(pou, draws, seed)
-    landmarks = [*_landmarks(pou, draws)]
+    known = [*_landmarks(pou, draws)]
     yield {}
-    yield from landmarks
+    yield from known
     pins = [(pin.path, values.of(pin), CHANGE_OF_ARRAY if pin.length else CHANGE) for pin in pou.pins]
     special = scenario(pou, values, seed)
     while True:
         if special is not None and draws.chance(SCENARIO):
             yield next(special)
-        elif special is None and landmarks and draws.chance(LANDMARK):
-            yield draws.one_of(landmarks)
+        elif special is None and known and draws.chance(LANDMARK):
+            yield draws.one_of(known)
         else:
             yield {path: draw() for path, draw, change in pins if draws.chance(change)}
 
 
 def enough(pou: Pou) -> int:
     """Scans that reach every line and outcome: all landmarks, then fewer or more by chance as it hangs together."""
-    landmarks = sum(1 for _ in _landmarks(pou, Draws()))
-    return 1 + landmarks + (HANGING_TOGETHER if kind_of(pou) in SCENARIOS else ON_ITS_OWN)
+    return 1 + landmarks(pou) + (HANGING_TOGETHER if kind_of(pou) in SCENARIOS else ON_ITS_OWN)
+
+
+def landmarks(pou: Pou) -> int:
+    """How many scans, after the first, are no chance."""
+    return sum(1 for _ in _landmarks(pou, Draws()))
 
 
 def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
-    """Each arm of a CASE; of others each input at each literal of the text, the rest 0 or small; each BOOL alone TRUE."""
+    """Each arm of a CASE, or each input at each literal of the text with small others; each BOOL alone TRUE."""
     switches = {pin.path: False for pin in pou.of_kind(Kind.BOOL)}
     wholes = pou.of_kind(Kind.BITS, Kind.INTEGER)
     if pou.arms:
         for arm in pou.arms:
             yield {**dict(arm)}
     elif len(wholes) <= 3:
-        for pin in wholes:
-            for value in (one for one in pou.whole if pin.span[0] <= one <= pin.span[1]):
-                yield {**{each.path: 0 for each in wholes}, pin.path: value}
-                yield {**{each.path: draws.whole(0, 2) for each in wholes}, pin.path: value}
+        for pin, value in ((pin, value) for pin in wholes for value in pou.whole):
+            if pin.span[0] <= value <= pin.span[1]:
+                for rest in (0, 1, draws.whole(0, 20)):
+                    yield {**{each.path: rest for each in wholes}, pin.path: value}
     for name in switches:
         yield {**switches, name: True}

@@ -65,9 +65,7 @@ def _changes(states: Iterable[State]) -> Iterator[dict[str, object]]:
     before: State = {}
     for state in states:
         yield {
-            name: _encode(value)
-            for name, value in state.items()
-            if name not in before or not alike(value, before[name])
+            name: encode(value) for name, value in state.items() if name not in before or not alike(value, before[name])
         }
         before = state
 
@@ -75,11 +73,12 @@ def _changes(states: Iterable[State]) -> Iterator[dict[str, object]]:
 def _states(changes: Iterable[dict[str, object]]) -> Iterator[State]:
     state: State = {}
     for change in changes:
-        state = {**state, **{name: _decode(value) for name, value in change.items()}}
+        state = {**state, **{name: decode(value) for name, value in change.items()}}
         yield state
 
 
-def _encode(value: Value) -> bool | int | str:
+def encode(value: Value) -> bool | int | str:
+    """A scalar as JSON has it."""
     if isinstance(value, float):
         return f"f:{value.hex()}"
     if isinstance(value, bytes):
@@ -88,7 +87,8 @@ def _encode(value: Value) -> bool | int | str:
     return value
 
 
-def _decode(value: object) -> Value:
+def decode(value: object) -> Value:
+    """The scalar that was encoded."""
     if isinstance(value, str):
         return float.fromhex(value[2:]) if value.startswith("f:") else value[2:].encode("latin-1")
     assert isinstance(value, bool | int), value

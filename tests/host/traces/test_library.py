@@ -1,0 +1,68 @@
+"""The embedded engine replays what matiec was recorded to do with the library's blocks."""
+
+from collections.abc import Iterator
+
+import pytest
+from tests.blocks.compare.pou import Pou, shipped
+from tests.host.compare.models import MODELS
+from tests.host.traces import library
+from tests.host.traces.library import AGAIN, Record, folders, head_of, path_of, read, replayed, same, scans, states
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.engine import Library, Overflow
+
+LARGEST_BYTES = 300_000
+
+
+def _pous(folder: str) -> list[Pou]:
+    return [pou for pou in shipped().pous.values() if pou.folder == folder]
+
+
+@pytest.mark.parametrize("folder", folders())
+def test_the_record_is_of_the_blocks_as_they_are(folder: str) -> None:
+    """A changed block, or other inputs: what was recorded says nothing about it."""
+    records = read(folder)
+    stale = [pou.name for pou in _pous(folder) if pou.name not in records or records[pou.name].head != head_of(pou)]
+    gone = sorted(records.keys() - shipped().pous.keys())
+    assert stale + gone == [], AGAIN + ", ".join(stale + gone)
+
+
+@pytest.mark.parametrize("folder", folders())
+@pytest.mark.parametrize("model", MODELS)
+def test_the_embedded_engine_replays_the_library(folder: str, model: Overflow) -> None:
+    """Every variable after every scan, in every model; in C's also what only matiec keeps."""
+    records, compiled = read(folder), EmbeddedEngine(model=model).build(shipped().sources)
+    fresh = [pou for pou in _pous(folder) if pou.name in records and records[pou.name].head == head_of(pou)]
+    assert [text for pou in fresh for text in _unlike(pou, records[pou.name], compiled, model == "c")] == []
+
+
+def _unlike(pou: Pou, record: Record, compiled: Library, copies: bool) -> Iterator[str]:
+    """What differs first, with its scan."""
+    kept = [leaf.path for leaf in pou.leaves if copies or not leaf.handed_on]
+    pairs = zip(states(pou, compiled, record.head.scans), record.changes, strict=True)
+    for number, ((before, after), changes) in enumerate(pairs):
+        wanted = replayed(before, changes)
+        paths = [path for path in kept if not same(after[path], wanted[path])]
+        if paths:
+            yield f"{pou.name}, scan {number}: {[(path, after[path], wanted[path]) for path in paths]}"
+            return
+
+
+def test_a_changed_record_is_seen() -> None:
+    """One output of one scan recorded otherwise."""
+    pou = shipped().pous["MB_Lrc"]
+    record = read("modbus")["MB_Lrc"]
+    compiled = EmbeddedEngine(model="c").build(shipped().sources)
+    at = next(number for number, changes in enumerate(record.changes) if changes.get("LRC"))
+    changed = {**record.changes[at], "LRC": 257}
+    wrong = Record(record.head, (*record.changes[:at], changed, *record.changes[at + 1 :]))
+    (told,) = _unlike(pou, wrong, compiled, True)
+    assert told.startswith(f"MB_Lrc, scan {at}: [('LRC', ")
+
+
+def test_the_folder_holds_the_library_and_is_small() -> None:
+    """No record of a folder that is gone."""
+    files = sorted(library.FOLDER.glob("*.gz"))
+    assert files == [path_of(folder) for folder in folders()]
+    assert sum(path.stat().st_size for path in files) < LARGEST_BYTES
+    assert all(scans(pou) < 1000 for pou in shipped().pous.values())
