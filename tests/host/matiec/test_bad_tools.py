@@ -95,6 +95,7 @@ def test_error_with_a_good_exit_status_is_an_error(fake: Fake) -> None:
 
 def test_iec2c_that_prints_rubbish(fake: Fake) -> None:
     assert "status 3: \ufffd\ufffd" in fails(fake("printf '\\377\\376\\n'; exit 3"), EngineError)
+    assert fails(fake("printf 'a\\033[31m\\001\\rb\\n'; exit 3"), EngineError).endswith("status 3: a?[31m??b")
     assert "status 3 and no message" in fails(fake("exit 3"), EngineError)
     assert "wrote no POUS.c: hello" in fails(fake("echo hello"), EngineError)
 

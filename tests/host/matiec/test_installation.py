@@ -56,7 +56,7 @@ def test_home_may_be_the_program_and_several(tmp_path: Path) -> None:
     for name in "ab":
         library(tmp_path / name / "lib")
     homes = os.pathsep.join((str(programs[0]), str(tmp_path / "b"), str(tmp_path / "nothing")))
-    assert [each.iec2c for each in look(MATIEC_HOME=homes)] == programs
+    assert [each.iec2c for each in find_installations({"MATIEC_HOME": homes, "PATH": ""})][:2] == programs
 
 
 def test_every_folder_of_path_and_links(tmp_path: Path) -> None:
@@ -117,3 +117,14 @@ def test_digest_follows_the_content(tmp_path: Path) -> None:
         change.write_text("changed\n", encoding="utf-8")
         digests.append(replace(found).digest)
     assert len(set(digests)) == 4
+
+
+def test_a_home_without_iec2c_is_told(tmp_path: Path) -> None:
+    """Whoever set it wants to know that it is wrong, even if PATH has another."""
+    other = binary(tmp_path / "path" / NAME)
+    library(tmp_path / "path" / "lib")
+    found = look(MATIEC_HOME=str(tmp_path / "gone"), PATH=str(other.parent))
+    assert found == [
+        Useless(tmp_path / "gone", "MATIEC_HOME names it, and there is no iec2c in it"),
+        Installation(other, tmp_path / "path" / "lib", tmp_path / "path" / "lib" / "C"),
+    ]

@@ -48,7 +48,7 @@ class Installation:
 
 @dataclass(frozen=True)
 class Useless:
-    """An iec2c that cannot be used, and why."""
+    """An iec2c that cannot be used, or a folder of MATIEC_HOME that has none, and why."""
 
     iec2c: Path
     why: str
@@ -60,8 +60,11 @@ def find_installations(environment: Mapping[str, str] = os.environ) -> list[Inst
 
 
 def look_everywhere(environment: Mapping[str, str] = os.environ) -> list[Installation | Useless]:
-    """Every iec2c of this machine, each file once, also those that lack their library."""
+    """Every iec2c of this machine, each file once, also those that lack their library and where none is."""
     found: dict[Path, Installation | Useless] = {}
+    for home in _split(environment.get("MATIEC_HOME", "")):
+        if not any(_in_folder(home)):
+            found[home] = Useless(home, "MATIEC_HOME names it, and there is no iec2c in it")
     for binary in _binaries(environment):
         found.setdefault(binary.resolve(), _installation(binary))
     return list(found.values())

@@ -91,5 +91,6 @@ def _message(match: re.Match[str]) -> Message:
 
 
 def _quote(output: str) -> str:
-    lines = [line for line in output.splitlines() if not _SUMMARY.match(line.strip())]
+    shown = "".join(each if each.isprintable() or each == "\n" else "?" for each in output)
+    lines = [line for line in shown.split("\n") if line.strip() and not _SUMMARY.match(line.strip())]
     return ": " + "\n".join(line[:200] for line in lines[:_QUOTED_LINES]) if lines else " and no message"
