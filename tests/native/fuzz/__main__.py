@@ -1,7 +1,7 @@
 """Coverage-guided fuzzing of parsers, frame decoders and request blocks by libFuzzer, under the sanitizers.
 
-Begins with the corpus and the regressions of the repository. Exit status 1 with the input in hexadecimal on a find,
-2 without clang, libFuzzer and matiec.
+Begins with the corpus and the regressions of the repository and with the manuals' frames. Exit status 1 with the input
+in hexadecimal on a find, 2 without clang, libFuzzer and matiec.
 
     python -m tests.native.fuzz [--seconds 60] [--target NAME,..] [--line LINE] [--keep]
 """
@@ -18,6 +18,7 @@ from pathlib import Path
 
 from tests.native.fuzz.corpus import CORPUS, REGRESSIONS, described, read, replay, write
 from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
+from tests.native.fuzz.seeds import seeds
 from tests.native.sanitize.sanitizers import Checked, found_lines
 
 from driveblocks.host.matiec import MatiecEngine
@@ -42,14 +43,15 @@ class Fuzzing:
         inputs = self.folder / "inputs"
         inputs.mkdir(parents=True)
         kept = read(CORPUS / f"{self.target}.txt") + read(REGRESSIONS / f"{self.target}.txt")
-        for number, each in enumerate(kept):
-            (inputs / f"kept{number}").write_bytes(each.data)
+        for number, data in enumerate([*(each.data for each in kept), *seeds(self.target)]):
+            (inputs / f"kept{number}").write_bytes(data)
         limits = [
             f"-max_total_time={seconds}",
             f"-max_len={LONGEST}",
             f"-seed={seed}",
             "-timeout=20",
             "-print_final_stats=1",
+            "-use_value_profile=1",
         ]
         return self._call([*limits, f"-artifact_prefix={self.folder}/", str(inputs)], seconds + 300)
 

@@ -27,7 +27,7 @@ class Input:
 
 
 def read(file: Path) -> list[Input]:
-    """The inputs of a file; empty lines and those that begin with # are left out. Raises ValueError for another form."""
+    """The inputs of a file, without its empty lines and comments. Raises ValueError for a line of another form."""
     return list(_read(file.read_text(encoding="utf-8"))) if file.is_file() else []
 
 
