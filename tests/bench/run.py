@@ -10,7 +10,7 @@ import argparse
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from tests.bench import blocks, checksums, engines, growth, machine, page, record
@@ -56,7 +56,7 @@ def _exchange(tools: Tools) -> Rows:
     return exchange.measure(tools.matiec)
 
 
-MEASUREMENTS: Mapping[str, Measurement] = {
+MEASUREMENTS: dict[str, Measurement] = {
     "crc": Measurement(("matiec",), lambda tools: checksums.measure(tools.matiec)),
     "exchange": Measurement(("matiec", "pymodbus"), _exchange),
     "memory": Measurement(("matiec",), lambda tools: blocks.memory(tools.matiec)),
@@ -79,7 +79,7 @@ def main() -> int:
     if unknown := set(names) - set(MEASUREMENTS):
         parser.error(f"there is no part {', '.join(sorted(unknown))}; the parts are {', '.join(MEASUREMENTS)}")
     found, tools = record.read(), Tools.found()
-    good = [_measured(name, found, tools) for name in MEASUREMENTS if name in names]
+    good = [measured(name, found, tools) for name in MEASUREMENTS if name in names]
     page.write(_in_order(found))
     print(f"{record.DOCS.name}/{page.NAME} and its pictures are written")
     return 0 if all(good) else 1
@@ -89,8 +89,8 @@ def _in_order(found: Record) -> Record:
     return {name: found[name] for name in MEASUREMENTS if name in found}
 
 
-def _measured(name: str, found: Record, tools: Tools) -> bool:
-    """Measure one part into the record, or say why not; whether nothing is wrong."""
+def measured(name: str, found: Record, tools: Tools) -> bool:
+    """Measure one part into the record and write that, or say why not; whether nothing is wrong."""
     measurement = MEASUREMENTS[name]
     if missing := tools.missing(measurement.needs):
         print(f"{name}: not measured, there is no {missing}; its figures stay as they were", flush=True)

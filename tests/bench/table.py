@@ -30,11 +30,11 @@ def _row(cells: Sequence[str]) -> str:
 
 
 def short(figure: float | None) -> str:
-    """Three digits: 4.81, 20.6, 877, 12,300; a dash for none."""
+    """Three digits: 4.81, 20.6, 877, 12,300; a small count as it is; a dash for none."""
     if figure is None:
         return "-"
-    if figure == int(figure) and figure < 1000:
-        return str(int(figure))
+    if isinstance(figure, int) and figure < 1000:
+        return str(figure)
     for limit, digits in ((10, 2), (100, 1)):
         if figure < limit:
             return f"{figure:.{digits}f}"

@@ -8,12 +8,12 @@ from xml.etree import ElementTree
 import pytest
 from tests.bench import chart, page, record
 from tests.bench.chart import Bar, Chart, Group
-from tests.bench.record import Part, Record
-from tests.bench.run import MEASUREMENTS
+from tests.bench.record import Part, Record, Rows
+from tests.bench.run import MEASUREMENTS, Measurement, Tools, measured
 from tests.bench.sections import checksum
 from tests.bench.table import prose, short, table
 
-from driveblocks.maps import catalog
+from driveblocks.host.engine import EngineError
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRAWN = Chart(
@@ -40,21 +40,6 @@ def test_record_holds_every_measurement(figures: Record) -> None:
     assert page.UNKNOWN not in page.page(figures)
 
 
-def test_record_is_about_the_library_as_it_is(figures: Record) -> None:
-    """Bytes by IEC widths stand in blocks/README.md too: a block that came or went needs a new run of the bench."""
-    overview = (catalog_root() / "blocks" / "README.md").read_text("utf-8")
-    rows = re.findall(r"^\| \[`(\w+)`\]\(.*?\) (FB|function) .*\| *(\d*) \|[^|]*\|$", overview, re.MULTILINE)
-    assert {name: int(size) for name, kind, size in rows if kind == "FB"} == {
-        name: size["IEC"] for name, size in figures["memory"].rows.items()
-    }
-    assert {name for name, _, _ in rows} == set(figures["instructions"].rows) == set(figures["times"].rows)
-
-
-def catalog_root() -> Path:
-    """The root of the checkout."""
-    return next(iter(catalog.shipped())).parent.parent
-
-
 def test_tables_of_the_page_are_whole(figures: Record) -> None:
     """Every row of a table has as many cells as its head."""
     width = 0
@@ -74,6 +59,27 @@ def test_part_that_was_not_measured_is_told() -> None:
 def test_part_of_another_machine_says_so(figures: Record) -> None:
     other = replace(figures["growth"], machine={**figures["growth"].machine, "processor": "Z80"})
     assert "Measured in another run (growth): processor Z80." in page.page({**figures, "growth": other})
+
+
+def test_missing_tool_is_told_and_costs_no_figures(figures: Record, capsys: pytest.CaptureFixture[str]) -> None:
+    found = dict(figures)
+    nothing = Tools(matiec=(), valgrind=False, pymodbus=True)
+    assert all(measured(name, found, nothing) for name in ("crc", "exchange", "memory", "instructions", "times"))
+    assert found == figures
+    assert "instructions: not measured, there is no matiec and valgrind; its figures stay" in capsys.readouterr().out
+
+
+def test_figures_that_cannot_be_repeated_are_an_error(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def refuse(_: Tools) -> Rows:
+        raise EngineError("another count")
+
+    monkeypatch.setitem(MEASUREMENTS, "growth", Measurement((), refuse))
+    found: Record = {}
+    assert not measured("growth", found, Tools((), False, False))
+    assert found == {}
+    assert capsys.readouterr().err == "growth: another count\n"
 
 
 def test_record_comes_back_as_it_was_written(tmp_path: Path) -> None:
@@ -125,7 +131,8 @@ def test_ratio_is_that_of_the_slower_line() -> None:
 
 
 @pytest.mark.parametrize(
-    ("figure", "text"), [(None, "-"), (1.664, "1.66"), (20.62, "20.6"), (876.6, "877"), (12345.6, "12,300"), (8, "8")]
+    ("figure", "text"),
+    [(None, "-"), (1.664, "1.66"), (20.62, "20.6"), (876.6, "877"), (12345.6, "12,300"), (8, "8"), (8.0, "8.00")],
 )
 def test_figures_have_three_digits(figure: float | None, text: str) -> None:
     assert short(figure) == text

@@ -1,6 +1,6 @@
 """Sections of the page about single blocks: decoders in nanoseconds; instructions and bytes of all of them."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from tests.bench.record import Rows
 from tests.bench.sections.checksum import LINES
@@ -8,6 +8,8 @@ from tests.bench.table import prose, short, table, whole
 
 SHARED = "MB_"
 IEC = "IEC"
+Cell = Callable[[str], str]
+"""Name of a block -> what a column shows of it."""
 NO_DECODERS = ("_Request", "_Reply", "_CanRead", "_CanWrite")
 TEXTS = ("TextEn", "TextZh")
 
@@ -28,7 +30,7 @@ def decoding(times: Rows) -> Iterator[str]:
     yield from prose("""
         One scan of a block, one call of a function, over and over with one typical input: matiec at `-O2` through a
         driver in C; the embedded engine called from Python, where a function is called by the names of its inputs.
-        Nanoseconds.
+        Nanoseconds; less than one between two small blocks means nothing.
         """)
     columns = (*_lines(times), "embedded")
     body = [[f"`{name}`", *(short(times[name].get(column)) for column in columns)] for name in decoders(times)]
@@ -48,25 +50,30 @@ def instructions(counts: Rows, memory: Rows, times: Rows) -> Iterator[str]:
 
         Bytes of one instance by the C compiler's `sizeof`, beside the sum of the IEC widths that `blocks/README.md`
         prints: matiec adds `EN` and `ENO`, a byte of flags to each variable, and room for alignment. A function has no
-        instance.
+        instance. Where there is one column for matiec, both lines agree in every row.
         """)
-    lines = _lines(counts or memory)
-    heads = ["block or function", *(f"instructions, {line}" for line in lines), *(f"ns, {line}" for line in lines)]
-    heads += [*(f"bytes, {line}" for line in lines), "bytes, IEC", "more"]
-    yield from table(heads, [_row(name, lines, counts, memory, times) for name in counts or memory])
-    yield from _sum(lines, memory)
-
-
-def _row(name: str, lines: list[str], counts: Rows, memory: Rows, times: Rows) -> list[str]:
-    size = memory.get(name, {})
-    return [
-        f"`{name}`",
-        *(whole(counts.get(name, {}).get(line)) for line in lines),
-        *(short(times.get(name, {}).get(line)) for line in lines),
-        *(whole(size.get(line)) for line in lines),
-        whole(size.get(IEC)),
-        more(size, lines),
+    columns = [
+        *_columns("instructions", counts, whole),
+        *_columns("ns", times, short),
+        *_columns("bytes", memory, whole),
+        ("bytes, IEC", lambda name: whole(memory.get(name, {}).get(IEC))),
+        ("more", lambda name: more(memory.get(name, {}), _lines(memory))),
     ]
+    body = [[f"`{name}`", *(cell(name) for _, cell in columns)] for name in counts]
+    yield from table(["block or function", *(head for head, _ in columns)], body)
+    yield from _sum(_lines(memory), memory)
+
+
+def _columns(head: str, rows: Rows, text: Callable[[float | None], str]) -> list[tuple[str, Cell]]:
+    """A column for each line of matiec, or one if all of them agree everywhere."""
+    lines = _lines(rows)
+    agree = all(len({columns.get(line) for line in lines}) == 1 for columns in rows.values())
+    shown = {lines[0]: "matiec" if len(lines) > 1 else lines[0]} if agree else {line: line for line in lines}
+    return [(f"{head}, {name}", _cell(rows, line, text)) for line, name in shown.items()]
+
+
+def _cell(rows: Rows, line: str, text: Callable[[float | None], str]) -> Cell:
+    return lambda name: text(rows.get(name, {}).get(line))
 
 
 def more(size: dict[str, float], lines: list[str]) -> str:

@@ -129,4 +129,4 @@ def _bars(rows: Rows, size: int) -> Iterator[Bar]:
 def _bar(rows: Rows, form: str, size: int, label: str, kind: str, *, build: str = "stock") -> Bar:
     time = taken(rows, form, size, chained=True, build=build)
     much = ratio(rows, form, size, chained=True, build=build)
-    return Bar(label, time / size, f"{short(time / size)}   {short(much)} x", kind)
+    return Bar(label, time / size, f"{short(time / size)} ns · {short(much)} x", kind)

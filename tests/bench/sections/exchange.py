@@ -89,5 +89,5 @@ def _bars(row: dict[str, float]) -> Iterator[Bar]:
     base = by_hand(row)
     for label, (time, kind) in shown.items():
         if time is not None:
-            ratio = f"   {times(time, base)}" if base is not None else ""
-            yield Bar(label, time, f"{short(time)}{ratio}", kind)
+            ratio = f" · {times(time, base)}" if base is not None else ""
+            yield Bar(label, time, f"{short(time)} ns{ratio}", kind)
