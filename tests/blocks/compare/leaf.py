@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.values import members
-from driveblocks.st.types import Array, Block, Direction, Kind, Struct, Type
+from driveblocks.st.types import REAL, Array, Block, Direction, Kind, Struct, Type
 
 
 @dataclass(frozen=True)
@@ -36,20 +35,24 @@ class Leaf:
 
 
 def leaves(block: Block) -> list[Leaf]:
-    """Every leaf of an instance in the order of declaration. ValueError for what the library does not use."""
+    """Every leaf of an instance in the order of declaration. ValueError for types that the library does not use."""
     return list(_leaves("", block, False))
 
 
 def _leaves(path: str, kind: Type, handed_on: bool) -> Iterator[Leaf]:
-    if is_scalar(kind) or (isinstance(kind, Array) and is_scalar(kind.element) and len(kind.bounds) == 1):
-        if kind.kind not in (Kind.BOOL, Kind.BITS, Kind.INTEGER, Kind.REAL, Kind.STRING, Kind.ARRAY):
-            raise ValueError(f"{path} is a {kind}")
+    if _is_leaf(kind):
         yield Leaf(path, kind, handed_on)
     elif isinstance(kind, Struct | Block):
         for name, each in members(kind).items():
             yield from _leaves(f"{path}.{name}" if path else name, each, handed_on or _is_in_out(path, kind, name))
     else:
         raise ValueError(f"{path} is a {kind}")
+
+
+def _is_leaf(kind: Type) -> bool:
+    if isinstance(kind, Array):
+        return len(kind.bounds) == 1 and kind.element.kind in (Kind.BITS, Kind.INTEGER)
+    return kind is REAL or kind.kind in (Kind.BOOL, Kind.BITS, Kind.INTEGER, Kind.STRING)
 
 
 def _is_in_out(path: str, kind: Type, name: str) -> bool:
