@@ -154,3 +154,54 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(my_drive: str, monkeypa
     result = invoke(my_drive, "--time-limit", "0.1")
     assert result.exit_code == 1
     assert "loop" in result.stdout
+
+
+# ---------------------------------------------------------------- coverage
+
+
+def test_coverage_is_told_with_what_is_explained_which_fails_nothing(my_drive: str) -> None:
+    result = invoke(my_drive, "--require-coverage", "100")
+    assert result.exit_code == 0, result.output
+    *_, total, last = result.stdout.splitlines()
+    match = re.fullmatch(r"coverage on embedded: lines (\d+)/(\d+), branches (\d+)/(\d+) \((\d+) explained\)", total)
+    assert match
+    lines, all_lines, branches, all_branches, explained = map(int, match.groups())
+    assert all_lines - lines + all_branches - branches == explained
+    assert "all passed" in last
+    assert re.search(
+        r"^  iec61131/modbus/MB_AsciiEncode\.st:\d+:\d+: never WHILE without .*; explained: ", result.stdout, re.M
+    )
+    suite = ElementTree.parse("junit.xml").getroot()[-1]  # noqa: S314  (our own file)
+    properties = {each.attrib["name"]: each.attrib["value"] for each in suite.iter("property")}
+    assert properties == {"engine": "embedded", "lines": f"{match[1]}/{match[2]}", "branches": f"{match[3]}/{match[4]}"}
+
+
+def test_coverage_is_not_measured_unless_asked(my_drive: str) -> None:
+    assert "coverage" not in invoke(my_drive).stdout
+
+
+def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    rendered = library.drive
+
+    def longer(*arguments: object) -> object:
+        for file in rendered(*arguments):  # type: ignore[arg-type]
+            text = file.text
+            if file.name == "EX100_Standstill":
+                more = (
+                    "  IF StandstillProven AND NOT StandstillProven THEN\n    StandstillProven := FALSE;\n  END_IF;\n"
+                )
+                text = text.replace("END_FUNCTION_BLOCK", f"{more}END_FUNCTION_BLOCK")
+            yield library.File(file.folder, file.name, text)
+
+    monkeypatch.setattr(library, "drive", longer)
+    assert invoke(my_drive, "--coverage").exit_code == 0
+    result = invoke(my_drive, "--require-coverage", "100")
+    assert result.exit_code == 1
+    assert re.search(r"^  iec61131/my_drive/EX100_Standstill\.st:\d+:6: never IF TRUE$", result.stdout, re.MULTILINE)
+    assert re.search(r"^library\.coverage on embedded$", result.stdout, re.MULTILINE)
+    assert "2 failed" in result.stdout.splitlines()[-1]
+
+
+@pytest.mark.parametrize("percent", ["101", "-1", "all"])
+def test_a_percentage_that_cannot_be_is_refused(my_drive: str, percent: str) -> None:
+    assert invoke(my_drive, "--require-coverage", percent).exit_code == 2

@@ -17,6 +17,17 @@ def test_matiec(matiec):
 """
 
 
+SUMMARY = """
+import pytest
+
+@pytest.mark.parametrize("right", [True, False])
+def test_it(right, record_property):
+    record_property("summary", f"right: {right}")
+    record_property("other", "not shown")
+    assert right
+"""
+
+
 @pytest.fixture
 def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> "Runner":
     """Run pytest on two tests under our conftest.py, in a process of its own."""
@@ -97,3 +108,13 @@ def test_every_engine_found_runs(run: Runner, matiec: object) -> None:
     assert "test_each[embedded]" in output
     assert "test_matiec[matiec-" in output
     assert "skipped" not in output
+
+
+@pytest.mark.parametrize("arguments", [["-q"], ["-q", "-n", "2"]])
+def test_what_tests_say_for_the_end_is_printed_there_once(run: Runner, arguments: list[str]) -> None:
+    (run.folder / "test_it.py").write_text(SUMMARY, encoding="utf-8")
+    status, output = run(*arguments, bare=True)
+    assert status == 1
+    lines = output.splitlines()
+    assert [lines.count(f"right: {right}") for right in (True, False)] == [1, 1]
+    assert "not shown" not in lines
