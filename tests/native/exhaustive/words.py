@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from tests.blocks import meanings
 from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
-from tests.native.exhaustive.scan import Call, Scan
+from tests.native.exhaustive.scan import AnyScan, Call, Scan
 
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import fault, register
@@ -44,7 +44,7 @@ def fault_number(drive: Drive) -> Scan:
     return Scan(f"{drive.prefix}_FaultNumber", pins, ("FaultNumber", "Count"))
 
 
-SCANS = (
+SCANS: tuple[AnyScan, ...] = (
     *(decoder(drive, row) for drive, row in DECODED),
     *(scale(drive, row) for drive, row in SCALED),
     *(fault_number(drive) for drive in NUMBERED),
