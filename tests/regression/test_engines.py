@@ -83,3 +83,21 @@ END_FUNCTION_BLOCK
     instance = engine.build([Source("show.st", text)]).instance("Show")
     instance.scan(0)
     assert [instance[each] for each in ("Out", "Out2", "Out3")] == [771, 7, 6]
+
+
+FUNCTION_OF_TYPES = """
+TYPE T_Level : INT := 7; END_TYPE
+TYPE T_Same : T_Level; END_TYPE
+TYPE T_Digit : INT (5..10); END_TYPE
+FUNCTION Show : INT
+VAR_INPUT Level : T_Level; Same : T_Same; Digit : T_Digit; Own : T_Level := 1000; END_VAR
+  Show := Level + 10 * Same + 100 * Digit + Own;
+END_FUNCTION
+"""
+
+
+def test_a_call_from_outside_takes_the_initial_value_of_a_type(engine: Engine) -> None:
+    """An input that was not given was 0 on matiec, where its type has an initial value."""
+    library = engine.build([Source("show.st", FUNCTION_OF_TYPES)])
+    assert library.call("Show", {}) == 7 + 70 + 500 + 1000
+    assert library.call("Show", {"Level": 1}) == 1 + 70 + 500 + 1000

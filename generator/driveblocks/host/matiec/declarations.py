@@ -59,6 +59,7 @@ class Declarations:
 
     types: dict[str, Spec] = field(default_factory=dict)
     units: dict[str, Unit] = field(default_factory=dict)
+    defaults: dict[str, str] = field(default_factory=dict)
 
     def resolve(self, spec: Spec | None) -> Spec | None:
         """Follow names of declared types to what they stand for; an elementary or block name stays."""
@@ -68,12 +69,22 @@ class Declarations:
             spec = self.types[spec.name]
         return spec
 
+    def initial(self, variable: Variable) -> str | None:
+        """The initial value as written: the variable's own, else that of the nearest type by name that has one."""
+        found, spec = variable.initial, variable.spec
+        seen = set()
+        while found is None and isinstance(spec, Named) and spec.name in self.types and spec.name not in seen:
+            seen.add(spec.name)
+            found, spec = self.defaults.get(spec.name), self.types[spec.name]
+        return found
+
 
 _TOKEN = re.compile(
     r"""\(\*.*?\*\) | \{.*?\} | \s+
     | (?P<token> '(?:\$.|[^'$])*' | "(?:\$.|[^"$])*" | %[\w.*]+ | \w[\w\#]* | := | \.\. | .)""",
     re.DOTALL | re.VERBOSE,
 )
+_SUBRANGE = re.compile(r"\w+\((?P<low>.+?)\.\.")
 _UNITS = ("FUNCTION", "FUNCTION_BLOCK", "PROGRAM", "CONFIGURATION")
 _SECTIONS = frozenset(
     ("VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_ACCESS")
@@ -130,9 +141,12 @@ class _Reader:
         while self._peek() not in ("END_TYPE", ""):
             name = self._word()
             self._word()  # the colon
+            start = self._at
             self._found.types[name] = self._spec()
-            self._skip(";")
-            self._word()
+            lowest = _SUBRANGE.match("".join(self._tokens[start : self._at]))
+            initial = self._initial() or (lowest and lowest["low"])
+            if initial is not None:
+                self._found.defaults[name] = initial
 
     def _unit(self, kind: str) -> None:
         line = self._text.count("\n", 0, self._starts[self._at]) + 1 if self._at < len(self._starts) else 0

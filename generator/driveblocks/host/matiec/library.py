@@ -172,8 +172,8 @@ class MatiecLibrary:
             variable = unit.variables.get(each)
             if each in given:
                 node.write(memory, 0, given[each])
-            elif variable is not None and variable.initial is not None:
-                node.write(memory, 0, constant(variable.initial))
+            elif variable is not None and (initial := self._built.declared.initial(variable)) is not None:
+                node.write(memory, 0, constant(initial))
             memories.append(memory)
         return memories
 
