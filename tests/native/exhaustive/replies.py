@@ -80,7 +80,7 @@ def _form(manner: Manners) -> bytes:
 
 def _parsed(scan: Scan, manner: Manners, short: bool, form: bytes) -> Iterator[Trial]:
     for asked in REQUESTS:
-        for function in dict.fromkeys((asked.function, asked.function | 0x80, asked.function | 0x40, 6, 16)):
+        for function in dict.fromkeys((asked.function, asked.function | 0x80, asked.function | 0x40, 6)):
             cases = [*_replies(asked, function, short)]
             noted = struct.pack("=6H", *_open(asked)) + form
             records = b"".join(struct.pack("=H", one.length) + one.head + noted for one in cases)
@@ -105,6 +105,8 @@ def _replies(asked: Asked, function: int, short: bool) -> Iterator[Reply]:
     echo = struct.pack(">HH", first, second)
     for length in (*range(10), *range(250, 260), 0x100, 0x8000, 0xFFFF) if short else range(0x10000):
         yield Reply(length, bytes([asked.unit, function, due]) + ADU[3:6])
+        if length > LONGEST and length % 16:
+            continue  # refused for its length, whatever stands in it
         yield Reply(length, bytes([asked.unit, function, 0, due, *ADU[4:6]]))
         yield Reply(length, bytes([asked.unit, function]) + echo)
         yield Reply(length, bytes([asked.unit, function, 0x50, 0x01, 0, 7]))
