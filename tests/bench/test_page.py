@@ -10,7 +10,7 @@ from tests.bench import chart, page, record
 from tests.bench.chart import Bar, Chart, Group
 from tests.bench.record import Part, Record, Rows
 from tests.bench.run import MEASUREMENTS, Measurement, Tools, measured
-from tests.bench.sections import checksum
+from tests.bench.sections import checksum, growth
 from tests.bench.table import prose, short, table
 
 from driveblocks.host.engine import EngineError
@@ -128,6 +128,11 @@ def test_ratio_is_that_of_the_slower_line() -> None:
     }
     assert checksum.ratio(rows, "block", 256) == 2.0
     assert checksum.taken(rows, "block", 256) == 900.0
+
+
+def test_growth_is_a_straight_line_where_it_is_one() -> None:
+    rows = {f"{count} registers": {"load": 0.1 + 0.002 * count, "tests": 0.2} for count in (50, 100, 400)}
+    assert [*growth.line(rows)] == pytest.approx([0.3, 0.002])
 
 
 @pytest.mark.parametrize(

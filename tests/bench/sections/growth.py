@@ -1,12 +1,15 @@
 """Section of the page about building: how the time grows with maps and with registers."""
 
+import statistics
 from collections.abc import Iterator
-from itertools import pairwise
 
 from tests.bench.record import Rows
 from tests.bench.table import prose, short, table, whole
 
 STEPS = ("load", "blocks", "page", "tests")
+KINDS = {"maps": "map after map", "maps whole": "a whole build"}
+EVEN = 1.25
+"""Times of a map that lie within this factor, over hundredfold numbers of maps, are called proportional."""
 
 
 def seconds(steps: dict[str, float]) -> float:
@@ -45,7 +48,8 @@ def _maps(rows: Rows) -> Iterator[list[str]]:
     for row, steps in rows.items():
         if row.endswith(("maps", "whole")):
             each = short(1e3 * seconds(steps) / size(row))
-            yield [whole(size(row)), *_seconds(steps), each, whole(steps.get("MiB"))]
+            kind = KINDS[row.partition(" ")[2]]
+            yield [f"{whole(size(row))}, {kind}", *_seconds(steps), each, whole(steps.get("MiB"))]
 
 
 def _registers(rows: Rows) -> Iterator[list[str]]:
@@ -61,17 +65,26 @@ def _seconds(steps: dict[str, float]) -> list[str]:
 
 def _grows(rows: Rows) -> str:
     """How the time of one map changes over the numbers of maps."""
-    (few, *_, many), (less, *_, more) = per_map(rows, "maps"), per_map(rows, "maps whole")
-    return f"""
-        Loading and rendering map after map takes {short(few)} ms per map at the least number and {short(many)} ms at
-        the most, a whole build {short(less)} and {short(more)} ms."""
+    words = []
+    for kind, what in KINDS.items():
+        found = per_map(rows, kind)
+        verdict = "in proportion to their number" if max(found) < EVEN * min(found) else "not in proportion"
+        words.append(f"{what} takes {short(min(found))} to {short(max(found))} ms per map, {verdict}")
+    return f"{'; '.join(words)}.".capitalize()
+
+
+def line(rows: Rows) -> tuple[float, float]:
+    """The straight line nearest to the maps of growing size by least squares: seconds of a map, and of a register."""
+    found = [(size(row), seconds(steps)) for row, steps in rows.items() if row.endswith("registers")]
+    slope, base = statistics.linear_regression(*zip(*found, strict=True))
+    return base, slope
 
 
 def _slope(rows: Rows) -> list[str]:
-    found = [(size(row), seconds(steps)) for row, steps in rows.items() if row.endswith("registers")]
-    slopes = [1e3 * (more - less) / (many - few) for (few, less), (many, more) in pairwise(found)]
-    shown = ", ".join(short(slope) for slope in slopes)
+    base, slope = line(rows)
+    sizes = [size(row) for row in rows if row.endswith("registers")]
+    off = max(abs(seconds(rows[f"{count} registers"]) - base - slope * count) for count in sizes)
     return prose(f"""
-        A map of {found[0][0]} registers costs {short(1e3 * found[0][1])} ms, most of it the test programs; each further
-        register costs, from one row to the next, {shown} ms.
+        A map costs {short(1e3 * base)} ms, most of it the test programs, and {short(1e3 * slope)} ms for each register:
+        the straight line by least squares, from which no row is further than {short(1e3 * off)} ms.
         """)
