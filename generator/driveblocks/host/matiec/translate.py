@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.host.engine import BuildError, EngineError, Message
+from driveblocks.host.matiec.declarations import read_declarations
 from driveblocks.host.matiec.errors import CompilerCrashError, RefusedWithCrashError
 from driveblocks.host.matiec.installation import Installation
 from driveblocks.host.matiec.process import Outcome, run
@@ -25,9 +26,10 @@ _INTERNAL = re.compile(r"^Internal compiler error.*$", re.MULTILINE)
 _SUMMARY = re.compile(r"^(\d+ error\(s\) found\. Bailing out!|.*\.(c|h|csv)|)$")
 _QUOTED_LINES = 8
 _COLLISION = (
-    "iec2c stumbled over its own library: a type, function, block or program is named as a parameter there"
-    " (such as P, L, N, G or IN); give it another name"
+    "iec2c stumbled over its own library: {} is named as a parameter there (such as P, L, N, G or IN);"
+    " give it another name"
 )
+_WORD = re.compile(r"\w+")
 
 
 @dataclass(frozen=True)
@@ -50,14 +52,34 @@ class Translator:
         errors, warnings = _messages(outcome.output)
         if not errors and (lost := _LOST.search(outcome.output)):
             errors.append(Message(listing.NAME, 1, 0, lost[0]))
-        if errors and all(each.path != listing.NAME for each in errors):
-            errors.append(Message(listing.NAME, 1, 0, _COLLISION))
+        if foreign := [each for each in errors if each.path != listing.NAME]:
+            errors = [*(each for each in errors if each not in foreign), *self._collisions(listing, foreign)]
         if outcome.status != 0 or errors:
             raise self._failure(outcome, listing.locate(errors))
         for name in ("POUS.c", "POUS.h"):
             if not (directory / name).is_file():
                 raise EngineError(f"{program} said that it was done but wrote no {name}{_quote(outcome.output)}")
         return warnings
+
+    def _collisions(self, listing: Listing, foreign: list[Message]) -> list[Message]:
+        """What stands behind messages on iec2c's own library: names of ours that its lines use for parameters."""
+        words = {word.upper() for each in foreign for word in _WORD.findall(self._library_line(each))}
+        declared = read_declarations(listing.text)
+        found = [
+            Message(listing.NAME, unit.line, 0, _COLLISION.format(unit.name))
+            for name, unit in declared.units.items()
+            if name in words
+        ]
+        types = [f"the type {name}" for name in declared.types if name in words]
+        found += [Message(listing.NAME, 1, 0, _COLLISION.format(name)) for name in types]
+        return found or [Message(listing.NAME, 1, 0, _COLLISION.format("a type, function, block or program"))]
+
+    def _library_line(self, message: Message) -> str:
+        try:
+            text = (self.installation.library / Path(message.path).name).read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            return ""
+        return text.splitlines()[message.line - 1] if message.line <= text.count("\n") else ""
 
     def _failure(self, outcome: Outcome, errors: list[Message]) -> EngineError:
         program = self.installation.iec2c
