@@ -5,7 +5,7 @@ from tests.blocks import wire
 from tests.blocks.library import built, result
 from tests.blocks.test_fourth_drive import fourth
 
-from driveblocks.host.engine import Engine
+from driveblocks.host.engine import Engine, Value
 from driveblocks.reference.request import Asked
 
 
@@ -40,7 +40,7 @@ def test_a_reset_is_never_written_into_the_command_register(engine: Engine) -> N
 def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine, prefix: str, sign: int) -> None:
     """The REAL nearest to 1.0E30 is above it: C compared with the literal as a double, and took it for no number."""
     scale = {"ReferenceScale": 10.0} if prefix == "JSCC" else {}
-    pins = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 1.0e30, **scale}
+    pins: dict[str, Value] = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 1.0e30, **scale}
     done = built(engine).run(f"{prefix}_Reference", pins)
     assert result(done) == ("OK" if sign > 0 else "NEGATIVE")
 
@@ -49,7 +49,7 @@ def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine,
 def test_a_refusal_is_never_told_by_a_sum_that_wraps(engine: Engine, function: int, add: int, answered: int) -> None:
     """The function code of a refusal was a sum in 16 bits: 65408 + 128 was 0, the function of a damaged reply."""
     request = {"Request.UnitAddress": 1, "Request.FunctionCode": function, "Request.Quantity": 1}
-    pins = {"Length": 3, "ExceptionAdd": add, "Adu": bytes([1, answered, 2]), **request}
+    pins: dict[str, Value] = {"Length": 3, "ExceptionAdd": add, "Adu": bytes([1, answered, 2]), **request}
     assert result(built(engine).run("MB_ParseReply", pins)) == "OTHER_FUNCTION"
 
 

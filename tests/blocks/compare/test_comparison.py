@@ -31,6 +31,9 @@ UNREACHED = {
 these loops are checked before, so that none ends without a turn."""
 
 
+_WITH_DOUBLE: dict[str, Libraries] = {}
+
+
 @functools.cache
 def _models() -> Libraries:
     return build(models())
@@ -45,7 +48,9 @@ def test_the_library_means_the_same_in_every_model(folder: str) -> None:
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_matiec_gives_the_same_state_after_every_scan(folder: str, matiec: Engine) -> None:
     """Every variable of the instance and of all inside it."""
-    _compare(build(with_double(matiec)), folder)
+    if matiec.name not in _WITH_DOUBLE:
+        _WITH_DOUBLE[matiec.name] = build(with_double(matiec))
+    _compare(_WITH_DOUBLE[matiec.name], folder)
 
 
 def _compare(libraries: Libraries, folder: str) -> None:

@@ -1,5 +1,6 @@
 """The embedded engine replays what matiec was recorded to do with the library's blocks."""
 
+import functools
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -13,6 +14,11 @@ from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Library, Overflow
 
 LARGEST_BYTES = 300_000
+
+
+@functools.cache
+def _compiled(model: Overflow) -> Library:
+    return EmbeddedEngine(model=model).build(shipped().sources)
 
 
 def _pous(folder: str) -> list[Pou]:
@@ -44,7 +50,7 @@ def test_a_changed_block_makes_its_record_stale() -> None:
 @pytest.mark.parametrize("model", MODELS)
 def test_the_embedded_engine_replays_the_library(folder: str, model: Overflow) -> None:
     """Every variable after every scan, in every model; in C's also what only matiec keeps."""
-    records, compiled = read(folder), EmbeddedEngine(model=model).build(shipped().sources)
+    records, compiled = read(folder), _compiled(model)
     fresh = [pou for pou in _pous(folder) if pou.name in records and records[pou.name].head == head_of(pou)]
     assert [text for pou in fresh for text in _unlike(pou, records[pou.name], compiled, model == "c")] == []
 
@@ -65,7 +71,7 @@ def test_a_changed_record_is_seen() -> None:
     """One output of one scan recorded otherwise."""
     pou = shipped().pous["MB_Lrc"]
     record = read("modbus")["MB_Lrc"]
-    compiled = EmbeddedEngine(model="c").build(shipped().sources)
+    compiled = _compiled("c")
     at = next(number for number, changes in enumerate(record.changes) if changes.get("LRC"))
     changed = {**record.changes[at], "LRC": 257}
     wrong = Record(record.head, (*record.changes[:at], changed, *record.changes[at + 1 :]))
