@@ -1,5 +1,6 @@
 """The fuzz targets as a program: with libFuzzer, or with a main function that replays lines of hexadecimal."""
 
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -47,6 +48,7 @@ def replayer(engine: MatiecEngine, checked: Checked) -> Path:
     return Driver(text(engine), checked.options, checked.command).build(engine)
 
 
+@functools.cache
 def libfuzzer() -> Checked | None:
     """clang with libFuzzer and the sanitizers, if they are there."""
     command = clang()

@@ -1,20 +1,17 @@
-"""The corpus and the regressions through every target, with libFuzzer where it is found; and that they would notice."""
+"""The corpus and the regressions through every target, and through libFuzzer where it is found."""
 
 import functools
 import os
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import sources
-from tests.native.driver import Driver
 from tests.native.fuzz import corpus
-from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets, text
+from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
 from tests.native.fuzz.seeds import seeds
-from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
+from tests.native.sanitize.sanitizers import compilers, found_lines, why_none
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
 from driveblocks.render.results import RESULTS
 
 KILOBYTES = 40
@@ -26,35 +23,43 @@ def kept(target: str) -> list[corpus.Input]:
     return [each for file in files for each in corpus.read(file)]
 
 
-def plain(engine: MatiecEngine) -> Checked:
-    """The first compiler with sanitizers."""
+@functools.cache
+def program(line: int) -> Path:
+    """What replays on a line: not optimised, since so few inputs are not worth the time of a compiler."""
+    engine = found_lines()[line]
     if not (found := compilers(engine)):
         pytest.skip(why_none(engine))
-    return found[0]
+    return replayer(engine, replace(found[0], options=(*found[0].options, "-O0")))
+
+
+@functools.cache
+def libfuzzer_program(line: int) -> Path | None:
+    """The program of the long form, if it can be."""
+    checked, lines = libfuzzer(), found_lines()
+    return fuzzer(lines[line], checked) if checked and lines else None
 
 
 @pytest.mark.parametrize("target", targets())
-def test_every_input_gives_the_error_id_that_is_noted(matiec: MatiecEngine, target: str) -> None:
-    """On the first line; the other is the one that libFuzzer runs, if it is there."""
-    if libfuzzer() and matiec.name != found_lines()[0].name:
-        pytest.skip("libFuzzer replays on this line")
+def test_every_input_gives_the_error_id_that_is_noted(target: str) -> None:
+    """On the first line, and on the others too where libFuzzer is not there for them."""
+    if not (lines := found_lines()):
+        pytest.skip("iec2c was not found")
     inputs = kept(target)
-    assert corpus.replay(replayer(matiec, plain(matiec)), target, [each.data for each in inputs]) == [
-        each.code for each in inputs
-    ]
+    for number, engine in enumerate(lines[:1] if libfuzzer() else lines):
+        codes = corpus.replay(program(number), target, [each.data for each in inputs])
+        assert codes == [each.code for each in inputs], engine.name
 
 
 @pytest.mark.parametrize("target", targets())
 def test_libfuzzer_replays_every_input(target: str, tmp_path: Path) -> None:
     """The program of the long form, on the last line."""
-    checked, lines = libfuzzer(), found_lines()
-    if checked is None or not lines:
+    if (whole := libfuzzer_program(-1)) is None:
         pytest.skip("needs clang with libFuzzer, and iec2c")
     inputs = [*(each.data for each in kept(target)), *seeds(target)]
     for number, data in enumerate(inputs):
         (tmp_path / f"{number}").write_bytes(data)
     files = [str(tmp_path / f"{number}") for number in range(len(inputs))]
-    command = [str(fuzzer(lines[-1], checked)), *files]
+    command = [str(whole), *files]
     done = subprocess.run(
         command,
         env={**os.environ, "DRIVEBLOCKS_TARGET": target},
@@ -75,40 +80,6 @@ def test_the_corpus_is_small_and_reaches_every_error_id_of_a_request_and_a_reply
     reached = {each.code for target in targets() for each in kept(target)}
     commands_and_lengths = {8, 12, 13, 14, 15, 16}
     assert reached == {each.code for each in RESULTS} - commands_and_lengths
-
-
-FAULTS = {
-    "rtu_open": ("MB_RtuOpen", "ELSIF AduLength > 256 THEN", "ELSIF AduLength > 65000 THEN"),
-    "ascii_decode": ("MB_AsciiDecode", "ELSIF CharCount > 513 THEN", "ELSIF CharCount > 65000 THEN"),
-    "parse_reply": ("MB_ParseReply", "ELSIF Tail <> Request.Value THEN", "ELSIF Tail = WORD#16#0001 THEN"),
-    "chf_request": ("MB_BuildRead", "UINT_TO_BYTE(Quantity)", "UINT_TO_BYTE(Quantity + 1)"),
-    "chf_reply": ("CHF_Reply", "TwoByteCount := TRUE", "TwoByteCount := FALSE"),
-    "jscc_reply": ("JSCC_Reply", "ErrorAddress := WORD#16#0000", "ErrorAddress := WORD#16#0000, EN := FALSE"),
-    "sn300g5_request": ("MB_BuildDiagnostics", "IF (UnitAddress < 1) OR (UnitAddress > 247)", "IF (UnitAddress > 0)"),
-}
-"""By target: a block, what is changed in it, and into what."""
-
-
-@functools.cache
-def spoilt() -> Path:
-    """The replaying program of a library with all faults at once, compiled once."""
-    engine = found_lines()[0]
-    by_block = {block: (good, bad) for block, good, bad in FAULTS.values()}
-    texts = []
-    for each in sources():
-        good, bad = by_block.get(Path(each.path).stem, ("", ""))
-        assert good in each.text, each.path
-        texts.append(Source(each.path, each.text.replace(good, bad) if good else each.text))
-    checked = plain(engine)
-    return Driver(text(engine), checked.options, checked.command).build(engine, texts)
-
-
-@pytest.mark.parametrize("target", FAULTS)
-def test_a_fault_in_a_block_stops_the_replay(target: str) -> None:
-    if not found_lines():
-        pytest.skip("iec2c was not found")
-    with pytest.raises(AssertionError, match=f"{target} stops at [0-9a-f]+"):
-        corpus.replay(spoilt(), target, [each.data for each in kept(target)])
 
 
 def test_a_line_without_an_error_id_is_refused(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ matiec and with gcc and clang, as far as they are there. Exit status 1 with the 
 """
 
 import argparse
+import resource
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -54,7 +55,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         total += outcome.inputs
         finds += len(outcome.finds)
         print("\n".join([told(outcome), *outcome.finds]), flush=True)
-    print(f"{total:,} inputs in {time.perf_counter() - start:.0f} s, {finds} finds")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    cores = f"{used.ru_utime + used.ru_stime:.0f} s of one core"
+    print(f"{total:,} inputs in {time.perf_counter() - start:.0f} s ({cores}), {finds} finds")
     if not total:
         print("nothing ran: needs iec2c and a compiler with sanitizers; `driveblocks doctor` says what is missing")
         return 2

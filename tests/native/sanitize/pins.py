@@ -21,6 +21,7 @@ _READ_ONLY = re.compile(r"^  (\w+) : \w+;\s*\(\*[^*]*read only", re.MULTILINE)
 _UNIT = re.compile(r"^FUNCTION(?:_BLOCK)? (\w+)", re.MULTILINE)
 _NUMBER = re.compile(r"(?<![\w.#])(?:\w+#16#([0-9A-F]+)|(\d+)(?![\w.#]))")
 _REAL = re.compile(r"(?<![\w.])-?\d+\.\d+(?:E[+-]?\d+)?")
+_WORD = re.compile(r"\w+")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 
 
@@ -73,6 +74,7 @@ class _Reader:
         starts = [*_UNIT.finditer(text)]
         ends = [*(match.start() for match in starts[1:]), len(text)]
         self._texts = {match[1]: text[match.start() : end] for match, end in zip(starts, ends, strict=True)}
+        self._bodies = {name: _body(own) for name, own in self._texts.items()}
 
     def read(self) -> Iterator[Pou]:
         for unit in self._units.values():
@@ -100,18 +102,23 @@ class _Reader:
         return Pou(unit.name, pins, function.result, (), *self._numbers(unit.name))
 
     def _numbers(self, name: str) -> tuple[tuple[int, ...], tuple[float, ...]]:
-        """16-bit and real literals of a unit and of those it calls, those of long tables thinned out."""
-        reached, waiting = "", [name]
-        seen = {name}
+        """16-bit and real literals of a unit and of those it calls, but for tables."""
+        seen, waiting = {name}, [name]
         while waiting:
-            text = _COMMENT.sub("", self._texts[waiting.pop()]).partition("VAR CONSTANT")
-            reached += text[0] + (text[2].partition("END_VAR")[2])
-            called = [other for other in self._texts if other not in seen and re.search(rf"\b{other}\b", reached)]
-            seen.update(called)
-            waiting += called
+            called = self._bodies.keys() & set(_WORD.findall(self._bodies[waiting.pop()])) - seen
+            seen |= called
+            waiting += sorted(called)
+        reached = "\n".join(self._bodies[each] for each in sorted(seen))
         words = {int(hexa, 16) if hexa else int(decimal) for hexa, decimal in _NUMBER.findall(reached)}
         near = sorted({n + more for n in words for more in (-1, 0, 1) if 0 <= n + more <= 0xFFFF})
         return tuple(near), tuple(sorted({float(each) for each in _REAL.findall(reached)}))
+
+
+def _body(text: str) -> str:
+    """A unit's text without comments and constants."""
+    plain = _COMMENT.sub("", text)
+    before, _, behind = plain.partition("VAR CONSTANT")
+    return before + behind.partition("END_VAR")[2]
 
 
 def arrays(pin: Pin) -> tuple[str, int] | None:
