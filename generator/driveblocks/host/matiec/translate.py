@@ -29,6 +29,7 @@ _COLLISION = (
     "iec2c stumbled over its own library: {} is named as a parameter there (such as P, L, N, G or IN);"
     " give it another name"
 )
+_LOST_COLLISION = Message(Listing.NAME, 1, 0, _COLLISION.format("a type, function, block or program"))
 _WORD = re.compile(r"\w+")
 
 
@@ -53,7 +54,8 @@ class Translator:
         if not errors and (lost := _LOST.search(outcome.output)):
             errors.append(Message(listing.NAME, 1, 0, lost[0]))
         if foreign := [each for each in errors if each.path != listing.NAME]:
-            errors = [*(each for each in errors if each not in foreign), *self._collisions(listing, foreign)]
+            errors = [each for each in errors if each not in foreign]
+            errors += self._collisions(listing, foreign) or [*foreign, *([] if errors else [_LOST_COLLISION])]
         if outcome.status != 0 or errors:
             raise self._failure(outcome, listing.locate(errors))
         for name in ("POUS.c", "POUS.h"):
@@ -71,8 +73,7 @@ class Translator:
             if name in words
         ]
         types = [f"the type {name}" for name in declared.types if name in words]
-        found += [Message(listing.NAME, 1, 0, _COLLISION.format(name)) for name in types]
-        return found or [Message(listing.NAME, 1, 0, _COLLISION.format("a type, function, block or program"))]
+        return [*found, *(Message(listing.NAME, 1, 0, _COLLISION.format(name)) for name in types)]
 
     def _library_line(self, message: Message) -> str:
         try:
