@@ -1,7 +1,7 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
-.PHONY: demo test blocks counts schema fuzz mutation compare traces verdicts ci-jobs bench
+.PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts exhaustive ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -25,11 +25,17 @@ mutation:             ## change every fact of the maps that reaches a block, and
 compare:              ## 10^5 scans of every block of the corpus and 10^6 expressions, embedded against matiec
 	$(PY) -m tests.host.compare.long
 
-traces:               ## record how matiec runs the corpus (needs both lines of matiec)
+compare-blocks:       ## 10^5 scans of every block and function of the library, three engines, the full state after each
+	$(PY) -m tests.blocks.compare.long
+
+traces:               ## record how matiec runs the corpus and the library (needs both lines of matiec)
 	$(PY) -m tests.host.traces.record
 
 verdicts:             ## record what matiec says of the accept/reject corpus
 	$(PY) -m tests.host.accept.record
+
+exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^32 REALs of the references, on each line of matiec
+	$(PY) -m tests.native.exhaustive
 
 ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
 	$(PY) -m tests.commands.ci_jobs

@@ -18,7 +18,6 @@ AWAITED = {
     "tests/blocks/uncovered.yaml",
     "performance.md",
     "--coverage",
-    "exhaustive",
     "libfuzzer",
     "sanitize",
 }
