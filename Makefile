@@ -1,7 +1,7 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
-.PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts exhaustive ci-jobs bench
+.PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts coverage exhaustive ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -33,6 +33,9 @@ traces:               ## record how matiec runs the corpus and the library (need
 
 verdicts:             ## record what matiec says of the accept/reject corpus
 	$(PY) -m tests.host.accept.record
+
+coverage:             ## lines and branches of the blocks that the test programs reach, on every engine found
+	$(DB) test --engine all --require-coverage 100
 
 exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^32 REALs of the references, on each line of matiec
 	$(PY) -m tests.native.exhaustive

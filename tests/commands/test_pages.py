@@ -15,9 +15,7 @@ PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", 
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 AWAITED = {
     "tests/native/fuzz/regressions/",
-    "tests/blocks/uncovered.yaml",
     "performance.md",
-    "--coverage",
     "libfuzzer",
     "sanitize",
 }
