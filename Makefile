@@ -43,5 +43,5 @@ exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^
 ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
 	$(PY) -m tests.commands.ci_jobs
 
-bench:                ## every figure, side by side in one run
-	$(PY) tests/bench/run.py
+bench:                ## every figure, side by side in one run; writes docs/performance.md
+	$(PY) -m tests.bench.run

@@ -15,7 +15,6 @@ PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", 
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 AWAITED = {
     "tests/native/fuzz/regressions/",
-    "performance.md",
     "libfuzzer",
     "sanitize",
 }
