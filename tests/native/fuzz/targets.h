@@ -39,7 +39,8 @@ static void fail(const char *block, const char *wrong)
         const char *wrong;                                                                                             \
         NAME##_was = (instance);                                                                                       \
         NAME##_body__(&(instance));                                                                                    \
-        if ((wrong = NAME##_general(&(instance), &NAME##_was)) || (wrong = NAME##_right(&(instance), &NAME##_was)))     \
+        if ((wrong = NAME##_general(&(instance), &NAME##_was)) ||                                                      \
+            (wrong = NAME##_right(&(instance), &NAME##_was)))                                                          \
             fail(#NAME, wrong);                                                                                        \
     } while (0)
 

@@ -26,9 +26,10 @@ static void noise(void *memory, size_t size)
 }
 
 /* Where integers go wrong: ends of types, of the arrays and of what a frame may carry. */
-static const uint16_t EDGES[] = {0,   1,   2,   3,   4,   5,   6,   8,   10,  11,  16,  123, 124, 125,   126,   127,   128,   129,
-                                 247, 248, 250, 251, 252, 253, 254, 255, 256, 257, 258, 510, 511, 512,   513,   514,   515,   516,
-                                 1024, 4096, 32766, 32767, 32768, 32769, 65407, 65408, 65533, 65534, 65535};
+static const uint16_t EDGES[] = {0,     1,     2,     3,     4,     5,     6,     8,     10,    11,    16,   123,
+                                 124,   125,   126,   127,   128,   129,   247,   248,   250,   251,   252,  253,
+                                 254,   255,   256,   257,   258,   510,   511,   512,   513,   514,   515,  516,
+                                 1024,  4096,  32766, 32767, 32768, 32769, 65407, 65408, 65533, 65534, 65535};
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
 typedef struct {
@@ -60,10 +61,12 @@ static uint16_t word_among(const Telling *telling, const uint16_t *likely, unsig
  * neighbours, any pattern of bits, and what a person would set. */
 static float some_real(const Telling *telling)
 {
-    static const uint32_t PATTERNS[] = {0x7FC00000, 0xFFC00000, 0x7F800001, 0xFFBFFFFF, 0x7FFFFFFF, 0x7F800000, 0xFF800000,
-                                        0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x807FFFFF, 0x00800000,
-                                        0x7F7FFFFF, 0xFF7FFFFF, 0x4EFFFFFF, 0x4F000000, 0x4F000001, 0xCF000000, 0xCF000001,
-                                        0x477FFF00, 0x47800000, 0x477FFF80, 0x3F000000, 0x3EFFFFFF, 0x3F800000, 0x42480000};
+    static const uint32_t PATTERNS[] = {
+        0x7FC00000, 0xFFC00000, 0x7F800001, 0xFFBFFFFF, 0x7FFFFFFF, 0x7F800000, 0xFF800000, 0x00000000,
+        0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x807FFFFF, 0x00800000, 0x7F7FFFFF, 0xFF7FFFFF,
+        0x4EFFFFFF, 0x4F000000, 0x4F000001, 0xCF000000, 0xCF000001, 0x477FFF00, 0x47800000, 0x477FFF80,
+        0x3F000000, 0x3EFFFFFF, 0x3F800000, 0x42480000,
+    };
     union {
         uint32_t bits;
         float real;

@@ -114,7 +114,8 @@ static void erase(Frame *frame)
 /* A byte with a meaning: unit address, function code, byte count and the high byte of a count. */
 static void mark(Frame *frame)
 {
-    static const uint8_t LIKELY[] = {0, 1, 2, 3, 4, 5, 6, 8, 16, 0x10, 0x50, 0x7F, 0x80, 0x83, 0x86, 0x90, 246, 248, 250, 252, 254, 255};
+    static const uint8_t LIKELY[] = {0,    1,    2,    3,    4,    5,   6,   8,   0x10, 0x50, 0x7F,
+                                     0x80, 0x83, 0x86, 0x90, 246, 248, 250, 252, 254,  255};
     unsigned at = below(frame->length < 5 ? frame->length : 5);
     if (one_in(2))
         frame->bytes[at] = LIKELY[below(COUNT(LIKELY))];
@@ -129,58 +130,54 @@ static void letter(Frame *frame)
     frame->bytes[below(frame->length)] = (uint8_t)LETTERS[below(sizeof LETTERS - 1)];
 }
 
+static void flip(Frame *frame)
+{
+    unsigned at = below(8 * frame->length);
+    frame->bytes[at >> 3] ^= (uint8_t)(1u << (at & 7));
+}
+
+static void replace(Frame *frame) { frame->bytes[below(frame->length)] = (uint8_t)chance(); }
+
+/* Pure noise, mostly short. */
+static void forget(Frame *frame, unsigned most)
+{
+    frame->length = 0;
+    extend(frame, one_in(8) ? below(most + 8) : below(24));
+}
+
+/* Up to the longest that can be, and beyond. */
+static void stretch(Frame *frame, unsigned most)
+{
+    unsigned near = most - 5;
+    extend(frame, (frame->length < near ? near - frame->length : 0) + below(10));
+}
+
 /* One change to a frame of at most ROOM / 2 bytes; so long is the other one at most, and what comes out. */
 static void damage(Frame *frame, const Frame *other, int in_ascii)
 {
-    unsigned way = below(12);
+    unsigned most = in_ascii ? 513 : 256, way = below(12);
     if (frame->length > ROOM / 2)
         frame->length = ROOM / 2;
-    if (frame->length == 0)
-        way = 10;
-    switch (way) {
-    case 0:
-    case 1: {
-        unsigned at = below(8 * frame->length);
-        frame->bytes[at >> 3] ^= (uint8_t)(1u << (at & 7));
-        break;
-    }
-    case 2:
-        frame->bytes[below(frame->length)] = (uint8_t)chance();
-        break;
-    case 3:
+    if (frame->length == 0 || way == 0)
+        forget(frame, most);
+    else if (way <= 2)
+        flip(frame);
+    else if (way == 3)
+        replace(frame);
+    else if (way == 4)
         frame->length = below(frame->length);
-        break;
-    case 4:
+    else if (way == 5)
         extend(frame, 1 + below(8));
-        break;
-    case 5:
+    else if (way == 6)
         insert(frame);
-        break;
-    case 6:
+    else if (way == 7)
         erase(frame);
-        break;
-    case 7:
-        splice(frame, other);
-        break;
-    case 8:
-    case 9:
-        if (in_ascii)
-            letter(frame);
-        else
-            mark(frame);
-        break;
-    case 10: /* pure noise */
-        frame->length = 0;
-        extend(frame, one_in(8) ? below(in_ascii ? 520 : 262) : below(24));
-        break;
-    default: /* around the longest */
-        if (one_in(8)) {
-            unsigned near = in_ascii ? 508 : 250;
-            extend(frame, (frame->length < near ? near - frame->length : 0) + below(10));
-        }
-        else if (one_in(4))
-            splice(frame, frame);
-    }
+    else if (way == 8)
+        splice(frame, one_in(8) ? frame : other);
+    else if (way == 9 && one_in(4))
+        stretch(frame, most);
+    else
+        (in_ascii ? letter : mark)(frame);
     if (frame->length > ROOM / 2)
         frame->length = ROOM / 2;
 }

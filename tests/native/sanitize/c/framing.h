@@ -9,7 +9,8 @@ static const char *MB_RTUOPEN_right(const MB_RTUOPEN *x, const MB_RTUOPEN *was)
     static MB_RTUSEAL seal;
     const BYTE *adu = was->ADU.value.table;
     unsigned length = was->ADULENGTH.value;
-    int good = length >= 5 && length <= 256 && crc16(adu, length - 2) == (adu[length - 2] | (unsigned)adu[length - 1] << 8);
+    int good = length >= 5 && length <= 256 &&
+               crc16(adu, length - 2) == (adu[length - 2] | (unsigned)adu[length - 1] << 8);
     if (good != (x->ERRORID.value == 0))
         return good ? "a frame is refused" : "what is no frame is opened";
     if (!good)
@@ -20,7 +21,8 @@ static const char *MB_RTUOPEN_right(const MB_RTUOPEN *x, const MB_RTUOPEN *was)
     memcpy(seal.ADU.value.table, adu, length - 2);
     seal.LENGTH.value = x->LENGTH.value;
     MB_RTUSEAL_body__(&seal);
-    return seal.ADULENGTH.value == length && !memcmp(seal.ADU.value.table, adu, length) ? NULL : "it does not seal to the same bytes";
+    int same = seal.ADULENGTH.value == length && !memcmp(seal.ADU.value.table, adu, length);
+    return same ? NULL : "it does not seal to the same bytes";
 }
 
 static void MB_ASCIIDECODE_fill(MB_ASCIIDECODE *x)
@@ -46,8 +48,8 @@ static const char *MB_ASCIIDECODE_right(const MB_ASCIIDECODE *x, const MB_ASCIID
     memcpy(encode.ADU.value.table, x->ADU.value.table, 256);
     encode.LENGTH.value = x->LENGTH.value;
     MB_ASCIIENCODE_body__(&encode);
-    return encode.CHARCOUNT.value == count && !memcmp(encode.CHARS.value.table, text, count) ? NULL
-                                                                                              : "it does not encode to the same characters";
+    int same = encode.CHARCOUNT.value == count && !memcmp(encode.CHARS.value.table, text, count);
+    return same ? NULL : "it does not encode to the same characters";
 }
 
 /* A body to send: one that was received, or noise of any length. */
@@ -78,8 +80,8 @@ static const char *MB_RTUSEAL_right(const MB_RTUSEAL *x, const MB_RTUSEAL *was)
     seal_rtu(&due);
     if (x->ADULENGTH.value != due.length || memcmp(x->ADU.value.table, due.bytes, due.length))
         return "the frame is wrong";
-    return memcmp(x->ADU.value.table + due.length, was->ADU.value.table + due.length, 256 - due.length) ? "bytes behind the frame are changed"
-                                                                                                       : NULL;
+    int kept = !memcmp(x->ADU.value.table + due.length, was->ADU.value.table + due.length, 256 - due.length);
+    return kept ? NULL : "bytes behind the frame are changed";
 }
 
 static void MB_ASCIIENCODE_fill(MB_ASCIIENCODE *x)
@@ -98,7 +100,8 @@ static const char *MB_ASCIIENCODE_right(const MB_ASCIIENCODE *x, const MB_ASCIIE
         return memcmp(x->CHARS.value.table, was->CHARS.value.table, 513) ? "a refused frame is written" : NULL;
     memcpy(due.bytes, was->ADU.value.table, due.length);
     seal_ascii(&due);
-    return x->CHARCOUNT.value == due.length && !memcmp(x->CHARS.value.table, due.bytes, due.length) ? NULL : "the characters are wrong";
+    int same = x->CHARCOUNT.value == due.length && !memcmp(x->CHARS.value.table, due.bytes, due.length);
+    return same ? NULL : "the characters are wrong";
 }
 
 #define CHECKSUM(NAME, PIN, OWN)                                                                                       \
@@ -106,7 +109,7 @@ static const char *MB_ASCIIENCODE_right(const MB_ASCIIENCODE *x, const MB_ASCIIE
     static const char *NAME##_right(const NAME *x, const NAME *was)                                                    \
     {                                                                                                                  \
         unsigned length = was->LENGTH.value < 256 ? was->LENGTH.value : 256;                                           \
-        return x->PIN.value == OWN(was->ADU.value.table, length) ? NULL : "the checksum is wrong";                      \
+        return x->PIN.value == OWN(was->ADU.value.table, length) ? NULL : "the checksum is wrong";                     \
     }
 CHECKSUM(MB_CRC16, CRC, crc16)
 CHECKSUM(MB_CRC16COMPACT, CRC, crc16)

@@ -7,7 +7,7 @@ typedef struct {
     int wide; /* a byte count of two bytes is tolerated */
 } Manners;
 
-typedef enum { UNBELIEVED, BELIEVED, REFUSED, NOT_THE_ANSWER } Judgement;
+typedef enum { UNBELIEVED, BELIEVED, REFUSED } Judgement;
 
 static unsigned pair(const uint8_t *bytes) { return (unsigned)bytes[0] << 8 | bytes[1]; }
 
@@ -20,14 +20,35 @@ static unsigned words_at(const Manners *manners, const MB_REQUEST *asked, const 
     return length == size + 3 && body[2] == size ? 3 : 0;
 }
 
-static Judgement judge(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length, unsigned *reason)
+/* Whether a reply of the request's own function says what that function says of a request that was obeyed. */
+static int granted(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length)
+{
+    if (asked->FUNCTIONCODE == 3 || asked->FUNCTIONCODE == 4)
+        return words_at(manners, asked, body, length) != 0;
+    if (length != 6)
+        return 0;
+    switch (asked->FUNCTIONCODE) {
+    case 6:
+        return pair(body + 2) == asked->ADDRESS && pair(body + 4) == asked->VALUE;
+    case 8:
+        return pair(body + 2) == asked->SUBFUNCTION && pair(body + 4) == asked->VALUE;
+    case 16:
+        return pair(body + 2) == asked->ADDRESS && pair(body + 4) == asked->QUANTITY;
+    default:
+        return 0;
+    }
+}
+
+static Judgement judge(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
+                       unsigned *reason)
 {
     if (asked->FUNCTIONCODE == 0 || asked->QUANTITY > 125 || asked->UNITADDRESS == 0)
         return UNBELIEVED;
     if (length < 3 || length > 254 || body[0] != asked->UNITADDRESS)
         return UNBELIEVED;
     int own = asked->FUNCTIONCODE == manners->function && asked->ADDRESS == manners->address;
-    if (manners->function && body[1] == manners->function && length == 6 && pair(body + 2) == manners->address && !own) {
+    int reply = manners->function && body[1] == manners->function && length == 6;
+    if (reply && pair(body + 2) == manners->address && !own) {
         *reason = pair(body + 4);
         return REFUSED;
     }
@@ -35,21 +56,7 @@ static Judgement judge(const Manners *manners, const MB_REQUEST *asked, const ui
         *reason = body[2];
         return length == 3 ? REFUSED : UNBELIEVED;
     }
-    if (body[1] != asked->FUNCTIONCODE)
-        return UNBELIEVED;
-    switch (asked->FUNCTIONCODE) {
-    case 3:
-    case 4:
-        return words_at(manners, asked, body, length) ? BELIEVED : UNBELIEVED;
-    case 6:
-        return length == 6 && pair(body + 2) == asked->ADDRESS && pair(body + 4) == asked->VALUE ? BELIEVED : UNBELIEVED;
-    case 8:
-        return length == 6 && pair(body + 2) == asked->SUBFUNCTION && pair(body + 4) == asked->VALUE ? BELIEVED : UNBELIEVED;
-    case 16:
-        return length == 6 && pair(body + 2) == asked->ADDRESS && pair(body + 4) == asked->QUANTITY ? BELIEVED : UNBELIEVED;
-    default:
-        return UNBELIEVED;
-    }
+    return body[1] == asked->FUNCTIONCODE && granted(manners, asked, body, length) ? BELIEVED : UNBELIEVED;
 }
 
 static const char *check_reply(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
@@ -136,7 +143,9 @@ static void receive_into(BYTE *table, UINT *told_length, const Line *line, int f
 
 static void MB_PARSEREPLY_fill(MB_PARSEREPLY *x)
 {
-    static const Manners USUAL[] = {{128, 0, 0, 0}, {0, 6, 0x5001, 1}, {128, 0, 0, 1}, {128, 6, 0x5001, 0}, {0, 0, 0, 0}};
+    static const Manners USUAL[] = {
+        {128, 0, 0, 0}, {0, 6, 0x5001, 1}, {128, 0, 0, 1}, {128, 6, 0x5001, 0}, {0, 0, 0, 0},
+    };
     const Line *line = LINES + below(COUNT(LINES));
     Manners manners = USUAL[below(COUNT(USUAL))];
     if (one_in(16))
@@ -156,7 +165,8 @@ static void MB_PARSEREPLY_fill(MB_PARSEREPLY *x)
 
 static const char *MB_PARSEREPLY_right(const MB_PARSEREPLY *x, const MB_PARSEREPLY *was)
 {
-    Manners manners = {was->EXCEPTIONADD.value, was->ERRORFUNCTION.value, was->ERRORADDRESS.value, was->TWOBYTECOUNT.value};
+    Manners manners = {was->EXCEPTIONADD.value, was->ERRORFUNCTION.value, was->ERRORADDRESS.value,
+                       was->TWOBYTECOUNT.value};
     return check_reply(&manners, &was->REQUEST.value, was->ADU.value.table, was->LENGTH.value, x->WORDS.value.table,
                        x->WORDCOUNT.value, x->ERRORID.value, x->REASON.value);
 }

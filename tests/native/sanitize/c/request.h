@@ -4,11 +4,13 @@ typedef struct {
     unsigned function, unit, address, quantity, value, sub_function;
 } Wanted;
 
-static const char *check_request(const Wanted *wanted, const WORD *words, unsigned error, unsigned length, const BYTE *adu,
-                                 const MB_REQUEST *noted)
+static const char *check_request(const Wanted *wanted, const WORD *words, unsigned error, unsigned length,
+                                 const BYTE *adu, const MB_REQUEST *noted)
 {
+    if (error && length)
+        return "a length in spite of an error";
     if (error)
-        return length ? "a length in spite of an error" : (noted->FUNCTIONCODE ? "an open request in spite of an error" : NULL);
+        return noted->FUNCTIONCODE ? "an open request in spite of an error" : NULL;
     unsigned counted = wanted->function == 3 || wanted->function == 4 || wanted->function == 16;
     unsigned quantity = counted ? wanted->quantity : 1, echo = wanted->function == 8;
     unsigned head = echo ? wanted->sub_function : wanted->address, tail = counted ? quantity : wanted->value;
@@ -56,7 +58,8 @@ static const char *MB_BUILDWRITEMULTIPLE_right(const MB_BUILDWRITEMULTIPLE *x, c
     Wanted wanted = {16, was->UNITADDRESS.value, was->ADDRESS.value, was->QUANTITY.value, 0, 0};
     if (x->ERRORID.value == 0 && was->QUANTITY.value > was->MAXWORDS.value)
         return "more than MaxWords";
-    return check_request(&wanted, was->WORDS.value.table, x->ERRORID.value, x->LENGTH.value, x->ADU.value.table, &x->REQUEST.value);
+    return check_request(&wanted, was->WORDS.value.table, x->ERRORID.value, x->LENGTH.value, x->ADU.value.table,
+                         &x->REQUEST.value);
 }
 
 static const char *MB_BUILDWRITESINGLE_right(const MB_BUILDWRITESINGLE *x, const MB_BUILDWRITESINGLE *was)
@@ -104,7 +107,7 @@ static const char *check_reference(float hertz, unsigned value, unsigned limited
         return check_reference(was->SPEEDREFERENCEHZ.value, x->VALUE.value, x->LIMITED.value, x->ERRORID.value);       \
     }
 
-/* Commands: a stop wins over everything; forward and reverse together are a stop and an error, as is what is unknown. */
+/* Commands: a stop wins over everything; forward and reverse together are a stop and an error. */
 typedef struct {
     int enable, stop, quick, coast, forward, reverse;
 } Pressed;

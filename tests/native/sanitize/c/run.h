@@ -100,7 +100,8 @@ static void begin(uint64_t number)
             NAME##_fill(&NAME##_used);                                                                                 \
             NAME##_was = NAME##_used;                                                                                  \
             NAME##_body__(&NAME##_used);                                                                               \
-            if ((wrong = NAME##_general(&NAME##_used, &NAME##_was)) || (wrong = NAME##_right(&NAME##_used, &NAME##_was))) \
+            if ((wrong = NAME##_general(&NAME##_used, &NAME##_was)) ||                                                 \
+                (wrong = NAME##_right(&NAME##_used, &NAME##_was)))                                                     \
                 complain(wrong);                                                                                       \
             if (number % 16 == 0) {                                                                                    \
                 START(NAME, NAME##_fresh);                                                                             \
