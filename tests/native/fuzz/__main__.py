@@ -105,7 +105,8 @@ def report(each: Fuzzing, done: subprocess.CompletedProcess[str]) -> int:
     executed = int(stats.get("number_of_executed_units", 0))
     print(f"{each.line:16} {each.target:18} {executed:>10,} inputs, {inputs} kept, {len(finds)} finds", flush=True)
     for data in finds:
-        print(f"FOUND {data.hex()}\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
+        said = "\n".join(line for line in done.stderr.splitlines() if not line.startswith("#"))
+        print(f"FOUND {data.hex()}\n{done.stdout[-2000:]}{said[-4000:]}")
     if done.returncode and not finds:
         print(f"libFuzzer ended with status {done.returncode}: {done.stderr[-2000:]}")
     return len(finds) or int(done.returncode != 0)
