@@ -11,7 +11,8 @@ if TYPE_CHECKING:
 
 def run(
     maps: Annotated[
-        list[str] | None, typer.Argument(help="Map files or drive names; without, all shipped maps.")
+        list[str] | None,
+        typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
     ] = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")] = Path("blocks"),
     lang: Annotated[str, typer.Option(help="Languages of the texts: en, zh or en,zh.")] = "en,zh",

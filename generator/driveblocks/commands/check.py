@@ -14,9 +14,10 @@ Maps = Annotated[
 
 
 def run(maps: Maps = None) -> None:
-    """Check maps against every rule, and list all mistakes of each as `file:line:col: wrong; right`.
+    """Check maps against every rule.
 
-    All maps are checked, whatever is wrong with the first. The exit status is 2 if any is bad.
+    All mistakes of each map are listed, as `file:line:col: wrong; right`, and all maps are checked, whatever is wrong
+    with the first. The exit status is 0 if all are good, and 2 if any is bad.
 
     Example: driveblocks check my_drive.yaml
     """

@@ -16,7 +16,9 @@ Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when
 
 
 def run(pages: Pages = None, check: Check = False) -> None:
-    """Count registers, bits, enum values, faults, frames, errata and more, per drive and register table.
+    """Count what the shipped maps hold, per drive and register table.
+
+    Registers, bits, enum values, settings, faults, errors, frames, errata and gaps are counted.
 
     Example: driveblocks counts README.md vendor_maps/README.md
     """

@@ -14,9 +14,12 @@ _COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 
 
 def run(json: Json = False) -> None:
-    """Say what DriveBlocks found on this machine, what is missing, what that costs and where to get it.
+    """Say which ST engines this machine has, and what is missing.
+
+    For what is missing it says what that costs and where to get it.
 
     The exit status is 0 if the embedded engine works: then everything can be done, and only matiec may be missing.
+    It is 1 if not.
 
     Example: driveblocks doctor --json | jq .missing
     """

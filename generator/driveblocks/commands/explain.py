@@ -25,8 +25,9 @@ Json = Annotated[bool, typer.Option("--json", help="Print everything as JSON.")]
 
 
 def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = False) -> None:
-    """Explain a frame: its fields, checksum, registers and values, or what is wrong and what it might be instead.
+    """Explain a frame, or say what is wrong with it.
 
+    A good frame is told by its fields, checksum, registers and values, a wrong one by what it might be instead.
     Without a drive the standard alone is used. The exit status is 0 for a good frame, 1 for a wrong one, and 2 if the
     input cannot be read.
 

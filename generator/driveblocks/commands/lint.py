@@ -29,10 +29,11 @@ def run(
     listing: Listing = False,
     output: Format = "text",
 ) -> None:
-    """Find what is not portable in Structured Text, as `file:line:col: CODE rule: why; what to write instead`.
+    """Find what is not portable in Structured Text.
 
-    The files are taken as one text: each may use what another declares. The exit status is 0 without findings,
-    1 with findings, and 2 if a file cannot be read or parsed. docs/lint.md explains every rule.
+    A finding is one line, `file:line:col: CODE rule: why; what to write instead`. The files are taken as one text:
+    each may use what another declares. The exit status is 0 without findings, 1 with findings, and 2 if a file cannot
+    be read or parsed. docs/lint.md explains every rule.
 
     Example: driveblocks lint --ignore case-without-else types.st blocks.st
     """

@@ -10,11 +10,16 @@ from driveblocks.maps import page, schema
 
 def run(
     folder: Annotated[
-        Path | None, typer.Argument(help="Folder with schema.json and README.md; without, the schema is printed.")
+        Path | None,
+        typer.Argument(
+            metavar="FOLDER", help="Folder with schema.json and README.md; without it, the schema is printed."
+        ),
     ] = None,
     check: Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a file is not current.")] = False,
 ) -> None:
-    """Write the JSON Schema of maps and the key tables of the format page, both made from the model.
+    """Write the JSON Schema and the key tables of the map format.
+
+    Both are made from the model of maps.
 
     Example: driveblocks schema vendor_maps
     """
