@@ -65,9 +65,7 @@ def _counted(path: Path) -> dict[str, int]:
         done = subprocess.run([valgrind, *options, str(path), "count"], capture_output=True, text=True, check=False)
         if done.returncode:
             raise EngineError(f"callgrind does not count: {done.stderr.strip().splitlines()[-1:]}")
-        found = re.findall(
-            r"^desc: Trigger: Client Request: (\w+)$.*?^totals: (\d+)$", out.read_text("utf-8"), re.M | re.S
-        )
+        found = DUMP.findall(out.read_text("utf-8"))
     return {name: int(count) for name, count in found}
 
 
@@ -83,7 +81,7 @@ def times(engines: Iterable[MatiecEngine], rounds: int = 300) -> Rows:
 
 
 def all_times(engines: Iterable[MatiecEngine]) -> Rows:
-    """Both. Raises EngineError as the two do."""
+    """The same on matiec and on the embedded engine. Raises EngineError if a typical input is refused."""
     rows = times(engines)
     for name, columns in embedded().items():
         rows.setdefault(name, {}).update(columns)
@@ -91,7 +89,7 @@ def all_times(engines: Iterable[MatiecEngine]) -> Rows:
 
 
 def embedded(rounds: int = 100) -> Rows:
-    """The same on the embedded engine; raises EngineError if a typical input is refused."""
+    """Nanoseconds on the embedded engine. Raises EngineError if a typical input is refused."""
     library = EmbeddedEngine().build(sources())
     works = {unit.name: work(library, unit) for unit in units()}
     return {

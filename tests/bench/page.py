@@ -11,8 +11,9 @@ NAME = "performance.md"
 HEAD = """# Performance
 
 Written by `make bench` from one run; the figures are in [`performance.json`](performance.json). Nanoseconds belong to
-the machine, ratios and counts say more. The least of many short rounds is shown, all forms of a comparison in turn in
-one process. Without matiec, valgrind or pymodbus a run says so and leaves what they measured as it was.
+the machine; ratios and counts say more. A time in nanoseconds is the least of many short rounds of the same work, so
+that caches are warm; the forms of one program take turns. A run without matiec, valgrind or pymodbus says so, and
+leaves the figures that need them as they were.
 """
 UNKNOWN = "Not measured yet.\n"
 CHARTS: Mapping[str, Callable[[Rows], chart.Chart]] = {"crc": checksum.chart, "exchange": exchange.chart}
@@ -44,7 +45,7 @@ def _page(record: Record) -> Iterator[str]:
     yield from ("## In short", "", *summary.section(record))
     yield from ("## CRC", "", *_part(record, ["crc"], checksum.section))
     yield from ("## A request and its reply", "", *_part(record, ["exchange"], exchange.section))
-    yield from ("## Decoders", "", *_part(record, ["times"], blocks.decoding))
+    yield from ("## Decoders and encoders", "", *_part(record, ["times"], blocks.decoding))
     yield from ("## Every block", "", *_part(record, ["instructions", "memory", "times"], blocks.instructions))
     yield from ("## Building", "", *_part(record, ["growth"], growth.section))
     yield from ("## Engines", "", *_part(record, ["engines"], engines.section))

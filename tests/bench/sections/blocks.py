@@ -28,13 +28,14 @@ def _text(name: str) -> bool:
 def decoding(times: Rows) -> Iterator[str]:
     """Nanoseconds of each decoder."""
     yield from prose("""
-        One scan of a block, one call of a function, over and over with one typical input: matiec at `-O2` through a
-        driver in C; the embedded engine called from Python, where a function is called by the names of its inputs.
-        Nanoseconds; less than one between two small blocks means nothing.
+        What takes a drive's words apart or makes them: one scan of a block, one call of a function, over and over with
+        one typical input, in nanoseconds. matiec at `-O2` through a driver in C; the embedded engine called from
+        Python, which takes most of the time of a function, since it is called by the names of its inputs. A difference
+        of less than a nanosecond between two small blocks means nothing.
         """)
     columns = (*_lines(times), "embedded")
     body = [[f"`{name}`", *(short(times[name].get(column)) for column in columns)] for name in decoders(times)]
-    yield from table(["decoder", *columns], body)
+    yield from table(["block or function", *columns], body)
 
 
 def _lines(rows: Rows) -> list[str]:

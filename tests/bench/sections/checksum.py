@@ -98,7 +98,7 @@ def _words(rows: Rows) -> Iterator[str]:
         frame.
 
         So the library keeps a block with its table in the instance. The least of all rounds is shown; over 256 bytes
-        the median lies within {spread(rows)} % of it.
+        the median of the calmest process lies within {spread(rows)} % of it.
         """)
 
 

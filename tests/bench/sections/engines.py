@@ -12,8 +12,8 @@ COLUMNS = ("build s", "CRC MB/s", "scans/s")
 def section(rows: Rows) -> Iterator[str]:
     """Both engines, called from Python."""
     yield from prose("""
-        Both engines behind the face that the tests use, called from Python scan by scan: building the library of the
-        shipped drives from its text with no cache, a CRC over 256 bytes, and a block of two statements.
+        Both engines as the tests use them, called from Python scan by scan: building the library of the shipped drives
+        once from its text with no cache, a CRC over 256 bytes, and a block of two statements.
         """)
     base = rows[FIRST]
     body = [
@@ -26,8 +26,9 @@ def section(rows: Rows) -> Iterator[str]:
         fast = max(found["CRC MB/s"] for found in others) / base["CRC MB/s"]
         slow = base["scans/s"] / max(found["scans/s"] for found in others)
         yield from prose(f"""
-            matiec does {short(fast)} x the CRC of the embedded engine, which does {short(slow)} x the small scans of
-            matiec, since a scan of it is one call in Python, and needs no C compiler.
+            matiec computes {short(fast)} x as many bytes of CRC as the embedded engine in the same time. The embedded
+            engine does {short(slow)} x as many small scans, since each is a call within Python, and one of matiec's a
+            call from Python into C; and it needs no C compiler.
             """)
 
 

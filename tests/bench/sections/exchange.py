@@ -48,16 +48,17 @@ def section(rows: Rows) -> Iterator[str]:
     yield from prose("""
         A read of ten registers of unit 1: `JSCC_Request` with `MB_RtuSeal` or `MB_AsciiEncode`, then `MB_RtuOpen` or
         `MB_AsciiDecode` with `JSCC_Reply`, called by a block as a program calls them; the same with `MB_BuildRead` and
-        `MB_ParseReply`; C written for this page with the same checks; and pymodbus in this process, its framer and its
-        PDU, without a port (it does not compare a reply with the request at this place). Nanoseconds, and times C.
+        `MB_ParseReply`; C written for this page with the checks that this read needs; and pymodbus called from Python,
+        its framer and its PDU, without a port (it does not compare a reply with the request at this place).
+        Nanoseconds, and how many times those of the C by hand.
 
         ![a request and its reply](performance-exchange.svg)
         """)
     body = [[name, *(_cell(rows[step], who) for step in STEPS)] for who, name in WHO.items() if _known(rows, who)]
     yield from table(["who", *STEPS.values()], body)
     yield from prose("""
-        C answers in a few nanoseconds because a processor overlaps one call with the next, and because it copies
-        nothing: matiec copies the frame into each block that it is handed to, and out again.
+        C by hand is so far ahead because a processor overlaps one call with the next, and because it copies nothing:
+        matiec copies the frame into each block that it is handed to, and out again.
         """)
 
 

@@ -31,8 +31,10 @@ def section(rows: Rows) -> Iterator[str]:
     """The section's text."""
     yield from prose("""
         Seconds of the processor. *load* reads and checks the maps, *blocks* writes the Structured Text of the drives,
-        *page* the overview with the sizes of all blocks, *tests* the test programs. Synthetic maps of 400 registers;
-        `driveblocks build` does all four steps, and writes files besides.
+        *page* the overview with the sizes of all blocks, *tests* the test programs. `driveblocks build` does all four
+        steps, and writes files besides. The maps that are counted are synthetic, of 400 registers each, and measured
+        once; the shipped drives and the map that grows are the least of some runs. *Peak* is the most memory that the
+        whole process had taken until then.
         """)
     yield from table(["maps", *STEPS, "together", "ms per map", "peak MiB"], list(_maps(rows)))
     yield from prose(f"{_grows(rows)}\n\nOne map that grows:")
@@ -68,8 +70,10 @@ def _grows(rows: Rows) -> str:
     words = []
     for kind, what in KINDS.items():
         found = per_map(rows, kind)
-        verdict = "in proportion to their number" if max(found) < EVEN * min(found) else "not in proportion"
-        words.append(f"{what} takes {short(min(found))} to {short(max(found))} ms per map, {verdict}")
+        verdict = "proportional" if max(found) < EVEN * min(found) else "not proportional"
+        words.append(
+            f"{what} takes {short(min(found))} to {short(max(found))} ms per map, in all {verdict} to their number"
+        )
     return f"{'; '.join(words)}.".capitalize()
 
 
