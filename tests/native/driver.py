@@ -4,8 +4,11 @@ A driver is C text that is compiled behind `prelude.h`, with the C of iec2c in t
 its exit status is 0 if all was well.
 """
 
+import contextlib
+import functools
 import hashlib
 import json
+import os
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
@@ -17,6 +20,7 @@ from tests.blocks.library import sources
 from driveblocks.host.discovery import MATIEC_NAMES, survey
 from driveblocks.host.engine import EngineError, Source
 from driveblocks.host.matiec import MatiecEngine
+from driveblocks.host.matiec.cache import SEAL
 
 PRELUDE = Path(__file__).with_name("prelude.h")
 OPTIONS = ("-std=gnu11", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-w")
@@ -40,7 +44,8 @@ class Driver:
         compiler says if the C does not.
         """
         translated = engine.build(list(texts) or sources()).folder
-        key = json.dumps([self.text, PRELUDE.read_text("utf-8"), translated.name, self._command(engine)])
+        how = [self._command(engine), version(self.compiler)]
+        key = json.dumps([self.text, PRELUDE.read_text("utf-8"), translated.name, *how])
 
         def make(folder: Path) -> None:
             self._compile(engine, translated, folder)
@@ -63,6 +68,8 @@ class Driver:
 def run(program: Path, *arguments: object, seconds: float = 600.0) -> subprocess.CompletedProcess[str]:
     """Run a driver; its output as text. Raises subprocess.TimeoutExpired."""
     command = [str(program), *map(str, arguments)]
+    with contextlib.suppress(OSError):
+        os.utime(program.with_name(SEAL))  # used now: what is longest unused leaves the cache, also during a long run
     return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=seconds, check=False)
 
 
@@ -71,6 +78,21 @@ def lines() -> Iterator[MatiecEngine]:
     for each in survey().candidates():
         if each.name in MATIEC_NAMES and isinstance(each.engine, MatiecEngine):
             yield each.engine
+
+
+def told_lines() -> str:
+    """Which lines of matiec are found and which are not, and why: what a long run begins with."""
+    found = [each for each in survey().candidates() if each.name in MATIEC_NAMES]
+    return "\n".join(f"{each.name}: {'runs' if each.engine else 'does not run'}, {each.note}" for each in found)
+
+
+@functools.cache
+def version(compiler: tuple[str, ...]) -> str:
+    """What a compiler says of its version, so that a new one makes new programs; nothing for the engine's own."""
+    if not compiler:
+        return ""
+    done = subprocess.run([*compiler, "--version"], capture_output=True, text=True, errors="replace", check=False)
+    return done.stdout
 
 
 def clang() -> tuple[str, ...] | None:

@@ -1,7 +1,7 @@
 """Coverage-guided fuzzing of parsers, frame decoders and request blocks by libFuzzer, under the sanitizers.
 
 Begins with the corpus and the regressions of the repository and with the manuals' frames. Exit status 1 with the input
-in hexadecimal on a find, 2 without clang, libFuzzer and matiec.
+in hexadecimal on a find, 2 without clang, libFuzzer and matiec, and for an unknown name.
 
     python -m tests.native.fuzz [--seconds 60] [--target NAME,..] [--line LINE] [--keep]
 """
@@ -16,11 +16,13 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.native.driver import told_lines
 from tests.native.fuzz.corpus import CORPUS, REGRESSIONS, described, read, replay, write
 from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
 from tests.native.fuzz.seeds import seeds
 from tests.native.sanitize.sanitizers import Checked, found_lines
 
+from driveblocks.host.discovery import MATIEC_NAMES
 from driveblocks.host.matiec import MatiecEngine
 
 LONGEST = 600
@@ -82,7 +84,7 @@ class Fuzzing:
 
 def work(given: argparse.Namespace, checked: Checked, folder: Path) -> Iterator[Fuzzing]:
     """Every target that is asked for, on every line that is asked for; only the first line's inputs can be kept."""
-    chosen = [name.strip() for name in given.target.split(",") if name.strip()] or list(targets())
+    chosen = given.target or list(targets())
     for engine in found_lines():
         if given.line in ("", engine.name):
             yield from _targets(engine, checked, chosen, folder)
@@ -112,6 +114,14 @@ def report(each: Fuzzing, done: subprocess.CompletedProcess[str]) -> int:
     return len(finds) or int(done.returncode != 0)
 
 
+def names(text: str) -> list[str]:
+    """Targets by name. Raises ArgumentTypeError for one that there is not."""
+    asked = [name.strip() for name in text.split(",") if name.strip()]
+    if unknown := [name for name in asked if name not in targets()]:
+        raise argparse.ArgumentTypeError(f"there is no target {', '.join(unknown)}")
+    return asked
+
+
 def keep(each: Fuzzing) -> None:
     """Write the fewest inputs into the repository."""
     data = each.fewest()
@@ -122,13 +132,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Fuzz what is asked for. Exit status 1 on a find, 2 if nothing could run."""
     parser = argparse.ArgumentParser(description="Fuzzing by libFuzzer.")
     parser.add_argument("--seconds", type=int, default=60, help="per target and line")
-    parser.add_argument("--target", default="", help=", ".join(targets()))
-    parser.add_argument("--line", default="", help="matiec-beremiz or matiec-openplc; both without it")
+    parser.add_argument("--target", type=names, default=[], help=", ".join(targets()))
+    parser.add_argument("--line", default="", choices=["", *MATIEC_NAMES], help="both without it")
     parser.add_argument("--keep", action="store_true", help="write the corpus anew, from one line")
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args(arguments)
     checked, finds = libfuzzer(), 0
-    if checked is None or not found_lines():
+    print(told_lines(), flush=True)
+    if checked is None or not any(given.line in ("", engine.name) for engine in found_lines()):
         print("needs clang with libFuzzer (compiler-rt) and iec2c; `driveblocks doctor` says what is missing")
         return 2
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:

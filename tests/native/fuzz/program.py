@@ -8,7 +8,7 @@ from tests.blocks.library import shipped
 from tests.native.driver import Driver, clang
 from tests.native.sanitize.pins import pous
 from tests.native.sanitize.program import drivers
-from tests.native.sanitize.sanitizers import CLANG, FIRM, Checked, runs
+from tests.native.sanitize.sanitizers import CLANGS, FIRM, Checked, runs
 
 from driveblocks.host.matiec import MatiecEngine
 
@@ -27,7 +27,8 @@ def targets() -> dict[str, str]:
 
 def text(engine: MatiecEngine) -> str:
     """The C behind prelude.h."""
-    return "\n".join([drivers(pous(engine)), *_parts()])
+    library = pous(engine)
+    return "\n".join([drivers(library, library), *_parts()])
 
 
 def _parts() -> Iterator[str]:
@@ -52,8 +53,11 @@ def replayer(engine: MatiecEngine, checked: Checked) -> Path:
 def libfuzzer() -> Checked | None:
     """clang with libFuzzer and the sanitizers, if they are there."""
     command = clang()
-    options = (*(each.replace("=address", "=fuzzer,address") for each in CLANG), *FIRM, "-DLIBFUZZER")
-    return Checked("clang", command, options) if command and runs(command, options, FUZZ_PROBE) else None
+    for chosen in CLANGS if command else ():
+        options = (*(each.replace("=address", "=fuzzer,address") for each in chosen), *FIRM, "-DLIBFUZZER")
+        if command and runs(command, options, FUZZ_PROBE):
+            return Checked("clang", command, options)
+    return None
 
 
 FUZZ_PROBE = (

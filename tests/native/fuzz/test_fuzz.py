@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.native.fuzz import __main__ as long
 from tests.native.fuzz import corpus
 from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
 from tests.native.fuzz.seeds import seeds
@@ -86,6 +87,18 @@ def test_a_line_without_an_error_id_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.txt").write_text("0103\n", encoding="utf-8")
     with pytest.raises(ValueError, match="no ErrorID behind the bytes: 0103"):
         corpus.read(tmp_path / "bad.txt")
+
+
+def test_an_unknown_target_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        long.main(["--target", "rtu_open,nothing"])
+    assert "there is no target nothing" in capsys.readouterr().err
+
+
+def test_without_a_line_nothing_has_run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(long, "found_lines", list)
+    assert long.main([]) == 2
+    assert "needs clang with libFuzzer" in capsys.readouterr().out
 
 
 def test_what_is_written_is_read_again(tmp_path: Path) -> None:

@@ -69,8 +69,9 @@ class Share:
 def build(engine: MatiecEngine, checked: Checked, texts: Sequence[Source] = (), only: Iterable[str] = ()) -> Program:
     """Compile the drivers of all blocks or of some, by upper-case name. Raises what Driver.build raises."""
     chosen = set(only)
-    found = tuple(pou for pou in pous(engine, list(texts)) if not chosen or pou.c_name in chosen)
-    driver = Driver(text(found), checked.options, checked.command)
+    library = pous(engine, list(texts))
+    found = tuple(pou for pou in library if not chosen or pou.c_name in chosen)
+    driver = Driver(text(found, library), checked.options, checked.command)
     return Program(f"{engine.name} {checked.name}", driver.build(engine, texts), found)
 
 

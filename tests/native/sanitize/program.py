@@ -36,13 +36,16 @@ LIKELY = {
 """Values that take a request past the first questions that a block asks."""
 
 
-def text(pous: Sequence[Pou]) -> str:
-    """The program, to be compiled behind prelude.h. It takes a name, a seed and a number of inputs."""
-    return f"{drivers(pous)}\n{_main(pous)}"
+def text(pous: Sequence[Pou], library: Sequence[Pou]) -> str:
+    """The program for some of a library, to be compiled behind prelude.h. It takes a name, a seed and a number."""
+    return f"{drivers(pous, library)}\n{_main(pous)}"
 
 
-def drivers(pous: Sequence[Pou]) -> str:
-    """All of it but the main function: for each block NAME_general and NAME_right, which judge a scan."""
+def drivers(pous: Sequence[Pou], library: Sequence[Pou]) -> str:
+    """All of it but the main function: for each block NAME_general and NAME_right, which judge a scan.
+
+    `c/` names numbers of blocks that may not be among them, so those of the whole library stand there.
+    """
     tables, spans = seeds.tables()
     codes = ", ".join(str(each.code) for each in RESULTS)
     parts = [
@@ -51,7 +54,7 @@ def drivers(pous: Sequence[Pou]) -> str:
         _file("lines"),
         tables,
         f"static const uint16_t KNOWN_RESULTS[] = {{{codes}}};\n",
-        *(_telling(pou) for pou in pous),
+        *(_telling(pou) for pou in library),
         *map(_file, ("reply", "framing", "packing", "request", "run")),
         *_drives({pou.c_name for pou in pous}, spans),
         *(_block(pou) if pou.result is None else _function(pou) for pou in pous),

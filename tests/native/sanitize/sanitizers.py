@@ -1,12 +1,13 @@
 """Which sanitizers a compiler has, and the options that turn them on so that the first find ends the program."""
 
 import functools
+import shutil
 import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.native.driver import clang, lines
+from tests.native.driver import lines, version
 
 from driveblocks.host.matiec import MatiecEngine
 
@@ -25,6 +26,8 @@ CLANG = (
 """The last two see a sum that leaves its 16 bits, which wraps on one compiler and not on another."""
 STRICT_ARRAYS = "-fstrict-flex-arrays=3"
 """clang 16 and later: what `bounds-strict` is to gcc; clang 14 and 15 do so on their own."""
+CLANGS = ((*CLANG, STRICT_ARRAYS), CLANG)
+"""What clang is asked for, the first that it knows."""
 
 _PROBE = '#include <stdio.h>\nint main(int c, char **v) { int a[4] = {0}; printf("%d", a[c & 3]); return v == 0; }\n'
 
@@ -39,32 +42,31 @@ class Checked:
 
 
 def compilers(engine: MatiecEngine) -> list[Checked]:
-    """The engine's compiler and clang, those whose sanitizers run here."""
-    commands = [engine.compiler.command]
-    other = clang()
-    if other and not _is_clang(engine.compiler.command):
-        commands.append(other)
-    return [found for command in commands if (found := _checked(tuple(command)))]
+    """The engine's compiler, and gcc or clang beside it: one of each kind, if its sanitizers run here."""
+    beside = ((path,) for name in ("gcc", "clang") if (path := shutil.which(name)))
+    found: dict[str, Checked] = {}
+    for command in (engine.compiler.command, *beside):
+        name = "clang" if _is_clang(command) else "gcc"
+        if name not in found and (checked := _checked(name, command)):
+            found[name] = checked
+    return list(found.values())
 
 
 def why_none(engine: MatiecEngine) -> str:
     """What a test says that cannot run."""
-    return f"{engine.compiler.command[0]} and clang lack the sanitizers' libraries (gcc: libasan, libubsan)"
+    return f"{engine.compiler.command[0]}, gcc and clang lack the sanitizers' libraries (gcc: libasan, libubsan)"
 
 
 @functools.cache
-def _checked(command: tuple[str, ...]) -> Checked | None:
-    name, sets = ("clang", [(*CLANG, STRICT_ARRAYS), CLANG]) if _is_clang(command) else ("gcc", [GCC])
-    for options in sets:
+def _checked(name: str, command: tuple[str, ...]) -> Checked | None:
+    for options in CLANGS if name == "clang" else (GCC,):
         if runs(command, (*options, *FIRM)):
             return Checked(name, command, (*options, *FIRM))
     return None
 
 
-@functools.cache
 def _is_clang(command: tuple[str, ...]) -> bool:
-    done = subprocess.run([*command, "--version"], capture_output=True, text=True, errors="replace", check=False)
-    return "clang" in done.stdout
+    return "clang" in version(command)
 
 
 @functools.cache

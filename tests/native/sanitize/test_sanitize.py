@@ -6,8 +6,11 @@ from pathlib import Path
 
 import pytest
 from tests.blocks.library import sources
+from tests.native.driver import Driver
+from tests.native.sanitize import __main__ as long
 from tests.native.sanitize.campaign import Program, Share, at_once, build, execute, inputs
 from tests.native.sanitize.pins import pous
+from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
 
 from driveblocks.host.engine import Source
@@ -40,6 +43,29 @@ def test_parsers_get_ten_times_as_much_in_the_long_form(matiec: MatiecEngine) ->
     assert len(counts) == len(sources()) - 5, "every file but the five types"
     assert {name for name, count in counts.items() if count == 10_000_000} == PARSED
     assert set(counts.values()) == {1_000_000, 10_000_000}
+
+
+@pytest.mark.parametrize("name", ["MB_RtuOpen", "JSCC_Reference", "MB_HexDigit"])
+def test_each_block_compiles_alone(matiec: MatiecEngine, name: str) -> None:
+    """As --only asks for it: what the C by hand names of other blocks is there, too."""
+    library = pous(matiec)
+    Driver(text([each for each in library if each.name == name], library), ("-fsyntax-only",)).build(matiec)
+
+
+def test_an_unknown_block_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        long.main(["--only", "MB_RtuOpen,MB_Nothing"])
+    assert "the library has no MB_NOTHING" in capsys.readouterr().err
+
+
+def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """A compiler by name; without any line of matiec nothing has run, which is no success."""
+    monkeypatch.setattr(long, "compilers", lambda _: [])
+    assert long.main([]) == 2
+    assert all(f"{each.name} clang: does not run" in capsys.readouterr().out for each in found_lines()[:1])
+    monkeypatch.setattr(long, "found_lines", list)
+    assert long.main([]) == 2
+    assert "nothing ran: needs iec2c" in capsys.readouterr().out
 
 
 FAULTS = {
