@@ -1,20 +1,24 @@
 """The long form: `python -m tests.native.exhaustive [--short] [--line NAME] [CHECK ...]`, all checks if none is named.
 
 Each check says for each line of matiec how many cases it tried and whether any differs; its seconds are those of all
-lines together. Two checks run at a time. Without matiec the embedded engine does what it can in minutes, and says so.
-Exit status 1 if anything differs, 2 for an unknown name.
+lines together. Two checks run at a time. Without matiec the embedded engine does what it can in minutes, and it is said
+which checks that leaves out. Exit status 1 if anything differs or a check could not be done, 2 for an unknown name or
+if nothing could run.
 """
 
 import argparse
+import subprocess
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 
-from tests.native.driver import lines
+from tests.native.driver import lines, told_lines
 from tests.native.exhaustive import program
-from tests.native.exhaustive.bench import Bench
+from tests.native.exhaustive.bench import Bench, Finding
 from tests.native.exhaustive.checks import CHECKS, Report, run
-from tests.native.exhaustive.embedded import embedded
+from tests.native.exhaustive.embedded import PARTS, embedded
+
+from driveblocks.host.discovery import MATIEC_NAMES
 
 PROCESSES = 2
 
@@ -24,23 +28,37 @@ def main(arguments: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.native.exhaustive")
     parser.add_argument("checks", nargs="*", metavar="CHECK", help=", ".join(CHECKS))
     parser.add_argument("--short", action="store_true", help="what the suite runs")
-    parser.add_argument("--line", action="append", help="only this line, such as matiec-beremiz")
+    parser.add_argument("--line", action="append", choices=MATIEC_NAMES, help="only this line")
     asked = parser.parse_args(arguments)
     if unknown := sorted({*asked.checks} - {*CHECKS}):
         parser.error(f"there is no check {unknown[0]}")
     engines = [engine for engine in lines() if not asked.line or engine.name in asked.line]
+    print(told_lines(), flush=True)
     if not engines:
-        print("no line of matiec was found: the embedded engine takes what it can in minutes, not the whole spaces")
-        return report(embedded(asked.checks))
+        return without_matiec([] if asked.line else asked.checks or [*CHECKS])
     return report(parallel([program.bench(engine) for engine in engines], asked.checks or [*CHECKS], asked.short))
 
 
+def without_matiec(names: Sequence[str]) -> int:
+    """What the embedded engine does of some checks, and which it leaves out. Exit status 2 if it can do none."""
+    if left_out := [name for name in names if name not in PARTS]:
+        print(f"not run without matiec: {', '.join(left_out)}", flush=True)
+    if not (parts := [name for name in names if name in PARTS]):
+        print("nothing ran: needs matiec; `driveblocks doctor` says what is missing")
+        return 2
+    print("the embedded engine takes what it can in minutes, not the whole spaces", flush=True)
+    return report(embedded(parts))
+
+
 def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool) -> Iterator[Report]:
-    """The reports of some checks as they come."""
+    """The reports of some checks as they come; a check that could not be done is told as one that differs."""
     with ProcessPoolExecutor(PROCESSES) as pool:
-        jobs = [pool.submit(run, name, benches, short=short) for name in names]
+        jobs = {pool.submit(run, name, benches, short=short): name for name in names}
         for job in as_completed(jobs):
-            yield job.result()
+            try:
+                yield job.result()
+            except (RuntimeError, OSError, subprocess.TimeoutExpired) as error:
+                yield Report(jobs[job], 0.0, (Finding("none", 0, 1, (f"could not be done: {error}",)),))
 
 
 def report(reports: Iterable[Report]) -> int:

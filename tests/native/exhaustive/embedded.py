@@ -19,12 +19,11 @@ LINE = "embedded"
 
 
 def embedded(names: Sequence[str]) -> Iterator[Report]:
-    """The checks that it can do, each named as the one of which it does a part."""
-    for name, check in PARTS.items():
-        if not names or name in names:
-            begin = time.monotonic()
-            finding = check(built(EmbeddedEngine()))
-            yield Report(name, time.monotonic() - begin, (finding,))
+    """Some of PARTS, each named as the check of which it does a part. Raises KeyError for another."""
+    for name in names:
+        begin = time.monotonic()
+        finding = PARTS[name](built(EmbeddedEngine()))
+        yield Report(name, time.monotonic() - begin, (finding,))
 
 
 def checksums(blocks: Blocks) -> Finding:

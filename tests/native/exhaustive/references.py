@@ -19,6 +19,11 @@ from driveblocks.reference.speed import SpeedReference
 SPEED, MAXIMUM, SCALE = range(3)
 """The pins, as the driver counts them."""
 
+REAL_BITS, DOUBLE_BITS = 24, 53
+"""Digits of the significands, IEEE 754."""
+WORD_BITS = 17
+"""Of twice a word and one."""
+
 ALL = (0, 0xFFFFFFFF, 1)
 INFINITY = 0x7F800000
 
@@ -65,10 +70,11 @@ def real(bits: int) -> float:
 
 
 def defines(drive: Drive) -> dict[str, object]:
-    """What the driver's rule needs of a map. Raises ValueError if the count per Hz is no ratio of small numbers."""
+    """What the driver's rule needs of a map. Raises ValueError if a double would not hold its numbers exactly."""
     model = SpeedReference(drive)
     times = (100 if model.percent else 1) / model.factor if model.factor else Fraction(1)
-    if max(times.numerator, times.denominator) > 1 << 20:
+    room = DOUBLE_BITS - 2 * REAL_BITS if model.factor is None else DOUBLE_BITS - REAL_BITS
+    if times.numerator.bit_length() > room or times.denominator.bit_length() > DOUBLE_BITS - REAL_BITS - WORD_BITS:
         raise ValueError(f"{drive.prefix}: {times} is not exact in the driver")
     return {
         "TIMES": times.numerator,

@@ -1,15 +1,19 @@
 """The short form of every check on every line of matiec, and one mistake planted for each, which it must find."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
-from tests.blocks.library import sources
+from tests.blocks.library import Blocks, sources
 from tests.native.driver import lines
+from tests.native.exhaustive import __main__ as long
 from tests.native.exhaustive import program
 from tests.native.exhaustive.bench import Bench
 from tests.native.exhaustive.checks import CHECKS, run
+from tests.native.exhaustive.embedded import PARTS, embedded
 
+from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Source
 
 NEEDS = "needs matiec: no line of it is found, `driveblocks doctor` says where it is looked for"
@@ -63,10 +67,10 @@ def mistaken() -> list[Bench]:
     return [program.bench(engine, altered())] if engine else pytest.skip(NEEDS)
 
 
-def altered() -> list[Source]:
-    """The library with all mistakes. Raises AssertionError where a text to change is not there."""
+def altered(names: Iterable[str] = PLANTED) -> list[Source]:
+    """The library with the mistakes for some checks. Raises AssertionError where a text to change is not there."""
     texts = {source.path: source for source in sources()}
-    for block, old, new in dict.fromkeys(PLANTED.values()):
+    for block, old, new in dict.fromkeys(PLANTED[name] for name in names):
         path = next(path for path in texts if path.endswith(f"/{block}.st"))
         assert old in texts[path].text, (block, old)
         texts[path] = replace(texts[path], text=new.join(texts[path].text.rsplit(old, 1)))
@@ -82,3 +86,40 @@ def test_planted_mistake_is_found(mistaken: Sequence[Bench], name: str) -> None:
 
 def test_every_check_of_blocks_has_a_planted_mistake() -> None:
     assert {*CHECKS} - {*PLANTED} == {"reference-rule"}
+
+
+# ---------------------------------------------------------------- what is missing, or goes wrong on the way
+
+
+def test_what_matiec_alone_can_do_is_told_where_it_is_missing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A part is done and the rest named; where nothing is done, that is no success."""
+    monkeypatch.setattr(long, "lines", list)
+    assert long.main(["decoders", "packing"]) == 0
+    told = capsys.readouterr().out
+    assert "not run without matiec: packing\n" in told
+    assert "decoders " in told
+    assert long.main(["packing"]) == 2
+    assert "nothing ran" in capsys.readouterr().out
+    assert long.main(["--line", "matiec-openplc"]) == 2
+
+
+@pytest.mark.parametrize("arguments", [["packing", "nothing"], ["--line", "matiec-nothing"]])
+def test_an_unknown_name_is_refused(arguments: list[str]) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        long.main(arguments)
+
+
+def test_a_check_that_cannot_be_done_is_a_failure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Here there is no driver to run; the others go on."""
+    reports = long.parallel([Bench("gone", tmp_path / "gone")], ["digits", "permissions"], short=True)
+    assert long.report(reports) == 1
+    assert capsys.readouterr().out.count("could not be done: ") == 2
+
+
+def test_the_embedded_engine_finds_a_planted_mistake() -> None:
+    right = [*embedded(["decoders"])]
+    assert [report.wrong for report in right] == [0]
+    wrong = Blocks(EmbeddedEngine().build(altered(["decoders"])))
+    assert PARTS["decoders"](wrong).wrong > 0
