@@ -90,6 +90,7 @@ def replies(pou: Pou, _: Values, chance: random.Random) -> Iterator[Inputs]:
         for body in _bodies(opened, chance):
             yield _body(body, chance)
         yield _echo(opened.asked, chance)
+        yield _nothing(opened.asked)
 
 
 def _bodies(opened: Line, chance: random.Random) -> Iterator[bytes]:
@@ -106,6 +107,12 @@ def _echo(asked: Asked, chance: random.Random) -> Inputs:
     flip = chance.choice([0, 1 << chance.randrange(32)])
     data = ((first << 16 | second) ^ flip).to_bytes(4, "big")
     return {**_pins(written), "Length": 6, "Adu": bytes([written.unit, written.function]) + data}
+
+
+def _nothing(asked: Asked) -> Inputs:
+    """A reply of no words to a read of no registers: no request block builds one, but a parser may get it."""
+    read = replace(asked, function=3, quantity=0)
+    return {**_pins(read), "Length": 3, "Adu": bytes([read.unit, 3, 0])}
 
 
 def _body(body: bytes, chance: random.Random) -> Inputs:
