@@ -1,7 +1,7 @@
 """From a fresh clone to a result in one command, with nothing but Python 3.11 or newer and git.
 
     python3 generator/bootstrap.py demo    set up, then run the main job on the drives of vendor_maps/
-    python3 generator/bootstrap.py test    set up, then pass every test, as continuous integration does
+    python3 generator/bootstrap.py test    set up, then run every test, as continuous integration does
 
 Both make a virtual environment `.venv` in the checkout and install the project and what it needs into it.
 """

@@ -43,9 +43,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     coverage: Measure = False,
     require_coverage: Least = None,
 ) -> None:
-    """Build the blocks of the drives in memory, make test programs from their maps, and run them on this computer.
+    """Test the blocks of the drives on this computer.
 
-    The programs check the blocks against the manual's example frames and against a reference model. The exit status
+    The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and against a reference model. The exit status
     is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. With --coverage it is
     said what no program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below
     what --require-coverage asks for; what no input can reach is explained and left out of the percentage.

@@ -78,7 +78,7 @@ def _names(path: Path) -> tuple[str, ...]:
 def _unknown(name: str, maps: dict[Path, tuple[str, ...]]) -> UnknownDrive:
     stems = {known: path.stem for path, names in maps.items() for known in names}
     near = difflib.get_close_matches(name.lower(), stems, 3, 0.5)
-    known = f"known drives are {_list(p.stem for p in maps)}, or the path of a .yaml file"
+    known = f"known drives are {_list(p.stem for p in maps)}; the path of a .yaml file will do, too"
     guess = f"did you mean {_list(stems[one] for one in near)}? " if near else ""
     return UnknownDrive(f"there is no drive `{name}`", guess + known)
 

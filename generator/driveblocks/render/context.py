@@ -158,11 +158,16 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Con
         "drive": identity(drive),
         "name": names.block(drive.prefix, symbol(row) + suffix),
         "address_text": address_text(row.address.first),
-        "title": (row.name or "")[:1].lower() + (row.name or "")[1:],
+        "title": _inside_a_sentence(row.name or ""),
         "zh": row.text_zh,
         "note": row.note,
         "source": source_of(drive, row.source or section.source),
     }
+
+
+def _inside_a_sentence(name: str) -> str:
+    """A name as it stands inside a sentence; an abbreviation such as CPF stays as it is."""
+    return name if name[1:2].isupper() else name[:1].lower() + name[1:]
 
 
 def _bit_parts(row: Register) -> Iterator[Context]:

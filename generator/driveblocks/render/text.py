@@ -71,7 +71,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
         if code is not None:
             rows.append(_row(language, code, error.name, error.text_zh))
     head = {
-        "title": f"why {identity(drive).family} refuses a request",
+        "title": f"refusal codes of {identity(drive).family}",
         "source": source_of(drive, drive.errors.source),
         "code_comment": "Reason of the reply",
     }
