@@ -5,13 +5,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import Blocks, sources
+from tests.blocks.library import Blocks, shipped, sources
 from tests.native.driver import lines
 from tests.native.exhaustive import __main__ as long
 from tests.native.exhaustive import program
 from tests.native.exhaustive.bench import Bench
 from tests.native.exhaustive.checks import CHECKS, run
 from tests.native.exhaustive.embedded import PARTS, embedded
+from tests.native.exhaustive.permissions import ALLOWED
 
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Source
@@ -123,3 +124,12 @@ def test_the_embedded_engine_finds_a_planted_mistake() -> None:
     assert [report.wrong for report in right] == [0]
     wrong = Blocks(EmbeddedEngine().build(altered(["decoders"])))
     assert PARTS["decoders"](wrong).wrong > 0
+
+
+def test_every_block_but_the_commands_is_in_a_check() -> None:
+    """A block that is new is not left out in silence."""
+    by_name = {scan.name for scan in program.SCANS} | {*ALLOWED}
+    by_hand = {"MB_Crc16", "MB_Crc16Compact", "MB_Lrc"}
+    by_hand |= {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Reference", "Standstill")}
+    blocks = {Path(source.path).stem for source in sources() if not source.path.startswith("types/")}
+    assert blocks - by_name - by_hand == {f"{prefix}_Command" for prefix in shipped()}
