@@ -1,10 +1,14 @@
 """A driver runs the library's C without Python, and a driver that does not compile is told."""
 
+import os
+from pathlib import Path
+
 import pytest
 from tests.native.driver import Driver, run
 
 from driveblocks.host.engine import EngineError
 from driveblocks.host.matiec import MatiecEngine
+from driveblocks.host.matiec.cache import SEAL
 
 CRC = """
 static MB_CRC16 crc;
@@ -23,6 +27,17 @@ int main(void)
 def test_driver_runs_blocks_and_functions(matiec: MatiecEngine) -> None:
     """01 03 00 00 00 02 has the CRC C4 0B on the wire, low byte first (Modbus over serial line 1.02, 6.2.2)."""
     assert run(Driver(CRC).build(matiec)).stdout == "0BC4 11\n"
+
+
+def test_a_driver_that_runs_counts_as_used(tmp_path: Path) -> None:
+    """What is longest unused leaves the cache: a program must not go during a run of an hour."""
+    program, seal = tmp_path / "driver", tmp_path / SEAL
+    program.write_text("#!/bin/sh\nexit 0\n", encoding="utf-8")
+    program.chmod(0o755)
+    seal.touch()
+    os.utime(seal, (1, 1))
+    run(program)
+    assert seal.stat().st_mtime > 1
 
 
 def test_mistake_is_told(matiec: MatiecEngine) -> None:

@@ -1,6 +1,7 @@
 """Runs of many inputs per block: shares of them side by side in processes of their own."""
 
 import os
+import subprocess
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -58,12 +59,13 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Share:
-    """A number of inputs to one block, by a seed of its own."""
+    """A number of inputs to one block, by a seed of its own; `seconds`: the time limit."""
 
     program: Program
     name: str
     seed: int
     inputs: int
+    seconds: float = SECONDS
 
 
 def build(engine: MatiecEngine, checked: Checked, texts: Sequence[Source] = (), only: Iterable[str] = ()) -> Program:
@@ -89,10 +91,15 @@ def shares(program: Program, pou: Pou, count: int, seed: int) -> Iterator[Share]
 
 
 def execute(share: Share) -> Outcome:
-    """Run one share. Raises RuntimeError if the program is called wrongly."""
+    """Run one share; one that takes too long is a find. Raises RuntimeError if the program is called wrongly."""
     start = time.perf_counter()
-    done = run(share.program.path, share.name, share.seed, share.inputs, seconds=SECONDS)
-    outcome = Outcome(share.program.label, share.name, share.inputs, time.perf_counter() - start)
+    outcome = Outcome(share.program.label, share.name, share.inputs)
+    try:
+        done = run(share.program.path, share.name, share.seed, share.inputs, seconds=share.seconds)
+    except subprocess.TimeoutExpired as error:
+        outcome.finds.append(f"seed {share.seed}: {error}")
+        return outcome
+    outcome.seconds = time.perf_counter() - start
     if done.returncode == 2:
         raise RuntimeError(f"no driver {share.name}")
     if done.returncode:

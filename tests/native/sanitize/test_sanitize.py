@@ -52,6 +52,15 @@ def test_each_block_compiles_alone(matiec: MatiecEngine, name: str) -> None:
     Driver(text([each for each in library if each.name == name], library), ("-fsyntax-only",)).build(matiec)
 
 
+def test_a_share_that_takes_too_long_is_a_find(tmp_path: Path) -> None:
+    """The rest of the campaign goes on."""
+    waits = tmp_path / "waits"
+    waits.write_text("#!/bin/sh\nexec sleep 60\n", encoding="utf-8")
+    waits.chmod(0o755)
+    (find,) = execute(Share(Program("line", waits, ()), "MB_Lrc", 3, 1, seconds=0.2)).finds
+    assert find.startswith("seed 3: Command ")
+
+
 def test_an_unknown_block_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
         long.main(["--only", "MB_RtuOpen,MB_Nothing"])
