@@ -7,10 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.native.driver import Driver
 from tests.native.fuzz import __main__ as long
 from tests.native.fuzz import corpus
-from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
+from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets, text
 from tests.native.fuzz.seeds import seeds
+from tests.native.sanitize.planted import spoilt
 from tests.native.sanitize.sanitizers import compilers, found_lines, why_none
 
 from driveblocks.render.results import RESULTS
@@ -49,6 +51,24 @@ def test_every_input_gives_the_error_id_that_is_noted(target: str) -> None:
     for number, engine in enumerate(lines[:1] if libfuzzer() else lines):
         codes = corpus.replay(program(number), target, [each.data for each in inputs])
         assert codes == [each.code for each in inputs], engine.name
+
+
+@functools.cache
+def spoilt_program() -> Path:
+    """The first line's, of the library with a fault in many blocks."""
+    engine = found_lines()[0]
+    if not (found := compilers(engine)):
+        pytest.skip(why_none(engine))
+    return Driver(text(engine), (*found[0].options, "-O0"), found[0].command).build(engine, spoilt())
+
+
+@pytest.mark.parametrize("target", ["rtu_open", "ascii_decode", "parse_reply", "jscc_reply", "chf_request"])
+def test_a_fault_in_a_block_stops_the_program(target: str) -> None:
+    """A length one too high, a refusal of any length: what is kept reaches it, and its judge sees it."""
+    if not found_lines():
+        pytest.skip("iec2c was not found")
+    with pytest.raises(AssertionError, match=f"{target} stops at "):
+        corpus.replay(spoilt_program(), target, [each.data for each in kept(target)])
 
 
 @pytest.mark.parametrize("target", targets())

@@ -10,10 +10,10 @@ from tests.native.driver import Driver
 from tests.native.sanitize import __main__ as long
 from tests.native.sanitize.campaign import Program, Share, at_once, build, execute, inputs
 from tests.native.sanitize.pins import pous
+from tests.native.sanitize.planted import FAULTS, spoilt
 from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
 
-from driveblocks.host.engine import Source
 from driveblocks.host.matiec import MatiecEngine
 
 INPUTS = 20_000
@@ -75,35 +75,6 @@ def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest
     monkeypatch.setattr(long, "found_lines", list)
     assert long.main([]) == 2
     assert "nothing ran: needs iec2c" in capsys.readouterr().out
-
-
-FAULTS = {
-    "MB_RtuOpen": ("ELSIF AduLength > 256 THEN", "ELSIF AduLength > 257 THEN", "out of bounds"),
-    "MB_AsciiDecode": ("ELSIF CharCount > 513 THEN", "ELSIF CharCount > 515 THEN", "out of bounds"),
-    "MB_UnpackChars16": ("Last := 513;", "Last := 514;", "out of bounds"),
-    "MB_ParseReply": ("AND (Length = 6) AND", "AND", "what is no refusal is taken for one"),
-    "MB_Crc16Compact": ("Crc := WORD#16#FFFF;", "Crc := WORD#16#FFFE;", "the checksum is wrong"),
-    "MB_AsciiEncode": ("CharCount := 0;", "CharCount := CharCount;", "CHARCOUNT in spite of an error"),
-    "MB_BuildRead": ("UINT_TO_BYTE(Quantity)", "UINT_TO_BYTE(MaxWords)", "the frame is wrong"),
-    "MB_PackAdu16": ("Position + 1 < Last", "Position + 1 <= Last", "the low byte of the last register is not empty"),
-    "JSCC_Reply": ("WordCount := Parse.WordCount;", "WordCount := 0;", "the number of words is wrong"),
-    "JSCC_Reference": ("NOT Number THEN", "NOT Number AND (MaximumHz < 0.0) THEN", "what is no number is taken"),
-    "CHF_Reference": ("(MaximumHz > 0.0)", "(MaximumHz >= 0.0)", "division by zero"),
-    "JSCC_Command": ("IF Stop OR QuickStop", "IF Stop", "a stop does not win"),
-    "CHF_DriveStatus": ("Fault := Value", "Fault := Fault OR Value", "FAULT depends on the past"),
-    "SN300G5_FaultNumber": ("Rest := SHR(Rest, 1) AND WORD#16#7FFF;", "Count := 0;", "a scan does not end"),
-}
-"""By block: what is changed, into what, and what must be said of it."""
-
-
-def spoilt() -> list[Source]:
-    """The library with all faults at once, each in a block of its own."""
-    texts = []
-    for each in sources():
-        good, bad, _ = FAULTS.get(Path(each.path).stem, ("", "", ""))
-        assert good in each.text, each.path
-        texts.append(Source(each.path, each.text.replace(good, bad) if good else each.text))
-    return texts
 
 
 @functools.cache
