@@ -1,7 +1,9 @@
 """`driveblocks test`: what is printed and written, and the exit status."""
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import pytest
@@ -54,8 +56,8 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
 ) -> None:
     rendered = library.drive
 
-    def wrong(*arguments: object) -> object:
-        for file in rendered(*arguments):  # type: ignore[arg-type]
+    def wrong(*arguments: Any) -> Iterator[library.File]:
+        for file in rendered(*arguments):
             yield library.File(file.folder, file.name, file.text.replace("/ 10.0", "/ 100.0"))
 
     monkeypatch.setattr(library, "drive", wrong)
@@ -183,8 +185,8 @@ def test_coverage_is_not_measured_unless_asked(my_drive: str) -> None:
 def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
     rendered = library.drive
 
-    def longer(*arguments: object) -> object:
-        for file in rendered(*arguments):  # type: ignore[arg-type]
+    def longer(*arguments: Any) -> Iterator[library.File]:
+        for file in rendered(*arguments):
             text = file.text
             if file.name == "EX100_Standstill":
                 more = (

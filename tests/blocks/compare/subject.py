@@ -63,6 +63,14 @@ class _Stepping:
         self.instance.scan(0)
 
 
+def _array_setter(memory: Memory, offset: int, code: str) -> Setter:
+    def fill(value: Value) -> None:
+        assert isinstance(value, bytes | list)
+        struct.pack_into(f"={len(value)}{code}", memory, offset, *value)
+
+    return fill
+
+
 def _grouped(found: Sequence[Leaf], follows_c: bool) -> list[tuple[str, list[Leaf]]]:
     """The leaves of each group in the order of an image: those that every engine keeps, then those handed on."""
     groups = [(handed, group) for handed in (False, True) for group in ("plain", "real", "text", "array")]
@@ -141,8 +149,7 @@ class MatiecSubject(_Stepping):
         memory, offset, node = self._memory, place.offset, place.node
         if isinstance(node, ArrayNode):
             assert isinstance(node.element, Scalar)
-            code = node.element.code
-            return lambda value: struct.pack_into(f"={len(value)}{code}", memory, offset, *value)  # type: ignore[misc, arg-type]
+            return _array_setter(memory, offset, node.element.code)
         assert isinstance(node, Scalar)
         pack = struct.Struct("=" + node.code).pack_into
         return lambda value: pack(memory, offset, value)

@@ -42,7 +42,7 @@ def _edited(mistakes: list[tuple[str, str, str]]) -> Text:
 
 @functools.cache
 def _libraries() -> Libraries:
-    wrong = _edited([mistake for _, *mistake in MISTAKES])  # type: ignore[misc]
+    wrong = _edited([(path, right, wrong) for _, path, right, wrong in MISTAKES])
     return {**build({"right": EmbeddedEngine()}), **build({"wrong": EmbeddedEngine()}, wrong)}
 
 
