@@ -123,7 +123,7 @@ def codes(known: Iterable[int | None]) -> list[int]:
 def check_text(blocks: Blocks, function: str, pins: dict[str, int], found: text.Texts | None) -> None:
     """A text function in the language that its name ends in."""
     which, encoding = TEXTS[function[-2:]]
-    wanted = text.shortened((found or text.UNKNOWN)[which] or (found or text.UNKNOWN).en, encoding)
+    wanted = (found or text.UNKNOWN)[which].encode(encoding)
     assert blocks.call(function, dict(pins)) == wanted, (function, pins)
 
 

@@ -1,10 +1,11 @@
 """Standstill, fault numbers and texts, on values typed from the manuals."""
 
-import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from dataclasses import replace
 
-from driveblocks.maps.model import Drive
+import pytest
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Bit, Drive, Fault, Short
 from driveblocks.reference import text
 from driveblocks.reference.fault import Faulted, numbered
 from driveblocks.reference.standstill import proven
@@ -74,11 +75,8 @@ def test_texts(drives: dict[str, Drive]) -> None:
     assert text.value(drives["CHF"], 0x4000, 9) is None
 
 
-@given(st.text(max_size=100), st.sampled_from(["utf-8", "gb18030"]))
-def test_a_text_is_shortened_between_characters(long: str, encoding: str) -> None:
-    data = text.shortened(long, encoding)
-    assert len(data) <= text.LONGEST
-    whole = long.encode(encoding, "replace")
-    assert whole.startswith(data)
-    assert data == whole or len(data) > text.LONGEST - 4
-    data.decode(encoding)
+def test_a_text_is_the_short_wording_where_there_is_one(drives: dict[str, Drive]) -> None:
+    assert text.bit(drives["SN300G5"], 0x000F, 1) == Texts("PID target from bus", "总线 PID 目标值: 0 无效 1 有效")
+    short = Short(en="fast", zh="快")
+    assert text.of(Fault(code=1, name="Overspeed", zh="超速", short=short)) == Texts("fast", "快")
+    assert text.of(Bit(bit=Span(0, 0), name="Ready", short=replace(short, en=None))) == Texts("Ready", "快")

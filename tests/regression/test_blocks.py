@@ -59,3 +59,9 @@ def test_no_register_at_all_is_not_permitted(engine: Engine, use: str, address: 
     """None from an address in a permitted area or just behind one was permitted, none from elsewhere was not."""
     assert built(engine).call(f"CHF_Can{use}", {"Address": address, "Quantity": 0}) is False
     assert built(engine).call(f"CHF_Can{use}", {"Address": 0x1000, "Quantity": 1}) is True
+
+
+def test_a_text_is_whole(engine: Engine) -> None:
+    """It ended after the 80 bytes of a STRING, in the middle of what the bit's second value means."""
+    text = built(engine).call("SN300G5_BitTextZh", {"Address": 0x000F, "Bit": 1})
+    assert text == "总线 PID 目标值: 0 无效 1 有效".encode()

@@ -2,7 +2,8 @@
 
 import pytest
 
-from driveblocks.render import literal, names
+from driveblocks.maps.rules.name import ENCODINGS, LONGEST
+from driveblocks.render import literal, names, results
 
 
 @pytest.mark.parametrize(
@@ -16,6 +17,12 @@ from driveblocks.render import literal, names
 )
 def test_strings_escape_what_compilers_trip_over(text: str, wanted: str) -> None:
     assert literal.string(text) == wanted
+
+
+@pytest.mark.parametrize("encoding", ENCODINGS)
+def test_the_texts_of_results_fit_as_those_of_a_map_must(encoding: str) -> None:
+    texts = [text for result in results.RESULTS for text in (result.en, result.zh)]
+    assert [text for text in texts if len(text.encode(encoding)) > LONGEST] == []
 
 
 def test_a_comment_cannot_end_itself() -> None:

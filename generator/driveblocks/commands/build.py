@@ -62,12 +62,14 @@ def _paths(maps: list[str] | None) -> list[Path]:
 
 
 def _languages(lang: str, encoding: str) -> "list[Language]":
+    from driveblocks.maps.rules.name import ENCODINGS
     from driveblocks.render.text import languages
 
     codes = [code.strip() for code in lang.split(",") if code.strip()]
     unknown = [code for code in codes if code not in ("en", "zh")]
     if unknown or not codes:
         raise typer.BadParameter(f"`{lang}` is no list of languages; write en, zh or en,zh", param_hint="--lang")
-    if encoding not in ("utf-8", "gb18030"):
-        raise typer.BadParameter(f"`{encoding}` is not possible; write utf-8 or gb18030", param_hint="--encoding")
+    if encoding not in ENCODINGS:
+        right = " or ".join(ENCODINGS)
+        raise typer.BadParameter(f"`{encoding}` is not possible; write {right}", param_hint="--encoding")
     return languages(sorted(set(codes)), encoding)

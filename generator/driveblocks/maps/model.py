@@ -81,6 +81,21 @@ class Named(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Short(Entry):
+    """Shorter wordings, for the blocks that return the text: a STRING holds 80 bytes everywhere, and no more."""
+
+    en: English | None = fact("English that fits", "PID target on the bus", optional=True)
+    zh: Str | None = fact("Chinese that fits in UTF-8 and GB18030", '"总线 PID 目标值: 0 无效 1 有效"', optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Worded(Named):
+    """Base of entries whose names a block returns as texts."""
+
+    short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Corroboration(Entry):
     """Another public document that says the same, or what this manual leaves out. Never replaces a value silently."""
 
@@ -113,7 +128,7 @@ class Document(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Value(Named):
+class Value(Worded):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
@@ -357,6 +372,7 @@ class Bit(Entry):
     name: English | None = fact("English name; left out for a hole", "Running", optional=True)
     zh: Str | None = fact("the manual's wording, as printed", '"1: 运行中"', optional=True)
     zh_used: Str | None = fact("the wording to show, where `zh` holds a misprint", "超速", optional=True)
+    short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
     id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
     unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)
     values: tuple[Value, ...] = fact(
@@ -572,7 +588,7 @@ class BitRelation(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fault(Named):
+class Fault(Worded):
     """One fault code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
@@ -614,7 +630,7 @@ class ErrorForm(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ErrorCode(Named):
+class ErrorCode(Worded):
     """One reason for a refusal."""
 
     code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)

@@ -3,10 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from driveblocks.maps.model import Drive, ErrorCode
-
-LONGEST = 80
-"""Bytes that a STRING of unstated size holds everywhere; a longer text ends before the character that does not fit."""
+from driveblocks.maps.model import Bit, Drive, ErrorCode, Worded
 
 
 class Texts(NamedTuple):
@@ -19,25 +16,20 @@ class Texts(NamedTuple):
 UNKNOWN = Texts("unknown code", "未知代码")
 
 
-def shortened(text: str, encoding: str = "utf-8") -> bytes:
-    """The bytes of a text as a block returns them."""
-    data = b""
-    for character in text:
-        more = character.encode(encoding, "replace")
-        if len(data) + len(more) > LONGEST:
-            break
-        data += more
-    return data
+def of(entry: Worded | Bit) -> Texts:
+    """What a block returns for an entry: per language the short wording, else the full one."""
+    name, zh = entry.name or "", entry.text_zh or entry.name or ""
+    return Texts(name, zh) if entry.short is None else Texts(entry.short.en or name, entry.short.zh or zh)
 
 
 def fault(drive: Drive, code: int) -> Texts | None:
     """The text of a fault code."""
-    return _first(Texts(one.name, one.text_zh) for one in drive.faults.codes if one.code == code)
+    return _first(of(one) for one in drive.faults.codes if one.code == code)
 
 
 def error(drive: Drive, code: int) -> Texts | None:
     """The text of a reason for refusal."""
-    return _first(Texts(one.name, one.text_zh) for one in drive.errors.codes if error_number(one) == code)
+    return _first(of(one) for one in drive.errors.codes if error_number(one) == code)
 
 
 def error_number(entry: ErrorCode) -> int | None:
@@ -52,7 +44,7 @@ def bit(drive: Drive, address: int, number: int) -> Texts | None:
     row = drive.register_at(address)
     if row is None or row.address.first != address:
         return None
-    return _first(Texts(one.name, one.text_zh or one.name) for one in row.bits if one.name and one.bit.first == number)
+    return _first(of(one) for one in row.bits if one.name and one.bit.first == number)
 
 
 def value(drive: Drive, address: int, number: int) -> Texts | None:
@@ -60,7 +52,7 @@ def value(drive: Drive, address: int, number: int) -> Texts | None:
     row = drive.register_at(address)
     if row is None or row.address.first != address:
         return None
-    return _first(Texts(one.name, one.text_zh) for one in row.values if one.value == number)
+    return _first(of(one) for one in row.values if one.value == number)
 
 
 def _first(found: Iterable[Texts]) -> Texts | None:

@@ -4,13 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Bit, Drive, Worded
 from driveblocks.render import results
 from driveblocks.render.context import Context, identity, source_of
 from driveblocks.render.literal import string
-
-MAX_BYTES = 80
-"""Longest text: what an unsized STRING holds on every target."""
 
 
 @dataclass(frozen=True)
@@ -22,14 +19,13 @@ class Language:
     unknown: str
 
     def literal(self, text: str) -> str:
-        """The text as a STRING literal, shortened to MAX_BYTES at a character's end."""
-        while len(text.encode(self.encoding, "replace")) > MAX_BYTES:
-            text = text[:-1]
+        """The text as a STRING literal, whole: a checked map has none that is too long."""
         return string(text, self.encoding)
 
-    def pick(self, en: str, zh: str | None) -> str:
-        """The text of this language."""
-        return en if self.suffix == "En" else (zh or en)
+    def pick(self, entry: Worded | Bit) -> str:
+        """The text of an entry in this language, in its short wording where it has one."""
+        en = (entry.short and entry.short.en) or entry.name or ""
+        return en if self.suffix == "En" else (entry.short and entry.short.zh) or entry.text_zh or en
 
 
 ENGLISH = Language("En", "ascii", "unknown code")
@@ -47,14 +43,15 @@ def languages(codes: list[str], encoding: str) -> list[Language]:
 
 def result_texts(language: Language) -> Context:
     """For CodeText: the result codes of all blocks."""
-    rows = [_row(language, result.code, result.en, result.zh) for result in results.RESULTS]
+    texts = [(result.code, result.en if language.suffix == "En" else result.zh) for result in results.RESULTS]
+    rows = [_row(language, code, text, text) for code, text in texts]
     head = {"title": "what an ErrorID means", "source": "the result codes of DriveBlocks.", "code_comment": "ErrorID"}
     return {"name": f"MB_ResultText{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
 def fault_texts(drive: Drive, language: Language) -> Context:
     """For CodeText: fault codes."""
-    rows = [_row(language, fault.code, fault.name, fault.text_zh) for fault in drive.faults.codes]
+    rows = [_entry(language, fault.code, fault) for fault in drive.faults.codes]
     head = {
         "title": f"fault codes of {identity(drive).family}",
         "source": source_of(drive, drive.faults.source),
@@ -69,7 +66,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
     for error in drive.errors.codes:
         code = error.code if error.code is not None else next((c.value for c in error.corroborated if c.value), None)
         if code is not None:
-            rows.append(_row(language, code, error.name, error.text_zh))
+            rows.append(_entry(language, code, error))
     head = {
         "title": f"refusal codes of {identity(drive).family}",
         "source": source_of(drive, drive.errors.source),
@@ -78,9 +75,12 @@ def error_texts(drive: Drive, language: Language) -> Context:
     return {"name": f"{drive.prefix}_ErrorText{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
-def _row(language: Language, code: int, en: str, zh: str | None) -> Context:
-    text = language.literal(language.pick(en, zh))
-    return {"code": code, "text": text, "comment": zh if language.suffix == "Zh" else ""}
+def _entry(language: Language, code: int, entry: Worded | Bit) -> Context:
+    return _row(language, code, language.pick(entry), entry.text_zh)
+
+
+def _row(language: Language, code: int, text: str, zh: str | None) -> Context:
+    return {"code": code, "text": language.literal(text), "comment": zh if language.suffix == "Zh" else ""}
 
 
 def _language(language: Language) -> Context:
@@ -117,9 +117,9 @@ def _group(drive: Drive, address: int, kind: str, language: Language) -> Context
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (the address was taken from the tables)
     if kind == "bits":
-        rows = [_row(language, bit.bit.first, bit.name, bit.text_zh) for bit in row.bits if bit.name]
+        rows = [_entry(language, bit.bit.first, bit) for bit in row.bits if bit.name]
     else:
-        rows = [_row(language, value.value, value.name, value.text_zh) for value in row.values]
+        rows = [_entry(language, value.value, value) for value in row.values]
     return {
         "address": address,
         "address_text": address_text(address),

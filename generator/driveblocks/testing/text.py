@@ -56,7 +56,7 @@ def results(languages: Iterable[Language]) -> Iterator[Script]:
 
 def _bytes(texts: reference.Texts | None, language: Language) -> bytes:
     found = texts or reference.UNKNOWN
-    return reference.shortened(found.zh if language.suffix == "Zh" else found.en, language.encoding)
+    return (found.zh if language.suffix == "Zh" else found.en).encode(language.encoding)
 
 
 def _codes(drive: Drive, stem: str, language: Language, kind: str, codes: list[int]) -> Script:

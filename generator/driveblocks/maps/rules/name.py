@@ -1,11 +1,17 @@
-"""Rules on names and texts: both languages, one line, and a sound identifier for what becomes a pin."""
+"""Rules on names and texts: both languages, one line, short enough, and a sound identifier for what becomes a pin."""
 
 import re
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Text
-from driveblocks.maps.problem import Report
+from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Text, Worded
+from driveblocks.maps.problem import Place, Report
+
+LONGEST = 80
+"""Bytes of a text in a block: what an unsized STRING holds on every target."""
+
+ENCODINGS = ("utf-8", "gb18030")
+"""The encodings in which Chinese can be built; English stays within ASCII."""
 
 _WORD = re.compile(r"[a-z]{3}")
 _NOT_LETTERS = re.compile(r"[^A-Z0-9]+")
@@ -20,6 +26,40 @@ def check(drive: Drive, report: Report) -> None:
             _texts(entry, "en", entry.en, report)
     for _, row in drive.registers():
         _identifiers(row, report)
+    for worded in _returned(drive):
+        for language, text, place in _wordings(worded):
+            _fits(language, text, place, report)
+
+
+def _returned(drive: Drive) -> Iterator[Worded | Bit]:
+    """Every entry whose name a block returns as a text."""
+    yield from drive.faults.codes
+    yield from drive.errors.codes
+    for _, row in drive.registers():
+        yield from row.values
+        yield from (bit for bit in row.bits if bit.name)
+
+
+def _wordings(entry: Worded | Bit) -> Iterator[tuple[str, str, Place]]:
+    """Language, text and place of what the blocks return: the short wording where there is one."""
+    short = entry.short
+    if short is not None and short.en is not None:
+        yield "en", short.en, short.place("en")
+    elif entry.name is not None:
+        yield "en", entry.name, entry.place("name")
+    if short is not None and short.zh is not None:
+        yield "zh", short.zh, short.place("zh")
+    elif entry.text_zh is not None:
+        yield "zh", entry.text_zh, entry.place("zh_used" if entry.zh_used else "zh")
+
+
+def _fits(language: str, text: str, place: Place, report: Report) -> None:
+    for encoding in ENCODINGS:
+        length = len(text.encode(encoding))
+        if length > LONGEST:
+            wrong = f"this text has {length} bytes in {encoding.upper()}, and a block returns at most {LONGEST}"
+            report.add(place, wrong, f"write a shorter wording under `short: {{{language}: ...}}`")
+            return
 
 
 def _inside(entry: Entry) -> Iterator[Entry]:
