@@ -23,6 +23,7 @@ DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH}
 
 ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA}
 ABSENT = {"sn300g5": sn300g5.ABSENT, "jscc": jscc.ABSENT, "chf": chf.ABSENT}
+NOTICES = {"sn300g5": sn300g5.NOTICES, "jscc": jscc.NOTICES, "chf": chf.NOTICES}
 
 
 def bare(text: str | None) -> str:
@@ -101,6 +102,13 @@ def test_what_the_manual_does_not_say_is_listed(drive: str, about: str, word: st
     assert any(word in text and other in text for text in said), said
 
 
+@pytest.mark.parametrize(("drive", "about", "chinese", "english"), cases(NOTICES))
+def test_what_the_manual_asks_for_is_a_notice(drive: str, about: str, chinese: str, english: str) -> None:
+    held = [one for one in DRIVES[drive].notices if any(names(ref, about) for ref in one.about)]
+    said = [(one.text.zh, f"{one.text.en} {one.note}") for one in held]
+    assert any(chinese in zh and english in en for zh, en in said), said
+
+
 @pytest.mark.parametrize("drive", DRIVES)
 def test_every_erratum_says_what_why_and_how_sure_and_none_claims_a_measurement(drive: str) -> None:
     for one in DRIVES[drive].errata:
@@ -157,13 +165,30 @@ def named(drive: Drive) -> Iterator[tuple[str, str, str]]:
 def test_english_names_hold_what_the_chinese_terms_mean(drive: str) -> None:
     missing = []
     for place, english, chinese in named(DRIVES[drive]):
-        said = re.sub("|".join(glossary.APART), "", chinese)
+        said = re.sub("|".join([*glossary.APART, *given_elsewhere(drive, place)]), "", chinese)
         missing += [
             f"{place} {english} | {chinese}: {term}"
             for term, pattern in glossary.TERMS.items()
             if term in said and not re.search(pattern, english, re.IGNORECASE)
         ]
     assert missing == []
+
+
+def given_elsewhere(drive: str, place: str) -> list[str]:
+    """The Chinese term that a name leaves because another document has a better one."""
+    found = {f"{address:04X}H": term for address, (_, term, _) in sn300g5.CORROBORATED.items() if term}
+    return [found[place]] if drive == "sn300g5" and place in found else []
+
+
+def test_a_name_that_says_more_than_the_chinese_rests_on_a_document() -> None:
+    found = rows(SN)
+    for address, (name, _, document) in sn300g5.CORROBORATED.items():
+        assert found[address].name == name, f"{address:04X}H"
+        assert document in {one.document for one in found[address].corroborated}, f"{address:04X}H"
+    for address, name in sn300g5.LITERAL.items():
+        assert (found[address].name, found[address].corroborated) == (name, ()), f"{address:04X}H"
+    assert {one.id: one.name for one in SN.faults.codes}["UV3"] == "MC fault"
+    assert {one.code: one.name for one in JS.faults.codes}[10] == "Motor thermal overload protection"
 
 
 def test_english_names_have_the_numbers_of_the_chinese() -> None:
@@ -349,8 +374,35 @@ def test_sn300g5_settings() -> None:
     }
 
 
+def test_sn300g5_settings_that_may_stop_another_way_or_act_later_say_so() -> None:
+    settings = {one.id: one for one in SN.settings}
+    for value, other in ((1, "coast"), (2, "decelerate")):
+        note = settings["H5-04"].values[value].note or ""
+        assert "another drive" in note, value
+        assert other in note, value
+    for id_ in ("H5-01", "H5-02", "H5-03"):
+        assert "taken over at power-up" in (settings[id_].note or ""), id_
+
+
+def test_sn300g5_no_parameter_is_written_while_the_drive_runs() -> None:
+    assert "while the drive runs" in (next(one for one in SN.sections if one.id == "parameters").note or "")
+    assert not any("written while the drive runs" in one.what for one in SN.absent)
+
+
+def test_sn300g5_reasons_of_errata_hold_for_every_row() -> None:
+    found = rows(SN)
+    times = next(one for one in SN.errata if "转矩补偿参数" in one.printed)
+    for address in (int(one.split()[1][:-1], 16) for one in times.about):
+        gain = "系数" in (found[address - 1].text_zh or "")
+        assert gain or "时" in (found[address].zh or ""), f"{address:04X}H"
+    enter = next(one for one in SN.errata if "上位 BCH" in one.printed)
+    assert len(by_id(SN.frames)["enter_request"].correct[:-2]) == 9
+    assert "nine bytes" in enter.why
+
+
 def test_sn300g5_line() -> None:
     line = SN.serial
+    assert bare(line.interface.zh) == "RS485硬件接口"
     assert line.mode.modes == ("rtu",)
     assert line.baud is not None
     assert ({one.code: one.baud for one in line.baud.codes}, line.baud.default) == (sn300g5.BAUD, 3)
@@ -595,6 +647,7 @@ def test_chf_commands_reference_and_standstill() -> None:
 
 def test_chf_line_limits_and_functions() -> None:
     line = CH.serial
+    assert bare(line.interface.zh) == "RS485硬件接口"
     assert set(line.mode.modes) == {"rtu", "ascii"}
     assert line.baud is None
     assert line.format is None

@@ -112,12 +112,18 @@ prose | 查表法 | bitwise
 prose | 这种方程序 | 这种方法程序
 prose | 的的 | 的校验码
 prose | 接受的数据 | 接收的数据
+prose | 奇偶性不变 | each character
 register 1000H | 紧急停机 | coast stop
 register 1001H | empty | four values
 register 3014H | 3014H in the column | 3014H
 error 3 | CRC 校验错误 | no PLC
 error 3 | CRC 校验错误 | LRC in ASCII
 errors | 国际标准 | not that of Modbus
+"""
+
+NOTICES = """
+serial | 异步串行，半双工传输方式 | half duplex
+serial | 大写字母 | capital
 """
 
 ABSENT = """
@@ -127,6 +133,7 @@ serial | lost | time
 area function_codes | list of function codes | sequence numbers
 register 2000H | negative | reference
 setting P0.04 | P0.04 | maximum frequency
+setting P0.04 | P0.07 | 0004H
 register 3000H | scale | 3000H
 register 3004H | scale | current
 register 1001H | values | 1001H

@@ -79,6 +79,6 @@ UNNUMBERED = {
     0x0007: "the range stands in the name",
     0x0008: "the range stands in the name",
     0x000F: "a bit's text gives both values",
-    0x0185: "of two readings one is chosen",
+    0x0185: "the number is a word in English",
 }
 """Registers whose Chinese has numbers that the English names need not have, and why."""

@@ -131,6 +131,11 @@ errors | empty | no codes
 errors | 不能执行功能代码 | 不能执行的功能代码
 """
 
+NOTICES = """
+serial | 41H | capital
+setting F0.04 | 上电可直接运转 | direct start
+"""
+
 ABSENT = """
 register 1001H | scale | 1001H
 errors | error reply | wire

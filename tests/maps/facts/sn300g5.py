@@ -527,6 +527,18 @@ error 23H | ENINT | ENTER
 error 24H | EEPROM 繁忙 | 在参数处理中写入
 fault 21H | 2 秒前 | 2 s
 setting H5-05 | H5-05 设置为 0 | switches the detection off
+setting H5-04 | 1：紧急停止 2：自由停止 | as printed
+setting H5-01 | H5-01~03在变频器投入时设定 | H5-01 to H5-03 are taken over at power-up
+bit 0014H.9 | INV 过热 | the drive
+bit 001AH.7 | INV 过负载 | the drive
+fault 0AH | INV 过热 | the drive
+register 023DH | INV 额定电流 | the drive
+register 0185H | 2 种读法 | as printed
+register 0222H | 防乱时限幅 | as printed
+prose | 奇偶性不变 | each character
+register 0216H | ASR 积分系数 1 | integral time
+register 0481H | 电机保护时间 | overload
+register 0495H | 再试次数 | auto-restart
 """
 """Misprints: what each is about, a piece of what is printed, a piece of what is used."""
 
@@ -547,6 +559,35 @@ PRINTED_BITS = {
 }
 """What is printed for a bit's id, or for its number."""
 
+NOTICES = """
+serial | 异步串行，半双工传输方式 | half duplex
+setting H5-03 | H5-01~03在变频器投入时设定 | powered up
+error 22H | 运行中 PLC 试图写入参数 | cannot be written
+"""
+"""Notices: what each is about, a piece of the Chinese, a piece of the English."""
+
+CORROBORATED = {
+    0x0216: ("ASR integral time 1", "系数", "a1000_manual"),
+    0x0218: ("ASR integral time 2", "系数", "a1000_manual"),
+    0x0481: ("Motor overload protection time", "", "t1000v_manual"),
+    0x0495: ("Number of auto-restart attempts after fault", "再试", "f7_manual"),
+    0x0496: ("Contact operation selection during auto-restart after fault", "再试", "f7_manual"),
+    0x0497: ("Auto-restart interval after fault", "再试", "f7_manual"),
+}
+"""English names that say another thing than the Chinese, or more; the term that they leave; who says so."""
+
+LITERAL = {
+    0x0080: "Present fault",
+    0x0185: "Selection between two ways of reading the sequence inputs",
+    0x01A0: "Control gain",
+    0x01A1: "Control delay time",
+    0x0312: "Motor line-to-line impedance",
+    0x0313: "Motor leakage reactance",
+    0x0323: "Motor 2 line-to-line impedance",
+    0x0324: "Motor 2 leakage reactance",
+}
+"""Names for which no document was found that says more: they say what the Chinese says."""
+
 ABSENT = """
 setting H5-05 | silence | CE
 register 050DH | O2-09 | run command
@@ -561,6 +602,13 @@ register 0000H | reset | fault
 register 0000H | jog | stop
 register 0230H | C8-14 | use
 section monitors_u1 | 0037H | U1-24
+register 0185H | B1-06 | reading
+register 0312H | impedance | resistance
+register 0313H | reactance | inductance
+register 01A0H | B7-01 | control
+register 0216H | C5-02 | times
+register 041FH | H5-04 | power-up
+fault 04H | UV3 | MC
 bit 0010H.1 | zero speed | standstill
 broadcast | broadcast | 0002H
 storage | ENTER | answers
