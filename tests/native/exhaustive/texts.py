@@ -54,7 +54,7 @@ def answer(found: text.Texts | None, language: str) -> bytes:
     """A text as the driver gives it."""
     which, encoding = TEXTS[language]
     texts = found or text.UNKNOWN
-    data = text.shortened(texts[which] or texts.en, encoding)
+    data = (texts[which] or texts.en).encode(encoding)
     return bytes([len(data)]) + data.ljust(ROOM - 1, b"\0")
 
 
