@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Text, Worded
+from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Short, Text, Worded
 from driveblocks.maps.problem import Place, Report
 
 LONGEST = 80
@@ -42,15 +42,10 @@ def _returned(drive: Drive) -> Iterator[Worded | Bit]:
 
 def _wordings(entry: Worded | Bit) -> Iterator[tuple[str, str, Place]]:
     """Language, text and place of what the blocks return: the short wording where there is one."""
-    short = entry.short
-    if short is not None and short.en is not None:
-        yield "en", short.en, short.place("en")
-    elif entry.name is not None:
-        yield "en", entry.name, entry.place("name")
-    if short is not None and short.zh is not None:
-        yield "zh", short.zh, short.place("zh")
-    elif entry.text_zh is not None:
-        yield "zh", entry.text_zh, entry.place("zh_used" if entry.zh_used else "zh")
+    short = entry.short or Short()
+    yield ("en", short.en, short.place("en")) if short.en else ("en", entry.name or "", entry.place("name"))
+    zh = entry.place("zh_used" if entry.zh_used else "zh")
+    yield ("zh", short.zh, short.place("zh")) if short.zh else ("zh", entry.text_zh or "", zh)
 
 
 def _fits(language: str, text: str, place: Place, report: Report) -> None:
