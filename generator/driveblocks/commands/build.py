@@ -1,11 +1,14 @@
 """`driveblocks build`: vendor maps -> Structured Text."""
 
+import contextlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
+    from driveblocks.render.build import Plan
     from driveblocks.render.text import Language
 
 Maps = Annotated[
@@ -34,29 +37,11 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.maps.catalog import UnknownDrive
-    from driveblocks.maps.problem import MapError
-    from driveblocks.render import build, transaction
-    from driveblocks.render.manifest import NAME, Refused
+    from driveblocks.render import transaction
+    from driveblocks.render.manifest import NAME
 
-    languages = _languages(lang, encoding)
-    folder = _folder(output)
-    try:
-        if check:
-            plan = build.plan(folder, _paths(maps), languages, only=only)
-        else:
-            with transaction.locked(folder):
-                if transaction.recover(folder):
-                    typer.echo(f"{folder}: took back a build that was interrupted", err=True)
-                plan = build.plan(folder, _paths(maps), languages, only=only)
-                build.write(folder, plan, force=force)
-    except (MapError, UnknownDrive, Refused) as error:
-        typer.echo("\n".join([str(error), *getattr(error, "__notes__", ())]), err=True)
-        raise typer.Exit(2) from None
-    except OSError as error:
-        left = "the next build puts the old output back" if transaction.interrupted(folder) else "nothing was changed"
-        typer.echo(f"{error.filename}: {error.strerror}; {left}", err=True)
-        raise typer.Exit(2) from None
+    languages, folder = _languages(lang, encoding), _folder(output)
+    plan = _planned(folder, maps, languages, only) if check else _carried_out(folder, maps, languages, only, force)
     wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
     if check and transaction.interrupted(folder):
         wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
@@ -67,6 +52,43 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
     typer.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
+
+
+def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":
+    from driveblocks.render import build
+
+    with _told(folder):
+        return build.plan(folder, _paths(maps), languages, only=only)
+
+
+def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool, force: bool) -> "Plan":
+    from driveblocks.render import build, transaction
+
+    with _told(folder), transaction.locked(folder):
+        if transaction.recover(folder):
+            typer.echo(f"{folder}: took back a build that was interrupted", err=True)
+        plan = build.plan(folder, _paths(maps), languages, only=only)
+        build.write(folder, plan, force=force)
+        return plan
+
+
+@contextlib.contextmanager
+def _told(folder: Path) -> Iterator[None]:
+    """Say what is wrong with maps or folder, and end with status 2."""
+    from driveblocks.maps.catalog import UnknownDrive
+    from driveblocks.maps.problem import MapError
+    from driveblocks.render.manifest import Refused
+    from driveblocks.render.transaction import interrupted
+
+    try:
+        yield
+    except (MapError, UnknownDrive, Refused) as error:
+        typer.echo("\n".join([str(error), *getattr(error, "__notes__", ())]), err=True)
+        raise typer.Exit(2) from None
+    except OSError as error:
+        left = "the next build puts the old output back" if interrupted(folder) else "nothing was changed"
+        typer.echo(f"{error.filename or folder}: {error.strerror}; {left}", err=True)
+        raise typer.Exit(2) from None
 
 
 def _folder(output: str) -> Path:
