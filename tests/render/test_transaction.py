@@ -209,15 +209,18 @@ def test_the_lock_file_of_a_killed_run_is_no_lock(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("again", [False, True])
 def test_a_lock_file_that_its_owner_removes_meanwhile_is_no_lock(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, again: bool
 ) -> None:
-    """Between opening and locking, the run that holds it ends."""
+    """Between opening and locking, the run that holds it ends, and perhaps the next one begins."""
     taken = transaction._lock
 
     def late(file: int) -> None:
         monkeypatch.setattr(transaction, "_lock", taken)
         (tmp_path / transaction.LOCK).unlink()
+        if again:
+            (tmp_path / transaction.LOCK).touch()
         taken(file)
 
     monkeypatch.setattr(transaction, "_lock", late)
