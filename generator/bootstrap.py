@@ -6,12 +6,18 @@
 Both make a virtual environment `.venv` in the checkout and install the project and what it needs into it.
 """
 
+import difflib
 import hashlib
 import os
+import re
 import subprocess
 import sys
 import time
 from pathlib import Path
+
+if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before pip can refuse an old Python, and before `list[str]`)
+    sys.stderr.write(f"Python 3.11 or newer is needed; this is {sys.version.split()[0]}, {sys.executable}\n")
+    sys.exit(2)
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
@@ -20,7 +26,7 @@ BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 DEMO = (
     ("check the vendor maps", "driveblocks", "check"),
     ("build their function blocks", "driveblocks", "build"),
-    ("test the blocks against the manuals", "driveblocks", "test"),
+    ("test the blocks against the manuals (some seconds)", "driveblocks", "test"),
     ("look for other ST compilers", "driveblocks", "doctor"),
 )
 TEST = (
@@ -29,31 +35,62 @@ TEST = (
     ("types", "mypy"),
     ("tests", "pytest", "-n", "auto", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
+LAST_LINE = ("driveblocks", "test")
+"""A step that says all in its last line when nothing is wrong."""
+
+NEXT = """
+made
+  {blocks}: the function blocks, their page README.md, and their test programs in tests{sep}
+next
+  read CONTRIBUTING.md for how the manual of your own drive becomes a map, or try
+  {driveblocks} show jscc     a drive with its commands, registers and faults
+  {driveblocks} test          the test programs of all drives, one by one
+  {driveblocks} --help        everything else
+"""
 
 
 def main(arguments: list[str]) -> int:
     """Set up and run one of the two jobs. Returns the exit status: 0 good, 1 a step failed, 2 wrong call or machine."""
     jobs = {"demo": (DEMO, ""), "test": (TEST, "[test]")}
+    if {"-h", "--help"} & set(arguments):
+        print(__doc__)
+        return 0
     if len(arguments) != 1 or arguments[0] not in jobs:
-        print(__doc__, file=sys.stderr)
-        return 2
-    if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before pip can refuse an old Python)
-        print(f"Python 3.11 or newer is needed; this is {sys.version.split()[0]}", file=sys.stderr)
+        print(wrong(arguments, list(jobs)), file=sys.stderr)
         return 2
     steps, extra = jobs[arguments[0]]
     if not set_up(extra):
         return 2
-    return run(steps)
+    status = run(steps)
+    if steps is DEMO and status == 0:
+        print(
+            NEXT.format(blocks=ROOT / "blocks", sep=os.sep, driveblocks=BIN.relative_to(ROOT) / "driveblocks"), end=""
+        )
+    return status
+
+
+def wrong(arguments: list[str], jobs: list[str]) -> str:
+    """What is wrong with the words of the command line, or all about it where there are none."""
+    if not arguments:
+        return str(__doc__)
+    unknown = [word for word in arguments if word not in jobs]
+    if unknown:
+        near = difflib.get_close_matches(unknown[0], jobs, 1)
+        return f"there is no job `{unknown[0]}`; " + (
+            f"did you mean {near[0]}?" if near else f"write {' or '.join(jobs)}"
+        )
+    return f"one job at a time; write {' or '.join(jobs)}"
 
 
 def set_up(extra: str) -> bool:
     """Make `.venv` and install the project with an extra ("" or "[test]") into it, unless that was done before."""
     wanted = hashlib.sha256((ROOT / "pyproject.toml").read_bytes() + extra.encode()).hexdigest()
     stamp = VENV / f"driveblocks{extra.strip('[]')}.stamp"
-    if stamp.exists() and stamp.read_text(encoding="utf-8") == wanted:
+    whole = is_whole()
+    if whole and stamp.exists() and stamp.read_text(encoding="utf-8") == wanted:
         return True
     say(f"set up {VENV.name}/ (a minute or two)")
-    if not (BIN / "python").exists() and not (BIN / "python.exe").exists() and not make_venv():
+    if not whole and not make_venv():
         return False
     install = [str(BIN / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable"]
     if subprocess.run([*install, f".{extra}"], cwd=ROOT, check=False).returncode:
@@ -63,9 +100,26 @@ def set_up(extra: str) -> bool:
     return True
 
 
+def is_whole() -> bool:
+    """Whether `.venv` has a pip that runs, on a Python that is new enough, and is where it was made.
+
+    The commands of one that was moved or copied run nothing, or what is in its first place.
+    """
+    try:
+        done = subprocess.run(
+            [str(BIN / "pip"), "--version"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False
+        )
+    except OSError:
+        return False
+    said = re.match(r"pip \S+ from (.+) \(python (\d+)\.(\d+)", os.fsdecode(done.stdout))
+    if done.returncode or said is None:
+        return False
+    return VENV.resolve() in Path(said[1]).resolve().parents and (int(said[2]), int(said[3])) >= (3, 11)
+
+
 def make_venv() -> bool:
-    """Make the virtual environment; say what is missing where Python came without its venv module."""
-    if subprocess.run([sys.executable, "-m", "venv", str(VENV)], check=False).returncode:
+    """Make the virtual environment anew; say what is missing where Python came without its venv module."""
+    if subprocess.run([sys.executable, "-m", "venv", "--clear", str(VENV)], check=False).returncode:
         print(
             "Python cannot make a virtual environment; on Debian and Ubuntu: apt install python3-venv", file=sys.stderr
         )
@@ -79,12 +133,24 @@ def run(steps: tuple[tuple[str, ...], ...]) -> int:
     for title, command, *arguments in steps:
         say(title)
         start = time.monotonic()
-        status = subprocess.run([str(BIN / command), *arguments], cwd=ROOT, check=False).returncode
+        status = step(command, *arguments)
         results.append((command, arguments, status, time.monotonic() - start))
     say("result")
     for command, arguments, status, seconds in results:
         print(f"{'ok    ' if status == 0 else 'FAILED'} {seconds:6.1f} s  {command} {' '.join(arguments)}")
     return 1 if any(status for _, _, status, _ in results) else 0
+
+
+def step(*command: str) -> int:
+    """Run a command of the virtual environment; returns its exit status."""
+    words = [str(BIN / command[0]), *command[1:]]
+    if command != LAST_LINE:
+        return subprocess.run(words, cwd=ROOT, check=False).returncode
+    done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, check=False)
+    lines = done.stdout.splitlines(keepends=True)
+    sys.stdout.buffer.write(b"".join(lines if done.returncode else lines[-1:]))
+    sys.stdout.flush()
+    return done.returncode
 
 
 def say(title: str) -> None:
@@ -94,4 +160,7 @@ def say(title: str) -> None:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except KeyboardInterrupt:
+        sys.exit(130)

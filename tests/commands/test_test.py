@@ -31,7 +31,7 @@ def invoke(*arguments: str) -> Result:
 
 
 def test_a_good_map_passes_and_nothing_is_written_but_the_xml(my_drive: str) -> None:
-    result = invoke(my_drive)
+    result = invoke(my_drive, "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     assert sorted(path.name for path in Path.cwd().iterdir()) == ["junit.xml", "my_drive.yaml"]
     last = result.stdout.splitlines()[-1]
@@ -42,8 +42,10 @@ def test_a_good_map_passes_and_nothing_is_written_but_the_xml(my_drive: str) -> 
     assert "my_drive.EX100_TestFrames" in {case.attrib["classname"] for case in root.iter("testcase")}
 
 
-def test_the_table_has_a_row_per_program_and_a_column_per_engine(my_drive: str) -> None:
+def test_the_table_has_a_row_per_program_and_a_column_per_engine_and_no_file_is_written(my_drive: str) -> None:
     lines = invoke(my_drive).stdout.splitlines()
+    assert [path.name for path in Path.cwd().iterdir()] == ["my_drive.yaml"]
+    assert re.search(r": all passed in [\d.]+ s$", lines[-1])
     assert lines[0] == "engine embedded: runs, part of DriveBlocks"
     assert [line.split(":")[0] for line in lines[1:3]] == ["engine matiec-beremiz", "engine matiec-openplc"]
     assert lines[3].split() == ["drive", "program", "checks", "embedded"]
@@ -77,7 +79,7 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
 def test_a_bad_map_gives_status_2_and_is_told_with_its_place(my_drive: str) -> None:
     text = Path(my_drive).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")
     Path("bad.yaml").write_text(text, encoding="utf-8")
-    result = invoke(my_drive, "bad.yaml")
+    result = invoke(my_drive, "bad.yaml", "--junit", "junit.xml")
     assert result.exit_code == 2
     assert re.search(r"^bad\.yaml:\d+:\d+: ", result.stderr, re.MULTILINE)
     assert not Path("junit.xml").exists()
@@ -132,7 +134,7 @@ def test_several_engines_stand_side_by_side(my_drive: str, monkeypatch: pytest.M
             return [found.embedded, discovery.Candidate("matiec-openplc", Second(), "here")]
 
     monkeypatch.setattr(discovery, "survey", lambda: Both(found.embedded, None, found.cache))
-    result = invoke(my_drive, "--engine", "all")
+    result = invoke(my_drive, "--engine", "all", "--junit", "junit.xml")
     assert result.exit_code == 0
     assert "drive     program" in result.stdout
     assert re.search(r"^drive +program +checks +embedded +openplc$", result.stdout, re.MULTILINE)
@@ -162,7 +164,7 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(my_drive: str, monkeypa
 
 
 def test_coverage_is_told_with_what_is_explained_which_fails_nothing(my_drive: str) -> None:
-    result = invoke(my_drive, "--require-coverage", "100")
+    result = invoke(my_drive, "--require-coverage", "100", "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     *_, total, last = result.stdout.splitlines()
     match = re.fullmatch(r"coverage on embedded: lines (\d+)/(\d+), branches (\d+)/(\d+) \((\d+) explained\)", total)

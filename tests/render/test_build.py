@@ -1,11 +1,9 @@
-"""`driveblocks build`: the same text every time, the old output whole when something is wrong, stale output found."""
+"""What is built from maps: the same text every time, in the languages asked for; maps that do not go together."""
 
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from driveblocks.cli import app
 from driveblocks.maps.problem import MapError
 from driveblocks.render import build, text
 
@@ -35,66 +33,6 @@ def test_nothing_in_the_output_depends_on_the_machine(wanted: dict[str, str], tm
     elsewhere = tmp_path / "example.yaml"
     elsewhere.write_bytes(EXAMPLE.read_bytes())
     assert build.files(build.read([elsewhere]), BOTH) == wanted
-
-
-def test_what_is_written_is_current(wanted: dict[str, str], tmp_path: Path) -> None:
-    build.write(tmp_path, wanted)
-    assert build.stale(tmp_path, wanted) == []
-    build.write(tmp_path, wanted)
-    assert sorted(path.name for path in tmp_path.iterdir() if path.name.startswith(".")) == []
-
-
-def test_a_changed_a_missing_and_a_left_over_file_are_stale(wanted: dict[str, str], tmp_path: Path) -> None:
-    build.write(tmp_path, wanted)
-    (tmp_path / "iec61131/modbus/MB_Lrc.st").write_text("(* by hand *)", encoding="utf-8")
-    (tmp_path / "iec61131/modbus/MB_Crc16.st").unlink()
-    (tmp_path / "iec61131/old.st").write_text("", encoding="utf-8")
-    assert build.stale(tmp_path, wanted) == [
-        "iec61131/modbus/MB_Crc16.st",
-        "iec61131/modbus/MB_Lrc.st",
-        "iec61131/old.st",
-    ]
-
-
-def test_a_bad_map_leaves_the_old_output_whole(wanted: dict[str, str], tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    out.mkdir()
-    build.write(out, wanted)
-    bad = changed(tmp_path, "format: 1", "format: 2")
-    result = CliRunner().invoke(app, ["build", str(EXAMPLE), str(bad), "-o", str(out)])
-    assert result.exit_code == 2
-    assert f"{bad}:" in result.output
-    assert build.stale(out, wanted) == []
-
-
-def test_an_unwritable_folder_is_said_plainly(tmp_path: Path) -> None:
-    (tmp_path / "out").write_text("a file, not a folder", encoding="utf-8")
-    result = CliRunner().invoke(app, ["build", str(EXAMPLE), "-o", str(tmp_path / "out")])
-    assert result.exit_code == 2
-    assert "Traceback" not in result.output
-    assert (tmp_path / "out").read_text(encoding="utf-8") == "a file, not a folder"
-
-
-def test_check_names_the_command(tmp_path: Path) -> None:
-    result = CliRunner().invoke(app, ["build", str(EXAMPLE), "-o", str(tmp_path), "--check"])
-    assert result.exit_code == 1
-    assert f"run: driveblocks build {EXAMPLE} -o {tmp_path}" in result.output
-    assert list(tmp_path.iterdir()) == []
-    assert CliRunner().invoke(app, ["build", str(EXAMPLE), "-o", str(tmp_path)]).exit_code == 0
-    assert CliRunner().invoke(app, ["build", str(EXAMPLE), "-o", str(tmp_path), "--check"]).exit_code == 0
-
-
-def test_what_is_checked_in_is_current() -> None:
-    result = CliRunner().invoke(app, ["build", "-o", str(ROOT / "blocks"), "--check"])
-    assert result.exit_code == 0, result.output
-
-
-@pytest.mark.parametrize("arguments", [["--lang", "fr"], ["--lang", ""], ["--encoding", "latin-1"], ["no_such_drive"]])
-def test_wrong_words_are_refused(arguments: list[str], tmp_path: Path) -> None:
-    result = CliRunner().invoke(app, ["build", *arguments, "-o", str(tmp_path)])
-    assert result.exit_code == 2
-    assert "Traceback" not in result.output
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_language_left_out_costs_nothing() -> None:

@@ -1,58 +1,107 @@
 """`driveblocks build`: vendor maps -> Structured Text."""
 
+import contextlib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 if TYPE_CHECKING:
+    from driveblocks.render.build import Plan
     from driveblocks.render.text import Language
 
+Maps = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
+]
+Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when the folder is not current.")]
+Only = Annotated[bool, typer.Option("--only", help="Remove the blocks of drives that are not named.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace also those files of an earlier build that were edited.")]
 
-def run(
-    maps: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-    ] = None,
-    output: Annotated[Path, typer.Option("-o", "--output", help="Folder to write to.")] = Path("blocks"),
+
+def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
+    maps: Maps = None,
+    output: Annotated[str, typer.Option("-o", "--output", help="Folder to write to.")] = "blocks",
     lang: Annotated[str, typer.Option(help="Languages of the texts: en, zh or en,zh.")] = "en,zh",
     encoding: Annotated[str, typer.Option(help="Bytes of Chinese texts: utf-8 or gb18030.")] = "utf-8",
-    check: Annotated[
-        bool, typer.Option("--check", help="Write nothing; exit 1 when the folder is not current.")
-    ] = False,
+    check: Check = False,
+    only: Only = False,
+    force: Force = False,
 ) -> None:
     """Write the function blocks of the drives. The old output stays whole when anything is wrong.
 
+    Drives that are built one after another into one folder join: each build brings all of them up to date, in the
+    languages asked for. What was written is listed in .driveblocks.json there; nothing else is replaced or removed, and
+    nothing that you have edited since, unless with --force.
+
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.maps.catalog import UnknownDrive
-    from driveblocks.maps.problem import MapError
+    from driveblocks.render import transaction
+    from driveblocks.render.manifest import NAME
+
+    languages, folder = _languages(lang, encoding), _folder(output)
+    plan = _planned(folder, maps, languages, only) if check else _carried_out(folder, maps, languages, only, force)
+    wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
+    if check and transaction.interrupted(folder):
+        wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
+    if check and wrong:
+        again = _again({"-o": output, "--lang": lang, "--encoding": encoding}, maps, only)
+        typer.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
+        raise typer.Exit(1)
+    drives = ", ".join(source.drive.prefix for source in plan.sources)
+    changed = len(plan.states.keys() - {NAME})
+    typer.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
+
+
+def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":
     from driveblocks.render import build
 
-    languages = _languages(lang, encoding)
+    with _told(folder):
+        return build.plan(folder, _paths(maps), languages, only=only)
+
+
+def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool, force: bool) -> "Plan":
+    from driveblocks.render import build, transaction
+
+    with _told(folder), transaction.locked(folder):
+        if transaction.recover(folder):
+            typer.echo(f"{folder}: took back a build that was interrupted", err=True)
+        plan = build.plan(folder, _paths(maps), languages, only=only)
+        build.write(folder, plan, force=force)
+        return plan
+
+
+@contextlib.contextmanager
+def _told(folder: Path) -> Iterator[None]:
+    """Say what is wrong with maps or folder, and end with status 2."""
+    from driveblocks.maps.catalog import UnknownDrive
+    from driveblocks.maps.problem import MapError
+    from driveblocks.render.manifest import Refused
+    from driveblocks.render.transaction import interrupted
+
     try:
-        sources = build.read(_paths(maps))
-        wanted = build.files(sources, languages)
-        stale = build.stale(output, wanted)
-        if stale and not check:
-            build.write(output, wanted)
-    except (MapError, UnknownDrive) as error:
-        typer.echo(str(error), err=True)
+        yield
+    except (MapError, UnknownDrive, Refused) as error:
+        typer.echo("\n".join([str(error), *getattr(error, "__notes__", ())]), err=True)
         raise typer.Exit(2) from None
     except OSError as error:
-        typer.echo(f"{error.filename}: cannot be written: {error.strerror}; the old output is untouched", err=True)
+        left = "the next build puts the old output back" if interrupted(folder) else "nothing was changed"
+        typer.echo(f"{error.filename or folder}: {error.strerror}; {left}", err=True)
         raise typer.Exit(2) from None
-    if stale and check:
-        shown = "\n".join(f"  {output / name}" for name in stale)
-        typer.echo(f"not current:\n{shown}\nrun: driveblocks build{_again(maps, output)}", err=True)
-        raise typer.Exit(1)
-    drives = ", ".join(source.drive.prefix for source in sources)
-    typer.echo(f"{output}: {len(wanted)} files for {drives}, {len(stale)} changed")
 
 
-def _again(maps: list[str] | None, output: Path) -> str:
-    named = "".join(f" {name}" for name in maps or ())
-    return named + (f" -o {output}" if output != Path("blocks") else "")
+def _folder(output: str) -> Path:
+    if not output:
+        raise typer.BadParameter("an empty name is no folder; write . for the one you are in", param_hint="--output")
+    return Path(output)
+
+
+def _again(options: dict[str, str], maps: list[str] | None, only: bool) -> str:
+    """The words of the command line that are not the usual ones."""
+    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8"}
+    given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
+    return "".join(f" {word}" for word in [*(maps or ()), *given, *(["--only"] if only else ())])
 
 
 def _paths(maps: list[str] | None) -> list[Path]:

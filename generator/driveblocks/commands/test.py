@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from driveblocks.testing.outcome import Result, Run
 
 SHOWN, PER_PROGRAM = 20, 3
-"""Failures that are printed, in all and of one program; all are in the XML."""
+"""Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
 
 Maps = Annotated[
     list[str] | None,
     typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
 ]
 EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
-Junit = Annotated[Path, typer.Option("--junit", metavar="FILE", help="Where to write the results as JUnit XML.")]
+Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
 Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
 Measure = Annotated[bool, typer.Option("--coverage", help="Say which lines and branches of the blocks have run.")]
 Least = Annotated[
@@ -38,7 +38,7 @@ Least = Annotated[
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
     maps: Maps = None,
     engine: EngineName = "embedded",
-    junit: Junit = Path("junit.xml"),
+    junit: Junit = None,
     time_limit: Seconds = 10.0,
     coverage: Measure = False,
     require_coverage: Least = None,
@@ -68,7 +68,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     programs = runner.run(made, [counting(each) for each in engines] if measured else engines, time_limit, measured)
     done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
     try:
-        xml.write(done, junit)
+        if junit is not None:
+            xml.write(done, junit)
     except OSError as error:
         _refuse(f"{junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
@@ -153,7 +154,7 @@ def _cell(name: str, results: "list[Result]") -> str:
     return f"{bad} failed" if bad else f"{result.seconds * 1000:.1f} ms"
 
 
-def _say(run: "Run", drives: int, junit: Path) -> None:
+def _say(run: "Run", drives: int, junit: Path | None) -> None:
     """The failures, then the sum of it all."""
     shown = 0
     for result in run.results:
@@ -165,8 +166,9 @@ def _say(run: "Run", drives: int, junit: Path) -> None:
             shown += 1
     failed = sum(len(result.bad) for result in run.results)
     if failed > shown:
-        typer.echo(f"and {failed - shown} more, see {junit}")
+        typer.echo(f"and {failed - shown} more, " + (f"see {junit}" if junit else "which --junit FILE writes down"))
     engines = ", ".join(dict.fromkeys(result.engine for result in run.results))
     checks = f"{run.count()} checks of {drives} drive{'s' * (drives != 1)} on {engines}"
     verdict = "all passed" if run.passed else f"{failed} failed"
-    typer.echo(f"{checks}: {verdict} in {run.seconds:.1f} s; {junit}")
+    written = f"; {junit}" if junit else ""
+    typer.echo(f"{checks}: {verdict} in {run.seconds:.1f} s{written}")

@@ -1,22 +1,24 @@
-"""Build the library and its tests: maps -> all files in memory -> folders, exchanged as a whole; or compare."""
+"""Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
-import shutil
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError, Problem, Report
-from driveblocks.render import library
+from driveblocks.render import library, manifest, transaction
+from driveblocks.render.manifest import Manifest, Refused, State
 from driveblocks.render.overview import overview
 from driveblocks.render.text import Language
 from driveblocks.render.vet import vet
 from driveblocks.testing import programs
 
 PLATFORM = "iec61131"
-TREES = (PLATFORM, "tests")
-"""Folders that the generator owns: what it does not write there is left over."""
+SHOWN = 20
+"""Files that a refusal names; the rest are counted."""
 
 
 @dataclass(frozen=True)
@@ -88,46 +90,91 @@ def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
     return texts | programs(sources, languages)
 
 
-def stale(folder: Path, wanted: dict[str, str]) -> list[str]:
-    """Files that differ, are missing or are left over, as paths below the output folder."""
-    found = (path for tree in TREES for path in (folder / tree).rglob("*") if path.is_file())
-    there = {path.relative_to(folder).as_posix() for path in found}
-    wrong = {name for name, text in wanted.items() if _text(folder / name) != text}
-    return sorted(wrong | (there - set(wanted)))
+@dataclass(frozen=True)
+class Plan:
+    """What a folder is to hold, and what of that is not so yet: path below the folder -> why."""
+
+    sources: list[Source]
+    old: Manifest
+    texts: dict[str, str]
+    states: dict[str, State]
 
 
-def _text(path: Path) -> str | None:
-    return path.read_text(encoding="utf-8") if path.is_file() else None
+def plan(folder: Path, named: list[Path], languages: list[Language], *, only: bool = False) -> Plan:
+    """The output of the named maps and, unless only those are wanted, of those that the folder was built from.
 
-
-def write(folder: Path, wanted: dict[str, str]) -> None:
-    """Write all files. Folders are exchanged as a whole, so that a failure leaves the old ones. Raises OSError."""
-    new, old = folder / ".driveblocks.new", folder / ".driveblocks.old"
-    for path in (new, old):
-        shutil.rmtree(path, ignore_errors=True)
-        path.mkdir(parents=True)
-    for name, text in wanted.items():
-        path = new / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", newline="\n")
-    _exchange(folder, new, old)
-    for path in (new, old):
-        shutil.rmtree(path, ignore_errors=True)
-
-
-def _exchange(folder: Path, new: Path, old: Path) -> None:
-    """Put what is in `new` into the folder, all of it or nothing; what it replaces goes to `old`. Raises OSError."""
-    done: list[str] = []
+    Raises MapError, Refused and OSError.
+    """
+    old = manifest.read(folder)
+    others = [] if only else _others(folder, old, named)
     try:
-        for name in sorted(path.name for path in new.iterdir()):
-            if (folder / name).exists():
-                (folder / name).rename(old / name)
-            done.append(name)
-            (new / name).rename(folder / name)
-    except OSError:
-        for name in done:
-            if (folder / name).exists():
-                (folder / name).rename(new / name)
-            if (old / name).exists():
-                (old / name).rename(folder / name)
+        sources = read(sorted([*named, *others], key=lambda path: (path.stem, str(path))))
+    except MapError as error:
+        if others:
+            there = ", ".join(map(str, others))
+            error.add_note(f"{folder} was built from {there} as well; --only builds without")
         raise
+    texts = files(sources, languages)
+    words = [_word(source.path, folder) for source in sources]
+    texts[manifest.NAME] = manifest.made(words, texts, folder, old).text
+    return Plan(sources, old, texts, manifest.compare(folder, old, texts))
+
+
+def write(folder: Path, plan: Plan, *, force: bool = False) -> None:
+    """Carry out a plan in a locked folder, or nothing of it. Raises Refused and OSError.
+
+    With force, files of the generator that were edited since are replaced or removed, too.
+    """
+    foreign = {name for name, state in plan.states.items() if state is State.FOREIGN}
+    edited = {name for name, state in plan.states.items() if state is State.EDITED}
+    if foreign or (edited and not force):
+        raise Refused(_refusal(folder, plan, sorted(foreign if force else foreign | edited)))
+    emptied = sorted(set(plan.old.folders) - set(manifest.parents(plan.texts)))
+    if plan.states:
+        transaction.write(folder, {name: plan.texts.get(name) for name in plan.states}, emptied)
+
+
+def _refusal(folder: Path, plan: Plan, names: list[str]) -> str:
+    lines = [f"{folder / name}: {plan.states[name]}" for name in names[:SHOWN]]
+    if len(names) > SHOWN:
+        lines.append(f"and {len(names) - SHOWN} more")
+    states = {plan.states[name] for name in names}
+    if State.EDITED in states:
+        lines.append("keep what was edited in a copy elsewhere, then build with --force, which replaces it")
+    if State.FOREIGN in states:
+        lines.append("move away what is in the way, or build into another folder")
+    if not plan.old.files and (folder / PLATFORM).is_dir():
+        lines.append(f"if an older version built {folder}, delete what it wrote there; it kept no {manifest.NAME}")
+    return "\n".join([*lines, "nothing was written"])
+
+
+def _others(folder: Path, old: Manifest, named: list[Path]) -> list[Path]:
+    """Maps that the folder was built from and that are not named. Raises Refused for those that are gone.
+
+    A named map takes the place of one of the same file name that is gone: it has been moved.
+    """
+    known, stems = {path.resolve() for path in named}, {path.stem for path in named}
+    paths = [path for path in (_path(word, folder) for word in old.maps) if path.resolve() not in known]
+    if gone := [path for path in paths if not path.exists() and path.stem not in stems]:
+        lines = [f"{path}: not there; {folder} was built from it as well" for path in gone]
+        raise Refused("\n".join([*lines, "name the map where it is now, or build without it by --only"]))
+    return [path for path in paths if path.exists()]
+
+
+def _word(path: Path, folder: Path) -> str:
+    """How a manifest names a map: one that is shipped by its name, another by its path from the folder."""
+    whole = path.resolve()
+    if whole in {shipped.resolve() for shipped in catalog.shipped()}:
+        return whole.stem
+    try:
+        relative = Path(os.path.relpath(whole, folder.resolve())).as_posix()
+    except ValueError:  # on another drive of Windows
+        return whole.as_posix()
+    return relative if "/" in relative else f"./{relative}"
+
+
+def _path(word: str, folder: Path) -> Path:
+    """The map that a manifest names."""
+    if "/" in word:
+        return Path(catalog.shown((folder.resolve() / word).resolve()))
+    return catalog.folder() / f"{word}.yaml"

@@ -1,0 +1,17 @@
+"""Where the command starts: Ctrl-C ends it without a word, also while the program is being loaded."""
+
+import sys
+
+
+def main() -> None:
+    """Run the command line; ends with its exit status, or 130 as shells do for Ctrl-C."""
+    try:
+        from driveblocks import cli
+
+        cli.main()
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,149 @@
+"""What the generator owns in an output folder: a list of the files that it wrote, and what became of each since."""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+NAME = ".driveblocks.json"
+FORMAT = 1
+
+
+class Refused(Exception):  # noqa: N818  (what the user has there is no error of the program)
+    """The folder holds what a build must not touch; the text says what and what would be right."""
+
+
+class State(StrEnum):
+    """Why a file of the output is not as it should be."""
+
+    MISSING = "missing"
+    OUTDATED = "out of date"
+    LEFT_OVER = "left over"
+    EDITED = "edited since it was built"
+    FOREIGN = "in the way, and not written by DriveBlocks"
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """The maps that a folder was built from, its files with their digests, and the folders made for them."""
+
+    maps: tuple[str, ...] = ()
+    files: Mapping[str, str] = field(default_factory=dict)
+    folders: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """The same manifest gives the same text, a line per entry."""
+        content = {"format": FORMAT, "maps": self.maps, "folders": self.folders, "files": self.files}
+        return json.dumps(content, indent=1, sort_keys=True) + "\n"
+
+
+def read(folder: Path) -> Manifest:
+    """The manifest of a folder; an empty one where there is none. Raises Refused if it is no manifest, and OSError."""
+    path = folder / NAME
+    if not os.path.lexists(path):
+        return Manifest()
+    try:
+        return _parsed(json.loads(path.read_text(encoding="utf-8")))
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        right = "restore it, or delete it: files that are as they would be written are then taken over again"
+        raise Refused(f"{path}: not the list that this version of DriveBlocks writes; {right}") from None
+
+
+def _parsed(content: Any) -> Manifest:
+    """Raises ValueError, TypeError, KeyError or AttributeError when it is anything but a manifest."""
+    maps, folders, files = content["maps"], content["folders"], content["files"]
+    if content["format"] != FORMAT or not all(map(is_below, [*folders, *files])):
+        raise ValueError
+    if not all(isinstance(word, str) for word in [*maps, *files.values()]):
+        raise ValueError
+    return Manifest(tuple(maps), dict(files), tuple(folders))
+
+
+def is_below(name: str) -> bool:
+    """Whether a name that was read from a file leads nowhere but into the folder."""
+    path = Path(name)
+    return bool(path.parts) and not path.anchor and ".." not in path.parts
+
+
+def made(maps: Iterable[str], texts: Mapping[str, str], folder: Path, old: Manifest) -> Manifest:
+    """The manifest of what is to be written. A folder that was there before is not the generator's."""
+    mine = (name for name in parents(texts) if name in old.folders or not (folder / name).is_dir())
+    return Manifest(tuple(maps), {name: text_digest(text) for name, text in sorted(texts.items())}, tuple(mine))
+
+
+def parents(names: Iterable[str]) -> list[str]:
+    """All folders of files, each before those inside it."""
+    found = {str(parent) for name in names for parent in PurePosixPath(name).parents}
+    return sorted(found - {"."})
+
+
+def text_digest(text: str) -> str:
+    """What `digest` gives for a file with this text."""
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+
+
+def digest(path: Path) -> str | None:
+    """SHA-256 of a file, None where nothing is, and a word for what is no plain file.
+
+    Line ends count as the generator writes them, since git may have checked the file out with others.
+    """
+    if path.is_symlink():
+        return "link"
+    if path.is_dir():
+        return "folder"
+    if not path.exists():
+        return None
+    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest() if path.is_file() else "device"
+
+
+def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, State]:
+    """What is not as it should be: path below the folder -> why. Raises OSError for what cannot be read."""
+    listed = dict(old.files)
+    if (there := digest(folder / NAME)) is not None:
+        listed[NAME] = there
+    given_up = {name.casefold(): name for name in listed if name not in texts}
+    states = {}
+    for name in sorted({*texts, *listed}):
+        wanted = text_digest(texts[name]) if name in texts else None
+        barrier = _barrier(folder, name)
+        if barrier is not None and wanted is not None:
+            states[barrier] = State.FOREIGN
+        elif barrier is None:
+            here = digest(folder / name)
+            if here is not None and name not in listed and _same(folder, name, given_up.get(name.casefold())):
+                here = None
+            if state := _state(here, listed.get(name), wanted):
+                states[name] = state
+    return states
+
+
+def _state(here: str | None, listed: str | None, wanted: str | None) -> State | None:
+    """What the digests of a file there, in the manifest and in the new output say together."""
+    if here == wanted or (wanted is None and here in {None, "folder"}):
+        return None
+    if here is None:
+        return State.MISSING
+    if listed is None or here == "folder":
+        return State.FOREIGN
+    if here != listed:
+        return State.EDITED
+    return State.LEFT_OVER if wanted is None else State.OUTDATED
+
+
+def _barrier(folder: Path, name: str) -> str | None:
+    """The first part of a file's way that is no folder but a link or a file: nothing is written through it."""
+    for parent in parents([name]):
+        path = folder / parent
+        if path.is_symlink() or (path.exists() and not path.is_dir()):
+            return parent
+    return None
+
+
+def _same(folder: Path, name: str, other: str | None) -> bool:
+    """Whether two names that differ in case are one file, as they are where case does not count."""
+    return other is not None and (folder / other).exists() and (folder / name).samefile(folder / other)

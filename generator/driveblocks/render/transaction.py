@@ -1,0 +1,220 @@
+"""Change many files of a folder as one, so that a killed run, a full disk or a second run leaves the old or the new.
+
+New files are staged in a work folder and listed in its journal; then the old files move into it and the new ones out
+of it. Renaming the work folder is the moment from which the new files count; until then `recover` takes all of it back.
+"""
+
+import contextlib
+import errno
+import json
+import os
+import shutil
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.render.manifest import Refused, digest, is_below, parents, text_digest
+
+WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
+JOURNAL, NEW, OLD = "journal.json", "new", "old"
+
+if sys.platform == "win32":
+    import msvcrt
+
+    def _lock(file: int) -> None:
+        msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
+else:
+    import fcntl
+
+    def _lock(file: int) -> None:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold a folder for one build; make it for that time if need be. Raises Refused while another build has it.
+
+    The operating system drops the lock of a process that dies. What stays empty of what was made is removed.
+    """
+    above = [path for path in (folder, *folder.parents) if not path.exists()]
+    try:
+        file = _taken(folder)
+        try:
+            yield
+        finally:
+            _release(folder / LOCK, file)
+    finally:
+        for path in above:
+            with contextlib.suppress(OSError):
+                path.rmdir()
+
+
+def _taken(folder: Path) -> int:
+    """A locked descriptor of the lock file, and of no removed one of the same name. Raises Refused and OSError."""
+    path = folder / LOCK
+    while True:
+        folder.mkdir(parents=True, exist_ok=True)
+        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        try:
+            _lock(file)
+            if os.path.samestat(os.fstat(file), path.stat()):
+                return file
+        except FileNotFoundError:
+            pass  # its last owner has removed it meanwhile
+        except OSError as error:
+            os.close(file)
+            if error.errno in {errno.EACCES, errno.EAGAIN, errno.EDEADLK}:
+                raise Refused(f"{folder}: another build is at work there; build again when it has ended") from None
+            error.filename = error.filename or str(path)
+            raise
+        os.close(file)
+
+
+def _release(path: Path, file: int) -> None:
+    """Remove the lock file while it is held; where an open file cannot be removed, right after."""
+    try:
+        with contextlib.suppress(OSError):
+            path.unlink()
+    finally:
+        os.close(file)
+    if sys.platform == "win32":
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+
+def interrupted(folder: Path) -> bool:
+    """Whether a build ended before it was complete, so that files of the folder may be old, new or away."""
+    return os.path.exists(folder / WORK / JOURNAL)  # noqa: PTH110  (what cannot be looked at raises nothing)
+
+
+def write(folder: Path, texts: Mapping[str, str | None], emptied: list[str]) -> None:
+    """Write files and remove those without a text, then the folders that are empty then; all of it or nothing.
+
+    The folder must be locked. Raises OSError with the file that it is about, or whatever interrupts it; the folder is
+    then as it was, unless taking it back was interrupted, too: `recover` goes on with that.
+    """
+    work = folder / WORK
+    try:
+        journal = _staged(folder, texts)
+        for name, (before, _) in journal.files.items():
+            if before is not None:
+                _move(folder / name, work / OLD / name, folder / name)
+        for name, (_, after) in journal.files.items():
+            if after is not None:
+                _move(work / NEW / name, folder / name, folder / name)
+        _prune(folder, emptied)
+        with _about(folder):
+            work.rename(folder / DONE)
+    except BaseException:
+        recover(folder)
+        raise
+    shutil.rmtree(folder / DONE, ignore_errors=True)
+
+
+@dataclass(frozen=True)
+class _Journal:
+    """Digests of each file before and after, None for none, and the folders that have to be made."""
+
+    files: dict[str, tuple[str | None, str | None]]
+    folders: list[str]
+
+
+def _staged(folder: Path, texts: Mapping[str, str | None]) -> _Journal:
+    """Stage everything new, then the journal, whole or not at all."""
+    work = folder / WORK
+    new = {name: text for name, text in texts.items() if text is not None}
+    there = {name: digest(folder / name) for name in texts}
+    for name, text in new.items():
+        _put(work / NEW / name, text, folder / name, sync=there[name] is not None)
+    files = {name: (there[name], text_digest(new[name]) if name in new else None) for name in texts}
+    folders = [name for name in parents(new) if not (folder / name).is_dir()]
+    unfinished = work / f"{JOURNAL}.new"
+    _put(unfinished, json.dumps({"files": files, "folders": folders}), work / JOURNAL, sync=any(there.values()))
+    _move(unfinished, work / JOURNAL, work / JOURNAL)
+    return _Journal(files, folders)
+
+
+@contextlib.contextmanager
+def _about(path: Path) -> Iterator[None]:
+    """Let an OSError name the file that the user knows: a full disk names none, a rename one of the work folder."""
+    try:
+        yield
+    except OSError as error:
+        error.filename = str(path)
+        raise
+
+
+def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
+    """Write a text for a file that it will become. Raises OSError that names it.
+
+    What something else goes for must be on the disk itself by then; to wait for that takes seconds for a whole library.
+    """
+    with _about(target):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("wb") as file:
+            file.write(text.encode("utf-8"))
+            file.flush()
+            if sync:
+                os.fsync(file.fileno())
+
+
+def _move(source: Path, target: Path, known: Path) -> None:
+    """Move a file within the folder. Raises OSError that names it as it is known to the user."""
+    with _about(known):
+        target.parent.mkdir(parents=True, exist_ok=True)
+        source.replace(target)
+
+
+def _prune(folder: Path, names: list[str]) -> None:
+    """Remove folders that are empty, inner ones first."""
+    for name in sorted(names, reverse=True):
+        with contextlib.suppress(OSError):
+            (folder / name).rmdir()
+
+
+def recover(folder: Path) -> bool:
+    """Take back a build that did not come to its end; says whether there was one. Raises Refused and OSError."""
+    work = folder / WORK
+    if (folder / DONE).is_dir():
+        shutil.rmtree(folder / DONE)
+    if not work.is_dir():
+        return False
+    begun = interrupted(folder)
+    if begun:
+        _undo(folder, _journal(work))
+    shutil.rmtree(work)
+    return begun
+
+
+def _journal(work: Path) -> _Journal:
+    try:
+        content = json.loads((work / JOURNAL).read_text(encoding="utf-8"))
+        files = {name: (before, after) for name, (before, after) in content["files"].items()}
+        if all(map(is_below, [*files, *content["folders"]])):
+            return _Journal(files, content["folders"])
+    except (ValueError, TypeError, KeyError, AttributeError):
+        pass
+    right = f"copy back what you miss from {work / OLD}, then delete {work}"
+    raise Refused(f"{work / JOURNAL}: not the journal of a build; {right}")
+
+
+def _undo(folder: Path, journal: _Journal) -> None:
+    """Take new files away and put old ones back; can be interrupted and done again.
+
+    Raises Refused for files that someone else has written since: neither they nor the old ones are thrown away.
+    """
+    new, old = folder / WORK / NEW, folder / WORK / OLD
+    made = {after for name, (_, after) in journal.files.items() if after and not os.path.lexists(new / name)}
+    ours = [name for name in journal.files if digest(folder / name) in made]
+    kept = [name for name in journal.files if os.path.lexists(old / name)]
+    if strange := [name for name in kept if name not in ours and os.path.lexists(folder / name)]:
+        lines = [f"{folder / name}: changed since a build was interrupted; {old / name} is older" for name in strange]
+        raise Refused("\n".join([*lines, "delete or move one of the two, then build again"]))
+    for name in kept:
+        if os.path.lexists(old / name):  # where case does not count, two names may have been one file
+            _move(old / name, folder / name, folder / name)
+    for name in ours:
+        if name not in kept and journal.files[name][0] is None:
+            (folder / name).unlink()
+    _prune(folder, journal.folders)

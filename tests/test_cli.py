@@ -1,0 +1,36 @@
+"""The command as a whole: Ctrl-C ends it without a word."""
+
+import builtins
+import runpy
+from typing import Any, NoReturn
+
+import pytest
+from typer.testing import CliRunner
+
+from driveblocks.cli import app
+from driveblocks.maps import catalog
+
+
+def interrupted(*_arguments: object) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def test_ctrl_c_ends_a_command_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(catalog, "shipped", interrupted)
+    result = CliRunner().invoke(app, ["check"])
+    assert (result.exit_code, result.output) == (130, "")
+
+
+def test_ctrl_c_ends_quietly_what_is_still_loading(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    real = builtins.__import__
+
+    def loading(name: str, *arguments: Any, **options: Any) -> object:
+        return interrupted() if arguments[2:3] == (("cli",),) else real(name, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "__import__", loading)
+    with pytest.raises(SystemExit) as end:
+        runpy.run_module("driveblocks", run_name="__main__")
+    assert end.value.code == 130
+    assert not capsys.readouterr().err
