@@ -81,6 +81,7 @@ def named_bits(row: Register) -> tuple[Bit, ...]:
             name=value.name,
             zh=value.zh,
             zh_used=value.zh_used,
+            wording=value.wording,
             note=value.note,
             at=value.at,
         )
@@ -120,7 +121,7 @@ def _entry(entry: Entry) -> Plain:
     said = {key: value for key in keys_of(cls) if (value := getattr(entry, key)) not in (None, ())}
     if isinstance(entry, Named):
         first = {key: said.pop(key) for key in _FIRST if key in said}
-        names = {"name": said.pop("name"), "name_zh": said.pop("zh"), "text_zh": entry.text_zh}
+        names = {"name": said.pop("name"), "name_zh": said.pop("zh", ""), "text_zh": entry.text_zh or ""}
         said.pop("zh_used", None)
         said = {**first, **names, **said}
     return {key: plain(value) for key, value in said.items()}

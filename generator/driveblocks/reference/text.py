@@ -16,6 +16,13 @@ class Texts(NamedTuple):
     zh: str
 
 
+def has_chinese(drive: Drive) -> bool:
+    """Whether a map has any text for blocks in Chinese."""
+    rows = [row for _, row in drive.registers()]
+    lists = (drive.faults.codes, drive.errors.codes, *(row.bits for row in rows), *(row.values for row in rows))
+    return drive.manual.written_in == "zh" or any(one.zh is not None for entries in lists for one in entries)
+
+
 UNKNOWN = Texts("unknown code", "未知代码")
 
 
@@ -32,12 +39,12 @@ def shortened(text: str, encoding: str = "utf-8") -> bytes:
 
 def fault(drive: Drive, code: int) -> Texts | None:
     """The text of a fault code."""
-    return _first(Texts(one.name, one.text_zh) for one in drive.faults.codes if one.code == code)
+    return _first(Texts(one.name, one.text_zh or one.name) for one in drive.faults.codes if one.code == code)
 
 
 def error(drive: Drive, code: int) -> Texts | None:
     """The text of a reason for refusal."""
-    return _first(Texts(one.name, one.text_zh) for one in drive.errors.codes if error_number(one) == code)
+    return _first(Texts(one.name, one.text_zh or one.name) for one in drive.errors.codes if error_number(one) == code)
 
 
 def error_number(entry: ErrorCode) -> int | None:
@@ -60,7 +67,7 @@ def value(drive: Drive, address: int, number: int) -> Texts | None:
     row = drive.register_at(address)
     if row is None or row.address.first != address:
         return None
-    return _first(Texts(one.name, one.text_zh) for one in row.values if one.value == number)
+    return _first(Texts(one.name, one.text_zh or one.name) for one in row.values if one.value == number)
 
 
 def _first(found: Iterable[Texts]) -> Texts | None:

@@ -2,7 +2,7 @@
 
 import shutil
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from driveblocks.maps.load import load
@@ -10,7 +10,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError, Problem, Report
 from driveblocks.render import library
 from driveblocks.render.overview import overview
-from driveblocks.render.text import Language
+from driveblocks.render.text import Language, told
 from driveblocks.render.vet import vet
 from driveblocks.testing import programs
 
@@ -80,6 +80,7 @@ def _shared_folders(sources: list[Source]) -> list[Problem]:
 def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
     """Every file of the output, path below the output folder -> text. The same input gives the same text."""
     made = [*library.generic(languages)]
+    sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     texts = {f"{PLATFORM}/{file.path}": file.text for file in made}

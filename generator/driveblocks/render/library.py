@@ -68,7 +68,7 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 
 
 def _texts(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
-    for language in languages:
+    for language in text.spoken(drive, languages):
         yield _file(stem, "CodeText", text.fault_texts(drive, language))
         yield _file(stem, "CodeText", text.error_texts(drive, language))
         for one in text.place_texts(drive, language):

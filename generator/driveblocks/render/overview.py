@@ -28,10 +28,17 @@ def overview(files: list[File], drives: list[Drive]) -> str:
     types = {file.name: checked.types[file.name.upper()] for file in files if file.folder == "types"}
     return render(
         "README.md.j2",
+        results=_results(files),
         groups={_heading(folder, drives, files): found for folder, found in rows.items()},
         types=[_type(file, types) for file in files if file.name in types],
         examples=[_example(drive, checked.blocks) for drive in drives],
     )
+
+
+def _results(files: list[File]) -> str:
+    """The functions that know the result codes, as the start of a sentence."""
+    names = [f"`{file.name}`" for file in files if file.name.startswith("MB_ResultText")]
+    return " and ".join(names) + (" turn" if len(names) > 1 else " turns")
 
 
 def _heading(folder: str, drives: list[Drive], files: list[File]) -> str:

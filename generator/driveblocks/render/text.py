@@ -1,10 +1,11 @@
 """Contexts of the text functions: faults, errors, bits and values of a drive, and the result codes, per language."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Drive, Entry, Worded
 from driveblocks.render import results
 from driveblocks.render.context import Context, identity, source_of
 from driveblocks.render.literal import string
@@ -38,6 +39,40 @@ ENGLISH = Language("En", "ascii", "unknown code")
 def chinese(encoding: str = "utf-8") -> Language:
     """Chinese in UTF-8 or GB18030."""
     return Language("Zh", encoding, "未知代码")
+
+
+def spoken(drive: Drive, languages: list[Language]) -> list[Language]:
+    """Those of some languages in which a map has texts of its own; every map has English ones."""
+    chinese = drive.manual.written_in == "zh" or any(one.zh for one in _shown(drive))
+    return [language for language in languages if language.suffix == "En" or chinese]
+
+
+def told(drive: Drive, languages: list[Language]) -> Drive:
+    """The map as blocks in some languages tell it: for English alone, without a word in another language."""
+    if any(language.suffix != "En" for language in languages):
+        return drive
+    plain: Drive = _english(drive)
+    return plain
+
+
+def _english(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(map(_english, value))
+    if not isinstance(value, Entry):
+        return value
+    said: dict[str, Any] = {one.name: _english(getattr(value, one.name)) for one in fields(value)}
+    if isinstance(value, Worded):
+        said.update(zh=None, zh_used=None, wording=None)
+    return replace(value, **said)
+
+
+def _shown(drive: Drive) -> Iterator[Worded]:
+    """What becomes a text of a block."""
+    yield from drive.faults.codes
+    yield from drive.errors.codes
+    for _, row in drive.registers():
+        yield from row.bits
+        yield from row.values
 
 
 def languages(codes: list[str], encoding: str) -> list[Language]:
@@ -80,7 +115,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
 
 def _row(language: Language, code: int, en: str, zh: str | None) -> Context:
     text = language.literal(language.pick(en, zh))
-    return {"code": code, "text": text, "comment": zh if language.suffix == "Zh" else ""}
+    return {"code": code, "text": text, "comment": (zh or "") if language.suffix == "Zh" else ""}
 
 
 def _language(language: Language) -> Context:

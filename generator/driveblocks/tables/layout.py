@@ -8,6 +8,11 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from driveblocks.maps.form import holds_chinese
+
+OWN = "own"
+"""The column of the manual's own words."""
+
 LABEL = 12
 """Columns for the label of a line in a card."""
 
@@ -24,6 +29,23 @@ def table(*columns: str, wide: Iterable[str] = (), numbers: Iterable[str] = ()) 
         else:
             made.add_column(column, no_wrap=True, justify="right" if column in numbers else "left")
     return made
+
+
+def listing(columns: tuple[str, ...], rows: Iterable[tuple[str, ...]], wide: Iterable[str] = ()) -> Table:
+    """A table with its rows; the column OWN has a head that fits its words, and is left out where it has none."""
+    known = list(rows)
+    words = [row[columns.index(OWN)] for row in known]
+    kept = [at for at, column in enumerate(columns) if column != OWN or any(words)]
+    heads = {OWN: own_head(words)}
+    made = table(*(heads.get(columns[at], columns[at]) for at in kept), wide=[heads.get(one, one) for one in wide])
+    for row in known:
+        made.add_row(*(row[at] for at in kept))
+    return made
+
+
+def own_head(words: Iterable[str]) -> str:
+    """What stands over the manual's own words."""
+    return "中文" if any(map(holds_chinese, words)) else "as printed"
 
 
 def card(title: str, *lines: Line) -> RenderableType:

@@ -30,7 +30,7 @@ def pages(drive: Drive, file: str) -> Iterator[RenderableType]:
 
 
 def _text(text: Text) -> str:
-    return both(text.en, text.zh_used or text.zh)
+    return both(text.en, text.own)
 
 
 def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:

@@ -25,8 +25,10 @@ class Language(Protocol):
 
 
 def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[Script]:
-    """Programs per kind of text and language."""
+    """Programs per kind of text and language that the map has."""
     for language in languages:
+        if language.suffix == "Zh" and not reference.has_chinese(drive):
+            continue
         yield _codes(drive, stem, language, "Fault", sorted({fault.code for fault in drive.faults.codes}))
         numbers = {reference.error_number(error) for error in drive.errors.codes}
         yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
