@@ -71,7 +71,10 @@ def _area(drive: Drive, address: int) -> tuple[str, str, str] | None:
 
 def _numbered(area: Area, address: int) -> tuple[str, str]:
     place = address - area.addresses.first
-    return f"{area.name}, {area.numbered_by.replace('_', ' ')} {place}", f"{area.text_zh} {place}" if area.text_zh else ""
+    return (
+        f"{area.name}, {area.numbered_by.replace('_', ' ')} {place}",
+        f"{area.text_zh} {place}" if area.text_zh else "",
+    )
 
 
 def _stored(drive: Drive, area: Area, address: int) -> str:

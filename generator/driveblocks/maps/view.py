@@ -38,6 +38,10 @@ def of_drive(drive: Drive, stem: str) -> Plain:
     }
 
 
+UNPROVED = "no example frames: the tests rest on the reference model alone, which reads the same map"
+"""What is said wherever a map without example frames is shown: a slip in it passes all its own tests."""
+
+
 def title(drive: Drive) -> str:
     """Maker and family in English, the maker once."""
     vendor, family = drive.vendor.en, drive.family.en

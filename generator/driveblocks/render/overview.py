@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.view import UNPROVED
 from driveblocks.render import context
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
@@ -30,6 +31,7 @@ def overview(files: list[File], drives: list[Drive]) -> str:
         "README.md.j2",
         results=_results(files),
         groups={_heading(folder, drives, files): found for folder, found in rows.items()},
+        unproved={context.identity(drive).family: UNPROVED for drive in drives if not drive.frames},
         types=[_type(file, types) for file in files if file.name in types],
         examples=[_example(drive, checked.blocks) for drive in drives],
     )
