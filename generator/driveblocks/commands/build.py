@@ -28,6 +28,7 @@ def run(
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
     from driveblocks.render import build
+    from driveblocks.render.text import missing
 
     languages = _languages(lang, encoding)
     try:
@@ -48,6 +49,8 @@ def run(
         raise typer.Exit(1)
     drives = ", ".join(source.drive.prefix for source in sources)
     typer.echo(f"{output}: {len(wanted)} files for {drives}, {len(stale)} changed")
+    for note in filter(None, (missing(source.drive, languages) for source in sources)):
+        typer.echo(note)
 
 
 def _again(maps: list[str] | None, output: Path) -> str:

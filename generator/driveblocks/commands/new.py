@@ -25,11 +25,16 @@ def run(
     path = output or Path(f"{prefix.lower()}.yaml")
     text = _named(prefix)
     try:
-        with path.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        file = path.open("x", encoding="utf-8", newline="\n")
     except FileExistsError:
         _refuse(f"{path}: is there already; name another file with -o")
     except OSError as error:
+        _refuse(f"{path}: cannot be written: {error.strerror}")
+    try:
+        with file:
+            file.write(text)
+    except OSError as error:
+        path.unlink(missing_ok=True)
         _refuse(f"{path}: cannot be written: {error.strerror}")
     typer.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
     typer.echo(f"driveblocks check {path}")

@@ -13,8 +13,8 @@ PREFIX = "ACME"
 
 _KEYS = """# Every key of a map
 
-The reference to [the guide](README.md). Written by `driveblocks schema vendor_maps` from the model of maps. `must` marks
-the keys that cannot be left out.
+The reference to [the guide](README.md). Written by `driveblocks schema vendor_maps` from the model of maps. `must`
+marks the keys that cannot be left out.
 """
 
 

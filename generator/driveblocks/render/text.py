@@ -47,6 +47,15 @@ def spoken(drive: Drive, languages: list[Language]) -> list[Language]:
     return [language for language in languages if language.suffix == "En" or chinese]
 
 
+def missing(drive: Drive, languages: list[Language]) -> str:
+    """What to say of a family without texts in a language that was asked for; empty where it has all."""
+    found = spoken(drive, languages)
+    if len(found) == len(languages):
+        return ""
+    only = "its texts are English alone" if found else "it gets no text functions; --lang en makes them"
+    return f"{drive.prefix}: the map has no Chinese texts: {only}"
+
+
 def told(drive: Drive, languages: list[Language]) -> Drive:
     """The map as blocks in some languages tell it: for English alone, without a word in another language."""
     if any(language.suffix != "En" for language in languages):

@@ -76,7 +76,8 @@ def _unit(line: Serial) -> str:
     unit = line.unit
     setting = f" by {unit.setting}" if unit.setting else ""
     default = "" if unit.default is None else f"; factory setting {unit.default}"
-    return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source})"
+    beyond = f"; beyond the standard's 247 by {unit.above_247}" if unit.above_247 else ""
+    return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source}{beyond})"
 
 
 def _silence(line: Serial) -> str | None:
