@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from driveblocks.maps.model import Drive, ErrorCode
+from driveblocks.maps.model import Drive, ErrorCode, Worded
 
 LONGEST = 80
 """Bytes that a STRING of unstated size holds everywhere; a longer text ends before the character that does not fit."""
@@ -16,11 +16,9 @@ class Texts(NamedTuple):
     zh: str
 
 
-def has_chinese(drive: Drive) -> bool:
-    """Whether a map has any text for blocks in Chinese."""
-    rows = [row for _, row in drive.registers()]
-    lists = (drive.faults.codes, drive.errors.codes, *(row.bits for row in rows), *(row.values for row in rows))
-    return drive.manual.written_in == "zh" or any(one.zh is not None for entries in lists for one in entries)
+def has(drive: Drive, suffix: str, entries: Iterable[Worded]) -> bool:
+    """Whether a function tells of some entries in En or Zh: Chinese needs the manual's, or that of one of them."""
+    return suffix == "En" or drive.manual.written_in == "zh" or any(one.zh is not None for one in entries)
 
 
 UNKNOWN = Texts("unknown code", "未知代码")

@@ -68,9 +68,11 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 
 
 def _texts(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
-    for language in text.spoken(drive, languages):
-        yield _file(stem, "CodeText", text.fault_texts(drive, language))
-        yield _file(stem, "CodeText", text.error_texts(drive, language))
+    for language in languages:
+        if text.exists(drive, "Fault", language):
+            yield _file(stem, "CodeText", text.fault_texts(drive, language))
+        if text.exists(drive, "Error", language):
+            yield _file(stem, "CodeText", text.error_texts(drive, language))
         for one in text.place_texts(drive, language):
             yield _file(stem, "PlaceText", one)
 

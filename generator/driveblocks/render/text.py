@@ -1,6 +1,6 @@
 """Contexts of the text functions: faults, errors, bits and values of a drive, and the result codes, per language."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -41,18 +41,16 @@ def chinese(encoding: str = "utf-8") -> Language:
     return Language("Zh", encoding, "未知代码")
 
 
-def spoken(drive: Drive, languages: list[Language]) -> list[Language]:
-    """Those of some languages in which a map has texts of its own; every map has English ones."""
-    chinese = drive.manual.written_in == "zh" or any(one.zh for one in _shown(drive))
-    return [language for language in languages if language.suffix == "En" or chinese]
+def exists(drive: Drive, kind: str, language: Language) -> bool:
+    """Whether a map has texts of a kind in a language: always in English, and in Chinese if any has its Chinese."""
+    return language.suffix == "En" or drive.manual.written_in == "zh" or any(one.zh for one in _shown(drive)[kind])
 
 
 def missing(drive: Drive, languages: list[Language]) -> str:
     """What to say of a family without texts in a language that was asked for; empty where it has all."""
-    found = spoken(drive, languages)
-    if len(found) == len(languages):
+    if all(any(exists(drive, kind, language) for kind in _shown(drive)) for language in languages):
         return ""
-    only = "its texts are English alone" if found else "it gets no text functions; --lang en makes them"
+    only = "its texts are English alone" if ENGLISH in languages else "it gets no text functions; --lang en makes them"
     return f"{drive.prefix}: the map has no Chinese texts: {only}"
 
 
@@ -75,13 +73,15 @@ def _english(value: Any) -> Any:
     return replace(value, **said)
 
 
-def _shown(drive: Drive) -> Iterator[Worded]:
-    """What becomes a text of a block."""
-    yield from drive.faults.codes
-    yield from drive.errors.codes
-    for _, row in drive.registers():
-        yield from row.bits
-        yield from row.values
+def _shown(drive: Drive) -> dict[str, Sequence[Worded]]:
+    """What has texts in blocks, by the kind of text function."""
+    rows = [row for _, row in drive.registers()]
+    return {
+        "Fault": drive.faults.codes,
+        "Error": drive.errors.codes,
+        "Bit": [bit for row in rows for bit in row.bits],
+        "Value": [value for row in rows for value in row.values],
+    }
 
 
 def languages(codes: list[str], encoding: str) -> list[Language]:
@@ -141,7 +141,7 @@ def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
     values = [_group(drive, address, "values", language) for address in _addresses(drive)]
     kinds = (("Bit", "bit of the word, 0 to 15", bits), ("Value", "value of the word", values))
     for pin, comment, groups in kinds:
-        if any(group["rows"] for group in groups):
+        if any(group["rows"] for group in groups) and exists(drive, pin, language):
             yield {
                 "name": f"{drive.prefix}_{pin}Text{language.suffix}",
                 "title": f"{pin.lower()}s of {identity(drive).family}",

@@ -54,7 +54,7 @@ def notices(drive: Drive) -> Iterator[RenderableType]:
 
 
 def of_notice(notice: Notice) -> RenderableType:
-    """One of them, in both languages."""
+    """One of them, in English and as printed."""
     return card(
         f"{notice.kind}: {notice.text.en}",
         (own_head([notice.text.own]), notice.text.own),

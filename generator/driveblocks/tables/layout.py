@@ -1,5 +1,6 @@
 """The look of everything that `show` prints: tables, cards and headings that read well from 80 columns on."""
 
+import re
 from collections.abc import Iterable
 
 from rich import box
@@ -10,6 +11,7 @@ from rich.text import Text
 
 from driveblocks.maps.form import holds_chinese
 
+_KANA = re.compile("[\u3040-\u30ff]")
 OWN = "own"
 """The column of the manual's own words."""
 
@@ -45,7 +47,8 @@ def listing(columns: tuple[str, ...], rows: Iterable[tuple[str, ...]], wide: Ite
 
 def own_head(words: Iterable[str]) -> str:
     """What stands over the manual's own words."""
-    return "中文" if any(map(holds_chinese, words)) else "as printed"
+    text = "".join(words)
+    return "中文" if holds_chinese(text) and not _KANA.search(text) else "as printed"
 
 
 def card(title: str, *lines: Line) -> RenderableType:
@@ -65,7 +68,7 @@ def facts(*lines: Line) -> Table:
 
 
 def choices(rows: Iterable[tuple[str, ...]]) -> Table | None:
-    """Codes with their meaning in both languages, to stand beside a label; None without any."""
+    """Codes with their meaning in English and as printed, to stand beside a label; None without any."""
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(no_wrap=True, justify="right")
     for row in rows:
@@ -79,7 +82,7 @@ def heading(text: str) -> Text:
 
 
 def both(en: str | None, zh: str | None) -> str:
-    """A text in both languages, side by side; once where they are the same."""
+    """A text in English and as printed, side by side; once where they are the same."""
     return "  ".join(dict.fromkeys(text for text in (en, zh) if text))
 
 
