@@ -42,14 +42,16 @@ def run(
 
 def _named(prefix: str) -> str:
     """The skeleton with another prefix. Ends with status 2 where no map may have it."""
-    from driveblocks.maps import load, page
+    from driveblocks.maps import form, load, page
     from driveblocks.maps.problem import MapError
 
+    if not form.PREFIX.pattern.fullmatch(prefix):
+        _refuse(f"this cannot be a prefix; {form.PREFIX.right}")
     text = page.skeleton().replace(page.PREFIX, prefix)
     try:
         load.loads(text, "the map")
     except MapError as error:
-        _refuse(f"`{prefix}` cannot be a prefix: {error.problems[0].wrong}; {error.problems[0].right}")
+        _refuse(f"{prefix} cannot be a prefix: {error.problems[0].wrong}; {error.problems[0].right}")
     return text
 
 
