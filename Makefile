@@ -12,7 +12,7 @@ blocks:               ## blocks/ from the maps and templates
 counts:               ## the tables of drives in the READMEs, from the maps
 	$(DB) counts README.md vendor_maps/README.md
 
-schema:               ## vendor_maps/schema.json and the key tables of the format page, from the model
+schema:               ## vendor_maps/schema.json and keys.md from the model, and the smallest map in the guide
 	$(DB) schema vendor_maps
 
 fuzz:                 ## 10^4 random mutations of the vendor maps, 4000 of ST files, 10^6 damaged replies per reply parser

@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from driveblocks.cli import app
-from driveblocks.maps import catalog
+from driveblocks.maps import catalog, page, view
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
@@ -57,6 +57,22 @@ def test_all_maps_are_checked_when_the_first_is_bad(good: str, bad: str) -> None
     assert result.stdout.startswith("good.yaml: good: ")
     assert "missing.yaml:1:1: this file cannot be read: No such file or directory; " in result.stderr
     assert result.stderr.splitlines()[-1] == "2 of 3 maps bad, 3 mistakes"
+
+
+def test_a_map_without_example_frames_is_good_and_told_what_its_tests_rest_on(good: str) -> None:
+    before, _, rest = page.skeleton().partition("frames:")
+    Path(good).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")
+    result = CliRunner().invoke(app, ["check", good])
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.splitlines()[1] == f"good.yaml: note: {view.UNPROVED}"
+    tested = CliRunner().invoke(app, ["test", good])
+    assert tested.exit_code == 0
+    assert f"ACME: {view.UNPROVED}" in tested.stdout.splitlines()
+    built = CliRunner().invoke(app, ["build", good, "-o", "out"])
+    assert built.exit_code == 0
+    assert view.UNPROVED in Path("out/README.md").read_text(encoding="utf-8")
+    shown = CliRunner().invoke(app, ["show", good], env={"COLUMNS": "200"})
+    assert view.UNPROVED in shown.stdout
 
 
 def test_a_folder_is_refused(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from rich.cells import cell_len
 from typer.testing import CliRunner
 
 from driveblocks.cli import app
-from driveblocks.maps import catalog, inventory
+from driveblocks.maps import catalog, inventory, view
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
@@ -30,6 +30,18 @@ def test_the_table_fits_and_names_each_drive(shelf: Path, columns: int) -> None:
     row = next(line for line in lines if line.startswith("example"))
     assert row.split()[:2] == ["example", "EX100_*"]
     assert row.split()[-4:] == ["26", "4", "9", "8"]
+
+
+def test_a_map_without_example_frames_is_shown_as_such(shelf: Path) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8")
+    before, _, rest = text.partition("\nframes:")
+    bare = f"{before}\nframes: []\nerrata:{rest.partition('errata:')[2]}"
+    for proof in (", proof: read_voltage_reply", "[frame write_reference_request]", "[frame run_request]"):
+        bare = bare.replace(proof, "[prose]" if proof.startswith("[") else "")
+    (shelf / "example.yaml").write_text(bare, encoding="utf-8")
+    result = CliRunner().invoke(app, ["list"], env={"COLUMNS": "200"})
+    assert result.exit_code == 0
+    assert f"example: {view.UNPROVED}" in result.stdout.splitlines()
 
 
 def test_json_has_each_drive_whole_with_file_and_counts(shelf: Path) -> None:

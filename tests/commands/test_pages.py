@@ -11,7 +11,9 @@ import typer
 from driveblocks.cli import app
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md")]
+PAGES = [
+    ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md", "vendor_maps/README.md")
+]
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 
 

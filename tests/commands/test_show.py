@@ -16,6 +16,7 @@ from driveblocks import __version__
 from driveblocks.cli import app
 from driveblocks.commands.show import TOPICS
 from driveblocks.maps import catalog
+from driveblocks.maps.page import skeleton
 
 EXAMPLE = str(Path(__file__).parents[1] / "maps" / "example.yaml")
 MAPS = [EXAMPLE, *(str(path) for path in catalog.shipped())]
@@ -36,6 +37,19 @@ def page(*words: str, columns: int = 80) -> str:
 def squeezed(text: str) -> str:
     """A text with every run of blanks and line ends as one blank, so that folding does not matter."""
     return " ".join(text.split())
+
+
+@pytest.mark.parametrize(
+    ("own", "head"),
+    [("", "name"), (", wording: Overcurent", "name as printed"), (", zh: 过流", "name 中文")],
+)
+def test_the_column_of_the_manuals_own_words_is_there_where_it_has_some(tmp_path: Path, own: str, head: str) -> None:
+    path = tmp_path / "acme.yaml"
+    text = skeleton().replace("name: Overcurrent", f"name: Overcurrent{own}")
+    path.write_text(text, encoding="utf-8")
+    shown = squeezed(show(str(path), "faults").stdout)
+    assert f"code display {head} note" in shown
+    assert f"Overcurrent {own.partition(': ')[2]}".strip() in shown
 
 
 @pytest.mark.parametrize("columns", [80, 120])

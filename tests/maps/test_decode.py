@@ -121,7 +121,7 @@ def test_an_entry_goes_on_without_a_bad_optional_key() -> None:
 
 
 def test_an_entry_without_a_required_key_is_not_built() -> None:
-    assert decoded(Text, "{en: Monitors, zh: }")[0] is None
+    assert decoded(Text, "{en: , zh: 监测}")[0] is None
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,12 @@ def test_every_class_is_in_the_schema() -> None:
     assert set(json.loads(schema.text())["definitions"]) == {cls.__name__ for cls in page.classes()}
 
 
-def test_the_format_page_is_current() -> None:
+def test_the_reference_is_current() -> None:
+    written = (ROOT / "vendor_maps/keys.md").read_text(encoding="utf-8")
+    assert written == page.reference(), "run: driveblocks schema vendor_maps"
+
+
+def test_the_guide_is_current() -> None:
     text = (ROOT / "vendor_maps/README.md").read_text(encoding="utf-8")
     assert page.update(text) == text, "run: driveblocks schema vendor_maps"
 

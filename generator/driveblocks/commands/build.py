@@ -39,6 +39,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     """
     from driveblocks.render import transaction
     from driveblocks.render.manifest import NAME
+    from driveblocks.render.text import missing
 
     languages, folder = _languages(lang, encoding), _folder(output)
     plan = _planned(folder, maps, languages, only) if check else _carried_out(folder, maps, languages, only, force)
@@ -52,6 +53,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
     typer.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
+    for note in filter(None, (missing(source.drive, languages) for source in plan.sources)):
+        typer.echo(note)
 
 
 def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":

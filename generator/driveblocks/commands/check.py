@@ -35,7 +35,7 @@ def run(maps: Maps = None) -> None:
 
 def _check(name: str) -> int:
     """Check one map, print what came out, and return the number of mistakes."""
-    from driveblocks.maps import catalog
+    from driveblocks.maps import catalog, view
     from driveblocks.maps.load import load
     from driveblocks.maps.problem import MapError
 
@@ -48,7 +48,10 @@ def _check(name: str) -> int:
     except MapError as error:
         typer.echo(error, err=True)
         return len(error.problems)
-    typer.echo(f"{path if catalog.is_path(name) else name}: good: {_held(drive)}")
+    shown = path if catalog.is_path(name) else name
+    typer.echo(f"{shown}: good: {_held(drive)}")
+    if not drive.frames:
+        typer.echo(f"{shown}: note: {view.UNPROVED}")
     return 0
 
 

@@ -61,7 +61,11 @@ def _print_table(loaded: "dict[Path, Drive]") -> None:
     made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)
     for path, drive in loaded.items():
         held = counts.of_drive(drive)
-        family = both(view.title(drive), drive.family.zh_used or drive.family.zh)
+        family = both(view.title(drive), drive.family.own)
         numbers = (held.total.registers, held.faults, held.frames, held.errata)
         made.add_row(path.stem, f"{drive.prefix}_*", family, *map(str, numbers))
-    console.write(made, "\n`driveblocks show DRIVE` tells everything about one of them.")
+    console.write(made)
+    for path, drive in loaded.items():
+        if not drive.frames:
+            console.write(f"\n{path.stem}: {view.UNPROVED}")
+    console.write("\n`driveblocks show DRIVE` tells everything about one of them.")

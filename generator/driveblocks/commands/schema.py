@@ -1,4 +1,4 @@
-"""`driveblocks schema`: what is made from the model of maps: the JSON Schema, and the tables of the format page."""
+"""`driveblocks schema`: what is made from the model of maps: the JSON Schema, and what the pages on the format hold."""
 
 from pathlib import Path
 from typing import Annotated
@@ -12,14 +12,14 @@ def run(
     folder: Annotated[
         Path | None,
         typer.Argument(
-            metavar="FOLDER", help="Folder with schema.json and README.md; without it, the schema is printed."
+            metavar="FOLDER", help="Folder with schema.json, keys.md and README.md; without it, the schema is printed."
         ),
     ] = None,
     check: Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a file is not current.")] = False,
 ) -> None:
-    """Write the JSON Schema and the key tables of the map format.
+    """Write the JSON Schema and the reference of the map format, and the smallest map into its guide.
 
-    Both are made from the model of maps.
+    Schema and reference are made from the model of maps.
 
     Example: driveblocks schema vendor_maps
     """
@@ -36,7 +36,7 @@ def run(
 
 
 def _files(folder: Path) -> dict[Path, str]:
-    files = {folder / "schema.json": schema.text()}
+    files = {folder / "schema.json": schema.text(), folder / "keys.md": page.reference()}
     readme = folder / "README.md"
     if page.BEGIN in _read(readme):
         files[readme] = page.update(_read(readme))

@@ -73,6 +73,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     except OSError as error:
         _refuse(f"{junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
+    _unproved(sources)
     _cover(measured)
     _say(done, len(sources), junit)
     raise typer.Exit(0 if done.passed else 1)
@@ -124,6 +125,15 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         most = max(len(result.outcomes) for result in results)
         made.add_row(unit, program, str(most), *(_cell(name, results) for name in names))
     console.write(made)
+
+
+def _unproved(sources: "list[Source]") -> None:
+    """Name the drives whose tests no example frame of a manual backs."""
+    from driveblocks.maps.view import UNPROVED
+
+    for source in sources:
+        if not source.drive.frames:
+            typer.echo(f"{source.drive.prefix}: {UNPROVED}")
 
 
 def _cover(measured: "list[Coverage]") -> None:

@@ -71,7 +71,10 @@ def _area(drive: Drive, address: int) -> tuple[str, str, str] | None:
 
 def _numbered(area: Area, address: int) -> tuple[str, str]:
     place = address - area.addresses.first
-    return f"{area.name}, {area.numbered_by.replace('_', ' ')} {place}", f"{area.text_zh} {place}"
+    return (
+        f"{area.name}, {area.numbered_by.replace('_', ' ')} {place}",
+        f"{area.text_zh} {place}" if area.text_zh else "",
+    )
 
 
 def _stored(drive: Drive, area: Area, address: int) -> str:
@@ -104,7 +107,7 @@ def _lines(row: Register, word: int) -> Iterator[Line]:
     for value in row.values:
         if word & value.value if row.masks else word == value.value & 0xFFFF:
             mark = f".{value.value.bit_length() - 1:X}" if row.masks else "="
-            yield Line(mark, "", value.name, value.text_zh, 1 if row.masks else value.value)
+            yield Line(mark, "", value.name, value.text_zh or "", 1 if row.masks else value.value)
 
 
 def _bit(bit: Bit, found: int) -> Iterator[Line]:
@@ -117,9 +120,9 @@ def _bit(bit: Bit, found: int) -> Iterator[Line]:
     meaning = _listed(bit.values, found)
     if len(bit.bit) > 1:
         named = f"{bit.name}: {meaning.name if meaning else 'no listed value'}"
-        yield Line(mark, bit.id or "", named, meaning.text_zh if meaning else bit.text_zh or "", found)
+        yield Line(mark, bit.id or "", named, (meaning.text_zh if meaning else bit.text_zh) or "", found)
     elif meaning is not None:
-        yield Line(mark, bit.id or "", meaning.name, meaning.text_zh, found)
+        yield Line(mark, bit.id or "", meaning.name, meaning.text_zh or "", found)
     elif found:
         yield Line(mark, bit.id or "", bit.name or "", bit.text_zh or "", found)
 
@@ -134,7 +137,7 @@ def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
         return
     fault = next((one for one in drive.faults.codes if one.code == word), None)
     if fault is not None:
-        yield Line("fault", fault.id or "", fault.name, fault.text_zh, word)
+        yield Line("fault", fault.id or "", fault.name, fault.text_zh or "", word)
     elif word == 0:
         yield Line("fault", "", "no fault", "无故障", 0)
     else:

@@ -15,7 +15,7 @@ from driveblocks.explain.wire import Wire
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
-from driveblocks.tables.layout import facts, table
+from driveblocks.tables.layout import facts, own_head, table
 
 
 def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
@@ -116,15 +116,17 @@ def _registers(registers: tuple[Held, ...]) -> Table:
     """Registers with their words; without words only their names, and without names only the words."""
     words = any(one.word is not None for one in registers)
     named = any(one.name or one.note for one in registers)
-    columns = [name for name, shown in (("word", words), ("name", named), ("中文", named), ("means", words)) if shown]
-    made = table("address", *columns, wide={"name", "中文", "means"} & set(columns))
+    own = [one.zh for one in registers] + [line.zh for one in registers for line in one.lines]
+    head = own_head(own)
+    columns = [name for name, shown in (("word", words), ("name", named), (head, any(own)), ("means", words)) if shown]
+    made = table("address", *columns, wide={"name", head, "means"} & set(columns))
     for number, one in enumerate(registers, 1):
         place = address_text(one.address) if one.address is not None else f"word {number}"
         name = "  ".join(filter(None, (one.id, one.name))) or ("" if one.known else one.note)
-        cells = {"word": _word(one), "name": name, "中文": one.zh, "means": _means(one)}
+        cells = {"word": _word(one), "name": name, head: one.zh, "means": _means(one)}
         made.add_row(place, *(cells[column] for column in columns))
         for line in one.lines:
-            cells = _line(line)
+            cells = {**_line(line), head: line.zh}
             made.add_row(f" {line.mark}", *(cells[column] for column in columns))
     return made
 
@@ -144,4 +146,4 @@ def _means(one: Held) -> str:
 
 def _line(line: Line) -> dict[str, str]:
     value = "" if line.value is None else f"= {line.value}"
-    return {"word": value, "name": "  ".join(filter(None, (line.id, line.name))), "中文": line.zh, "means": ""}
+    return {"word": value, "name": "  ".join(filter(None, (line.id, line.name))), "means": ""}

@@ -113,7 +113,7 @@ class Reader:
 
     def function(self, code: int) -> str:
         """A function by its number, as the drive's manual or the standard names it."""
-        known = {one.code: both(one.name, one.text_zh) for one in self.drive.functions} if self.drive else {}
+        known = {one.code: both(one.name, one.own) for one in self.drive.functions} if self.drive else {}
         return known.get(code) or _STANDARD.get(code) or f"function {code:02X}H"
 
     def _reason(self, code: int, *, standard: bool = False) -> str:
@@ -123,7 +123,7 @@ class Reader:
         if found is None:
             return f"{code:02X}H, which the map does not list"
         likely = ", by the standard" if found.code is None else ""
-        return f"{code:02X}H {both(found.name, found.text_zh)}{likely}"
+        return f"{code:02X}H {both(found.name, found.own)}{likely}"
 
     # ------------------------------------------------------------ the fields
 
@@ -168,7 +168,7 @@ class Reader:
 
     def _sub_function(self, code: int) -> str:
         functions = self.drive.functions if self.drive else ()
-        known = {sub.code: both(sub.name, sub.text_zh) for one in functions for sub in one.sub_functions}
+        known = {sub.code: both(sub.name, sub.own) for one in functions for sub in one.sub_functions}
         return f"{code:04X}H {known.get(code, 'Return query data' if code == 0 else '')}".rstrip()
 
     def _data(self, one: Layout, part: Part, asked: Asked | None) -> str:
@@ -262,8 +262,8 @@ def _causes(drive: Drive, code: int | None) -> Iterator[str]:
     if found is None:
         return
     if found.meaning:
-        yield f"Means: {both(found.meaning.en, found.meaning.zh_used or found.meaning.zh)}"
+        yield f"Means: {both(found.meaning.en, found.meaning.own)}"
     for cause in found.causes:
-        yield f"Cause: {both(cause.en, cause.zh_used or cause.zh)}"
+        yield f"Cause: {both(cause.en, cause.own)}"
     if found.note:
         yield found.note

@@ -90,7 +90,9 @@ def _form(name: str, pattern: str, parse: Callable[[str], Any], right: str, *, n
 
 
 TEXT = _form("text", r"(?s)\S(.*\S)?", str, "write a text of at least one character, with no space at either end")
-ENGLISH = _form("English text", r"(?s)\S(.*\S)?", str, "write it in English; the manual's own words go to the `zh` key")
+ENGLISH = _form(
+    "English text", r"(?s)\S(.*\S)?", str, "write it in English; the manual's own words go to `zh` or `wording`"
+)
 WORD = _form("word", r"[a-z][a-z0-9_]*", str, "write lower-case letters, digits and _, starting with a letter")
 PREFIX = _form(
     "block prefix", r"[A-Z][A-Z0-9]{0,11}", str, "write 1 to 12 upper-case letters and digits, such as SN300G5"

@@ -136,14 +136,14 @@ def _everything(drive: Drive) -> Iterator[tuple[str, str]]:
         if not row.unused:
             yield row.id or address_text(row.address.first), _words(row)
     for fault in drive.faults.codes:
-        shown = "  ".join(filter(None, (f"{fault.code:02X}H", fault.id, "fault", fault.name, fault.text_zh)))
+        shown = "  ".join(filter(None, (f"{fault.code:02X}H", fault.id, "fault", fault.name, fault.own)))
         yield fault.id or f"{fault.code:02X}H", shown
     for frame in drive.frames:
         yield frame.id, f"{frame.id}  example frame"
 
 
 def _words(row: Register) -> str:
-    return "  ".join(filter(None, (span_text(row.address), row.id, row.name, row.text_zh)))
+    return "  ".join(filter(None, (span_text(row.address), row.id, row.name, row.own)))
 
 
 def _neighbours(drive: Drive, upper: str) -> list[str]:

@@ -30,6 +30,8 @@ Ref = Annotated[str, form.REFERENCE]
 Symbol = Annotated[str, form.SYMBOL]
 
 Access = Literal["r", "w", "rw"]
+Language = Literal["en", "zh", "cs", "da", "de", "es", "fi", "fr", "it", "ja", "ko", "nl", "pl", "pt", "ru", "sv", "tr"]
+"""A language of manuals, by ISO 639-1."""
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
@@ -41,6 +43,13 @@ def fact(doc: str, example: str, *, optional: bool = False, default: Any = None)
     """Declare a key: its meaning, one example as YAML, and whether it may be left out."""
     metadata = {"doc": doc, "example": example}
     return field(metadata=metadata, default=default) if optional else field(metadata=metadata)
+
+
+_CHINESE = "the manual's Chinese, as printed, misprints included; a must where the manual is Chinese"
+_WORDING = (
+    "the manual's own words where it is neither English nor Chinese; of an English manual, what is printed where the "
+    "English departs from it"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,29 +64,46 @@ class Entry:
         return self.keys.get(key, self.at)
 
 
+class Worded:
+    """Base of entries with a name or text in English, and perhaps in Chinese or in the manual's own words."""
+
+    zh: str | None
+    zh_used: str | None
+    wording: str | None
+
+    @property
+    def text_zh(self) -> str | None:
+        """The Chinese to show to a person."""
+        return self.zh_used or self.zh
+
+    @property
+    def own(self) -> str:
+        """What stands beside the English to find it in the manual: the Chinese, or its own words, or nothing."""
+        return self.text_zh or self.wording or ""
+
+
 @dataclass(frozen=True, kw_only=True)
-class Text(Entry):
-    """A text in English and in the manual's Chinese."""
+class Text(Worded, Entry):
+    """A text in English, and as the manual has it where that is another language."""
 
     en: English = fact("English", "Shanghai SHUEN")
-    zh: Str = fact("Chinese as the manual prints it", "上海数恩")
+    zh: Str | None = fact(
+        "Chinese as the manual prints it; a must where the manual is Chinese", "上海数恩", optional=True
+    )
     zh_used: Str | None = fact("Chinese as it should read, where the manual misprints it", "超速", optional=True)
+    wording: Str | None = fact(_WORDING, "Schaltanlagenbau Nord", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Named(Entry):
-    """Base of entries with a name in both languages."""
+class Named(Worded, Entry):
+    """Base of entries with a name."""
 
     name: English = fact("English name, a short noun phrase; identifiers are made from it", "Output frequency")
-    zh: Str = fact("the manual's own wording, as printed, misprints included", "输出频率")
+    zh: Str | None = fact(_CHINESE, "输出频率", optional=True)
     zh_used: Str | None = fact(
         "the wording to show, where `zh` holds a misprint (needs an erratum)", "超速", optional=True
     )
-
-    @property
-    def text_zh(self) -> str:
-        """The Chinese to show to a person."""
-        return self.zh_used or self.zh
+    wording: Str | None = fact(_WORDING, "Ausgangsfrequenz", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +115,7 @@ class Short(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Worded(Named):
+class Returned(Named):
     """Base of entries whose names a block returns as texts."""
 
     short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
@@ -109,12 +135,22 @@ class Corroboration(Entry):
 class Manual(Entry):
     """The manual that the map was read from."""
 
-    title: Text = fact("title in both languages", "{en: Communication protocol, zh: 通讯协议说明}")
+    language: Language | None = fact(
+        "its language; left out, it is Chinese where the title has a `zh`, and English where it has none",
+        "en",
+        optional=True,
+    )
+    title: Text = fact("title in English, and as printed", "{en: Communication protocol, zh: 通讯协议说明}")
     publisher: Text = fact("who published it", "{en: Shanghai SHUEN, zh: 上海数恩}")
     edition: Str | None = fact("edition or date as printed; left out when none is printed", "V20160418", optional=True)
     covers: English = fact(
         "which part of the drive's documentation this is", "chapter 11 of the user manual", optional=True
     )
+
+    @property
+    def written_in(self) -> Language:
+        """The language of the manual, whether it is said or follows from the title."""
+        return self.language or ("zh" if self.title.zh else "en")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,7 +164,7 @@ class Document(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Value(Worded):
+class Value(Returned):
     """One value of an enumeration."""
 
     value: Number = fact("the number on the wire or on the keypad", "1")
@@ -248,6 +284,11 @@ class UnitAddress(Entry):
     min: Number = fact("smallest", "1")
     max: Number = fact("greatest", "247")
     source: English = fact("where the manual says so", "bus structure (3)")
+    above_247: English | None = fact(
+        "where the manual says that 248 to 255 are addresses too, which the standard reserves",
+        "table 3, `1 to 250`",
+        optional=True,
+    )
     setting: Id | None = fact("id of the keypad setting", "H5-01", optional=True)
     default: Number | None = fact("factory setting", "1", optional=True)
 
@@ -365,14 +406,15 @@ class PrintedBit(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bit(Entry):
+class Bit(Worded, Entry):
     """A bit, a field of bits, or a hole in a word."""
 
     bit: Bits = fact("bit number in hexadecimal, or a range for a field or a hole", "8-F")
     name: English | None = fact("English name; left out for a hole", "Running", optional=True)
-    zh: Str | None = fact("the manual's wording, as printed", '"1: 运行中"', optional=True)
+    zh: Str | None = fact(_CHINESE, '"1: 运行中"', optional=True)
     zh_used: Str | None = fact("the wording to show, where `zh` holds a misprint", "超速", optional=True)
     short: Short | None = fact("shorter wordings, where a text is longer than 80 bytes", "{zh: ...}", optional=True)
+    wording: Str | None = fact(_WORDING, '"1: In Betrieb"', optional=True)
     id: Str | None = fact("the manual's short id, such as a fault's", "UV1", optional=True)
     unused: bool = fact("the manual says that the bit is not used", "true", optional=True, default=False)
     values: tuple[Value, ...] = fact(
@@ -386,11 +428,6 @@ class Bit(Entry):
     )
     note: English | None = fact("what else a person must know", "terminals 9 and 10", optional=True)
 
-    @property
-    def text_zh(self) -> str | None:
-        """The Chinese to show to a person."""
-        return self.zh_used or self.zh
-
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedRow(Entry):
@@ -401,7 +438,7 @@ class PrintedRow(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Register(Entry):
+class Register(Worded, Entry):
     """One row of a register table: a register, or a run of registers that one row describes."""
 
     address: Addresses = fact("wire address, zero-based, or a range", "0026H")
@@ -409,10 +446,11 @@ class Register(Entry):
     name: English | None = fact(
         "English name; left out where the manual gives no name", "DC bus voltage", optional=True
     )
-    zh: Str | None = fact("the manual's wording, as printed", "直流电压", optional=True)
+    zh: Str | None = fact(_CHINESE, "直流电压", optional=True)
     zh_used: Str | None = fact(
         "the wording to show, where `zh` holds a misprint (needs an erratum)", "输出功率", optional=True
     )
+    wording: Str | None = fact(_WORDING, "Zwischenkreisspannung", optional=True)
     access: Access | None = fact("overrides the section's access", "r", optional=True)
     unused: bool = fact("the manual says that the address is not used", "true", optional=True, default=False)
     unit: Unit | None = fact("unit of the engineering value", "Hz", optional=True)
@@ -439,11 +477,6 @@ class Register(Entry):
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
     )
-
-    @property
-    def text_zh(self) -> str | None:
-        """The Chinese to show to a person."""
-        return self.zh_used or self.zh
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -588,7 +621,7 @@ class BitRelation(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fault(Worded):
+class Fault(Returned):
     """One fault code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
@@ -630,7 +663,7 @@ class ErrorForm(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ErrorCode(Worded):
+class ErrorCode(Returned):
     """One reason for a refusal."""
 
     code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)
@@ -810,7 +843,9 @@ class Drive(Entry):
     notices: tuple[Notice, ...] = fact(
         "prohibitions, warnings, hazards, procedures", "[{kind: warning, text: ..., source: ...}]"
     )
-    frames: tuple[Frame, ...] = fact("the manual's example frames", "[{id: ..., direction: request, mode: rtu, ...}]")
+    frames: tuple[Frame, ...] = fact(
+        "the manual's example frames; `[]` where it has none", "[{id: ..., direction: request, mode: rtu, ...}]"
+    )
     errata: tuple[Erratum, ...] = fact(
         "every misprint and contradiction", "[{about: [...], where: ..., printed: ..., used: ..., why: ..., ...}]"
     )

@@ -1,25 +1,40 @@
-"""The reference part of the format page: every key of a map with its meaning and one example, from the model."""
+"""What the pages on the format take from elsewhere: the smallest map, and every key with its meaning and an example."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.shape import EntryOf, Key, ListOf, keys_of
 
-BEGIN, END = "<!-- keys:begin -->", "<!-- keys:end -->"
+BEGIN, END = "<!-- skeleton:begin -->", "<!-- skeleton:end -->"
+
+PREFIX = "ACME"
+"""What the names of the skeleton's blocks start with."""
+
+_KEYS = """# Every key of a map
+
+The reference to [the guide](README.md). Written by `driveblocks schema vendor_maps` from the model of maps. `must`
+marks the keys that cannot be left out.
+"""
 
 
 def update(text: str) -> str:
-    """Return a page's text with the part between the markers made anew. Raises ValueError without markers."""
+    """Return the guide's text with the map between the markers made anew. Raises ValueError without markers."""
     before, begin, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
     if not begin or not end:
         raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
-    return f"{before}{BEGIN}\n{reference()}{END}{after}"
+    return f"{before}{BEGIN}\n```yaml\n{skeleton()}```\n{END}{after}"
+
+
+def skeleton() -> str:
+    """The smallest whole map, with comments that say what to replace."""
+    return Path(__file__).with_name("skeleton.yaml").read_text(encoding="utf-8")
 
 
 def reference() -> str:
     """Markdown: one table per kind of entry, in the order in which they first appear in a map."""
-    return "".join(_table(cls) for cls in classes())
+    return _KEYS + "".join(_table(cls) for cls in classes())
 
 
 def classes() -> Iterator[type]:
@@ -38,7 +53,7 @@ def _parts(cls: type) -> list[type]:
 def _table(cls: type) -> str:
     purpose = (cls.__doc__ or "").strip().splitlines()[0]
     rows = "".join(_row(key) for key in keys_of(cls).values())
-    return f"\n### {cls.__name__}\n\n{purpose}\n\n| key | must | meaning | example |\n|---|---|---|---|\n{rows}"
+    return f"\n## {cls.__name__}\n\n{purpose}\n\n| key | must | meaning | example |\n|---|---|---|---|\n{rows}"
 
 
 def _row(key: Key) -> str:

@@ -38,6 +38,10 @@ def of_drive(drive: Drive, stem: str) -> Plain:
     }
 
 
+UNPROVED = "no example frames: the tests rest on the reference model alone, which reads the same map"
+"""What is said wherever a map without example frames is shown: a slip in it passes all its own tests."""
+
+
 def title(drive: Drive) -> str:
     """Maker and family in English, the maker once."""
     vendor, family = drive.vendor.en, drive.family.en
@@ -81,6 +85,7 @@ def named_bits(row: Register) -> tuple[Bit, ...]:
             name=value.name,
             zh=value.zh,
             zh_used=value.zh_used,
+            wording=value.wording,
             note=value.note,
             at=value.at,
         )
@@ -120,7 +125,7 @@ def _entry(entry: Entry) -> Plain:
     said = {key: value for key in keys_of(cls) if (value := getattr(entry, key)) not in (None, ())}
     if isinstance(entry, Named):
         first = {key: said.pop(key) for key in _FIRST if key in said}
-        names = {"name": said.pop("name"), "name_zh": said.pop("zh"), "text_zh": entry.text_zh}
+        names = {"name": said.pop("name"), "name_zh": said.pop("zh", ""), "text_zh": entry.text_zh or ""}
         said.pop("zh_used", None)
         said = {**first, **names, **said}
     return {key: plain(value) for key, value in said.items()}

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from driveblocks.maps.model import Bit, Drive, ErrorCode, Worded
+from driveblocks.maps.model import Bit, Drive, ErrorCode, Returned, Worded
 
 
 class Texts(NamedTuple):
@@ -13,10 +13,15 @@ class Texts(NamedTuple):
     zh: str
 
 
+def has(drive: Drive, suffix: str, entries: Iterable[Worded]) -> bool:
+    """Whether a function tells of some entries in En or Zh: Chinese needs the manual's, or that of one of them."""
+    return suffix == "En" or drive.manual.written_in == "zh" or any(one.zh is not None for one in entries)
+
+
 UNKNOWN = Texts("unknown code", "未知代码")
 
 
-def of(entry: Worded | Bit) -> Texts:
+def of(entry: Returned | Bit) -> Texts:
     """What a block returns for an entry: per language the short wording, else the full one."""
     name, zh = entry.name or "", entry.text_zh or entry.name or ""
     return Texts(name, zh) if entry.short is None else Texts(entry.short.en or name, entry.short.zh or zh)

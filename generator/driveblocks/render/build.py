@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from driveblocks.maps import catalog
@@ -12,7 +12,7 @@ from driveblocks.maps.problem import MapError, Problem, Report
 from driveblocks.render import library, manifest, transaction
 from driveblocks.render.manifest import Manifest, Refused, State
 from driveblocks.render.overview import overview
-from driveblocks.render.text import Language
+from driveblocks.render.text import Language, told
 from driveblocks.render.vet import vet
 from driveblocks.testing import programs
 
@@ -82,6 +82,7 @@ def _shared_folders(sources: list[Source]) -> list[Problem]:
 def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
     """Every file of the output, path below the output folder -> text. The same input gives the same text."""
     made = [*library.generic(languages)]
+    sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     texts = {f"{PLATFORM}/{file.path}": file.text for file in made}

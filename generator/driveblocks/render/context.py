@@ -37,14 +37,20 @@ class Identity:
 def identity(drive: Drive) -> Identity:
     """Prefix, family and manual of a drive."""
     edition = f", edition {drive.manual.edition}" if drive.manual.edition else ""
-    manual = f"{drive.manual.title.en} ({drive.manual.title.zh}), {drive.manual.publisher.en}{edition}."
+    manual = f"{title(drive)}, {drive.manual.publisher.en}{edition}."
     vendor = "" if drive.vendor.en in drive.family.en else f"{drive.vendor.en} "
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
 
 
 def source_of(drive: Drive, source: str) -> str:
     """The place of a fact: manual and section."""
-    return f"{drive.manual.title.en} ({drive.manual.title.zh}): {source}."
+    return f"{title(drive)}: {source}."
+
+
+def title(drive: Drive) -> str:
+    """The title of the manual in English, and as printed where that is another language."""
+    known = drive.manual.title
+    return f"{known.en} ({known.own})" if known.own else known.en
 
 
 def symbol(entry: Register | Bit | Value, fallback: str = "") -> str:
@@ -159,7 +165,7 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Con
         "name": names.block(drive.prefix, symbol(row) + suffix),
         "address_text": address_text(row.address.first),
         "title": _inside_a_sentence(row.name or ""),
-        "zh": row.text_zh,
+        "own": row.own,
         "note": row.note,
         "source": source_of(drive, row.source or section.source),
     }
@@ -174,7 +180,7 @@ def _bit_parts(row: Register) -> Iterator[Context]:
     for bit in row.bits:
         if bit.unused or not bit.name:
             continue
-        where = f"bit{'s' * (len(bit.bit) > 1)} {bits_text(bit.bit)}: {bit.text_zh}"
+        where = f"bit{'s' * (len(bit.bit) > 1)} {bits_text(bit.bit)}{': ' * bool(bit.own)}{bit.own}"
         if len(bit.bit) == 1:
             yield part(symbol(bit), "BOOL", bit_test("Value", bit.bit.first), f"{bit.name}; {where}")
         else:
@@ -187,7 +193,11 @@ def _field_parts(bit: Bit, where: str) -> Iterator[Context]:
     yield part(symbol(bit), "UINT", f"WORD_TO_UINT({shifted} AND {word(mask)})", f"{bit.name}; {where}")
     for value in bit.values:
         test = f"(Value AND {word(mask << low)}) = {word(value.value << low)}"
-        yield part(symbol(value), "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
+        yield part(symbol(value), "BOOL", test, _said(value))
+
+
+def _said(value: Value) -> str:
+    return f"{value.value}: {value.name}{'; ' * bool(value.own)}{value.own}"
 
 
 def _value_parts(row: Register) -> Iterator[Context]:
@@ -195,7 +205,7 @@ def _value_parts(row: Register) -> Iterator[Context]:
     for value in row.values:
         test = bit_test("Value", value.value.bit_length() - 1) if row.masks else f"Value = {word(value.value)}"
         known.append(symbol(value))
-        yield part(known[-1], "BOOL", test, f"{value.value}: {value.name}; {value.text_zh}")
+        yield part(known[-1], "BOOL", test, _said(value))
     if known and row.masks:
         yield part("Unknown", "BOOL", _unlisted_bits(row), "TRUE: no bit is set, or one that the manual does not list")
     elif known:

@@ -69,8 +69,10 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 
 def _texts(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     for language in languages:
-        yield _file(stem, "CodeText", text.fault_texts(drive, language))
-        yield _file(stem, "CodeText", text.error_texts(drive, language))
+        if text.exists(drive, "Fault", language):
+            yield _file(stem, "CodeText", text.fault_texts(drive, language))
+        if text.exists(drive, "Error", language):
+            yield _file(stem, "CodeText", text.error_texts(drive, language))
         for one in text.place_texts(drive, language):
             yield _file(stem, "PlaceText", one)
 

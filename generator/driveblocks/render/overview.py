@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.view import UNPROVED
 from driveblocks.render import context
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
@@ -28,10 +29,18 @@ def overview(files: list[File], drives: list[Drive]) -> str:
     types = {file.name: checked.types[file.name.upper()] for file in files if file.folder == "types"}
     return render(
         "README.md.j2",
+        results=_results(files),
         groups={_heading(folder, drives, files): found for folder, found in rows.items()},
+        unproved={context.identity(drive).family: UNPROVED for drive in drives if not drive.frames},
         types=[_type(file, types) for file in files if file.name in types],
         examples=[_example(drive, checked.blocks) for drive in drives],
     )
+
+
+def _results(files: list[File]) -> str:
+    """The functions that know the result codes, as the start of a sentence."""
+    names = [f"`{file.name}`" for file in files if file.name.startswith("MB_ResultText")]
+    return " and ".join(names) + (" turn" if len(names) > 1 else " turns")
 
 
 def _heading(folder: str, drives: list[Drive], files: list[File]) -> str:

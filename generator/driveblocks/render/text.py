@@ -1,10 +1,11 @@
 """Contexts of the text functions: faults, errors, bits and values of a drive, and the result codes, per language."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Worded
+from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
 from driveblocks.render import results
 from driveblocks.render.context import Context, identity, source_of
 from driveblocks.render.literal import string
@@ -22,7 +23,7 @@ class Language:
         """The text as a STRING literal, whole: a checked map has none that is too long."""
         return string(text, self.encoding)
 
-    def pick(self, entry: Worded | Bit) -> str:
+    def pick(self, entry: Returned | Bit) -> str:
         """The text of an entry in this language, in its short wording where it has one."""
         en = (entry.short and entry.short.en) or entry.name or ""
         return en if self.suffix == "En" else (entry.short and entry.short.zh) or entry.text_zh or en
@@ -34,6 +35,49 @@ ENGLISH = Language("En", "ascii", "unknown code")
 def chinese(encoding: str = "utf-8") -> Language:
     """Chinese in UTF-8 or GB18030."""
     return Language("Zh", encoding, "未知代码")
+
+
+def exists(drive: Drive, kind: str, language: Language) -> bool:
+    """Whether a map has texts of a kind in a language: always in English, and in Chinese if any has its Chinese."""
+    return language.suffix == "En" or drive.manual.written_in == "zh" or any(one.zh for one in _shown(drive)[kind])
+
+
+def missing(drive: Drive, languages: list[Language]) -> str:
+    """What to say of a family without texts in a language that was asked for; empty where it has all."""
+    if all(any(exists(drive, kind, language) for kind in _shown(drive)) for language in languages):
+        return ""
+    only = "its texts are English alone" if ENGLISH in languages else "it gets no text functions; --lang en makes them"
+    return f"{drive.prefix}: the map has no Chinese texts: {only}"
+
+
+def told(drive: Drive, languages: list[Language]) -> Drive:
+    """The map as blocks in some languages tell it: for English alone, without a word in another language."""
+    if any(language.suffix != "En" for language in languages):
+        return drive
+    plain: Drive = _english(drive)
+    return plain
+
+
+def _english(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(map(_english, value))
+    if not isinstance(value, Entry):
+        return value
+    said: dict[str, Any] = {one.name: _english(getattr(value, one.name)) for one in fields(value)}
+    if isinstance(value, Worded):
+        said.update(zh=None, zh_used=None, wording=None)
+    return replace(value, **said)
+
+
+def _shown(drive: Drive) -> dict[str, Sequence[Worded]]:
+    """What has texts in blocks, by the kind of text function."""
+    rows = [row for _, row in drive.registers()]
+    return {
+        "Fault": drive.faults.codes,
+        "Error": drive.errors.codes,
+        "Bit": [bit for row in rows for bit in row.bits],
+        "Value": [value for row in rows for value in row.values],
+    }
 
 
 def languages(codes: list[str], encoding: str) -> list[Language]:
@@ -75,12 +119,12 @@ def error_texts(drive: Drive, language: Language) -> Context:
     return {"name": f"{drive.prefix}_ErrorText{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
-def _entry(language: Language, code: int, entry: Worded | Bit) -> Context:
+def _entry(language: Language, code: int, entry: Returned | Bit) -> Context:
     return _row(language, code, language.pick(entry), entry.text_zh)
 
 
 def _row(language: Language, code: int, text: str, zh: str | None) -> Context:
-    return {"code": code, "text": language.literal(text), "comment": zh if language.suffix == "Zh" else ""}
+    return {"code": code, "text": language.literal(text), "comment": (zh or "") if language.suffix == "Zh" else ""}
 
 
 def _language(language: Language) -> Context:
@@ -97,7 +141,7 @@ def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
     values = [_group(drive, address, "values", language) for address in _addresses(drive)]
     kinds = (("Bit", "bit of the word, 0 to 15", bits), ("Value", "value of the word", values))
     for pin, comment, groups in kinds:
-        if any(group["rows"] for group in groups):
+        if any(group["rows"] for group in groups) and exists(drive, pin, language):
             yield {
                 "name": f"{drive.prefix}_{pin}Text{language.suffix}",
                 "title": f"{pin.lower()}s of {identity(drive).family}",

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from rich.console import RenderableType
 
 from driveblocks.maps.model import Absence, Corroboration, Drive, Erratum, Notice
-from driveblocks.tables.layout import both, card, heading, listed
+from driveblocks.tables.layout import both, card, heading, listed, own_head
 
 
 def errata(drive: Drive) -> Iterator[RenderableType]:
@@ -54,10 +54,10 @@ def notices(drive: Drive) -> Iterator[RenderableType]:
 
 
 def of_notice(notice: Notice) -> RenderableType:
-    """One of them, in both languages."""
+    """One of them, in English and as printed."""
     return card(
         f"{notice.kind}: {notice.text.en}",
-        ("中文", notice.text.zh_used or notice.text.zh),
+        (own_head([notice.text.own]), notice.text.own),
         ("about", listed(notice.about)),
         ("note", notice.note),
         ("source", notice.source),

@@ -8,7 +8,7 @@ from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register
 from driveblocks.tables.errata import corroborated, of_absence, of_erratum, of_notice
-from driveblocks.tables.layout import both, card, code_text, facts, heading, listed, table
+from driveblocks.tables.layout import OWN, both, card, code_text, facts, heading, listed, listing
 
 
 def faults(drive: Drive) -> Iterator[RenderableType]:
@@ -22,19 +22,17 @@ def faults(drive: Drive) -> Iterator[RenderableType]:
     yield facts(
         ("reported in", listed(map(span_text, known.registers))), ("fault bits", relation), ("source", known.source)
     )
-    made = table("code", "display", "name", "中文", "note", wide=("name", "中文", "note"))
-    for fault in known.codes:
-        made.add_row(code_text(fault.code), fault.id or "", fault.name, fault.text_zh, fault.note or "")
-    yield made
+    rows = ((code_text(one.code), one.id or "", one.name, one.own, one.note or "") for one in known.codes)
+    yield listing(("code", "display", "name", OWN, "note"), rows, ("name", OWN, "note"))
 
 
 def of_fault(drive: Drive, fault: Fault) -> Iterator[RenderableType]:
     """One fault code with its bits, the registers that report it, and what is recorded about it."""
-    bits = [f"{place}  {both(bit.name, bit.text_zh)}" for place, bit in bits_of(drive, fault.id)]
+    bits = [f"{place}  {both(bit.name, bit.own)}" for place, bit in bits_of(drive, fault.id)]
     printed = fault.zh if fault.zh_used else None
     yield card(
         f"{drive.prefix}  fault {code_text(fault.code)} ({fault.code})  {fault.id or ''}".rstrip(),
-        ("name", both(fault.name, fault.text_zh)),
+        ("name", both(fault.name, fault.own)),
         ("printed", listed(text for text in (fault.printed_code, printed) if text)),
         ("bits", "\n".join(bits)),
         ("reported in", listed(map(span_text, drive.faults.registers))),
@@ -80,12 +78,12 @@ def _form(drive: Drive) -> str:
 def of_error(drive: Drive, error: ErrorCode) -> RenderableType:
     """One reason for a refusal."""
     code = "no code" if error.code is None else code_text(error.code)
-    causes = [f"- {both(cause.en, cause.zh_used or cause.zh)}" for cause in error.causes]
+    causes = [f"- {both(cause.en, cause.own)}" for cause in error.causes]
     meaning = error.meaning
     return card(
-        f"error {code}  {both(error.name, error.text_zh)}",
+        f"error {code}  {both(error.name, error.own)}",
         ("printed", error.zh if error.zh_used else None),
-        ("meaning", both(meaning.en, meaning.zh_used or meaning.zh) if meaning else None),
+        ("meaning", both(meaning.en, meaning.own) if meaning else None),
         ("causes", "\n".join(causes)),
         ("note", error.note),
         ("also says", corroborated(drive, error.corroborated)),

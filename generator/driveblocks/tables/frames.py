@@ -7,6 +7,7 @@ from rich.text import Text
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Means, PlcTable
+from driveblocks.maps.view import UNPROVED
 from driveblocks.tables.layout import card, code_text, heading, listed
 
 
@@ -14,6 +15,8 @@ def frames(drive: Drive) -> Iterator[RenderableType]:
     """Every example frame, in the manual's order."""
     wrong = sum(frame.checksum == "wrong" for frame in drive.frames)
     yield heading(f"{len(drive.frames)} example frames, {wrong} with a wrong checksum")
+    if not drive.frames:
+        yield UNPROVED
     for frame in drive.frames:
         yield of_frame(frame)
 

@@ -1,5 +1,6 @@
 """The look of everything that `show` prints: tables, cards and headings that read well from 80 columns on."""
 
+import re
 from collections.abc import Iterable
 
 from rich import box
@@ -7,6 +8,12 @@ from rich.console import Group, RenderableType
 from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
+
+from driveblocks.maps.form import holds_chinese
+
+_KANA = re.compile("[\u3040-\u30ff]")
+OWN = "own"
+"""The column of the manual's own words."""
 
 LABEL = 12
 """Columns for the label of a line in a card."""
@@ -26,6 +33,24 @@ def table(*columns: str, wide: Iterable[str] = (), numbers: Iterable[str] = ()) 
     return made
 
 
+def listing(columns: tuple[str, ...], rows: Iterable[tuple[str, ...]], wide: Iterable[str] = ()) -> Table:
+    """A table with its rows; the column OWN has a head that fits its words, and is left out where it has none."""
+    known = list(rows)
+    words = [row[columns.index(OWN)] for row in known]
+    kept = [at for at, column in enumerate(columns) if column != OWN or any(words)]
+    heads = {OWN: own_head(words)}
+    made = table(*(heads.get(columns[at], columns[at]) for at in kept), wide=[heads.get(one, one) for one in wide])
+    for row in known:
+        made.add_row(*(row[at] for at in kept))
+    return made
+
+
+def own_head(words: Iterable[str]) -> str:
+    """What stands over the manual's own words."""
+    text = "".join(words)
+    return "中文" if holds_chinese(text) and not _KANA.search(text) else "as printed"
+
+
 def card(title: str, *lines: Line) -> RenderableType:
     """A title and below it labelled lines that fold beside their label."""
     return Group(Text(title, style="bold"), Padding(facts(*lines), (0, 0, 1, 2)))
@@ -43,7 +68,7 @@ def facts(*lines: Line) -> Table:
 
 
 def choices(rows: Iterable[tuple[str, ...]]) -> Table | None:
-    """Codes with their meaning in both languages, to stand beside a label; None without any."""
+    """Codes with their meaning in English and as printed, to stand beside a label; None without any."""
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(no_wrap=True, justify="right")
     for row in rows:
@@ -57,7 +82,7 @@ def heading(text: str) -> Text:
 
 
 def both(en: str | None, zh: str | None) -> str:
-    """A text in both languages, side by side; once where they are the same."""
+    """A text in English and as printed, side by side; once where they are the same."""
     return "  ".join(dict.fromkeys(text for text in (en, zh) if text))
 
 

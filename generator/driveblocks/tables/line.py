@@ -31,7 +31,7 @@ def line(drive: Drive) -> Iterator[RenderableType]:
     known = drive.serial
     yield heading("Serial line")
     yield facts(
-        ("interface", both(known.interface.en, known.interface.zh_used or known.interface.zh)),
+        ("interface", both(known.interface.en, known.interface.own)),
         ("mode", _choice(known.mode, map(_mode, known.mode.codes), listed(known.mode.modes).upper())),
         ("bit rate", known.baud and _choice(known.baud, map(_baud, known.baud.codes))),
         ("format", known.format and _choice(known.format, map(_format, known.format.codes))),
@@ -76,7 +76,8 @@ def _unit(line: Serial) -> str:
     unit = line.unit
     setting = f" by {unit.setting}" if unit.setting else ""
     default = "" if unit.default is None else f"; factory setting {unit.default}"
-    return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source})"
+    beyond = f"; beyond the standard's 247 by {unit.above_247}" if unit.above_247 else ""
+    return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source}{beyond})"
 
 
 def _silence(line: Serial) -> str | None:
@@ -109,8 +110,8 @@ def limits(known: Limits) -> RenderableType:
 
 def of_function(function: Function) -> RenderableType:
     """A Modbus function with its sub-functions."""
-    subs = [(f"  {sub.code:04X}H", both(sub.name, sub.text_zh)) for sub in function.sub_functions]
-    return facts((code_text(function.code), f"{both(function.name, function.text_zh)}  ({function.source})"), *subs)
+    subs = [(f"  {sub.code:04X}H", both(sub.name, sub.own)) for sub in function.sub_functions]
+    return facts((code_text(function.code), f"{both(function.name, function.own)}  ({function.source})"), *subs)
 
 
 def tolerances(drive: Drive) -> Iterator[RenderableType]:
@@ -132,9 +133,9 @@ def settings(drive: Drive) -> Iterator[RenderableType]:
 
 def of_setting(drive: Drive, setting: Setting) -> RenderableType:
     """One keypad setting."""
-    values = [(str(value.value), value.name, value.text_zh, value.note or "") for value in setting.values]
+    values = [(str(value.value), value.name, value.own, value.note or "") for value in setting.values]
     return card(
-        f"{setting.id}  {both(setting.name, setting.text_zh)}",
+        f"{setting.id}  {both(setting.name, setting.own)}",
         ("needed", _needed(setting)),
         ("printed", setting.zh if setting.zh_used else None),
         ("register", address_text(setting.register) if setting.register is not None else None),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from rich.console import RenderableType
 
-from driveblocks.maps import counts
+from driveblocks.maps import counts, view
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Command, Drive, Reference, Text
 from driveblocks.tables.layout import both, facts, heading, listed, table
@@ -30,7 +30,7 @@ def pages(drive: Drive, file: str) -> Iterator[RenderableType]:
 
 
 def _text(text: Text) -> str:
-    return both(text.en, text.zh_used or text.zh)
+    return both(text.en, text.own)
 
 
 def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
@@ -43,6 +43,7 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
         ("publisher", _text(manual.publisher)),
         ("edition", manual.edition or "none printed"),
         ("covers", manual.covers),
+        ("proof", None if drive.frames else view.UNPROVED),
         ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
     )
 

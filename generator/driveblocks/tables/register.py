@@ -10,7 +10,7 @@ from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Area, Condition, Drive, Register, Section, Value
 from driveblocks.tables.errata import corroborated
 from driveblocks.tables.faults import recorded
-from driveblocks.tables.layout import both, card, code_text, listed, table
+from driveblocks.tables.layout import OWN, both, card, code_text, listed, listing
 from driveblocks.tables.registers import area_facts
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write"}
@@ -22,7 +22,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
     run = f"{span_text(row.address)}  {row.id or ''}".rstrip() if len(row.address) > 1 else None
     yield card(
         "  ".join(part for part in (drive.prefix, address_text(address), id_) if part),
-        ("name", "(not used)" if row.unused else both(row.name, row.text_zh)),
+        ("name", "(not used)" if row.unused else both(row.name, row.own)),
         ("printed", _printed(row)),
         ("one of", run),
         ("address", f"{address_text(address)} = {address}"),
@@ -34,7 +34,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("commands", "\n".join(_commands(drive, address))),
         ("note", row.note),
         ("also says", corroborated(drive, row.corroborated)),
-        ("section", both(section.title.en, section.title.zh_used or section.title.zh)),
+        ("section", both(section.title.en, section.title.own)),
         ("source", row.source or section.source),
         ("examples", _frames(drive, address)),
     )
@@ -49,7 +49,7 @@ def area_page(drive: Drive, area: Area, address: int) -> Iterator[RenderableType
     number = address - area.addresses.first - (0 if stored else drive.storage.add or 0)
     yield card(
         f"{drive.prefix}  {address_text(address)}",
-        ("is", f"{area.numbered_by.replace('_', ' ')} {number} of: {both(area.name, area.text_zh)}"),
+        ("is", f"{area.numbered_by.replace('_', ' ')} {number} of: {both(area.name, area.own)}"),
         ("RAM only", None if stored else drive.storage.note),
     )
     yield Padding(area_facts(area), (0, 0, 1, 0))
@@ -104,16 +104,19 @@ def _frames(drive: Drive, address: int) -> str:
 def _bits(row: Register) -> Iterator[RenderableType]:
     if not row.bits:
         return
-    made = table("bit", "id", "name", "中文", "note", wide=("name", "中文", "note"))
+    columns = ("bit", "id", "name", OWN, "note")
+    yield Padding(listing(columns, _bit_rows(row), ("name", OWN, "note")), (0, 0, 1, 0))
+
+
+def _bit_rows(row: Register) -> Iterator[tuple[str, ...]]:
     for bit in row.bits:
         name = "(not used)" if bit.unused else bit.name or ""
         printed = f"printed {both(bit.printed.bit, bit.printed.id)}" if bit.printed else None
         misread = f"printed {bit.zh}" if bit.zh_used else None
         note = "; ".join(part for part in (bit.note, printed, misread) if part)
-        made.add_row(bits_text(bit.bit), bit.id or "", name, bit.text_zh or "", note)
+        yield bits_text(bit.bit), bit.id or "", name, bit.own, note
         for value in bit.values:
-            made.add_row(f" ={value.value}", "", value.name, value.text_zh, value.note or "")
-    yield Padding(made, (0, 0, 1, 0))
+            yield f" ={value.value}", "", value.name, value.own, value.note or ""
 
 
 def _values(row: Register) -> Iterator[RenderableType]:
@@ -121,10 +124,8 @@ def _values(row: Register) -> Iterator[RenderableType]:
         return
     if row.masks:
         yield "Each value is a single bit; the manual leaves open whether they may combine."
-    made = table("value", "hex", "name", "中文", "note", wide=("name", "中文", "note"))
-    for value in row.values:
-        made.add_row(str(value.value), _hex(value), value.name, value.text_zh, value.note or "")
-    yield Padding(made, (0, 0, 1, 0))
+    rows = ((str(value.value), _hex(value), value.name, value.own, value.note or "") for value in row.values)
+    yield Padding(listing(("value", "hex", "name", OWN, "note"), rows, ("name", OWN, "note")), (0, 0, 1, 0))
 
 
 def _hex(value: Value) -> str:

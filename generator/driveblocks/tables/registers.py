@@ -8,7 +8,7 @@ from rich.table import Table
 from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Area, Drive, Register, Section, Value
-from driveblocks.tables.layout import both, facts, heading, listed, table
+from driveblocks.tables.layout import OWN, both, facts, heading, listed, listing
 
 LEGEND = (
     "use: r read, w write\n"
@@ -25,7 +25,7 @@ def tables(drive: Drive) -> Iterator[RenderableType]:
     for one in drive.sections:
         yield from _section(one, marks)
     for area in drive.areas:
-        yield heading(both(area.name, area.text_zh))
+        yield heading(both(area.name, area.own))
         yield area_facts(area)
 
 
@@ -36,7 +36,7 @@ def section(drive: Drive, one: Section) -> Iterator[RenderableType]:
 
 
 def _section(section: Section, marks: "_Marks") -> Iterator[RenderableType]:
-    yield heading(both(section.title.en, section.title.zh_used or section.title.zh))
+    yield heading(both(section.title.en, section.title.own))
     yield section_facts(section)
     yield _rows(section, marks)
 
@@ -53,7 +53,7 @@ def section_facts(section: Section) -> Table:
 def area_facts(area: Area) -> Table:
     """The rule that gives the addresses of an area, with the manual's examples."""
     examples = [f"{one.id} is number {one.number}, address {address_text(one.address)}" for one in area.examples]
-    excluded = [f"{one.ids}  {both(one.name, one.text_zh)}" for one in area.excluded]
+    excluded = [f"{one.ids}  {both(one.name, one.own)}" for one in area.excluded]
     return facts(
         ("addresses", span_text(area.addresses)),
         ("rule", f"address = {address_text(area.addresses.first)} + {area.numbered_by.replace('_', ' ')}"),
@@ -81,26 +81,29 @@ class _Marks:
 
 
 def _rows(section: Section, marks: _Marks) -> Table:
-    made = table("address", "id", "use", "name", "中文", "unit", "see", wide=("name", "中文"))
+    columns = ("address", "id", "use", "name", OWN, "unit", "see")
+    return listing(columns, _lines(section, marks), ("name", OWN))
+
+
+def _lines(section: Section, marks: _Marks) -> Iterator[tuple[str, ...]]:
     for row in section.registers:
-        made.add_row(*_cells(section, row), marks.of(row))
+        yield *_cells(section, row), marks.of(row)
         for cells in below(row):
-            made.add_row(*cells)
-    return made
+            yield *cells, "", ""
 
 
 def _cells(section: Section, row: Register) -> tuple[str, ...]:
     name = "(not used)" if row.unused else row.name or "(no name)"
     use = "" if row.unused else row.access or section.access
     address, id_ = _ends(span_text(row.address), "-"), _ends(row.id or "", "..")
-    return address, id_, use, name, row.text_zh or "", unit(row)
+    return address, id_, use, name, row.own, unit(row)
 
 
 def below(row: Register) -> Iterator[tuple[str, ...]]:
     """The bits, field values and values of a register as cells that begin with address, id, use, name and Chinese."""
     for bit in row.bits:
         name = "(not used)" if bit.unused else bit.name or ""
-        yield f" .{bits_text(bit.bit)}", bit.id or "", "", name, bit.text_zh or ""
+        yield f" .{bits_text(bit.bit)}", bit.id or "", "", name, bit.own
         for value in bit.values:
             yield _value("   =", value)
     for value in row.values:
@@ -108,7 +111,7 @@ def below(row: Register) -> Iterator[tuple[str, ...]]:
 
 
 def _value(mark: str, value: Value) -> tuple[str, ...]:
-    return f"{mark}{value.value}", "", "", value.name, value.text_zh
+    return f"{mark}{value.value}", "", "", value.name, value.own
 
 
 def unit(row: Register) -> str:

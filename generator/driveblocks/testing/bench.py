@@ -22,7 +22,8 @@ _ARRAYS = {
 
 def script(drive: Drive, stem: str, subject: str, title: str, source: str = "") -> Script:
     """A program that tests one subject of a drive."""
-    manual = f"{drive.manual.title.en} ({drive.manual.title.zh})"
+    printed = drive.manual.title
+    manual = f"{printed.en} ({printed.own})" if printed.own else printed.en
     return Script(stem, f"{drive.prefix}_Test{subject}", title, f"{manual}: {source}." if source else f"{manual}.")
 
 

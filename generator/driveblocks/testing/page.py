@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from driveblocks.maps.view import UNPROVED
 from driveblocks.testing.harness import PER_SCAN
 from driveblocks.testing.script import MOST_STAGES, Suite
 
@@ -29,9 +30,14 @@ def page(suites: Sequence[Suite]) -> str:
     return _HEAD + "".join(_table(suite) for suite in suites)
 
 
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."
+
+
 def _table(suite: Suite) -> str:
     total = sum(len(program.checks) for program in suite.programs)
-    lines = [f"\n## {suite.name}: {total} checks\n", "| program | checks | what it checks |", "|---|---:|---|"]
+    lines = [f"\n## {suite.name}: {total} checks\n", *([] if suite.vectors else [f"{_sentence(UNPROVED)}\n"])]
+    lines += ["| program | checks | what it checks |", "|---|---:|---|"]
     for program in suite.programs:
         lines.append(f"| [`{program.name}`](iec61131/{program.path}) | {len(program.checks)} | {program.title} |")
     return "\n".join(lines) + "\n"

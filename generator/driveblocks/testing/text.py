@@ -25,14 +25,19 @@ class Language(Protocol):
 
 
 def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[Script]:
-    """Programs per kind of text and language."""
+    """Programs per kind of text and language that the map has."""
+    faults = sorted({fault.code for fault in drive.faults.codes})
+    numbers = {reference.error_number(error) for error in drive.errors.codes}
+    bits = [bit for _, row in drive.registers() for bit in row.bits if bit.name]
+    values = [value for _, row in drive.registers() for value in row.values]
     for language in languages:
-        yield _codes(drive, stem, language, "Fault", sorted({fault.code for fault in drive.faults.codes}))
-        numbers = {reference.error_number(error) for error in drive.errors.codes}
-        yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
-        if any(bit.name for _, row in drive.registers() for bit in row.bits):
+        if reference.has(drive, language.suffix, drive.faults.codes):
+            yield _codes(drive, stem, language, "Fault", faults)
+        if reference.has(drive, language.suffix, drive.errors.codes):
+            yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
+        if bits and reference.has(drive, language.suffix, bits):
             yield _bits(drive, stem, language)
-        if any(row.values for _, row in drive.registers()):
+        if values and reference.has(drive, language.suffix, values):
             yield _values(drive, stem, language)
 
 

@@ -117,7 +117,7 @@ def _names(command: Command, row: Register) -> Iterator[tuple[str, str, str]]:
     """What the register calls the value or the bits of a command: key of the command, English, Chinese."""
     for value in row.values:
         if value.value == command.value:
-            yield "value", value.name, value.text_zh
+            yield "value", value.name, value.text_zh or ""
     for number in (n for span in command.set for n in span):
         bit = bit_at(row, number)
         if bit is not None and not bit.values:
@@ -129,5 +129,5 @@ def _contrary(command: Command, key: str, name: str, zh: str, report: Report) ->
     wrong = any(word in words for group in _CONTRARY[command.does] for word in group)
     own = _OWN.get(command.does, ("",))
     if wrong or not any(word in words for word in own):
-        calls = f"`{command.does}`, but the register calls it `{name}` {zh}"
+        calls = f"`{command.does}`, but the register calls it `{name}` {zh}".rstrip()
         report.add(command.place(key), calls, "correct the value or bit, or the register's table")

@@ -5,6 +5,9 @@ from driveblocks.maps.model import Broadcast, Drive, Function, Serial, Silence
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.unique import unique
 
+STANDARD_UNITS = 247
+"""MODBUS over Serial Line V1.02, 2.2: the last unit address; 248 to 255 are reserved."""
+
 _CEILINGS = {"read_words": 125, "write_words": 123, "data_bytes": 252, "ascii_data_bytes": 252}
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: what fits into a PDU of 253 bytes."""
 
@@ -34,9 +37,15 @@ def _modes(serial: Serial, report: Report) -> None:
 
 def _unit(serial: Serial, report: Report) -> None:
     unit = serial.unit
-    if not 0 <= unit.min <= unit.max <= 247:
+    if not 0 <= unit.min <= unit.max <= 255:
         report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "they lie within 1 to 247")
-    elif unit.default is not None and not unit.min <= unit.default <= unit.max:
+    elif unit.max > STANDARD_UNITS and unit.above_247 is None:
+        wrong = f"unit addresses to {unit.max}, but the standard reserves 248 to 255"
+        report.miss(unit.place("max"), wrong, "write 247, or add `above_247:` with the place where the manual says so")
+    elif unit.max <= STANDARD_UNITS and unit.above_247 is not None:
+        wrong = f"`above_247`, but the addresses end at {unit.max}"
+        report.add(unit.place("above_247"), wrong, "remove it, or correct `max`")
+    if unit.default is not None and not unit.min <= unit.default <= unit.max:
         wrong = f"default {unit.default} is no unit address of this drive"
         report.add(unit.place("default"), wrong, f"it has {unit.min} to {unit.max}")
 

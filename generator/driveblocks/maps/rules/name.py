@@ -1,10 +1,10 @@
-"""Rules on names and texts: both languages, one line, short enough, and a sound identifier for what becomes a pin."""
+"""Rules on names and texts: the manual's own wording, one line, short enough, and a sound identifier for a pin."""
 
 import re
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Short, Text, Worded
+from driveblocks.maps.model import Bit, Drive, Entry, Manual, Named, Register, Returned, Short, Text
 from driveblocks.maps.problem import Place, Report
 
 LONGEST = 80
@@ -16,22 +16,28 @@ ENCODINGS = ("utf-8", "gb18030")
 _WORD = re.compile(r"[a-z]{3}")
 _NOT_LETTERS = re.compile(r"[^A-Z0-9]+")
 
+Some = Named | Register | Bit | Text
+"""What has words."""
+
 
 def check(drive: Drive, report: Report) -> None:
     """Note every name or text that a block or a person could not use."""
     for entry in _inside(drive):
-        if isinstance(entry, (Named, Register, Bit)):
-            _texts(entry, "name", entry.name, report)
-        elif isinstance(entry, Text):
-            _texts(entry, "en", entry.en, report)
+        if isinstance(entry, (Named, Register, Bit, Text)):
+            key = "en" if isinstance(entry, Text) else "name"
+            english: str | None = getattr(entry, key)
+            _texts(entry, key, english, report)
+            _wording(drive.manual, entry, key, english, report)
+            if isinstance(entry, Named) or (isinstance(entry, Text) and _translated(drive, entry)):
+                worded(drive.manual, entry, f"`{english}`", report)
     for _, row in drive.registers():
         _identifiers(row, report)
-    for worded in _returned(drive):
-        for language, text, place in _wordings(worded):
+    for returned in _returned(drive):
+        for language, text, place in _wordings(returned):
             _fits(language, text, place, report)
 
 
-def _returned(drive: Drive) -> Iterator[Worded | Bit]:
+def _returned(drive: Drive) -> Iterator[Returned | Bit]:
     """Every entry whose name a block returns as a text."""
     yield from drive.faults.codes
     yield from drive.errors.codes
@@ -40,7 +46,7 @@ def _returned(drive: Drive) -> Iterator[Worded | Bit]:
         yield from (bit for bit in row.bits if bit.name)
 
 
-def _wordings(entry: Worded | Bit) -> Iterator[tuple[str, str, Place]]:
+def _wordings(entry: Returned | Bit) -> Iterator[tuple[str, str, Place]]:
     """Language, text and place of what the blocks return: the short wording where there is one."""
     short = entry.short or Short()
     yield ("en", short.en, short.place("en")) if short.en else ("en", entry.name or "", entry.place("name"))
@@ -57,6 +63,28 @@ def _fits(language: str, text: str, place: Place, report: Report) -> None:
             return
 
 
+def _translated(drive: Drive, text: Text) -> bool:
+    """Whether a text reads otherwise in another language; names of makers do so where the script is another."""
+    names = (drive.vendor, drive.family, drive.manual.publisher)
+    return drive.manual.written_in == "zh" or not any(text is name for name in names)
+
+
+def worded(manual: Manual, entry: Some, what: str, report: Report) -> None:
+    """Note an entry in English that lacks the words of a manual in another language."""
+    key = {"en": None, "zh": "zh"}.get(manual.written_in, "wording")
+    if key is not None and getattr(entry, key) is None:
+        other = "" if manual.language else ", or `language: en` under `manual`"
+        wrong = f"{what} has no `{key}`: the manual's wording is missing"
+        report.miss(entry.at, wrong, f"add `{key}` as the manual prints it{other}")
+
+
+def _wording(manual: Manual, entry: Some, key: str, english: str | None, report: Report) -> None:
+    if entry.wording is not None and manual.written_in == "zh":
+        report.add(entry.place("wording"), "`wording` in the map of a Chinese manual", "write it to `zh`")
+    if entry.wording is not None and entry.wording == english and manual.written_in == "en":
+        report.add(entry.place("wording"), f"`wording` repeats the English `{key}`", "remove it")
+
+
 def _inside(entry: Entry) -> Iterator[Entry]:
     """An entry and every entry in it."""
     yield entry
@@ -69,7 +97,7 @@ def _inside(entry: Entry) -> Iterator[Entry]:
                     yield from _inside(item)
 
 
-def _texts(entry: Named | Register | Bit | Text, key: str, english: str | None, report: Report) -> None:
+def _texts(entry: Some, key: str, english: str | None, report: Report) -> None:
     if key == "name" and english and "\n" in english:
         report.add(entry.place(key), "this name has several lines", "write it on one line")
     if entry.zh_used is not None and entry.zh is None:

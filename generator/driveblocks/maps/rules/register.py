@@ -1,8 +1,9 @@
 """Rules on registers, their bits, values, ranges and scales."""
 
 from driveblocks.maps.form import Span, address_text, bits_text, span_text
-from driveblocks.maps.model import Bit, Drive, Range, Register, Value
+from driveblocks.maps.model import Bit, Drive, Manual, Range, Register, Value
 from driveblocks.maps.problem import Report
+from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
 
 
@@ -13,8 +14,8 @@ def check(drive: Drive, report: Report) -> None:
     for _, row in drive.registers():
         _spans(row, report)
         _words_of(row, report)
-        _unused(row, report)
-        _bits(row, report)
+        _unused(drive.manual, row, report)
+        _bits(drive.manual, row, report)
         _scale(row, report)
 
 
@@ -79,39 +80,38 @@ def _values(values: tuple[Value, ...], low: int, high: int, holder: str, report:
             report.add(value.place("value"), f"value {value.value} does not fit {holder}", f"it holds {low} to {high}")
 
 
-def _unused(row: Register, report: Report) -> None:
+def _unused(manual: Manual, row: Register, report: Report) -> None:
     facts = [key for key in ("scale", "unit", "values", "bits", "range", "id") if getattr(row, key)]
     if row.unused and facts:
         report.add(row.place(facts[0]), f"an unused register has `{facts[0]}`", "remove it, or remove `unused`")
-    _named(row, f"register {span_text(row.address)}", row.unused, report)
+    _named(manual, row, f"register {span_text(row.address)}", row.unused, report)
 
 
-def _named(entry: Register | Bit, what: str, unused: bool, report: Report) -> None:
-    if entry.name and not entry.zh:
-        wrong = f"{what} has no `zh`: the manual's wording is missing"
-        report.miss(entry.at, wrong, "add `zh` as the manual prints it")
-    if entry.zh and not entry.name and not unused:
+def _named(manual: Manual, entry: Register | Bit, what: str, unused: bool, report: Report) -> None:
+    if entry.name:
+        worded(manual, entry, what, report)
+    if (entry.zh or entry.wording) and not entry.name and not unused:
         report.miss(entry.at, f"{what} has no `name`: the translation is missing", "add the English `name`")
 
 
-def _bits(row: Register, report: Report) -> None:
+def _bits(manual: Manual, row: Register, report: Report) -> None:
     for earlier, later in overlapping((bit.bit, bit) for bit in row.bits):
         wrong = f"bit {bits_text(later.bit)} of {address_text(row.address.first)} is taken by line {earlier.at[0]}"
         report.add(later.place("bit"), wrong, "one entry per bit")
     for bit in row.bits:
-        _one_bit(row, bit, report)
+        _one_bit(manual, row, bit, report)
 
 
-def _one_bit(row: Register, bit: Bit, report: Report) -> None:
+def _one_bit(manual: Manual, row: Register, bit: Bit, report: Report) -> None:
     if bit.bit.first > bit.bit.last:
         report.add(bit.place("bit"), f"bits {bits_text(bit.bit)} run backwards", "write the lower bit first")
         return
     if bit.unused and (bit.values or bit.id):
         report.add(bit.at, "an unused bit has values or an id", "remove them, or remove `unused`")
-    if not bit.unused and not bit.name and not bit.zh:
+    if not bit.unused and not bit.name and not bit.own:
         wrong = f"bit {bits_text(bit.bit)} has neither a name nor `unused: true`"
-        report.miss(bit.at, wrong, "add `name` and `zh`, or `unused: true`")
-    _named(bit, f"bit {bits_text(bit.bit)} of {address_text(row.address.first)}", bit.unused, report)
+        report.miss(bit.at, wrong, "name it, or write `unused: true`")
+    _named(manual, bit, f"bit {bits_text(bit.bit)} of {address_text(row.address.first)}", bit.unused, report)
     _values(bit.values, 0, (1 << len(bit.bit)) - 1, _width(bit.bit), report)
 
 

@@ -145,7 +145,7 @@ def _decimal(printed: str | None) -> int | None:
 
 def _same(code: Code, value: Value, setting: Setting, report: Report) -> None:
     """Note a code that says something else than the words of the setting's value."""
-    for key, said in _said(value.zh) | _said(value.name):
+    for key, said in _said(value.zh or value.wording or "") | _said(value.name):
         own = getattr(code, key, None)
         if own is not None and own != said:
             wrong = f"`{key}: {own}`, but value {value.value} of {setting.id} says {said}"

@@ -53,7 +53,7 @@ def _verdict(drive: Drive, condition: Condition) -> bool | None:
 def _called(drive: Drive, condition: Condition) -> tuple[str, str]:
     """What the register calls the awaited value or bit: its name, and all words for it in lower case."""
     named = _bit(drive, condition) or _value(drive, condition)
-    return (named.name or "", f"{named.name} {named.text_zh}".lower()) if named is not None else ("", "")
+    return (named.name or "", f"{named.name} {named.text_zh or ''}".lower()) if named is not None else ("", "")
 
 
 def _bit(drive: Drive, condition: Condition) -> Bit | None:

@@ -1,0 +1,60 @@
+"""`driveblocks new`: a first map to go on from."""
+
+from pathlib import Path
+from typing import Annotated, NoReturn
+
+import typer
+
+
+def run(
+    prefix: Annotated[
+        str, typer.Argument(metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="File to write; without it, the prefix in small letters."),
+    ] = None,
+) -> None:
+    """Write the smallest whole map to a new file, with comments that say what to replace.
+
+    It is good as it stands, so that every mistake that `driveblocks check` tells later is yours. A file that is there
+    is never touched: the exit status is 2.
+
+    Example: driveblocks new ACME -o acme_100.yaml
+    """
+    path = output or Path(f"{prefix.lower()}.yaml")
+    text = _named(prefix)
+    try:
+        file = path.open("x", encoding="utf-8", newline="\n")
+    except FileExistsError:
+        _refuse(f"{path}: is there already; name another file with -o")
+    except OSError as error:
+        _refuse(f"{path}: cannot be written: {error.strerror}")
+    try:
+        with file:
+            file.write(text)
+    except OSError as error:
+        path.unlink(missing_ok=True)
+        _refuse(f"{path}: cannot be written: {error.strerror}")
+    typer.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
+    typer.echo(f"driveblocks check {path}")
+
+
+def _named(prefix: str) -> str:
+    """The skeleton with another prefix. Ends with status 2 where no map may have it."""
+    from driveblocks.maps import form, load, page
+    from driveblocks.maps.problem import MapError
+
+    if not form.PREFIX.pattern.fullmatch(prefix):
+        _refuse(f"this cannot be a prefix; {form.PREFIX.right}")
+    text = page.skeleton().replace(page.PREFIX, prefix)
+    try:
+        load.loads(text, "the map")
+    except MapError as error:
+        _refuse(f"{prefix} cannot be a prefix: {error.problems[0].wrong}; {error.problems[0].right}")
+    return text
+
+
+def _refuse(text: str) -> NoReturn:
+    typer.echo(text, err=True)
+    raise typer.Exit(2)

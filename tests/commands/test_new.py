@@ -1,0 +1,84 @@
+"""`driveblocks new` and the map that it writes: the one on the page, small, good, built, linted and tested."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from driveblocks.cli import app
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.maps import page
+from driveblocks.render import build
+from driveblocks.render.text import languages
+from driveblocks.st.lint import lint_sources
+from driveblocks.testing import runner
+from driveblocks.testing.unit import units
+
+GUIDE = Path(__file__).parents[2] / "vendor_maps/README.md"
+MOST = 60
+"""Lines of a map that one takes in at a glance."""
+
+
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def on_the_page() -> str:
+    """The map as it stands on the page."""
+    (block,) = [part for part in GUIDE.read_text(encoding="utf-8").split("```yaml\n")[1:] if "format: 1" in part]
+    return block.partition("```")[0]
+
+
+def test_the_map_on_the_page_is_small_good_and_passes_its_tests(tmp_path: Path) -> None:
+    text = on_the_page()
+    assert len(text.splitlines()) <= MOST
+    path = tmp_path / "acme.yaml"
+    path.write_text(text, encoding="utf-8")
+    checked = CliRunner().invoke(app, ["check", str(path)])
+    assert (checked.exit_code, checked.stderr) == (0, ""), checked.output
+    both, sources = languages(["en", "zh"], "utf-8"), build.read([path])
+    made = [(name, file) for name, file in build.files(sources, both).items() if name.endswith(".st")]
+    assert [str(problem) for problem in lint_sources(made)] == []
+    done = runner.run(units(sources, both)[1:], [EmbeddedEngine()])
+    assert done.passed
+    assert "ACME_TestFrames" in {result.program for result in done.results}
+
+
+def test_the_command_writes_what_stands_on_the_page() -> None:
+    result = CliRunner().invoke(app, ["new", "ACME"])
+    assert result.exit_code == 0
+    assert Path("acme.yaml").read_text(encoding="utf-8") == on_the_page() == page.skeleton()
+    assert result.stdout.splitlines()[-1] == "driveblocks check acme.yaml"
+
+
+def test_the_prefix_is_the_users_as_long_as_it_may_be() -> None:
+    assert CliRunner().invoke(app, ["new", "NORDWIND2000", "-o", "drive.yaml"]).exit_code == 0
+    text = Path("drive.yaml").read_text(encoding="utf-8")
+    assert "\nprefix: NORDWIND2000 " in text
+    assert "ACME" not in text
+    build.read([Path("drive.yaml")])
+
+
+def test_a_file_that_is_there_is_never_touched() -> None:
+    Path("acme.yaml").write_text("mine", encoding="utf-8")
+    result = CliRunner().invoke(app, ["new", "ACME"])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr == "acme.yaml: is there already; name another file with -o\n"
+    assert Path("acme.yaml").read_text(encoding="utf-8") == "mine"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["acme"], "this cannot be a prefix; write 1 to 12 upper-case letters and digits, such as SN300G5"),
+        (["A\x1b[2J"], "this cannot be a prefix; "),
+        (["ACME", "-o", "no/such/folder.yaml"], "no/such/folder.yaml: cannot be written: No such file or directory"),
+        (["ACME", "-o", "."], ".: is there already"),
+    ],
+)
+def test_what_cannot_be_written_gives_status_2(arguments: list[str], said: str) -> None:
+    result = CliRunner().invoke(app, ["new", *arguments])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(said)
+    assert list(Path.cwd().iterdir()) == []
