@@ -33,7 +33,7 @@ Access = Literal["r", "w", "rw"]
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
-    "fault_reset", "no_function",
+    "fault_reset",
 ]  # fmt: skip
 
 
@@ -318,6 +318,9 @@ class Function(Named):
     sub_functions: tuple[SubFunction, ...] = fact(
         "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", optional=True, default=()
     )
+    sent: bool = fact(
+        "`false` for a function that the manual lists and that no block sends", "false", optional=True, default=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -519,6 +522,11 @@ class Command(Entry):
     value: Number | None = fact("the whole word", "1", optional=True)
     set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
+    because: English | None = fact(
+        "why it does so, where the register's own table does not call it so",
+        "section 3 says that writing 0 stops the motor by its ramp",
+        optional=True,
+    )
     source: English = fact("where the manual says so", "section (I), 0000H")
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 
