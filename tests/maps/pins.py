@@ -442,7 +442,8 @@ def _unit_bound(document: Document, path: Path, new: str) -> bool:
 def _function(document: Document, path: Path, new: str) -> bool:
     """A function of a frame, or one that no block sends; 08H has sub-functions, which the others lack."""
     code, frames = number(document.at(path)), document.root["frames"]
-    return 8 in (code, number(new)) or number(new) not in (*READS, 6, 16) or code in {number(frame["means"]["function"]) for frame in frames if "error" not in frame["means"]}
+    framed = {number(frame["means"]["function"]) for frame in frames if "error" not in frame["means"]}
+    return 8 in (code, number(new)) or number(new) not in (*READS, 6, 16) or code in framed
 
 
 def _sub_function(document: Document, path: Path, _: str) -> bool:

@@ -515,7 +515,10 @@ class Storage(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Command(Entry):
-    """What one command is on the wire: a value of the command register, or bits set and cleared in it."""
+    """What one command is on the wire: a value of the command register, or bits set and cleared in it.
+
+    The register's own table must call that so: a stop is a value called stop, or clears what a motion sets.
+    """
 
     does: Does = fact("what it does", "run_forward")
     register: Address = fact("command register", "1000H")
@@ -523,7 +526,7 @@ class Command(Entry):
     set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
     because: English | None = fact(
-        "why it does so, where the register's own table does not call it so",
+        "the manual's reason, where the register's table does not call it so; excuses no motion and no direction",
         "section 3 says that writing 0 stops the motor by its ramp",
         optional=True,
     )

@@ -28,6 +28,11 @@ class _Due:
     doubts: Meaning = frozenset()
     """It says these only with a reason: another way to stop, or a reset with it."""
 
+    @property
+    def right(self) -> str:
+        terms = " or ".join(" and ".join(sorted(need)) for need in self.needs)
+        return f"correct the command, let the table say {terms}, or give the manual's reason in `because`"
+
 
 JOGS: tuple[Does, ...] = ("jog_forward", "jog_reverse")
 MOVES: tuple[Does, ...] = ("run_forward", "run_reverse", *JOGS)
@@ -40,13 +45,12 @@ _DUE: dict[Does, _Due] = {
     "run_reverse": _Due("a reverse run", (_set(REVERSE),), _set(FORWARD, JOG) | _STILL, _MOTION),
     "jog_forward": _Due("a jog", (_set(JOG),), _set(REVERSE) | _STILL, _MOTION),
     "jog_reverse": _Due("a reverse jog", (_set(JOG, REVERSE),), _set(FORWARD) | _STILL, _MOTION),
-    "jog_stop": _Due("a stop of the jog", (_set(JOG, STOP),), _set(FORWARD, REVERSE), _STOPS, _set(COAST, QUICK, RESET)),
+    "jog_stop": _Due("a jog stop", (_set(JOG, STOP),), _set(FORWARD, REVERSE), _STOPS, _set(COAST, QUICK, RESET)),
     "stop": _Due("a stop", (_set(STOP),), _TURNING, _STOPS, _set(COAST, QUICK, RESET)),
     "coast_stop": _Due("a coasting stop", (_set(COAST),), _TURNING, _STOPS, _set(RESET)),
     "quick_stop": _Due("a quick stop", (_set(QUICK, STOP),), _TURNING, _STOPS, _set(COAST, RESET)),
     "fault_reset": _Due("a reset", (_set(RESET),), _MOTION, _set(RESET), _set(STOP, COAST, QUICK)),
 }
-_RIGHT = "correct the command or the register's table, or give the manual's reason in `because`"
 
 
 @dataclass(frozen=True)
@@ -116,8 +120,8 @@ def check(drive: Drive, command: Command, row: Register, report: Report) -> None
         wrong = f"`because` explains nothing: the register's table calls this {due.called}"
         report.add(command.place("because"), wrong, "remove it")
     elif command.because is None and doubt is not None:
-        place = command.place("value" if command.value is not None else "set" if command.set else "clear")
-        report.miss(place, f"`{command.does}` writes {doubt}, which is not called {due.called}", _RIGHT)
+        place = command.place(key(command, bool(command.set)))
+        report.miss(place, f"`{command.does}` writes {doubt}, which is not called {due.called}", due.right)
 
 
 def _said(drive: Drive, command: Command, row: Register) -> Iterator[_Said]:
@@ -168,7 +172,7 @@ def _doubt(due: _Due, said: list[_Said], ended: Meaning) -> str | None:
 
 
 def _ended(drive: Drive, command: Command, said: list[_Said]) -> Meaning:
-    """What clearing means: bits that motion commands of the same register set are a stop, and of the jog where it is one."""
+    """What clearing means: a stop of the motion, or of the jog, that sets these bits of the register."""
     cleared = {place for one in said if not one.holds and not one.value for place in one.bits}
     ended: set[str] = set()
     for other in drive.operation.commands:
