@@ -329,6 +329,12 @@ def _command_value(document: Document, path: Path, new: str) -> bool:
     return "values" in row or number(new) in taken
 
 
+def _does(document: Document, path: Path, new: str) -> bool:
+    """A name that the register's table contradicts, or that another command has."""
+    taken = {command["does"] for command in document.root["operation"]["commands"]}
+    return new in taken or "because" not in document.at(path[:-1])
+
+
 def _cleared(document: Document, path: Path, new: str) -> bool:
     """A bit that a stop or a direction clears because another direction sets it."""
     commands, command = document.root["operation"]["commands"], document.at(path[:-2])
@@ -494,7 +500,6 @@ _ALWAYS = (
     "areas[].examples[].number",
     "areas[].examples[].address",
     "errors.form.kind",
-    "operation.commands[].does",
     "operation.commands[].set[]",
     "storage.method",
     "settings[].register",
@@ -523,6 +528,7 @@ PINS: dict[str, Pin] = {
     "errors.form.function": _error_form,
     "errors.form.address": _error_form,
     "operation.commands[].value": _command_value,
+    "operation.commands[].does": _does,
     "operation.commands[].clear[]": _cleared,
     "operation.standstill.all[].equals": _equals,
     "operation.reference.verify[].equals": _equals,

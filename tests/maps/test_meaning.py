@@ -36,11 +36,10 @@ RIGHT = {
         ("fault_reset", "Reset"),
     },
     "EX100": {
-        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("coast_stop", "Coast stop"),
-        ("fault_reset", "Fault reset"),
+        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("fault_reset", "Fault reset"),
     },
 }  # fmt: skip
-"""By prefix, the commands that are what the manual calls so: typed from the tables."""
+"""By prefix, the commands that are what the manual calls so: typed from the tables, without what needs a reason."""
 
 
 def _as_field(drive: Drive) -> Drive:
@@ -114,7 +113,7 @@ def _everything(drive: Drive, command: Command) -> Iterator[tuple[str, Command]]
     for address in {one.register for one in drive.operation.commands}:
         row = drive.register_at(address)
         assert row is not None
-        plain = replace(command, register=address, value=None, set=(), clear=())
+        plain = replace(command, register=address, value=None, set=(), clear=(), because=None)
         for value in row.values:
             yield value.name, replace(plain, value=value.value)
         for bit in row.bits:
