@@ -66,7 +66,7 @@ class _Said:
     """Whether it is a value, of the word or of a field; else a bit, or bits, without values."""
     bits: tuple[int, ...] = ()
     alone: bool = True
-    """FALSE: the name of a whole register that several commands write, so that it tells nothing of this one."""
+    """FALSE: the name of a register that several commands write, or of a field, which tells nothing of one value."""
 
     @property
     def meaning(self) -> Meaning:
@@ -140,7 +140,15 @@ def _said(drive: Drive, command: Command, row: Register) -> Iterator[_Said]:
         if value is not None:
             yield _Said(key(command, on), value.name, value.text_zh, on=on, bits=ours)
         elif ours and not bit.unused:
-            yield _Said(key(command, on), bit.name or "", bit.text_zh or "", on=on, value=False, bits=ours)
+            yield _Said(
+                key(command, on),
+                bit.name or "",
+                bit.text_zh or "",
+                on=on,
+                value=False,
+                bits=ours,
+                alone=not on or len(bit.bit) == 1,
+            )
 
 
 def _contrary(due: _Due, one: _Said) -> bool:
