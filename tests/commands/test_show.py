@@ -100,6 +100,8 @@ def test_the_overview_tells_the_line_the_commands_and_the_registers() -> None:
         "10H Write several registers 写多个寄存器",
         "1: the PLC speaks RTU",
         "run forward 0000H 0 1, 2, 3",
+        "17H Write and read 写后读寄存器; no block sends it",
+        "section 9.5 says that the motor runs out while its output is blocked",
         "0010H bit 0 = 0 and 0020H = 0",
         "write 0 to FFFDH at most 100000 times",
         "all 26 17 5 13",
@@ -130,7 +132,7 @@ def test_a_register_is_told_with_its_bits_values_and_commands() -> None:
     shown = squeezed(page("0000H"))
     for text in (
         "stop: clear bit 0, 1, 2 (the ramp bits are kept)",
-        "3 Coast stop 1: 自由停车 the motor runs out",
+        "3 Output blocked 1: 封锁输出 the motor runs out",
         "8-9 Ramp 加减速选择 =0 Ramp 1 加减速1",
         "A-F (not used)",
     ):

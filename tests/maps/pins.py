@@ -313,22 +313,26 @@ def _error_form(document: Document, _: Path, __: str) -> bool:
     return bool(document.errors_in_frames)
 
 
+def _error_added(document: Document, path: Path, new: str) -> bool:
+    return _error_form(document, path, new) or number(new) not in (0x40, 0x80)
+
+
 def _command_value(document: Document, path: Path, new: str) -> bool:
-    """A value that is not listed, or that another command has."""
+    """A value that the register lists with a name, or that another command has."""
     command = document.at(path[:-1])
     row = document.rows[number(command["register"])].entry
-    listed = {number(value["value"]) for value in row.get("values", [])}
     taken = {
         number(other["value"])
         for other in document.root["operation"]["commands"]
         if other is not command and other["register"] == command["register"] and "value" in other
     }
-    return (bool(listed) and number(new) not in listed) or number(new) in taken
+    return "values" in row or number(new) in taken
 
 
 def _does(document: Document, path: Path, new: str) -> bool:
+    """A name that the register's table contradicts, or that another command has."""
     taken = {command["does"] for command in document.root["operation"]["commands"]}
-    return new in taken or document.at(path) in ("run_forward", "stop")
+    return new in taken or "because" not in document.at(path[:-1])
 
 
 def _cleared(document: Document, path: Path, new: str) -> bool:
@@ -441,9 +445,11 @@ def _unit_bound(document: Document, path: Path, new: str) -> bool:
     return any(unit and (unit < number(new) if low else unit > number(new)) for unit in units)
 
 
-def _function(document: Document, path: Path, _: str) -> bool:
+def _function(document: Document, path: Path, new: str) -> bool:
+    """A function of a frame, or one that no block sends; 08H has sub-functions, which the others lack."""
     code, frames = number(document.at(path)), document.root["frames"]
-    return code in {number(frame["means"]["function"]) for frame in frames if "error" not in frame["means"]}
+    framed = {number(frame["means"]["function"]) for frame in frames if "error" not in frame["means"]}
+    return 8 in (code, number(new)) or number(new) not in (*READS, 6, 16) or code in framed
 
 
 def _sub_function(document: Document, path: Path, _: str) -> bool:
@@ -494,6 +500,7 @@ _ALWAYS = (
     "areas[].examples[].number",
     "areas[].examples[].address",
     "errors.form.kind",
+    "operation.commands[].set[]",
     "storage.method",
     "settings[].register",
     *(f"frames[].means.{key}" for key in _MEANS),
@@ -517,7 +524,7 @@ PINS: dict[str, Pin] = {
     "faults.bits.first": always,
     "faults.bits.last": _fault_last,
     "errors.codes[].code": _error_code,
-    "errors.form.add": _error_form,
+    "errors.form.add": _error_added,
     "errors.form.function": _error_form,
     "errors.form.address": _error_form,
     "operation.commands[].value": _command_value,

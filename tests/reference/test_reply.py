@@ -29,6 +29,9 @@ Word = st.integers(0, 0xFFFF)
     [
         (None, "01 03 04 00 01 00 02", Answer("NO_REQUEST")),
         (Asked(0), "01 03 04 00 01 00 02", Answer("NO_REQUEST")),
+        (Asked(3, 1, 0x2000, 0), "01 03 00", Answer("NO_REQUEST")),
+        (Asked(6, 1, 0x1000, 0, value=3), "01 06 10 00 00 03", Answer("NO_REQUEST")),
+        (Asked(16, 1, 0x0001, 126), "01 10 00 01 00 7E", Answer("NO_REQUEST")),
         (Asked(6, 0, 0x1000, value=3), "00 06 10 00 00 03", Answer("BROADCAST")),
         (READ, "01 03", Answer("SHORT")),
         (READ, "", Answer("SHORT")),

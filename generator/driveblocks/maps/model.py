@@ -35,7 +35,7 @@ Language = Literal["en", "zh", "cs", "da", "de", "es", "fi", "fr", "it", "ja", "
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
-    "fault_reset", "no_function",
+    "fault_reset",
 ]  # fmt: skip
 
 
@@ -374,6 +374,9 @@ class Function(Named):
     sub_functions: tuple[SubFunction, ...] = fact(
         "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", optional=True, default=()
     )
+    sent: bool = fact(
+        "`false` for a function that the manual lists and that no block sends", "false", optional=True, default=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -561,13 +564,21 @@ class Storage(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Command(Entry):
-    """What one command is on the wire: a value of the command register, or bits set and cleared in it."""
+    """What one command is on the wire: a value of the command register, or bits set and cleared in it.
+
+    The register's own table must call that so: a stop is a value called stop, or clears what a motion sets.
+    """
 
     does: Does = fact("what it does", "run_forward")
     register: Address = fact("command register", "1000H")
     value: Number | None = fact("the whole word", "1", optional=True)
     set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
+    because: English | None = fact(
+        "the manual's reason, where the register's table does not call it so; excuses no motion and no direction",
+        "section 3 says that writing 0 stops the motor by its ramp",
+        optional=True,
+    )
     source: English = fact("where the manual says so", "section (I), 0000H")
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 

@@ -9,6 +9,8 @@ from driveblocks.maps.model import Drive
 from driveblocks.reference.request import READS, Asked
 
 SHORTEST_BODY, LONGEST_BODY = 3, 254
+MOST_REGISTERS = 125
+"""6.3: a request asks for 1 to 125; one with 0 or more was made by hand, and no reply fits it."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,9 @@ def manners(drive: Drive) -> Manners:
 
 
 def parse(manner: Manners, asked: Asked | None, body: bytes) -> Answer:
-    """Compare a reply's body with the open request; None or function 0 means that there is none."""
+    """Compare a reply's body with the open request; None or function 0 means that there is none, and so does a quantity
+    that no request has.
+    """
     refused = _nobody(asked, body)
     if refused is not None or asked is None:
         return Answer(refused or "NO_REQUEST")
@@ -54,7 +58,7 @@ def parse(manner: Manners, asked: Asked | None, body: bytes) -> Answer:
 def _nobody(asked: Asked | None, body: bytes) -> str | None:
     """Why a reply cannot be one to this request at all."""
     reasons = (
-        ("NO_REQUEST", asked is None or asked.function == 0),
+        ("NO_REQUEST", asked is None or asked.function == 0 or not 1 <= asked.quantity <= MOST_REGISTERS),
         ("BROADCAST", asked is not None and asked.unit == 0),
         ("SHORT", len(body) < SHORTEST_BODY),
         ("LONG", len(body) > LONGEST_BODY),

@@ -111,7 +111,9 @@ def limits(known: Limits) -> RenderableType:
 def of_function(function: Function) -> RenderableType:
     """A Modbus function with its sub-functions."""
     subs = [(f"  {sub.code:04X}H", both(sub.name, sub.own)) for sub in function.sub_functions]
-    return facts((code_text(function.code), f"{both(function.name, function.own)}  ({function.source})"), *subs)
+    unsent = "" if function.sent else "; no block sends it"
+    text = f"{both(function.name, function.own)}{unsent}  ({function.source})"
+    return facts((code_text(function.code), text), *subs)
 
 
 def tolerances(drive: Drive) -> Iterator[RenderableType]:

@@ -79,7 +79,7 @@ def _command(command: Command) -> tuple[str, ...]:
         "" if command.value is None else str(command.value),
         listed(map(bits_text, command.set)),
         listed(map(bits_text, command.clear)),
-        both(command.note, f"({command.source})"),
+        both(both(command.because, command.note), f"({command.source})"),
     )
 
 

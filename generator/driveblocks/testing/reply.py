@@ -249,6 +249,8 @@ def _requests(base: Asked, right: bytes) -> Iterator[Case]:
     yield Case("another address was asked", replace(base, address=base.address ^ 1), right)
     yield Case("an address that differs in its high byte was asked", replace(base, address=base.address ^ 0x100), right)
     yield Case("another number of registers was asked", replace(base, quantity=base.quantity + 1), right)
+    for quantity in (0, 125, 126):
+        yield Case(f"{quantity} registers were asked", replace(base, quantity=quantity), right)
     odd = bytes([base.unit, 5]) + right[2:6].ljust(4, b"\x00")
     yield Case("a function that no block asks for was asked", replace(base, function=5), odd)
     yield Case("another word was asked", replace(base, value=base.value ^ 0x8000), right)

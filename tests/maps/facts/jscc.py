@@ -31,7 +31,7 @@ VALUES = {
 
 FAULTS = {code: text for code, text in VALUES[0x3000].items() if code}
 
-COMMANDS = {"no_function": 0, "run_forward": 1, "run_reverse": 2, "stop": 3}
+COMMANDS = {"run_forward": 1, "run_reverse": 2, "stop": 3}
 
 SETTINGS = {
     "F0.04": (

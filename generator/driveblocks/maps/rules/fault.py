@@ -9,6 +9,8 @@ from driveblocks.maps.rules.unique import unique
 _ERROR_KEYS = {"exception": ("add",), "write_reply": ("function", "address")}
 _MOST_WORDS = 64
 """Fault words of one drive; more is a slip in an address."""
+_ADDED = (0x40, 0x80)
+"""Bits that no function code of the MODBUS Application Protocol V1.1b3, 5.1, has: the highest is 2BH."""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -96,7 +98,7 @@ def _errors(drive: Drive, report: Report) -> None:
     for error in drive.errors.codes:
         _corroborated(error, report)
     if form is not None:
-        _error_form(form, report)
+        _error_form(drive, form, report)
         if form.address is not None:
             names = {code: error.name for code, error in codes.items()}
             _error_register(drive, form.address, form.place("address"), names, report)
@@ -111,7 +113,7 @@ def _corroborated(error: ErrorCode, report: Report) -> None:
             report.add(item.place("value"), wrong, "correct one of them, or leave out what does not speak of it")
 
 
-def _error_form(form: ErrorForm, report: Report) -> None:
+def _error_form(drive: Drive, form: ErrorForm, report: Report) -> None:
     needed = _ERROR_KEYS[form.kind]
     for key in ("add", "function", "address"):
         if getattr(form, key) is None and key in needed:
@@ -120,11 +122,23 @@ def _error_form(form: ErrorForm, report: Report) -> None:
             report.add(
                 form.place(key), f"`kind: {form.kind}` must not have `{key}`", f"it needs {' and '.join(needed)}"
             )
-    if form.add is not None and not 1 <= form.add <= 0x80:
-        report.add(form.place("add"), f"{form.add:02X}H cannot be added to a function", "write 80H, as Modbus does")
+    if form.add is not None:
+        _added(drive, form, form.add, report)
     if form.function is not None and form.function not in (0x05, 0x06):
         wrong = f"function {form.function:02X}H has no reply with one address and one word"
         report.add(form.place("function"), wrong, "write 06H")
+
+
+def _added(drive: Drive, form: ErrorForm, add: int, report: Report) -> None:
+    """Note an exception whose function code is, or could be, that of another request's reply."""
+    codes = {function.code for function in drive.functions}
+    taken = sorted(code for code in codes if code + add in codes)
+    if add not in _ADDED:
+        wrong = f"{add:02X}H added to a function code marks no refusal"
+        report.add(form.place("add"), wrong, "write 80H, as Modbus does, or 40H: no function code has these bits")
+    elif taken:
+        wrong = f"the refusal of function {taken[0]:02X}H is function {taken[0] + add:02X}H, which the drive has"
+        report.add(form.place("add"), wrong, "correct `add`, or the list of functions")
 
 
 def _error_register(drive: Drive, address: int, place: Place, codes: dict[int, str], report: Report) -> None:

@@ -11,6 +11,9 @@ STANDARD_UNITS = 247
 _CEILINGS = {"read_words": 125, "write_words": 123, "data_bytes": 252, "ascii_data_bytes": 252}
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: what fits into a PDU of 253 bytes."""
 
+SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
+"""Functions that the blocks know: what a manual lists beside them is a fact that nobody can use."""
+
 
 def check(drive: Drive, report: Report) -> None:
     """Note every rule that the line, the limits or the functions break."""
@@ -104,5 +107,20 @@ def _function(function: Function, report: Report) -> None:
     if not 1 <= function.code <= 0x7F:
         wrong = f"function {function.code:02X}H is no Modbus function"
         report.add(function.place("code"), wrong, "function codes lie within 01H to 7FH")
+    else:
+        _sent(function, report)
     if function.sub_functions and function.code != 0x08:
         report.add(function.place("sub_functions"), "only function 08H has sub-functions", "remove them")
+
+
+def _sent(function: Function, report: Report) -> None:
+    """Note a function that no block sends and that the map does not mark so, and the mark on one that they send."""
+    what = f"function {function.code:02X}H"
+    if function.sent and function.code not in SENT:
+        wrong = f"no block sends {what}, only " + ", ".join(f"{code:02X}H" for code in sorted(SENT))
+        report.add(function.place("code"), wrong, "add `sent: false`, so that nobody counts on it")
+    elif not function.sent and function.code in SENT:
+        report.add(function.place("sent"), f"blocks send {what}", "remove `sent: false`")
+    if function.code == 0x08 and not function.sub_functions:
+        wrong = "function 08H without sub-functions: no block sends one that is not listed"
+        report.miss(function.at, wrong, "list the manual's, such as {code: 0000H, name: Return query data, zh: ...}")

@@ -135,7 +135,7 @@ def _limits(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> N
 
 def _sub_function(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> None:
     listed = {sub.code for function in drive.functions for sub in function.sub_functions}
-    if fields.sub_function is not None and listed and fields.sub_function not in listed:
+    if fields.sub_function is not None and fields.sub_function not in listed:
         wrong = f"sub-function {fields.sub_function:04X}H is not listed under function 08H"
         report.miss(frame.means.place("sub_function"), wrong, "add it there, or correct the frame")
 

@@ -1,0 +1,152 @@
+"""No command can be taken for another: every exchange and every other value is refused, in words, fields and bits."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from driveblocks.maps import check, load
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Bit, Command, Drive, Register
+from driveblocks.maps.problem import Report
+from driveblocks.maps.rules import meaning, term
+
+ROOT = Path(__file__).parents[2]
+PATHS = [
+    *sorted((ROOT / "vendor_maps").glob("*.yaml")),
+    *sorted((ROOT / "tests/blocks/fourth_drive").glob("*.yaml")),
+    ROOT / "tests/maps/example.yaml",
+]
+RIGHT = {
+    "CHF": {
+        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("jog_forward", "Jog forward"),
+        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast stop"),
+        ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
+    },
+    "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
+    "SN300G5": {("run_forward", "Run forward"), ("run_reverse", "Run reverse")},
+    "NW7": {
+        ("run_forward", "Turn"), ("jog_forward", "Creep"), ("stop", "Ramp down"), ("coast_stop", "Let go"),
+        ("quick_stop", "Emergency ramp"), ("fault_reset", "Clear"), ("jog_stop", "End of creep"),
+    },
+    "BH": {
+        ("run_forward", "Forward"), ("run_reverse", "Backward"), ("quick_stop", "Fast stop"), ("coast_stop", "Free"),
+        ("fault_reset", "Reset"),
+    },
+    "EX100": {
+        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("fault_reset", "Fault reset"),
+    },
+}  # fmt: skip
+"""By prefix, the commands that are what the manual calls so: typed from the tables, without what needs a reason."""
+
+
+def _as_field(drive: Drive) -> Drive:
+    """The same drive with each command word as a field of bits beside a bit that no command touches."""
+    used = {one.register for one in drive.operation.commands}
+    sections = tuple(
+        replace(part, registers=tuple(_field(row) if row.address.first in used else row for row in part.registers))
+        for part in drive.sections
+    )
+    words = [row.address.first for _, row in drive.registers() if row.values]
+    commands = tuple(_bitwise(one) if one.register in words else one for one in drive.operation.commands)
+    return replace(drive, sections=sections, operation=replace(drive.operation, commands=commands))
+
+
+def _field(row: Register) -> Register:
+    if not row.values:
+        return row
+    field = Bit(bit=Span(4, 11), name="Order", zh="命令", values=row.values)
+    return replace(row, values=(), bits=(field, Bit(bit=Span(0, 0), name="Lamp", zh="指示灯")))
+
+
+def _bitwise(one: Command) -> Command:
+    """A value as bits set and cleared in the field 4-B."""
+    places = [(place, (one.value or 0) >> place & 1) for place in range(8)]
+    ones, zeros = (tuple(Span(4 + place, 4 + place) for place, bit in places if bit == on) for on in (1, 0))
+    return replace(one, value=None, set=ones, clear=zeros)
+
+
+WORDS = [load.load(path) for path in PATHS]
+DRIVES = [*WORDS, *(_as_field(one) for one in WORDS if one.prefix in ("CHF", "JSCC", "NW7"))]
+NAMES = [f"{one.prefix}{'_field' * (index >= len(WORDS))}" for index, one in enumerate(DRIVES)]
+drives = pytest.mark.parametrize("drive", DRIVES, ids=NAMES)
+
+
+def _judged(drive: Drive, *commands: Command) -> list[str]:
+    """What all rules say when these commands stand in the place of the map's own of their kind."""
+    new = {one.does: one for one in commands}
+    all_ = tuple(new.get(one.does, one) for one in drive.operation.commands)
+    report = Report("")
+    check.check(replace(drive, operation=replace(drive.operation, commands=all_)), report)
+    return [problem.wrong for problem in report.problems]
+
+
+@drives
+def test_the_maps_are_good_as_they_are(drive: Drive) -> None:
+    assert _judged(drive) == []
+
+
+@drives
+def test_no_two_commands_can_be_exchanged(drive: Drive) -> None:
+    for one, other in combinations(drive.operation.commands, 2):
+        assert _judged(drive, replace(one, does=other.does), replace(other, does=one.does)), (one.does, other.does)
+
+
+@drives
+def test_only_the_value_that_the_table_calls_so_fits_a_command(drive: Drive) -> None:
+    fits = set()
+    for command in drive.operation.commands:
+        for name, other in _everything(drive, command):
+            report = Report("")
+            row = drive.register_at(other.register)
+            assert row is not None
+            meaning.check(drive, other, row, report)
+            if not report.problems:
+                fits.add((command.does, name))
+    assert fits == RIGHT[drive.prefix]
+
+
+def _everything(drive: Drive, command: Command) -> Iterator[tuple[str, Command]]:
+    """A command with each value, each value of a field and each single bit of the command registers in its place."""
+    for address in {one.register for one in drive.operation.commands}:
+        row = drive.register_at(address)
+        assert row is not None
+        plain = replace(command, register=address, value=None, set=(), clear=(), because=None)
+        for value in row.values:
+            yield value.name, replace(plain, value=value.value)
+        for bit in row.bits:
+            for value in bit.values:
+                yield value.name, _bitwise(replace(plain, value=value.value))
+            if not bit.values and not bit.unused:
+                rest = tuple(one.bit for one in row.bits if one is not bit and not one.unused and not one.values)
+                yield bit.name or "", replace(plain, set=(bit.bit,), clear=rest)
+        if not row.values and not row.bits:
+            yield row.name or "", replace(plain, value=1)
+
+
+@pytest.mark.parametrize(
+    ("name", "zh", "wanted"),
+    [
+        ("Preset frequency", "预置频率", set()),
+        ("No function", "无功能", set()),
+        ("Turning counter-clockwise", "", {term.RUN, term.REVERSE}),
+        ("Clockwise", "", {term.FORWARD}),
+        ("Freewheel", "自由停机 (紧急停机)", {term.COAST, term.QUICK, term.STOP}),
+        ("Order 3", "急停", {term.QUICK, term.STOP}),
+        ("Stop", "运转停止", {term.RUN, term.STOP}),
+        ("Jogging backwards", "反转点动", {term.JOG, term.REVERSE}),
+    ],
+)
+def test_a_name_has_the_meanings_of_its_terms(name: str, zh: str, wanted: set[str]) -> None:
+    assert term.of(name, zh) == wanted
+
+
+@pytest.mark.parametrize("name", ["No coast stop", "Reverse prohibited", "Do not stop", "Stop disabled"])
+def test_a_name_can_say_the_contrary(name: str) -> None:
+    assert term.negated(name)
+
+
+def test_a_number_is_no_contrary() -> None:
+    assert not term.negated("Stop No. 3", "停机3")
