@@ -3,6 +3,9 @@
 `DRIVEBLOCKS_REQUIRE=matiec` (or `matiec-beremiz`, `matiec-openplc`; several with commas) makes a missing one a failure
 of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
 skipped, with the reason, where there is none. What a test records as the property `summary` is printed at the end.
+
+Properties are tried on the same examples on every machine and in every run, however long that takes. `make fuzz` looks
+for others with the profile `search`; what it finds becomes an example of the suite.
 """
 
 import functools
@@ -12,12 +15,16 @@ from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from driveblocks.host.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
 TESTS = Path(__file__).parent
+settings.register_profile("suite", derandomize=True, deadline=None, database=None)
+settings.register_profile("search", derandomize=False, deadline=None, database=None, max_examples=2000, print_blob=True)
+settings.load_profile("suite")
 NOT_COUNTED = (
     "bench", "blocks", "native", "host/compare", "host/traces", "host/embedded/test_accepted.py",
     "host/embedded/test_ranges.py", "commands/test_test.py", "maps/test_fuzz.py", "maps/test_hostile.py",

@@ -127,14 +127,14 @@ VOCABULARY = """
 WORDS = st.sampled_from(VOCABULARY.split())
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(st.lists(WORDS, max_size=60))
 def test_any_words_raise_nothing(words: list[str]) -> None:
     survive(" ".join(words))
     survive(program(" ".join(words)))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.text(max_size=200))
 def test_any_text_raises_nothing(text: str) -> None:
     survive(text)
