@@ -15,15 +15,17 @@ from collections.abc import Generator
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from driveblocks.host.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
 TESTS = Path(__file__).parent
-settings.register_profile("suite", derandomize=True, deadline=None, database=None)
-settings.register_profile("search", derandomize=False, deadline=None, database=None, max_examples=2000, print_blob=True)
+settings.register_profile(
+    "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile("search", settings.get_profile("suite"), derandomize=False, max_examples=2000)
 settings.load_profile("suite")
 NOT_COUNTED = (
     "bench", "blocks", "native", "host/compare", "host/traces", "host/embedded/test_accepted.py",

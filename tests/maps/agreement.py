@@ -1,8 +1,8 @@
 """libyaml and PyYAML's own parser must make the same of every text: random texts, read with libyaml and without.
 
 `python -m tests.maps.agreement [--count N] [--seed N] [--only N]`: exit status 1 when a text got other nodes, places or
-messages. A text is made from the seed and its own number alone; `--only` repeats one and prints it. What is found
-becomes a text of FOUND in tests/maps/test_agreement.py.
+messages. A text is made from the seed and its own number alone; `--only` repeats one and prints it. Without `--seed` a
+seed is drawn, and printed. What is found becomes a text of FOUND in tests/maps/test_agreement.py.
 """
 
 import argparse
@@ -94,10 +94,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line; the exit status is 1 when a text was not read alike."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=200_000, help="how many texts (200000)")
-    parser.add_argument("--seed", type=int, help="the seed that they are made from (by chance, and printed)")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (by chance)")
     parser.add_argument("--only", type=int, help="repeat the text of this number alone")
     wanted = parser.parse_args(arguments)
-    seed = random.randrange(10**9) if wanted.seed is None else wanted.seed
+    seed = wanted.seed
     numbers = range(wanted.count) if wanted.only is None else [wanted.only]
     print(f"seed {seed}: {len(numbers)} texts", flush=True)
     if wanted.only is not None:

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 import yaml
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.maps import agreement
 
@@ -120,7 +120,6 @@ def test_a_number_that_yaml_reads_otherwise_is_a_trap(text: str) -> None:
         assert isinstance(read, str) or (isinstance(read, (int, float)) and float(text) == read)
 
 
-@settings(max_examples=50)
 @given(DOCUMENTS)
 def test_what_pyyaml_writes_in_quotes_is_read_back(value: Any) -> None:
     text = yaml.safe_dump(value, default_style='"', allow_unicode=True)
