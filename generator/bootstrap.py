@@ -15,6 +15,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
+CONSTRAINTS = "constraints.txt"
 BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 
 DEMO = (
@@ -48,7 +49,8 @@ def main(arguments: list[str]) -> int:
 
 def set_up(extra: str) -> bool:
     """Make `.venv` and install the project with an extra ("" or "[test]") into it, unless that was done before."""
-    wanted = hashlib.sha256((ROOT / "pyproject.toml").read_bytes() + extra.encode()).hexdigest()
+    needs = b"".join((ROOT / name).read_bytes() for name in ("pyproject.toml", CONSTRAINTS))
+    wanted = hashlib.sha256(needs + extra.encode()).hexdigest()
     stamp = VENV / f"driveblocks{extra.strip('[]')}.stamp"
     if stamp.exists() and stamp.read_text(encoding="utf-8") == wanted:
         return True
@@ -56,7 +58,7 @@ def set_up(extra: str) -> bool:
     if not (BIN / "python").exists() and not (BIN / "python.exe").exists() and not make_venv():
         return False
     install = [str(BIN / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable"]
-    if subprocess.run([*install, f".{extra}"], cwd=ROOT, check=False).returncode:
+    if subprocess.run([*install, f".{extra}", "--constraint", CONSTRAINTS], cwd=ROOT, check=False).returncode:
         print("pip could not install the packages; is a package index reachable?", file=sys.stderr)
         return False
     stamp.write_text(wanted, encoding="utf-8")
