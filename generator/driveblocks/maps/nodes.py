@@ -171,7 +171,8 @@ def _document(events: _Events) -> Node | None:
 
 def _directives(events: _Events, start: yaml.Event) -> None:
     # an unknown directive shows only in the text: parsers skip it
-    if getattr(start, "explicit", False) and events.text.startswith("%", start.start_mark.index):
+    mark = start.start_mark
+    if getattr(start, "explicit", False) and mark is not None and events.text.startswith("%", mark.index):
         events.refuse(start, "YAML directives (%) are not allowed in a map", "remove the line that starts with %")
 
 
