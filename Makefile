@@ -1,6 +1,7 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
+SEED := $(shell od -An -N3 -tu4 /dev/urandom)
 .PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
@@ -15,10 +16,12 @@ counts:               ## the tables of drives in the READMEs, from the maps
 schema:               ## vendor_maps/schema.json and keys.md from the model, and the smallest map in the guide
 	$(DB) schema vendor_maps
 
-fuzz:                 ## 10^4 random mutations of the vendor maps, 4000 of ST files, 10^6 damaged replies per reply parser
-	$(PY) tests/maps/fuzz.py
-	$(PY) -m pytest -n auto -m long
-	$(PY) -m tests.blocks.fuzz
+fuzz:                 ## by chance: maps, texts for both YAML parsers, every property of the suite, damaged replies
+	@echo "again: make fuzz SEED=$(strip $(SEED))"
+	$(PY) tests/maps/fuzz.py --seed $(SEED)
+	$(PY) -m tests.maps.agreement --seed $(SEED)
+	$(PY) -m pytest -n auto -m hypothesis --hypothesis-profile search --hypothesis-seed $(SEED)
+	$(PY) -m tests.blocks.fuzz --seed $(SEED)
 
 mutation:             ## change every fact of the maps that reaches a block, and see a test turn red
 	$(PY) -m tests.blocks.mutation

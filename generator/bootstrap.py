@@ -21,6 +21,7 @@ if sys.version_info < (3, 11):  # noqa: UP036  (this file runs before pip can re
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
+CONSTRAINTS = "constraints.txt"
 BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 
 DEMO = (
@@ -84,7 +85,8 @@ def wrong(arguments: list[str], jobs: list[str]) -> str:
 
 def set_up(extra: str) -> bool:
     """Make `.venv` and install the project with an extra ("" or "[test]") into it, unless that was done before."""
-    wanted = hashlib.sha256((ROOT / "pyproject.toml").read_bytes() + extra.encode()).hexdigest()
+    needs = b"".join((ROOT / name).read_bytes() for name in ("pyproject.toml", CONSTRAINTS))
+    wanted = hashlib.sha256(needs + extra.encode()).hexdigest()
     stamp = VENV / f"driveblocks{extra.strip('[]')}.stamp"
     whole = is_whole()
     if whole and stamp.exists() and stamp.read_text(encoding="utf-8") == wanted:
@@ -93,7 +95,7 @@ def set_up(extra: str) -> bool:
     if not whole and not make_venv():
         return False
     install = [str(BIN / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable"]
-    if subprocess.run([*install, f".{extra}"], cwd=ROOT, check=False).returncode:
+    if subprocess.run([*install, f".{extra}", "--constraint", CONSTRAINTS], cwd=ROOT, check=False).returncode:
         print("pip could not install the packages; is a package index reachable?", file=sys.stderr)
         return False
     stamp.write_text(wanted, encoding="utf-8")

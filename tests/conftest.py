@@ -3,6 +3,9 @@
 `DRIVEBLOCKS_REQUIRE=matiec` (or `matiec-beremiz`, `matiec-openplc`; several with commas) makes a missing one a failure
 of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
 skipped, with the reason, where there is none. What a test records as the property `summary` is printed at the end.
+
+Properties are tried on the same examples on every machine and in every run, however long that takes. `make fuzz` looks
+for others with the profile `search`; what it finds becomes an example of the suite.
 """
 
 import functools
@@ -12,16 +15,22 @@ from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from driveblocks.host.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
 TESTS = Path(__file__).parent
+settings.register_profile(
+    "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
+)
+settings.register_profile("search", settings.get_profile("suite"), derandomize=False, max_examples=2000)
+settings.load_profile("suite")
 NOT_COUNTED = (
     "bench", "blocks", "native", "host/compare", "host/traces", "host/embedded/test_accepted.py",
-    "host/embedded/test_ranges.py", "commands/test_test.py", "maps/test_fuzz.py", "maps/test_hostile.py",
-    "st/test_hostile.py", "testing/test_programs.py", "testing/test_runner.py",
+    "host/embedded/test_ranges.py", "commands/test_test.py", "maps/test_agreement.py", "maps/test_fuzz.py",
+    "maps/test_hostile.py", "st/test_hostile.py", "testing/test_programs.py", "testing/test_runner.py",
 )  # fmt: skip
 """Folders and files whose tests leave the coverage of Python alone; that of Structured Text has counters of its own."""
 

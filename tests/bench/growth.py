@@ -7,7 +7,6 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-import yaml
 from tests.bench.record import Rows
 from tests.bench.synthetic import synthetic
 
@@ -75,11 +74,11 @@ def _shipped() -> dict[str, float]:
 
 
 def _without_libyaml() -> float:
-    fast, nodes._LOADER = nodes._LOADER, yaml.SafeLoader
+    fast, nodes._LIBYAML = nodes._LIBYAML, None
     try:
         return timed(lambda: build.read(catalog.shipped()))[0]
     finally:
-        nodes._LOADER = fast
+        nodes._LIBYAML = fast
 
 
 def _steps(read: Callable[[], list[build.Source]]) -> dict[str, float]:

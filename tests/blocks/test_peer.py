@@ -37,7 +37,7 @@ UNITS = st.integers(1, 247)
 MODES = st.booleans()
 FIXTURE = HealthCheck.function_scoped_fixture
 """An engine is the same for all examples: the fixture only looks new for each test."""
-FEW = settings(max_examples=60, deadline=None, database=None, derandomize=True, suppress_health_check=[FIXTURE])
+FEW = settings(max_examples=60, suppress_health_check=[*settings().suppress_health_check, FIXTURE])
 
 
 def framer(in_ascii: bool, server: bool) -> FramerBase:

@@ -39,7 +39,7 @@ def texts(folder: Path) -> list[str]:
 
 def run(command: list[str], folder: Path) -> str:
     """Run a tool that must be content; what it says."""
-    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=120, check=False)
+    done = subprocess.run(command, cwd=folder, capture_output=True, timeout=600, check=False)
     said = (done.stdout + done.stderr).decode("utf-8", "replace")
     assert done.returncode == 0, said[:4000]
     return said

@@ -23,9 +23,8 @@ NOWHERE = {"PATH": "", "HOME": "/nonexistent"}
 
 
 @pytest.fixture
-def bare(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> dict[str, str]:
+def bare(tmp_path: Path) -> dict[str, str]:
     """The environment of a machine that has Python and nothing else."""
-    monkeypatch.setattr("driveblocks.host.matiec.installation._usual_homes", lambda _: iter(()))
     return {**NOWHERE, "MATIEC_HOME": "", "CC": "", "DRIVEBLOCKS_CACHE": str(tmp_path / "cache")}
 
 

@@ -253,7 +253,7 @@ def test_the_version_is_told() -> None:
 def _run(*words: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
     """A process of its own with hardly any environment."""
     command = [sys.executable, "-m", "driveblocks.cli", *words]
-    return subprocess.run(command, capture_output=True, timeout=60, check=False, env=_environment(environment))
+    return subprocess.run(command, capture_output=True, timeout=600, check=False, env=_environment(environment))
 
 
 def _environment(more: dict[str, str]) -> dict[str, str]:
@@ -289,7 +289,7 @@ def test_a_closed_pipe_is_no_error_to_tell(words: tuple[str, ...]) -> None:
     os.close(reader)
     command = [sys.executable, "-m", "driveblocks.cli", *words]
     try:
-        ended = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, timeout=60, check=False)
+        ended = subprocess.run(command, stdout=writer, stderr=subprocess.PIPE, timeout=600, check=False)
     finally:
         os.close(writer)
     assert ended.stderr == b""
@@ -301,5 +301,5 @@ def test_help_needs_neither_rich_nor_yaml() -> None:
         "try:\n    cli.app(['--version'])\nexcept SystemExit:\n    pass\n"
         "print(sorted({'rich.table', 'yaml', 'jinja2', 'driveblocks.maps.load'} & set(sys.modules)))"
     )
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=60, check=True, text=True)
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=600, check=True, text=True)
     assert ended.stdout.splitlines()[-1] == "[]"

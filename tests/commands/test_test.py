@@ -155,7 +155,7 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(my_drive: str, monkeypa
 
     build = EmbeddedEngine.build
     monkeypatch.setattr(EmbeddedEngine, "build", slow)
-    result = invoke(my_drive, "--time-limit", "0.1")
+    result = invoke(my_drive, "--time-limit", "600")
     assert result.exit_code == 1
     assert "loop" in result.stdout
 

@@ -3,8 +3,6 @@
 import os
 from pathlib import Path
 
-import pytest
-
 from driveblocks.host.discovery import EMBEDDED, NO_COMPILER, NO_IEC2C, survey
 from driveblocks.host.matiec import MatiecEngine
 
@@ -23,25 +21,16 @@ def test_embedded_is_always_there() -> None:
     assert first.engine.name == EMBEDDED
 
 
-@pytest.fixture
-def elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Forget what this machine may have in /opt."""
-    monkeypatch.setattr("driveblocks.host.matiec.installation._usual_homes", lambda _: iter(()))
-
-
-@pytest.mark.usefixtures("elsewhere")
 def test_no_matiec() -> None:
     assert notes() == {"matiec-beremiz": NO_IEC2C, "matiec-openplc": NO_IEC2C}
 
 
-@pytest.mark.usefixtures("elsewhere")
 def test_no_c_compiler(matiec: MatiecEngine, tmp_path: Path) -> None:
     iec2c = matiec.installation.iec2c
     found = notes(MATIEC_HOME=str(iec2c), DRIVEBLOCKS_CACHE=str(tmp_path))
     assert found == dict.fromkeys(("matiec-beremiz", "matiec-openplc"), f"{iec2c}: {NO_COMPILER}")
 
 
-@pytest.mark.usefixtures("elsewhere")
 def test_one_line_only(matiec: MatiecEngine) -> None:
     iec2c, compiler = matiec.installation.iec2c, matiec.compiler.command[0]
     cache = str(matiec.cache.root)
@@ -51,7 +40,6 @@ def test_one_line_only(matiec: MatiecEngine) -> None:
     assert str(iec2c) in found[other]
 
 
-@pytest.mark.usefixtures("elsewhere")
 def test_cache_that_cannot_be_written(matiec: MatiecEngine, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     found = notes(
@@ -63,7 +51,6 @@ def test_cache_that_cannot_be_written(matiec: MatiecEngine, tmp_path: Path) -> N
     assert all("cannot write the build cache" in note for note in found.values())
 
 
-@pytest.mark.usefixtures("elsewhere")
 def test_iec2c_that_is_none(tmp_path: Path, matiec: MatiecEngine) -> None:
     (tmp_path / "iec2c").write_text("#!/bin/sh\nexit 7\n", encoding="utf-8")
     (tmp_path / "iec2c").chmod(0o755)

@@ -1,15 +1,14 @@
-"""Change good maps at random and see that the loader never fails, never hangs, and notices what it can notice.
+"""Change good maps at random and see that the loader never fails, and notices what it can notice.
 
 `python tests/maps/fuzz.py [--count N] [--seed N] [--only N]`: exit status 1 when the loader raised anything but a
-MapError, took longer than SECONDS, or took a map for good in which a pinned fact was changed. A mutation is made from
-the seed and its own number alone; `--only` repeats one and prints what it did.
+MapError, or took a map for good in which a pinned fact was changed. A mutation is made from the seed and its own number
+alone; `--only` repeats one and prints what it did. Without `--seed` a seed is drawn, and printed.
 """
 
 import argparse
 import random
 import sys
 import tempfile
-import time
 import traceback
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -24,8 +23,6 @@ from tests.maps import mutate, pins  # noqa: E402
 from driveblocks.maps import load, nodes  # noqa: E402
 from driveblocks.maps.problem import MapError, Report  # noqa: E402
 
-SECONDS = 2.0
-"""Processor time that no map of this size may take; a good one takes a hundredth."""
 FACTS = 0.6
 """Share of the mutations that change one fact; the others change bytes or lines."""
 
@@ -38,7 +35,6 @@ class Tally:
     survived: Counter[str] = field(default_factory=Counter)
     pinned: Counter[str] = field(default_factory=Counter)
     failures: list[str] = field(default_factory=list)
-    slowest: float = 0.0
 
 
 def maps() -> list[mutate.Text]:
@@ -78,16 +74,11 @@ def _judge(
 ) -> Iterator[str]:
     """Load a mutated map and count it; yield what the loader did wrong."""
     tally.tried[change.kind] += 1
-    start = time.process_time()
     try:
         passed = _loads(path)
     except Exception:
         yield traceback.format_exc()
         return
-    seconds = time.process_time() - start
-    tally.slowest = max(tally.slowest, seconds)
-    if seconds > SECONDS:
-        yield f"loading took {seconds:.1f} s"
     facts = [(change.path, change.new)] if change.path else list(_facts(text, change)) if passed else []
     held = [pins.kind_of(fact) for fact, new in facts if pins.pinned(document, fact, new)]
     tally.pinned[change.kind] += bool(held)
@@ -125,7 +116,7 @@ def _unordered(value: pins.Plain) -> str:
 
 def report(tally: Tally) -> Iterator[str]:
     """What survived by kind, with the number of tries; a kind without survivors is only counted."""
-    yield f"{sum(tally.tried.values())} mutations, {sum(tally.survived.values())} passed, slowest {tally.slowest:.3f} s"
+    yield f"{sum(tally.tried.values())} mutations, {sum(tally.survived.values())} passed"
     yield f"{sum(tally.pinned.values())} changed a pinned fact; {len(tally.failures)} failures"
     silent = [kind for kind in tally.tried if not tally.survived[kind]]
     yield f"no survivor in {len(silent)} of {len(tally.tried)} kinds; survivors, none of them pinned:"
@@ -139,15 +130,14 @@ def main() -> int:
     """Run from the command line; the exit status is 1 when the loader failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=10_000, help="how many mutations (10000)")
-    parser.add_argument("--seed", type=int, default=1, help="the seed that they are made from (1)")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (by chance)")
     parser.add_argument("--only", type=int, help="repeat the mutation of this number alone")
     wanted = parser.parse_args()
     numbers = range(wanted.count) if wanted.only is None else [wanted.only]
-    start = time.monotonic()
+    print(f"seed {wanted.seed}", flush=True)
     tally = fuzz(maps(), wanted.seed, numbers)
     for line in report(tally):
         print(line)
-    print(f"seed {wanted.seed}, {time.monotonic() - start:.0f} s")
     return 1 if tally.failures else 0
 
 

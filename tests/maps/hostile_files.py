@@ -1,5 +1,6 @@
 """Files that were made to hurt a loader: each a name and what is in it. All are refused, quickly and in few words."""
 
+from functools import cache
 from pathlib import Path
 
 from driveblocks.maps.source import MAX_BYTES
@@ -9,7 +10,7 @@ FULL = MAX_BYTES - 64
 """Almost as large as a map may be, so that the parser gets to see it."""
 
 
-def _filled(text: str, size: int = FULL) -> str:
+def _filled(text: str, size: int) -> str:
     return text * (size // len(text))
 
 
@@ -35,117 +36,135 @@ def _rows(row: str, count: int) -> str:
     return _instead(first, "".join(row.format(n) + "\n" for n in range(count)) + first)
 
 
-TEXTS: dict[str, str] = {
-    "bomb_of_aliases": _bomb(9),
-    "bomb_of_one_long_alias": "a: &a " + "x" * 200_000 + "\nb: [" + ", ".join(["*a"] * 40_000) + "]",
-    "bomb_of_merge_keys": "a: &a {b: 1}\n" + "".join(f"c{n}: {{<<: *a}}\n" for n in range(20_000)),
-    "alias_of_itself": "a: &a [*a]",
-    "ten_megabytes_of_brackets": "[" * 10_000_000,
-    "brackets": "[" * FULL,
-    "brackets_closed": "[" * (FULL // 2) + "]" * (FULL // 2),
-    "brackets_in_rows": _filled("[[[[[[[[[[]]]]]]]]]],\n"),
-    "braces": "{" * FULL,
-    "braces_with_keys": _filled("{a: "),
-    "dashes": _filled("- "),
-    "question_marks": _filled("? "),
-    "commas": "[" + "," * FULL,
-    "list_of_many": "[" + _filled("a,"),
-    "stairs": _stairs(1000),
-    "stairs_of_lists": "".join(" " * step + "-\n" for step in range(1000)),
-    "keys": "".join(f"k{n:06}: 1\n" for n in range(200_000)),
-    "keys_within_the_limit": "".join(f"k{n:05}: 1\n" for n in range(48_000)),
-    "keys_almost_known": "".join(f"prefi{n:05}: T1\n" for n in range(30_000)),
-    "keys_twice": _filled("prefix: T1\n"),
-    "key_of_half_a_megabyte": "k" * FULL + ": 1",
-    "anchors": "".join(f"k{n}: &a{n} 1\n" for n in range(30_000)),
-    "tags": _filled("- !!python/name:os.system x\n"),
-    "tag_that_runs_a_command": "!!python/object/apply:os.system [touch hacked]",
-    "tag_that_makes_an_object": "a: !!python/object/new:subprocess.Popen [[touch, hacked]]",
-    "directives": _filled("%YAML 1.1\n"),
-    "directive_of_many_digits": "%YAML 1." + "1" * 100_000 + "\n---\na: 1\n",
-    "documents": _filled("---\n"),
-    "escape_beyond_unicode": 'a: "\\UFFFFFFFF"',
-    "escape_of_half_a_pair": 'a: "\\uD800"',
-    "escape_of_nothing": 'prefix: "\\0"',
-    "one_digit_repeated": "prefix: " + "1" * FULL,
-    "one_zero_and_digits": "prefix: 0" + "1" * 6000,
-    "digits_and_underscores": "prefix: " + _filled("1_"),
-    "digits_and_colons": "prefix: " + _filled("1:"),
-    "digits_and_points": "prefix: " + _filled("1."),
-    "digits_then_a_letter": "prefix: " + "1" * 3900 + "x",
-    "word": "prefix: " + "T" * FULL,
-    "words": "prefix: " + _filled("T1 "),
-    "quoted_text": 'prefix: "' + "T" * FULL + '"',
-    "quote_never_closed": 'prefix: "' + "T" * FULL,
-    "quotes": _filled("'"),
-    "text_in_a_block": "prefix: |\n" + _filled("  line\n"),
-    "text_of_blanks": 'prefix: "' + " " * FULL + '"',
-    "line": "# " + "x" * FULL,
-    "line_of_blanks": " " * FULL,
-    "lines": "\n" * FULL,
-    "carriage_returns": "\r" * FULL,
-    "comments": _filled("#\n"),
-    "tabs": "\t" * FULL,
-    "lines_of_tabs": _filled("\t\n"),
-    "empty": "",
-    "only_a_comment": "# a map\n",
-    "only_a_document": "---\n...\n",
-    "percent": "%" * FULL,
-    "stars": "*" * FULL,
-    "exclamation_marks": "!" * FULL,
-    "colons": ":" * FULL,
-    "colons_and_blanks": _filled(": "),
-    "nulls": "\0" * FULL,
-    "invisible": "\u200b" * (FULL // 3),
-    "rows_over_everything": _rows("      - {{address: 0000H-FFFFH, name: All, zh: 全部}}", 6000),
-    "rows_twice": _rows("      - {{address: 0010H, name: All, zh: 全部}}", 6000),
-    "rows_backwards": _rows("      - {{address: FFFFH-0000H, name: All, zh: 全部}}", 6000),
-    "ids_of_a_long_range": _rows(
-        "      - {{address: {:04X}H, id: A1-01..A1-99999999999999999999, name: All, zh: 全}}", 5000
-    ),
-    "ids_of_many_digits": _rows("      - {{address: {:04X}H, id: 111111111111111111111111, name: All, zh: 全}}", 5000),
-    "series_over_everything": _instead(
-        "      - {ids: U1-01..U1-04, base: 0020H, apart: [U1-03]}\n",
-        _filled("      - {ids: U1-01..U1-04, base: 0021H}\n", 300_000),
-    ),
-    "areas_over_everything": _instead(
-        "areas:\n",
-        "areas:\n"
-        + "".join(
-            f"  - {{id: a{n}, name: All, zh: 全, addresses: 0000H-FFFFH, numbered_by: parameter_number, access: r, "
-            "source: s, examples: []}\n"
-            for n in range(3000)
+@cache
+def texts(share: int = 1) -> dict[str, str]:
+    """The files of characters; of whatever is repeated in them, so small a part."""
+    full = FULL // share
+    return {
+        "bomb_of_aliases": _bomb(9),
+        "bomb_of_one_long_alias": "a: &a "
+        + "x" * (200_000 // share)
+        + "\nb: ["
+        + ", ".join(["*a"] * (40_000 // share))
+        + "]",
+        "bomb_of_merge_keys": "a: &a {b: 1}\n" + "".join(f"c{n}: {{<<: *a}}\n" for n in range(20_000 // share)),
+        "alias_of_itself": "a: &a [*a]",
+        "ten_megabytes_of_brackets": "[" * (10_000_000 // share),
+        "brackets": "[" * full,
+        "brackets_closed": "[" * (full // 2) + "]" * (full // 2),
+        "brackets_in_rows": _filled("[[[[[[[[[[]]]]]]]]]],\n", full),
+        "braces": "{" * full,
+        "braces_with_keys": _filled("{a: ", full),
+        "dashes": _filled("- ", full),
+        "question_marks": _filled("? ", full),
+        "commas": "[" + "," * full,
+        "list_of_many": "[" + _filled("a,", full),
+        "stairs": _stairs(1000 // share),
+        "stairs_of_lists": "".join(" " * step + "-\n" for step in range(1000 // share)),
+        "keys": "".join(f"k{n:06}: 1\n" for n in range(200_000 // share)),
+        "keys_within_the_limit": "".join(f"k{n:05}: 1\n" for n in range(48_000 // share)),
+        "keys_almost_known": "".join(f"prefi{n:05}: T1\n" for n in range(30_000 // share)),
+        "keys_twice": _filled("prefix: T1\n", full),
+        "key_of_half_a_megabyte": "k" * full + ": 1",
+        "anchors": "".join(f"k{n}: &a{n} 1\n" for n in range(30_000 // share)),
+        "tags": _filled("- !!python/name:os.system x\n", full),
+        "tag_that_runs_a_command": "!!python/object/apply:os.system [touch hacked]",
+        "tag_that_makes_an_object": "a: !!python/object/new:subprocess.Popen [[touch, hacked]]",
+        "directives": _filled("%YAML 1.1\n", full),
+        "directive_of_many_digits": "%YAML 1." + "1" * (100_000 // share) + "\n---\na: 1\n",
+        "documents": _filled("---\n", full),
+        "escape_beyond_unicode": 'a: "\\UFFFFFFFF"',
+        "escape_of_half_a_pair": 'a: "\\uD800"',
+        "escape_of_nothing": 'prefix: "\\0"',
+        "one_digit_repeated": "prefix: " + "1" * full,
+        "one_zero_and_digits": "prefix: 0" + "1" * (6000 // share),
+        "digits_and_underscores": "prefix: " + _filled("1_", full),
+        "digits_and_colons": "prefix: " + _filled("1:", full),
+        "digits_and_points": "prefix: " + _filled("1.", full),
+        "digits_then_a_letter": "prefix: " + "1" * (3900 // share) + "x",
+        "word": "prefix: " + "T" * full,
+        "words": "prefix: " + _filled("T1 ", full),
+        "quoted_text": 'prefix: "' + "T" * full + '"',
+        "quote_never_closed": 'prefix: "' + "T" * full,
+        "quotes": _filled("'", full),
+        "text_in_a_block": "prefix: |\n" + _filled("  line\n", full),
+        "text_of_blanks": 'prefix: "' + " " * full + '"',
+        "line": "# " + "x" * full,
+        "line_of_blanks": " " * full,
+        "lines": "\n" * full,
+        "carriage_returns": "\r" * full,
+        "comments": _filled("#\n", full),
+        "tabs": "\t" * full,
+        "lines_of_tabs": _filled("\t\n", full),
+        "empty": "",
+        "only_a_comment": "# a map\n",
+        "only_a_document": "---\n...\n",
+        "percent": "%" * full,
+        "stars": "*" * full,
+        "exclamation_marks": "!" * full,
+        "colons": ":" * full,
+        "colons_and_blanks": _filled(": ", full),
+        "nulls": "\0" * full,
+        "invisible": "\u200b" * (full // 3),
+        "rows_over_everything": _rows("      - {{address: 0000H-FFFFH, name: All, zh: 全部}}", 6000 // share),
+        "rows_twice": _rows("      - {{address: 0010H, name: All, zh: 全部}}", 6000 // share),
+        "rows_backwards": _rows("      - {{address: FFFFH-0000H, name: All, zh: 全部}}", 6000 // share),
+        "ids_of_a_long_range": _rows(
+            "      - {{address: {:04X}H, id: A1-01..A1-99999999999999999999, name: All, zh: 全}}", 5000 // share
         ),
-    ),
-    "values_twice": _instead(
-        "          {value: 0, name: Keypad, zh: 键盘},\n", _filled("          {value: 5, name: X, zh: X},\n", 400_000)
-    ),
-    "values_of_a_setting": _instead(
-        "      - {value: 0, name: 4800 bit/s, zh: 4800BPS}\n",
-        "".join(f"      - {{value: {n}, name: A{n}, zh: B}}\n" for n in range(9000)),
-    ),
-    "codes_of_the_line": _instead(
-        "      - {code: 0, baud: 4800}\n", "".join(f"      - {{code: {n}, baud: 4800}}\n" for n in range(9000))
-    ),
-    "fault_registers_without_end": _instead(
-        "  registers: [0030H]", "  registers: [" + "0000H-FFFFH, " * 9000 + "0030H]"
-    ),
-    "fault_words_without_end": _instead("{first: 0014H, last: 0015H", "{first: 0000H, last: FFFFH"),
-    "references": _instead("about: [register 0020H, register 0021H]", f"about: [{'register 0020H, ' * 20_000}prose]"),
-    "references_to_ranges": _instead(
-        "about: [register 0020H, register 0021H]",
-        "about: [" + "".join(f"register 0000H-{n:04X}H, " for n in range(9000)) + "nothing]",
-    ),
-    "words_of_a_frame": _instead("values: [1, 5000]", f"values: [{'1, ' * 40_000}1]"),
-    "bytes_of_a_frame": _instead("    printed: 01 08 00 00 12 AB AD 14\n", "    printed: " + "01 " * 1200 + "14\n"),
-    "read_of_every_word": _instead(
-        "    printed: 01 08 00 00 12 AB AD 14\n    checksum: right\n    correct: 01 08 00 00 12 AB AD 14",
-        "    printed: 01 03 00 00 FF FF 04 7A\n    checksum: right\n    correct: 01 03 00 00 FF FF 04 7A",
-    ),
-    "conditions": _instead(
-        "      - {register: 0020H, equals: 0}\n", _filled("      - {register: FFFFH, equals: 0}\n", 300_000)
-    ),
-}
+        "ids_of_many_digits": _rows(
+            "      - {{address: {:04X}H, id: 111111111111111111111111, name: All, zh: 全}}", 5000 // share
+        ),
+        "series_over_everything": _instead(
+            "      - {ids: U1-01..U1-04, base: 0020H, apart: [U1-03]}\n",
+            _filled("      - {ids: U1-01..U1-04, base: 0021H}\n", 300_000 // share),
+        ),
+        "areas_over_everything": _instead(
+            "areas:\n",
+            "areas:\n"
+            + "".join(
+                f"  - {{id: a{n}, name: All, zh: 全, addresses: 0000H-FFFFH, numbered_by: parameter_number, access: r, "
+                "source: s, examples: []}\n"
+                for n in range(3000 // share)
+            ),
+        ),
+        "values_twice": _instead(
+            "          {value: 0, name: Keypad, zh: 键盘},\n",
+            _filled("          {value: 5, name: X, zh: X},\n", 400_000 // share),
+        ),
+        "values_of_a_setting": _instead(
+            "      - {value: 0, name: 4800 bit/s, zh: 4800BPS}\n",
+            "".join(f"      - {{value: {n}, name: A{n}, zh: B}}\n" for n in range(9000 // share)),
+        ),
+        "codes_of_the_line": _instead(
+            "      - {code: 0, baud: 4800}\n",
+            "".join(f"      - {{code: {n}, baud: 4800}}\n" for n in range(9000 // share)),
+        ),
+        "fault_registers_without_end": _instead(
+            "  registers: [0030H]", "  registers: [" + "0000H-FFFFH, " * (9000 // share) + "0030H]"
+        ),
+        "fault_words_without_end": _instead("{first: 0014H, last: 0015H", "{first: 0000H, last: FFFFH"),
+        "references": _instead(
+            "about: [register 0020H, register 0021H]", f"about: [{'register 0020H, ' * (20_000 // share)}prose]"
+        ),
+        "references_to_ranges": _instead(
+            "about: [register 0020H, register 0021H]",
+            "about: [" + "".join(f"register 0000H-{n:04X}H, " for n in range(9000 // share)) + "nothing]",
+        ),
+        "words_of_a_frame": _instead("values: [1, 5000]", f"values: [{'1, ' * (40_000 // share)}1]"),
+        "bytes_of_a_frame": _instead(
+            "    printed: 01 08 00 00 12 AB AD 14\n", "    printed: " + "01 " * (1200 // share) + "14\n"
+        ),
+        "read_of_every_word": _instead(
+            "    printed: 01 08 00 00 12 AB AD 14\n    checksum: right\n    correct: 01 08 00 00 12 AB AD 14",
+            "    printed: 01 03 00 00 FF FF 04 7A\n    checksum: right\n    correct: 01 03 00 00 FF FF 04 7A",
+        ),
+        "conditions": _instead(
+            "      - {register: 0020H, equals: 0}\n",
+            _filled("      - {register: FFFFH, equals: 0}\n", 300_000 // share),
+        ),
+    }
+
 
 BINARIES: dict[str, bytes] = {
     "program": b"\x7fELF\x02\x01\x01" + bytes(range(256)) * 400,
@@ -171,4 +190,7 @@ BINARIES: dict[str, bytes] = {
     "fifty_megabytes": b"#" * 50_000_000,
 }
 
-CONTENTS: dict[str, bytes] = {**{name: text.encode() for name, text in TEXTS.items()}, **BINARIES}
+
+def contents() -> dict[str, bytes]:
+    """Every file by its name, in full size."""
+    return {**{name: text.encode() for name, text in texts().items()}, **BINARIES}

@@ -1,38 +1,33 @@
-"""Load files, each in a process of its own with little memory, and print what each cost.
+"""Load files, each in a process of its own with little memory, and print what became of each.
 
-Arguments: `c` or `python` for the YAML parser, and paths. Prints one line of JSON for each path: its name, the
-messages, the processor time in seconds, and the traceback of what should not have happened. A loader that wants more
-than MOST_BYTES beyond what the process has ends in a MemoryError.
+Arguments: paths. Prints one line of JSON for each path: its name, the messages, and the traceback of what should not
+have happened. A loader that wants more than MOST_BYTES beyond what the process has ends in a MemoryError.
 """
 
 import json
 import os
 import resource
 import sys
-import time
 import traceback
 from pathlib import Path
 
-import yaml
-
-from driveblocks.maps import load, nodes
+from driveblocks.maps import load
 from driveblocks.maps.problem import MapError
 
 MOST_BYTES = 100 << 20
 
 
 def probe(path: Path) -> dict[str, object]:
-    """Load `path`; return what it cost."""
+    """Load `path`; return what became of it."""
     messages: list[str] = []
     trace = ""
-    start = time.process_time()
     try:
         load.load(path)
     except MapError as error:
         messages = [str(problem) for problem in error.problems]
     except BaseException:
         trace = traceback.format_exc()
-    return {"name": path.name, "messages": messages, "seconds": time.process_time() - start, "trace": trace}
+    return {"name": path.name, "messages": messages, "trace": trace}
 
 
 def _limit() -> None:
@@ -43,10 +38,8 @@ def _limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def main(parser: str, paths: list[str]) -> None:
+def main(paths: list[str]) -> None:
     """Probe each path in a child, so that none can spend what another saved."""
-    if parser == "python":
-        nodes._LOADER = yaml.SafeLoader
     for path in paths:
         child = os.fork()
         if child == 0:
@@ -57,4 +50,4 @@ def main(parser: str, paths: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2:])
+    main(sys.argv[1:])

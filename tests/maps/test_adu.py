@@ -1,7 +1,7 @@
 """Frames taken apart: checksums and PDUs against pymodbus, refusals in each family's form, and every wrong length."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from pymodbus.framer import FramerAscii, FramerRTU
 from pymodbus.pdu import DecodePDU, ExceptionResponse, ModbusPDU
@@ -25,13 +25,11 @@ UNIT = st.integers(1, 247)
 WORD = st.integers(0, 0xFFFF)
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.binary(min_size=1, max_size=260))
 def test_the_crc_is_that_of_pymodbus(data: bytes) -> None:
     assert adu.crc16(data) == FramerRTU.compute_CRC(data).to_bytes(2, "big")
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.binary(min_size=1, max_size=260))
 def test_the_lrc_is_that_of_pymodbus(data: bytes) -> None:
     assert adu.lrc(data) == bytes([FramerAscii.compute_LRC(data)])
@@ -64,7 +62,6 @@ def apart(pdu: ModbusPDU, direction: str, refusal: Refusal = Refusal()) -> Field
     return found.pop()
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, WORD, st.integers(1, 125))
 def test_read_requests(unit: int, address: int, count: int) -> None:
     holding = ReadHoldingRegistersRequest(address=address, count=count, dev_id=unit)
@@ -73,7 +70,6 @@ def test_read_requests(unit: int, address: int, count: int) -> None:
     assert apart(inputs, "request") == Fields(unit, 4, address=address, words=count)
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, WORDS)
 def test_read_replies(unit: int, values: list[int]) -> None:
     words, values_ = len(values), tuple(values)
@@ -83,7 +79,6 @@ def test_read_replies(unit: int, values: list[int]) -> None:
     assert apart(inputs, "reply") == Fields(unit, 4, words=words, byte_count=2 * words, values=values_)
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, WORD, WORD)
 def test_writes_of_one(unit: int, address: int, value: int) -> None:
     due = Fields(unit, 6, address=address, values=(value,))
@@ -91,7 +86,6 @@ def test_writes_of_one(unit: int, address: int, value: int) -> None:
     assert apart(WriteSingleRegisterResponse(address=address, registers=[value], dev_id=unit), "reply") == due
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, WORD, WORDS)
 def test_writes_of_several(unit: int, address: int, values: list[int]) -> None:
     words = len(values)
@@ -102,7 +96,6 @@ def test_writes_of_several(unit: int, address: int, values: list[int]) -> None:
     assert apart(reply, "reply") == Fields(unit, 16, address=address, words=words)
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, WORD)
 def test_loop_test(unit: int, data: int) -> None:
     due = Fields(unit, 8, sub_function=0, data=data)
@@ -111,7 +104,6 @@ def test_loop_test(unit: int, data: int) -> None:
     assert apart(ReturnQueryDataResponse(message=message, dev_id=unit), "reply") == due
 
 
-@settings(deadline=None, max_examples=50)
 @given(UNIT, st.sampled_from([3, 4, 6, 8, 16, 1, 2, 5]), st.integers(1, 255))
 def test_exceptions(unit: int, function: int, code: int) -> None:
     pdu = ExceptionResponse(function, exception_code=code, device_id=unit)
@@ -176,7 +168,6 @@ def test_a_frame_that_cannot_be_split_is_named(mode: str, frame: bytes, wrong: s
     assert str(caught.value) == wrong
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.sampled_from(["request", "reply"]), st.binary(min_size=3, max_size=40))
 def test_any_body_is_taken_apart_or_named(direction: str, body: bytes) -> None:
     try:

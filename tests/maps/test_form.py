@@ -3,7 +3,7 @@
 from decimal import Decimal
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from driveblocks.maps import form
@@ -80,26 +80,22 @@ def test_a_form_refuses(shape: Form, text: str) -> None:
 
 
 @pytest.mark.parametrize("shape", {shape.name: shape for shape, *_ in TAKEN}.values(), ids=lambda shape: shape.name)
-@settings(deadline=None, max_examples=50)
 @given(text=st.text(max_size=30))
 def test_what_matches_can_be_parsed(shape: Form, text: str) -> None:
     if shape.pattern.fullmatch(text):
         shape.parse(text)
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.integers(0, 0xFFFF))
 def test_an_address_is_read_as_it_is_printed(address: int) -> None:
     assert form.ADDRESS.parse(address_text(address)) == address
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.integers(0, 0xFFFF), st.integers(0, 0xFFFF))
 def test_a_range_is_read_as_it_is_printed(first: int, last: int) -> None:
     assert form.ADDRESSES.parse(span_text(Span(first, last))) == Span(first, last)
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.integers(0, 15), st.integers(0, 15))
 def test_bits_are_read_as_they_are_printed(first: int, last: int) -> None:
     assert form.BITS.parse(bits_text(Span(first, last))) == Span(first, last)
@@ -108,7 +104,6 @@ def test_bits_are_read_as_they_are_printed(first: int, last: int) -> None:
 spans = st.builds(Span, st.integers(0, 40), st.integers(0, 40))
 
 
-@settings(deadline=None, max_examples=50)
 @given(spans, spans)
 def test_a_span_is_the_set_of_its_numbers(one: Span, other: Span) -> None:
     assert len(one) == len(list(one)) == len(set(one))

@@ -1,12 +1,10 @@
-"""A short run of the fuzz, and proof that it would notice a loader that fails, hangs or looks away."""
-
-import time
+"""A short run of the fuzz, and proof that it would notice a loader that fails or looks away."""
 
 import pytest
 from tests.maps import fuzz, mutate, pins
 from tests.maps.fuzz import Tally
 
-from driveblocks.maps import check, load
+from driveblocks.maps import check
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
 
@@ -47,23 +45,11 @@ def test_a_loader_that_raises_is_found_out(monkeypatch: pytest.MonkeyPatch) -> N
     assert any("KeyError" in failure for failure in _failures())
 
 
-def test_a_loader_that_hangs_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fuzz, "SECONDS", 0.01)
-    monkeypatch.setattr(load, "loads", lambda *_: _spend(0.02))
-    assert any("loading took" in failure for failure in _failures())
-
-
 def _failures() -> list[str]:
     tally = Tally()
     for number in range(10):
         tally.failures += fuzz.fuzz([EXAMPLE], 1, [number]).failures
     return tally.failures
-
-
-def _spend(seconds: float) -> None:
-    end = time.process_time() + seconds
-    while time.process_time() < end:
-        pass
 
 
 @pytest.mark.parametrize("kind", sorted(EXAMPLE.by_kind))

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.bench.synthetic import crc16, synthetic
 
@@ -113,7 +113,6 @@ def test_an_address_between_rows_has_none(address: int) -> None:
     assert LOADED.register_at(address) is None
 
 
-@settings(deadline=None)
 @given(first=st.integers(0, 0x500), length=st.integers(0, 0x40))
 def test_rows_of_a_span_are_those_that_share_an_address(first: int, length: int) -> None:
     span = Span(first, first + length)

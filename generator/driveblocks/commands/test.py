@@ -39,7 +39,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     maps: Maps = None,
     engine: EngineName = "embedded",
     junit: Junit = None,
-    time_limit: Seconds = 10.0,
+    time_limit: Seconds = 120.0,
     coverage: Measure = False,
     require_coverage: Least = None,
 ) -> None:

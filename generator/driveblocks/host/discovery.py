@@ -61,7 +61,7 @@ class Survey:
         return Candidate(name, None, f"no iec2c of this line found (only {', '.join(others)})" if others else NO_IEC2C)
 
 
-NO_IEC2C = "no iec2c found (MATIEC_HOME, PATH, the folders of OpenPLC Editor and Beremiz)"
+NO_IEC2C = "no iec2c found (looked on PATH and in MATIEC_HOME)"
 
 
 def survey(environment: Mapping[str, str] = os.environ) -> Survey:

@@ -1,13 +1,15 @@
 """The strict YAML of maps: mappings, lists and texts, each with its place; everything clever in YAML is refused."""
 
+import contextlib
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 import yaml
 
 from driveblocks.maps import syntax, trap
-from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.problem import MapError, Place, Report
 from driveblocks.maps.source import HIDDEN
 
 MAX_DEPTH = 16
@@ -15,7 +17,10 @@ MAX_NODES = 30_000
 """A map of 400 registers has some 6000."""
 MAX_TEXT = 4000
 """Characters of one value."""
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_LIBYAML: Any = getattr(yaml, "CSafeLoader", None)
+"""The parser in C, many times as fast; None where PyYAML came without it."""
+_EDGE = re.compile(HIDDEN.pattern + r"""|[?]|\\(?!["\\])|^%|[|>][-+0-9]*#|[^\n]\Z""", re.MULTILINE)
+"""What libyaml reads otherwise than PyYAML's own parser, or may: see tests/maps/agreement.py."""
 
 
 class Scalar(NamedTuple):
@@ -47,20 +52,40 @@ Node = Scalar | Items | Entries
 
 
 def parse(text: str, report: Report) -> Node | None:
-    """Return the root node, or None where the text is not YAML; mistakes go to the report."""
+    """Return the root node, or None where the text is not YAML; mistakes go to the report.
+
+    libyaml reads only what both parsers read alike, and only while nothing is wrong. All else, and every complaint,
+    comes from PyYAML's own parser, so that a map means the same, and is told the same, on every machine.
+    """
     if "\t" in text:
         _tabs(text, report)
         return None
+    root = _quickly(text)
+    return _read(yaml.SafeLoader, text, report) if root is None else root
+
+
+def _quickly(text: str) -> Node | None:
+    """What libyaml reads in a text; None where PyYAML's own parser has to say it."""
+    report = Report("")
+    if _LIBYAML is None or _EDGE.search(text):
+        return None
+    with contextlib.suppress(MapError):
+        root = _read(_LIBYAML, text, report)
+        return None if report.problems else root
+    return None
+
+
+def _read(loader: Any, text: str, report: Report) -> Node | None:
     parser = None
     try:
-        parser = _LOADER(text)
+        parser = loader(text)
         return _document(_Events(parser, text, report))
     except _StopError:
         return None
     except yaml.YAMLError as error:
         report.add(*syntax.explain(error, text))
         return None
-    except (ValueError, OverflowError):  # PyYAML without libyaml: an escape beyond Unicode, a version of 5000 digits
+    except (ValueError, OverflowError):  # an escape beyond Unicode, a version of 5000 digits
         report.add((1, 1), "not YAML: a number in it is out of all bounds", "write plain characters, no \\U escapes")
         return None
     finally:
@@ -88,6 +113,7 @@ class _Events:
         self.text = text
         self.report = report
         self.nodes = 0
+        self.quick = not isinstance(parser, yaml.SafeLoader)
 
     def next(self) -> yaml.Event:
         event: yaml.Event = self.get()
@@ -145,8 +171,8 @@ def _document(events: _Events) -> Node | None:
 
 def _directives(events: _Events, start: yaml.Event) -> None:
     # an unknown directive shows only in the text: parsers skip it
-    line = events.place(start)[0]
-    if getattr(start, "explicit", False) and events.text.split("\n", line)[line - 1].startswith("%"):
+    mark = start.start_mark
+    if getattr(start, "explicit", False) and mark is not None and events.text.startswith("%", mark.index):
         events.refuse(start, "YAML directives (%) are not allowed in a map", "remove the line that starts with %")
 
 
@@ -184,6 +210,8 @@ def _entries(events: _Events, start: yaml.Event, depth: int) -> Entries:
 def _scalar(events: _Events, event: yaml.ScalarEvent) -> Scalar:
     text: str = event.value
     plain = event.style is None or event.style == ""
+    if events.quick and plain and not text:  # a value that is left out: the parsers do not agree on its place
+        raise _StopError
     refused = _refuse_trap(events, event, text) if plain else _refuse_escape(events, event, text)
     if len(text) > MAX_TEXT:
         events.refuse(event, f"a value of {len(text)} characters", f"one value has at most {MAX_TEXT}")

@@ -1,4 +1,4 @@
-"""What a YAML parser's complaint means to someone who writes a map; the same words with libyaml and without."""
+"""What a complaint of PyYAML's own parser means to someone who writes a map."""
 
 from dataclasses import dataclass
 
@@ -34,11 +34,8 @@ class _Words:
 
 
 _QUOTE_IT = "quote a text that holds , : {{ }} [ ] and close every quote"
-_BAD_ESCAPE = (
-    "this text holds an escape that YAML does not know",
-    "write two backslashes for one, or put the text in single quotes",
-)
 _NO_DIRECTIVE = ("YAML directives (%) are not allowed in a map", "remove the line that starts with %")
+_NO_TAG = ("a tag is not allowed in a map", "quote a text that starts with !")
 _WORDS = (
     _Words("", ("cannot start any token",), "`{0}` cannot start a value", "quote a text that starts with it"),
     _Words(
@@ -49,7 +46,7 @@ _WORDS = (
     ),
     _Words(
         "block mapping",
-        ("expected key", "expected <block end>"),
+        ("expected <block end>",),
         "this does not continue the mapping that begins in line {1}",
         "check the indentation of this line, and quotes that end too early",
     ),
@@ -74,8 +71,13 @@ _WORDS = (
     _Words(
         "quoted scalar", ("end of stream", "document"), "this quote is never closed", "close it with the same", True
     ),
-    _Words("quoted scalar", ("escape", "hexdecimal"), *_BAD_ESCAPE, True),
-    _Words("double-quoted", ("escape",), *_BAD_ESCAPE, True),
+    _Words(
+        "quoted scalar",
+        ("escape",),
+        "this text holds an escape that YAML does not know",
+        "write two backslashes for one, or put the text in single quotes",
+        True,
+    ),
     _Words("simple key", ("expected ':'",), "this line has no colon", "write `key: value`, or indent the line", True),
     _Words("", ("node content",), "a value is missing before `{0}`", "write it, or quote a text that starts with {0}"),
     _Words(
@@ -89,10 +91,11 @@ _WORDS = (
     _Words(
         "an anchor", ("",), "`&` starts an anchor, which a map cannot have", "quote a text that starts with &", True
     ),
-    _Words("", ("undefined tag handle",), "a tag is not allowed in a map", "quote a text that starts with !"),
+    _Words("", ("undefined tag handle",), *_NO_TAG),
+    _Words(" a tag", ("",), *_NO_TAG, True),
     _Words("block scalar", ("",), "a text begins on the line of its `|` or `>`", "begin it on the next line", True),
     _Words("directive", ("",), *_NO_DIRECTIVE, True),
-    _Words("", ("incompatible YAML", "YAML directive", "%TAG", "TAG directive"), *_NO_DIRECTIVE),
+    _Words("", ("incompatible YAML", "YAML directive", "duplicate tag handle"), *_NO_DIRECTIVE),
     _Words("", ("document start",), "this stands outside the map", "a map has no lines that start with % or ..."),
 )
 

@@ -87,7 +87,7 @@ def source(program: list[Any]) -> str:
 VALUES = st.fixed_dictionaries({name: literals(name) for name in VARIABLES})
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(programs(), VALUES)
 def test_random_programs_by_the_standard(program: list[Any], values: dict[str, int]) -> None:
     """The same final values as an interpreter that wraps after every operation; twice, for what an instance keeps."""
@@ -101,7 +101,7 @@ def test_random_programs_by_the_standard(program: list[Any], values: dict[str, i
         assert {name: made[name] for name in reference.values} == reference.values
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(programs(), VALUES)
 def test_random_programs_that_do_not_fail(program: list[Any], values: dict[str, int]) -> None:
     """Under the default model a scan either fails or gives what the standard says; so does C's model then."""

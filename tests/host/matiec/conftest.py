@@ -36,16 +36,16 @@ def script(path: Path, body: str) -> Path:
 
 
 @pytest.fixture
-def fake(tmp_path: Path) -> Callable[[str, str], MatiecEngine]:
+def fake(tmp_path: Path) -> Callable[..., MatiecEngine]:
     """Make an engine of two shell scripts: iec2c, and a C compiler."""
     if sys.platform == "win32":
         pytest.skip("the fake compilers are shell scripts")
 
-    def make(iec2c: str, compiler: str = "exit 1") -> MatiecEngine:
+    def make(iec2c: str, compiler: str = "exit 1", seconds: float = 600.0) -> MatiecEngine:
         (tmp_path / "lib").mkdir(exist_ok=True)
         (tmp_path / "lib" / "ieclib.txt").touch()
         installation = Installation(script(tmp_path / "iec2c", iec2c), tmp_path / "lib", tmp_path / "lib")
-        cc = CCompiler((str(script(tmp_path / "cc", compiler)),), "fake 1", seconds=0.5)
-        return MatiecEngine(installation, cc, cache=Cache(tmp_path / "cache"), seconds=0.5)
+        cc = CCompiler((str(script(tmp_path / "cc", compiler)),), "fake 1", seconds=seconds)
+        return MatiecEngine(installation, cc, cache=Cache(tmp_path / "cache"), seconds=seconds)
 
     return make

@@ -2,7 +2,9 @@
 
 import multiprocessing
 import os
-import time
+import re
+import stat
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -14,24 +16,23 @@ from driveblocks.host.matiec import Flags, MatiecEngine
 from driveblocks.host.matiec.cache import SEAL, Cache, cache_folder
 
 
-def write(text: str, marks: Path | None = None, pause: float = 0.0) -> "Maker":
-    return Maker(text, marks, pause)
+def write(text: str, mark: Path | None = None) -> "Maker":
+    return Maker(text, mark)
 
 
 class Maker:
-    """Fills an entry with one file; leaves a mark each time it is called."""
+    """Fills an entry with one file; adds a byte to a file each time it is called."""
 
-    def __init__(self, text: str, marks: Path | None, pause: float) -> None:
+    def __init__(self, text: str, mark: Path | None) -> None:
         self.text = text
-        self.marks = marks
-        self.pause = pause
+        self.mark = mark
 
     def __call__(self, folder: Path) -> None:
         (folder / "library.so").write_text(self.text[:3], encoding="utf-8")
-        time.sleep(self.pause)
+        if self.mark:
+            with self.mark.open("ab") as file:
+                file.write(b"x")
         (folder / "library.so").write_text(self.text, encoding="utf-8")
-        if self.marks:
-            (self.marks / f"{os.getpid()}-{time.monotonic_ns()}").touch()
 
 
 def never(_: Path) -> None:
@@ -78,18 +79,30 @@ def test_failed_make_leaves_nothing(tmp_path: Path) -> None:
     assert cache.entry("abc", write("text")).is_dir()
 
 
-def _entry(root: str, marks: str) -> str:
-    folder = Cache(Path(root)).entry("abc", write("x" * 100_000, Path(marks), 0.2))
+def _entry(root: str, mark: str) -> str:
+    folder = Cache(Path(root)).entry("abc", write("x" * 100_000, Path(mark)))
     return (folder / "library.so").read_text(encoding="utf-8")
 
 
 def test_processes_at_the_same_time_make_it_once_and_read_it_whole(tmp_path: Path) -> None:
-    marks = tmp_path / "marks"
-    marks.mkdir()
+    mark = tmp_path / "mark"
     with multiprocessing.get_context("spawn").Pool(4) as pool:
-        texts = pool.starmap(_entry, [(str(tmp_path / "cache"), str(marks))] * 8)
+        texts = pool.starmap(_entry, [(str(tmp_path / "cache"), str(mark))] * 8)
     assert set(texts) == {"x" * 100_000}
-    assert len(list(marks.iterdir())) == 1
+    assert mark.read_bytes() == b"x"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows locks otherwise")
+def test_nobody_else_makes_it_meanwhile(tmp_path: Path) -> None:
+    """However the processes come and go: whoever makes an entry holds its lock."""
+    import fcntl
+
+    def make(folder: Path) -> None:
+        with (tmp_path / "locks" / "ab").open("wb") as file, pytest.raises(BlockingIOError):
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        write("text")(folder)
+
+    assert Cache(tmp_path).entry("abc", make).is_dir()
 
 
 def test_without_locks_the_quicker_wins(tmp_path: Path) -> None:
@@ -108,9 +121,9 @@ def test_without_locks_the_quicker_wins(tmp_path: Path) -> None:
 
 def test_size_is_bounded_and_the_longest_unused_goes(tmp_path: Path) -> None:
     cache = Cache(tmp_path, limit=3500)
-    for age, key in ((300, "aa1"), (200, "bb2"), (100, "cc3")):
+    for stamp, key in ((1, "aa1"), (2, "bb2"), (3, "cc3")):
         folder = cache.entry(key, write("x" * 1000))
-        os.utime(folder / SEAL, (time.time() - age,) * 2)
+        os.utime(folder / SEAL, (stamp, stamp))
     cache.entry("aa1", never)  # used now
     cache.entry("dd4", write("x" * 1000))
     kept = {folder.name for folder in tmp_path.glob("entries/*/*")}
@@ -121,7 +134,7 @@ def test_what_killed_processes_left_goes_after_a_day(tmp_path: Path) -> None:
     left, fresh = tmp_path / "making" / "left", tmp_path / "making" / "fresh"
     left.mkdir(parents=True)
     fresh.mkdir()
-    os.utime(left, (time.time() - 100_000,) * 2)
+    os.utime(left, (1, 1))
     Cache(tmp_path).entry("abc", write("text"))
     assert (left.exists(), fresh.exists()) == (False, True)
 
@@ -130,6 +143,38 @@ def test_check_says_whether_it_can_be_written(tmp_path: Path) -> None:
     assert Cache(tmp_path / "new").check() is None
     (tmp_path / "file").touch()
     assert "DRIVEBLOCKS_CACHE" in str(Cache(tmp_path / "file" / "new").check())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such modes")
+class TestOwner:
+    def test_what_is_made_is_the_users_alone(self, tmp_path: Path) -> None:
+        before = os.umask(0)
+        try:
+            Cache(tmp_path / "new" / "cache").entry("abc", write("text"))
+        finally:
+            os.umask(before)
+        folders = [each for each in (tmp_path / "new").rglob("*") if each.is_dir()]
+        assert {stat.S_IMODE(each.stat().st_mode) for each in folders} == {0o700}
+        assert len(folders) == 6
+
+    @pytest.mark.parametrize("mode", [0o777, 0o720, 0o702])
+    def test_a_folder_that_others_may_write_to_is_refused(self, tmp_path: Path, mode: int) -> None:
+        cache = Cache(tmp_path / "cache")
+        cache.entry("abc", write("text"))
+        cache.root.chmod(mode)
+        wrong = f"can be written by others .mode {mode:o}.; make it yours .mode 700. or name another folder"
+        with pytest.raises(EngineError, match=wrong):
+            cache.entry("abc", never)
+        assert re.search(wrong, str(cache.check()))
+        assert stat.S_IMODE(cache.root.stat().st_mode) == mode, "not ours to change"
+
+    def test_a_folder_of_somebody_else_is_refused(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        cache = Cache(tmp_path / "cache")
+        cache.entry("abc", write("text"))
+        monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 1)
+        with pytest.raises(EngineError, match=f"belongs to another user .number {os.getuid()}.; make it yours"):
+            cache.entry("abc", never)
+        assert "belongs to another user" in str(cache.check())
 
 
 def test_folder() -> None:

@@ -42,7 +42,7 @@ print("alive", flush=True)
 )
 def test_signal_outside_a_scan(matiec: MatiecEngine, mode: str, status: int, said: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, matiec.name, mode], capture_output=True, text=True, timeout=60, check=False
+        [sys.executable, "-c", PROGRAM, matiec.name, mode], capture_output=True, text=True, timeout=600, check=False
     )
     assert "scanned" in done.stdout
     assert "alive" not in done.stdout

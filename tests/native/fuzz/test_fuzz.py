@@ -87,7 +87,7 @@ def test_libfuzzer_replays_every_input(target: str, tmp_path: Path) -> None:
         capture_output=True,
         text=True,
         errors="replace",
-        timeout=300,
+        timeout=1200,
         check=False,
     )
     assert done.returncode == 0, f"{done.stdout[-1000:]}{done.stderr[-4000:]}"

@@ -79,10 +79,10 @@ def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest
 
 @functools.cache
 def spoilt_program(engine_name: str) -> Program:
-    """Its drivers, compiled once, and not patient with a scan that does not end."""
+    """Its drivers, compiled once; a scan takes microseconds, one that takes a second of the processor does not end."""
     engine = next(each for each in found_lines() if each.name == engine_name)
     hasty = checked(engine)
-    hasty = replace(hasty, options=(*hasty.options, "-DSECONDS_WITHOUT_END=1"))
+    hasty = replace(hasty, options=(*hasty.options, "-DSECONDS_WITHOUT_END=1", "-DINPUTS_BETWEEN_ALARMS=1"))
     return build(engine, hasty, spoilt(), [name.upper() for name in FAULTS])
 
 

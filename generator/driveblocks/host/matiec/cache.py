@@ -1,7 +1,8 @@
-"""Built libraries on disk, keyed by all that they were made of, shared by all processes of a user.
+"""Built libraries on disk, keyed by all that they were made of, shared by all processes of a user and by nobody else.
 
 An entry is a folder that appears whole by a rename, with a seal that holds the digest of each of its files: what is
-half-written, cut short by a full disk or touched by somebody is built again and never used.
+half-written, cut short by a full disk or touched by somebody is built again and never used. What is in it runs as the
+user, so a folder that others own or may write to is refused.
 """
 
 import contextlib
@@ -48,9 +49,10 @@ class Cache:
         Raises EngineError if the cache cannot be written, and what `make` raises; then nothing is kept.
         """
         final = self.root / "entries" / key[:2] / key
-        if self._is_good(final):
-            return final
         try:
+            self._folder()
+            if self._is_good(final):
+                return final
             with self._locked(key):
                 if not self._is_good(final):
                     self._make(final, make)
@@ -62,12 +64,40 @@ class Cache:
     def check(self) -> str | None:
         """Say why the cache cannot be written; None if it can."""
         try:
-            self.root.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=self.root) as file:
+            with tempfile.TemporaryFile(dir=self._folder()) as file:
                 file.write(b"\0" * 4096)
         except OSError as error:
             return str(self._complaint(error))
+        except EngineError as error:
+            return str(error)
         return None
+
+    def _folder(self, *names: str) -> Path:
+        """The root, or a folder below it; made for the user alone. Raises EngineError where others own or may write it.
+
+        A folder that was there keeps its mode: it may serve other purposes as well.
+        """
+        folder = self.root
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(mode=0o700, exist_ok=True)
+        if sys.platform != "win32":
+            self._refuse_foreign(folder.stat())
+        for name in names:
+            folder /= name
+            folder.mkdir(mode=0o700, exist_ok=True)
+        return folder
+
+    def _refuse_foreign(self, state: os.stat_result) -> None:
+        """What somebody else can put into the cache would run as the user."""
+        if state.st_uid != os.geteuid():
+            wrong = f"belongs to another user (number {state.st_uid})"
+        elif state.st_mode & 0o022:
+            wrong = f"can be written by others (mode {state.st_mode & 0o777:o})"
+        else:
+            return
+        raise EngineError(
+            f"the build cache {self.root} {wrong}; make it yours (mode 700) or name another folder in DRIVEBLOCKS_CACHE"
+        )
 
     def _complaint(self, error: OSError) -> EngineError:
         return EngineError(
@@ -77,10 +107,8 @@ class Cache:
 
     def _make(self, final: Path, make: Callable[[Path], None]) -> None:
         shutil.rmtree(final, ignore_errors=True)
-        final.parent.mkdir(parents=True, exist_ok=True)
-        making = self.root / "making"
-        making.mkdir(exist_ok=True)
-        folder = Path(tempfile.mkdtemp(dir=making))
+        self._folder("entries", final.parent.name)
+        folder = Path(tempfile.mkdtemp(dir=self._folder("making")))
         try:
             make(folder)
             (folder / SEAL).write_text(json.dumps(_digests(folder)), encoding="utf-8")
@@ -105,9 +133,7 @@ class Cache:
     @contextlib.contextmanager
     def _locked(self, key: str) -> Iterator[None]:
         """Keep other processes from building the same; without locks they would only waste work."""
-        locks = self.root / "locks"
-        locks.mkdir(parents=True, exist_ok=True)
-        with (locks / key[:2]).open("wb") as file:
+        with (self._folder("locks") / key[:2]).open("wb") as file:
             with contextlib.suppress(OSError):
                 _lock(file.fileno())
             yield

@@ -1,5 +1,7 @@
 """Where matiec is on this machine: `iec2c` and the folder of its library.
 
+Only MATIEC_HOME and PATH are looked at: nothing is run that nobody has named.
+
 Layouts known: a folder of its own (`iec2c` beside `lib/`); Beremiz (`matiec/` in its folder); OpenPLC Editor up to 3
 (`matiec/`, and a copy in `editor/arduino/bin/`); OpenPLC Editor 4 (`resources/bin/`, `resources/sources/MatIEC/lib`);
 OpenPLC Runtime 3 (`utils/matiec_src/`, and a copy in `webserver/`); a prefix (`bin/` and `share/matiec/lib`).
@@ -55,7 +57,7 @@ class Useless:
 
 
 def find_installations(environment: Mapping[str, str] = os.environ) -> list[Installation]:
-    """Every usable matiec, the one to prefer first: MATIEC_HOME, then PATH, then where the editors put it."""
+    """Every usable matiec, the one to prefer first: MATIEC_HOME, then PATH; no other folder."""
     return [each for each in look_everywhere(environment) if isinstance(each, Installation)]
 
 
@@ -93,8 +95,6 @@ def _binaries(environment: Mapping[str, str]) -> Iterator[Path]:
         yield from _in_folder(home)
     for folder in _split(environment.get("PATH", "")):
         yield from _executables(folder)
-    for home in _usual_homes(environment):
-        yield from _in_folder(home)
 
 
 def _split(paths: str) -> list[Path]:
@@ -113,29 +113,3 @@ def _executables(folder: Path) -> Iterator[Path]:
         file = folder / name
         if file.is_file() and os.access(file, os.X_OK):
             yield file
-
-
-def _usual_homes(environment: Mapping[str, str]) -> Iterator[Path]:
-    """Folders where Beremiz and OpenPLC are installed or unpacked by their own instructions."""
-    if home := environment.get("HOME") or environment.get("USERPROFILE"):
-        for name in ("OpenPLC_Editor", "OpenPLC_v3", "OpenPLC Editor", "openplc-editor", "Beremiz", "beremiz",
-                     "beremiz_workspace", "matiec", "squashfs-root"):  # fmt: skip
-            yield Path(home, name)
-    if sys.platform == "win32":
-        yield from _windows_homes(environment)
-    elif sys.platform == "darwin":
-        yield from (Path("/Applications/OpenPLC Editor.app"), Path("/Applications/Beremiz.app"))
-        yield Path("/opt/homebrew")
-    else:
-        yield from (Path("/opt", name) for name in ("OpenPLC Editor", "OpenPLC_Editor", "Beremiz", "beremiz", "matiec"))
-        yield Path("/snap/beremiz/current")
-
-
-def _windows_homes(environment: Mapping[str, str]) -> Iterator[Path]:
-    for variable in ("ProgramFiles", "ProgramFiles(x86)", "ProgramW6432", "LOCALAPPDATA", "SystemDrive"):
-        root = environment.get(variable)
-        if not root:
-            continue
-        base = Path(root, "Programs") if variable == "LOCALAPPDATA" else Path(root + os.sep)
-        for name in ("Beremiz", "OpenPLC Editor", "OpenPLC_Editor", "open-plc-editor", "openplc-editor"):
-            yield base / name

@@ -3,7 +3,9 @@
 #ifndef SECONDS_WITHOUT_END
 #define SECONDS_WITHOUT_END 30 /* of the processor, for so many inputs: */
 #endif
-enum { INPUTS_BETWEEN_ALARMS = 4096 };
+#ifndef INPUTS_BETWEEN_ALARMS
+#define INPUTS_BETWEEN_ALARMS 4096
+#endif
 
 static const char *running = "";
 static uint64_t input_number, run_seed;

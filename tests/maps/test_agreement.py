@@ -1,0 +1,66 @@
+"""Both YAML parsers make the same of every text: texts that they once read otherwise, and a short search."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+from tests.maps import agreement
+from tests.maps.agreement import outcome
+
+from driveblocks.maps import catalog, nodes
+
+FOUND = (
+    "![", "!,", "!!]\n", "a: !.!\n", "|#\n", "a: >#b\n", "[? ]", "{ .-?? }\n", "[a?b]\n", "0:", "- a:", "-", "?",
+    "{a: }\n", "[b: ]\n", "{a: # b\n }\n", "\n\ufeffa: b\n", "\n---\n\ufeff", "|2\n\ufeff", "\r---\r", "%FOO\r--- a\r",
+    'a: "\\uD800"\n', 'a: "\\UFFFFFFFF"\n', "%YAML 1." + "1" * 5000 + "\n--- a\n", "a: \ud800\n", "- y\n" * 1000,
+    "- !x y\n" * 1000,
+)  # fmt: skip
+"""Told or placed otherwise without libyaml, or a traceback, before nodes.parse left such texts to PyYAML's parser."""
+needs_libyaml = pytest.mark.skipif(not yaml.__with_libyaml__, reason="PyYAML came without libyaml")
+
+
+@needs_libyaml
+@pytest.mark.parametrize("text", FOUND, ids=lambda text: ascii(text[:20]))
+def test_what_was_found_is_read_alike(text: str) -> None:
+    assert outcome(text, libyaml=True) == outcome(text, libyaml=False)
+
+
+@needs_libyaml
+def test_a_short_search_finds_nothing() -> None:
+    assert list(agreement.search(1, range(1500))) == []
+
+
+@needs_libyaml
+def test_the_search_tells_what_is_read_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As it would be with libyaml for every text."""
+    monkeypatch.setattr(nodes, "_EDGE", re.compile("(?!)"))
+    monkeypatch.setattr(agreement, "text", lambda _, number: FOUND[number])
+    assert [line for line in agreement.search(1, range(len(FOUND))) if repr("|#\n") in line]
+
+
+@needs_libyaml
+def test_texts_of_the_search_are_good_often_enough() -> None:
+    read = [outcome(agreement.text(1, number), libyaml=True) for number in range(300)]
+    assert sum(root is not None and not problems for root, problems in read) > 60
+
+
+@needs_libyaml
+@pytest.mark.parametrize("path", [*agreement.MAPS, *catalog.shipped()], ids=lambda path: path.stem)
+def test_a_good_map_is_read_by_libyaml(path: Path) -> None:
+    """The quick way is taken: the other is many times as slow."""
+    assert nodes._quickly(path.read_text(encoding="utf-8")) is not None
+
+
+def test_the_same_seed_gives_the_same_texts() -> None:
+    assert agreement.text(3, 5) == agreement.text(3, 5) != agreement.text(4, 5)
+
+
+def test_a_find_is_told_and_can_be_repeated(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(agreement, "outcome", lambda text, libyaml: (text, libyaml))
+    assert agreement.main(["--count", "2"]) == 1
+    seed = capsys.readouterr().out.split(":")[0].removeprefix("seed ")
+    assert agreement.main(["--seed", seed, "--only", "1"]) == 1
+    assert f"text 1 of seed {seed}: " in capsys.readouterr().out
