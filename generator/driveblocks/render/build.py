@@ -7,11 +7,10 @@ from pathlib import Path
 
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError, Problem, Report
+from driveblocks.maps.problem import MapError, Problem
 from driveblocks.render import library
 from driveblocks.render.overview import overview
 from driveblocks.render.text import Language
-from driveblocks.render.vet import vet
 from driveblocks.testing import programs
 
 PLATFORM = "iec61131"
@@ -33,7 +32,7 @@ def read(paths: Iterable[Path]) -> list[Source]:
     problems: list[Problem] = []
     for path in paths:
         try:
-            sources.append(Source(path, _vetted(path)))
+            sources.append(Source(path, load(path)))
         except MapError as error:
             problems.extend(error.problems)
     problems.extend(_shared_prefixes(sources))
@@ -41,14 +40,6 @@ def read(paths: Iterable[Path]) -> list[Source]:
     if problems:
         raise MapError(problems)
     return sources
-
-
-def _vetted(path: Path) -> Drive:
-    drive = load(path)
-    report = Report(str(path))
-    vet(drive, report)
-    report.raise_if_any()
-    return drive
 
 
 def _shared_prefixes(sources: list[Source]) -> list[Problem]:

@@ -7,19 +7,14 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section
+from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, plan
-from driveblocks.render import names
 from driveblocks.render.literal import word
 
 Context = dict[str, Any]
-
-UNIT_NAMES = {
-    "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
-    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
-}  # fmt: skip
-"""A unit as the last part of a name."""
 
 STANDARD_EXCEPTION_ADD = 0x80
 """MODBUS Application Protocol V1.1b3, 7: what an exception adds to the function code."""
@@ -45,11 +40,6 @@ def identity(drive: Drive) -> Identity:
 def source_of(drive: Drive, source: str) -> str:
     """The place of a fact: manual and section."""
     return f"{drive.manual.title.en} ({drive.manual.title.zh}): {source}."
-
-
-def symbol(entry: Register | Bit | Value, fallback: str = "") -> str:
-    """The identifier of an entry: its own symbol, or one made from its name. Raises ValueError."""
-    return entry.symbol or names.identifier(entry.name or fallback)
 
 
 # ---------------------------------------------------------------- requests and replies
@@ -329,7 +319,7 @@ def _input(drive: Drive, address: int) -> Context:
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
     return {
-        "name": symbol(row) + "Word",
+        "name": names.word_pin(row),
         "address": address,
         "address_text": address_text(address),
         "title": row.name or "",

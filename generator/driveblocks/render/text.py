@@ -32,7 +32,7 @@ class Language:
         return en if self.suffix == "En" else (zh or en)
 
 
-ENGLISH = Language("En", "ascii", "unknown code")
+ENGLISH = Language("En", "utf-8", "unknown code")
 
 
 def chinese(encoding: str = "utf-8") -> Language:

@@ -1,14 +1,12 @@
-"""Rules on names and texts: both languages, one line, and a sound identifier for what becomes a pin."""
+"""Rules on names and texts: both languages, one line."""
 
 import re
 from collections.abc import Iterator
 
-from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Text
 from driveblocks.maps.problem import Report
 
 _WORD = re.compile(r"[a-z]{3}")
-_NOT_LETTERS = re.compile(r"[^A-Z0-9]+")
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -18,8 +16,6 @@ def check(drive: Drive, report: Report) -> None:
             _texts(entry, "name", entry.name, report)
         elif isinstance(entry, Text):
             _texts(entry, "en", entry.en, report)
-    for _, row in drive.registers():
-        _identifiers(row, report)
 
 
 def _inside(entry: Entry) -> Iterator[Entry]:
@@ -44,24 +40,3 @@ def _texts(entry: Named | Register | Bit | Text, key: str, english: str | None, 
     if english is not None and entry.zh == english and _WORD.search(english):
         wrong = f"`zh` repeats the English `{key}`: the manual's wording is missing"
         report.add(entry.place("zh"), wrong, "write `zh` as the manual prints it")
-
-
-def identifier(name: str) -> str:
-    """What is left of a name in an identifier, whose case does not matter: `External fault 1` -> EXTERNALFAULT1."""
-    return _NOT_LETTERS.sub("", name.upper())
-
-
-def _identifiers(row: Register, report: Report) -> None:
-    seen: dict[str, Bit] = {}
-    named: tuple[Register | Bit, ...] = (row, *row.bits)
-    for entry in named:
-        if entry.name and not entry.symbol and not identifier(entry.name)[:1].isalpha():
-            wrong = f"`{entry.name}` cannot become an identifier"
-            report.add(entry.place("name"), wrong, "start the name with a letter A to Z, or add a `symbol`")
-    for bit in row.bits:
-        if not bit.name:
-            continue
-        other = seen.setdefault(identifier(bit.symbol or bit.name), bit)
-        if other is not bit:
-            wrong = f"`{bit.name}` makes the same identifier as line {other.at[0]} of {address_text(row.address.first)}"
-            report.add(bit.place("name"), wrong, "give each bit of a register its own name or `symbol`")
