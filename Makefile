@@ -1,7 +1,7 @@
 # Short names for what CONTRIBUTING.md explains. Nothing here is needed to use the project.
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
-.PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -22,6 +22,9 @@ fuzz:                 ## 10^4 random mutations of the vendor maps, 4000 of ST fi
 
 mutation:             ## change every fact of the maps that reaches a block, and see a test turn red
 	$(PY) -m tests.blocks.mutation
+
+promise:              ## 3000 changes of maps as authors make them: what check calls good builds, lints clean and passes its tests
+	$(PY) -m tests.blocks.promise
 
 compare:              ## 10^5 scans of every block of the corpus and 10^6 expressions, embedded against matiec
 	$(PY) -m tests.host.compare.long

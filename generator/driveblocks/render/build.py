@@ -35,11 +35,15 @@ def read(paths: Iterable[Path]) -> list[Source]:
             sources.append(Source(path, load(path)))
         except MapError as error:
             problems.extend(error.problems)
-    problems.extend(_shared_prefixes(sources))
-    problems.extend(_shared_folders(sources))
+    problems.extend(clashes(sources))
     if problems:
         raise MapError(problems)
     return sources
+
+
+def clashes(sources: list[Source]) -> list[Problem]:
+    """What stands in the way of one library for all of these maps."""
+    return [*_shared_prefixes(sources), *_shared_folders(sources)]
 
 
 def _shared_prefixes(sources: list[Source]) -> list[Problem]:
@@ -56,13 +60,16 @@ def _shared_prefixes(sources: list[Source]) -> list[Problem]:
 
 
 def _shared_folders(sources: list[Source]) -> list[Problem]:
-    """A drive's folder has the name of its map's file; some names belong to the library itself."""
+    """A drive's folder has the name of its map's file; some names belong to the library itself.
+
+    The case of letters makes no difference, as on Windows.
+    """
     problems = []
     taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
     for source in sources:
-        stem = source.path.stem
+        stem = source.path.stem.lower()
         if stem in taken:
-            wrong = f"the folder {stem}/ is taken by {taken[stem]}"
+            wrong = f"the folder {source.path.stem}/ is taken by {taken[stem]}"
             problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
         taken[stem] = str(source.path)
     return problems

@@ -30,14 +30,14 @@ _OWN_PINS = ("Value", "Unknown")
 
 def check(drive: Drive, report: Report) -> None:
     """Note every name that makes no identifier, or one that is taken."""
-    _prefix(drive, report)
+    prefixed = _prefix(drive, report)
     blocks = _Taken("block", report)
     for _, row in drive.registers():
         for suffix in suffixes(row):
             name = names.symbol(row) + suffix
             made = names.block(drive.prefix, name)
             own = "is one of the drive's own" if OWN.fullmatch(name) else None
-            blocks.add(row, made, own or names.wrong_block(made))
+            blocks.add(row, made, own or (names.wrong_block(made) if prefixed else None))
         pins = _Taken("output", report, _OWN_PINS)
         for entry in _outputs(row):
             pins.add(entry, names.symbol(entry), names.wrong_pin(names.symbol(entry)))
@@ -66,25 +66,26 @@ class _Taken:
         """Note an entry's name that makes no identifier, that cannot be, or that an earlier entry has."""
         place = entry.place("symbol" if entry.symbol else "name")
         if no_symbol := names.wrong_symbol(entry):
-            self.report.add(place, no_symbol, "start the name with a letter A to Z, or add a `symbol`")
+            self.report.add(place, no_symbol, "add a `symbol` of letters A to Z and digits")
             return
         line = f"line {entry.at[0]}"
         taken = self.lines.setdefault(made.upper(), (entry, line))
         if wrong is None and taken[0] is not entry:
             wrong = f"is taken by {taken[1]}"
         if wrong:
-            self.report.add(place, f"the {self.kind} name {made} {wrong}", "add another, short `symbol`")
+            right = "choose another `symbol`" if entry.symbol else "add a short `symbol`"
+            self.report.add(place, f"the {self.kind} name {made} {wrong}", right)
 
 
-def _prefix(drive: Drive, report: Report) -> None:
-    """The prefix alone must not spoil the names that every drive has."""
-    place = drive.place("prefix")
+def _prefix(drive: Drive, report: Report) -> bool:
+    """Whether the prefix spoils none of the names that every drive has."""
+    made = (names.block(drive.prefix, name) for name in OWN_NAMES)
+    wrong = next((f"the block name {each} {why}" for each in made if (why := names.wrong_block(each))), None)
     if drive.prefix in _LIBRARY:
-        report.add(place, f"the prefix {drive.prefix} is the library's own", "choose another prefix")
-    for name in OWN_NAMES:
-        if wrong := names.wrong_block(names.block(drive.prefix, name)):
-            report.add(place, f"the block name {names.block(drive.prefix, name)} {wrong}", "choose another prefix")
-            return
+        wrong = f"the prefix {drive.prefix} is the library's own"
+    if wrong:
+        report.add(drive.place("prefix"), wrong, "choose another prefix")
+    return wrong is None
 
 
 def _outputs(row: Register) -> Iterator[Bit | Value]:

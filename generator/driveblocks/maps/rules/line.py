@@ -92,6 +92,9 @@ def _functions(drive: Drive, report: Report) -> None:
 
 def _function(function: Function, report: Report) -> None:
     unique(function.sub_functions, "code", "sub-function", report, "{:04X}H".format)
+    for sub in function.sub_functions:
+        if not 0 <= sub.code <= 0xFFFF:
+            report.add(sub.place("code"), f"sub-function {sub.code:X}H", "a sub-function is a word, 0000H to FFFFH")
     if not 1 <= function.code <= 0x7F:
         wrong = f"function {function.code:02X}H is no Modbus function"
         report.add(function.place("code"), wrong, "function codes lie within 01H to 7FH")
