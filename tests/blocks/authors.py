@@ -18,7 +18,7 @@ WORDS = (
     "IF", "EN", "INT", "Limit", "Step", "On", "Value", "Unknown", "State", "Error", "Command", "Request", "Reply",
     "Reference", "Standstill", "Can read", "Can write", "Fault number", "Fault text en", "Value text zh", "Test 0300H",
     "Test scales", "Test access", "D", "L", "T", "Word", "EOF", "NaN", "Real to int", "R trig", "Max", "Counter",
-    "85 °C", "Over 85 °C", "Überlast", "Ω", "输出", "Ⅱ stage", "2 wires", "4-20 mA", "+", "a", "x1", "It's $5", "(* a *)",
+    "85 °C", "Over 85 °C", "Überlast", "Ω", "输出", "Ⅱ stage", "2 wires", "4-20 mA", "+", "x1", "It's $5", "(* a *)",
     "a *) b", "{{ name }}", "{% if %}", "100 %", "Run/stop (local)", "Length", "Address", "Count", "Number", "Rest",
     "Output frequency Hz", "Output frequency", "Running", "Stopped", "Ready", "Check", "Raw", "Words", "Adu",
     "A name of thirty-one characters", "A very long name that nobody can take in", "Short " * 40 + "end", "ab" * 15,
@@ -238,7 +238,7 @@ def _values(document: Plain, chance: random.Random) -> str:
     for key in ("bits", "scale", "range", "masks"):
         place.entry.pop(key, None)
     masks = chance.random() < 0.2
-    count = chance.choice((1, 2, 16)) if masks else chance.choice((1, 2, 10, 251, 252, 600))
+    count = chance.choice((1, 2, 16)) if masks else chance.choice((1, 2, 10, 251, 252, 300))
     step = chance.choice((1, 3, 100))
     numbers = [1 << n for n in range(count)] if masks else [n * step for n in range(count)]
     place.entry["values"] = [{"value": f"{n}", "name": f"Kind {n}", "zh": f"种{n}"} for n in numbers]
@@ -252,7 +252,7 @@ def _rows(document: Plain, chance: random.Random) -> str:
     """A table gets more registers: together or apart, with or without meaning."""
     place = _of(document, chance, "Section")
     assert place is not None
-    count, step = chance.choice((1, 10, 100, 600)), chance.choice((1, 2, 7))
+    count, step = chance.choice((1, 10, 100, 300)), chance.choice((1, 2, 7))
     first = chance.choice((0x4000, 0x5000, 0xF000, 0x0A00))
     extra = chance.choice(({}, {"unit": "V", "scale": {"factor": chance.choice(FACTORS), "source": "table"}}))
     for number in range(count):

@@ -1,9 +1,9 @@
-"""Change good maps as authors do, and see that whatever `check` calls good builds, lints clean and passes its own tests.
+"""Change good maps as authors do: whatever `check` calls good must build, lint clean and pass its generated tests.
 
     python -m tests.blocks.promise [--count N] [--seed N] [--only N [--write FILE]] [--processes N]
 
 Each change is made from the seed and its own number alone; `--only` repeats one of them. Maps that become the same
-blocks are judged once. Exit status 1 when a map that `check` calls good breaks the promise, or makes any step fall over.
+blocks are judged once. Exit status 1 when a map that `check` calls good breaks the promise, or makes a step fall over.
 """
 
 import argparse
@@ -43,6 +43,8 @@ SECONDS = 600.0
 """Time limit of one test program: only against a hang."""
 SHARE_OF_FACTS = 0.15
 """How many of the changes alter one fact of the text; the others are those of authors."""
+SHARE = 300
+"""Changes that one set of processes takes."""
 NO_VECTORS = "there are vectors"
 
 
@@ -144,15 +146,23 @@ def broken(map_text: str) -> Iterator[str]:
 
 def search(seed: int, numbers: Sequence[int], processes: int) -> Iterator[Try]:
     """What each change became, those that are judged in the order in which they end."""
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(processes, context, max_tasks_per_child=200) as pool:
-        first: dict[str, int] = {}
-        for each in pool.map(glance, [seed] * len(numbers), numbers, chunksize=8):
-            judged = each.digest and not each.wrong and first.setdefault(each.digest, each.number) == each.number
-            if not judged:
-                yield replace(each, digest="same" if each.digest and not each.wrong else each.digest)
-        for done in as_completed(pool.submit(judge, seed, number) for number in first.values()):
+    first: dict[str, int] = {}
+    for pool, part in _shares(numbers, processes):
+        for each in pool.map(glance, [seed] * len(part), part, chunksize=8):
+            known = first.setdefault(each.digest, each.number) if each.digest and not each.wrong else None
+            if known != each.number:
+                yield each if known is None else replace(each, digest="same")
+    for pool, part in _shares(list(first.values()), processes):
+        for done in as_completed(pool.submit(judge, seed, number) for number in part):
             yield done.result()
+
+
+def _shares(numbers: Sequence[int], processes: int) -> Iterator[tuple[ProcessPoolExecutor, Sequence[int]]]:
+    """The numbers in shares, each with processes of its own, so that none grows without end."""
+    context = multiprocessing.get_context("spawn")
+    for start in range(0, len(numbers), SHARE):
+        with ProcessPoolExecutor(processes, context) as pool:
+            yield pool, numbers[start : start + SHARE]
 
 
 def report(tries: Iterable[Try], seed: int) -> Iterator[str]:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import ast
-from copy import deepcopy
 from collections.abc import Callable
+from copy import deepcopy
 
 from driveblocks.host.coverage import case_outcome
 from driveblocks.host.embedded.calls import returned
@@ -16,7 +16,6 @@ from driveblocks.host.embedded.syntax import place_of
 from driveblocks.host.embedded.terms import Whole
 from driveblocks.st import tree
 from driveblocks.st.types import Block
-
 
 # Branches of a CASE that stand inside each other, as Python has no CASE that the oldest of its versions takes.
 _ABREAST = 50

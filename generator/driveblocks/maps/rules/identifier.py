@@ -1,4 +1,4 @@
-"""Rules on identifiers: what becomes a block or a pin has a name that every compiler takes, and that nothing else has."""
+"""Rules on identifiers: a block or a pin has a name that every compiler takes, and that nothing else has."""
 
 import re
 from collections.abc import Iterable, Iterator
