@@ -77,7 +77,7 @@ def _limits(drive: Drive, report: Report) -> None:
     if drive.limits.ascii_data_bytes and "ascii" not in drive.serial.mode.modes:
         wrong = "a limit for ASCII frames, but the drive speaks no ASCII"
         report.add(drive.limits.place("ascii_data_bytes"), wrong, "remove it, or add ascii to `modes`")
-    if drive.limits.data_bytes and "rtu" not in drive.serial.mode.modes:
+    if drive.limits.data_bytes and drive.serial.mode.modes == ("ascii",):
         wrong = "a limit for RTU frames, but the drive speaks no RTU"
         report.add(drive.limits.place("data_bytes"), wrong, "remove it, add rtu to `modes`, or use `ascii_data_bytes`")
 
