@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -25,6 +25,9 @@ fuzz:                 ## by chance: maps, texts for both YAML parsers, every pro
 
 mutation:             ## change every fact of the maps that reaches a block, and see a test turn red
 	$(PY) -m tests.blocks.mutation
+
+promise:              ## 3000 changes of maps as authors make them: what check calls good builds, lints clean and passes its tests
+	$(PY) -m tests.blocks.promise
 
 compare:              ## 10^5 scans of every block of the corpus and 10^6 expressions, embedded against matiec
 	$(PY) -m tests.host.compare.long

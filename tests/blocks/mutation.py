@@ -33,7 +33,6 @@ from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
 from driveblocks.render import library, text
-from driveblocks.render.vet import vet
 
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
@@ -113,7 +112,6 @@ def read(change: mutate.Change, name: str) -> tuple[Drive | None, bool]:
         return None, True
     try:
         check(drive, report)
-        vet(drive, report)
     except (ValueError, ArithmeticError, LookupError):
         return drive, True
     return drive, bool(report.problems)

@@ -95,6 +95,7 @@ def test_an_unknown_name_is_answered_with_the_known_ones() -> None:
 
 
 def test_without_a_name_all_shipped_maps_are_checked(good: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    Path(good).write_text(EXAMPLE.read_text("utf-8").replace("prefix: EX100", "prefix: EX1"), encoding="utf-8")
     monkeypatch.setattr(catalog, "shipped", lambda: (Path.cwd() / good, EXAMPLE))
     result = CliRunner().invoke(app, ["check"])
     assert result.exit_code == 0

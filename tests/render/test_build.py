@@ -95,7 +95,7 @@ def test_two_drives_in_one_folder_are_refused(tmp_path: Path, names: list[str]) 
     ("old", "new", "said"),
     [
         ("symbol: RampSelection", "symbol: Unknown", "the output name Unknown is taken"),
-        ("            symbol: RampSelection\n", "", "`Ramp` makes the identifier Ramp"),
+        ("            symbol: RampSelection\n", "", "the output name Ramp is the name of a standard function"),
     ],
 )
 def test_names_that_make_no_identifier_are_refused(tmp_path: Path, old: str, new: str, said: str) -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from driveblocks.maps.rules.name import ENCODINGS, LONGEST
-from driveblocks.render import literal, names, results
+from driveblocks.render import literal, results
 
 
 @pytest.mark.parametrize(
@@ -35,30 +35,3 @@ def test_comments_of_a_run_of_declarations_share_a_column() -> None:
     lines = literal.aligned(text).split("\n")
     assert lines[1].index("(*") == lines[2].index("(*")
     assert lines[4] == "  B : INT; (* three *)"
-
-
-@pytest.mark.parametrize(
-    ("name", "wanted"),
-    [("Output frequency", "OutputFrequency"), ("DC bus voltage", "DCBusVoltage"), ("Run/stop (local)", "RunStopLocal")],
-)
-def test_names_become_identifiers(name: str, wanted: str) -> None:
-    assert names.identifier(name) == wanted
-
-
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        ("2 wires", "start with a letter"),
-        ("Ramp", "standard function"),
-        ("A very long name that nobody can take in", "31"),
-        ("...", "letter"),
-    ],
-)
-def test_names_that_cannot_are_refused(name: str, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
-        names.identifier(name)
-
-
-def test_a_block_name_has_a_limit() -> None:
-    with pytest.raises(ValueError, match="31 are allowed"):
-        names.block("SN300G5", "FrequencyReferenceAtFaultHz")

@@ -6,6 +6,7 @@ import typer
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
+    from driveblocks.render.build import Source
 
 Maps = Annotated[
     list[str] | None,
@@ -27,30 +28,35 @@ def run(maps: Maps = None) -> None:
     if not names:
         typer.echo(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check", err=True)
         raise typer.Exit(2)
-    mistakes = [_check(name) for name in names]
+    good: list[Source] = []
+    mistakes = [_check(name, good) for name in names]
     _summary(mistakes)
     if any(mistakes):
         raise typer.Exit(2)
 
 
-def _check(name: str) -> int:
-    """Check one map, print what came out, and return the number of mistakes."""
+def _check(name: str, good: "list[Source]") -> int:
+    """Check one map, alone and with the good ones before it; print what came out and return the number of mistakes."""
     from driveblocks.maps import catalog, view
     from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError
+    from driveblocks.maps.problem import MapError, printable
+    from driveblocks.render import build
 
     try:
         path = catalog.resolve(name)
-        drive = load(path)
+        source = build.Source(path, load(path))
+        if wrong := build.clashes([*good, source]):
+            raise MapError(wrong)
     except catalog.UnknownDrive as unknown:
-        typer.echo(f"{name}:1:1: {unknown}", err=True)
+        typer.echo(f"{printable(name)}:1:1: {unknown}", err=True)
         return 1
     except MapError as error:
         typer.echo(error, err=True)
         return len(error.problems)
-    shown = path if catalog.is_path(name) else name
-    typer.echo(f"{shown}: good: {_held(drive)}")
-    if not drive.frames:
+    good.append(source)
+    shown = printable(str(path)) if catalog.is_path(name) else name
+    typer.echo(f"{shown}: good: {_held(source.drive)}")
+    if not source.drive.frames:
         typer.echo(f"{shown}: note: {view.UNPROVED}")
     return 0
 

@@ -7,6 +7,7 @@ from driveblocks.maps.rules import (
     command,
     condition,
     fault,
+    identifier,
     line,
     name,
     operation,
@@ -19,7 +20,7 @@ from driveblocks.maps.rules import (
 )
 
 _PARTS = (
-    *(register, name, parameter, area, line, setting),
+    *(register, name, identifier, parameter, area, line, setting),
     *(command, operation, standstill, condition, fault, vector, record),
 )
 

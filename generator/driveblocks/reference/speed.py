@@ -29,6 +29,8 @@ class Encoded:
     limited: bool = False
     near: frozenset[int] = frozenset({0})
     """The words that arithmetic in single precision may give: more than one only beside a half."""
+    at_the_end: bool = False
+    """So near to the end of the word that single precision may or may not call it limited."""
 
 
 class SpeedReference:
@@ -71,9 +73,10 @@ class SpeedReference:
 
     def _counted(self, counts: Fraction, limited: bool) -> Encoded:
         near = {_half_up(min(counts * (1 + part), Fraction(self.highest))) for part in (-SLACK, SLACK)}
+        open_ = not limited and 0 < abs(counts - self.highest) <= counts * SLACK
         limited = limited or counts > self.highest
         value = _half_up(min(counts, Fraction(self.highest)))
-        return Encoded("OK", value, limited, frozenset(near | {value}))
+        return Encoded("OK", value, limited, frozenset(near | {value}), open_)
 
 
 def _exact(number: float) -> Fraction | None:

@@ -8,12 +8,11 @@ from pathlib import Path
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError, Problem, Report
+from driveblocks.maps.problem import MapError, Problem
 from driveblocks.render import library, manifest, transaction
 from driveblocks.render.manifest import Manifest, Refused, State
 from driveblocks.render.overview import overview
 from driveblocks.render.text import Language, told
-from driveblocks.render.vet import vet
 from driveblocks.testing import programs
 
 PLATFORM = "iec61131"
@@ -35,22 +34,18 @@ def read(paths: Iterable[Path]) -> list[Source]:
     problems: list[Problem] = []
     for path in paths:
         try:
-            sources.append(Source(path, _vetted(path)))
+            sources.append(Source(path, load(path)))
         except MapError as error:
             problems.extend(error.problems)
-    problems.extend(_shared_prefixes(sources))
-    problems.extend(_shared_folders(sources))
+    problems.extend(clashes(sources))
     if problems:
         raise MapError(problems)
     return sources
 
 
-def _vetted(path: Path) -> Drive:
-    drive = load(path)
-    report = Report(str(path))
-    vet(drive, report)
-    report.raise_if_any()
-    return drive
+def clashes(sources: list[Source]) -> list[Problem]:
+    """What stands in the way of one library for all of these maps."""
+    return [*_shared_prefixes(sources), *_shared_folders(sources)]
 
 
 def _shared_prefixes(sources: list[Source]) -> list[Problem]:
@@ -67,13 +62,16 @@ def _shared_prefixes(sources: list[Source]) -> list[Problem]:
 
 
 def _shared_folders(sources: list[Source]) -> list[Problem]:
-    """A drive's folder has the name of its map's file; some names belong to the library itself."""
+    """A drive's folder has the name of its map's file; some names belong to the library itself.
+
+    The case of letters makes no difference, as on Windows.
+    """
     problems = []
     taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
     for source in sources:
-        stem = source.path.stem
+        stem = source.path.stem.lower()
         if stem in taken:
-            wrong = f"the folder {stem}/ is taken by {taken[stem]}"
+            wrong = f"the folder {source.path.stem}/ is taken by {taken[stem]}"
             problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
         taken[stem] = str(source.path)
     return problems

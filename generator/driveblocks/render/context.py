@@ -1,25 +1,27 @@
 """Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
+from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, plan
-from driveblocks.render import names
 from driveblocks.render.literal import word
 
 Context = dict[str, Any]
+T = TypeVar("T")
 
-UNIT_NAMES = {
-    "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
-    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
-}  # fmt: skip
-"""A unit as the last part of a name."""
+TERMS = 50
+"""Terms of one statement, and branches of one IF: compilers take some hundreds, and each nests what follows."""
+
+_REAL_BITS = 24
+"""Bits of a number that a REAL holds (IEC 60559, binary32)."""
 
 STANDARD_EXCEPTION_ADD = 0x80
 """MODBUS Application Protocol V1.1b3, 7: what an exception adds to the function code."""
@@ -53,11 +55,6 @@ def title(drive: Drive) -> str:
     return f"{known.en} ({known.own})" if known.own else known.en
 
 
-def symbol(entry: Register | Bit | Value, fallback: str = "") -> str:
-    """The identifier of an entry: its own symbol, or one made from its name. Raises ValueError."""
-    return entry.symbol or names.identifier(entry.name or fallback)
-
-
 # ---------------------------------------------------------------- requests and replies
 
 
@@ -66,7 +63,12 @@ def access(drive: Drive, use: str) -> Context:
     allowed = plan(drive)
     spans = allowed.readable if use == "r" else allowed.writable
     name = f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}"
-    return {"drive": identity(drive), "name": name, "use": use, "spans": spans}
+    return {"drive": identity(drive), "name": name, "use": use, "chains": groups(spans) or [()]}
+
+
+def groups(items: Sequence[T]) -> list[Sequence[T]]:
+    """The items, so many at once as one statement may have."""
+    return [items[at : at + TERMS] for at in range(0, len(items), TERMS)]
 
 
 def request(drive: Drive) -> Context:
@@ -83,9 +85,11 @@ def request(drive: Drive) -> Context:
         "longest": min(most.write, allowed.ascii.write) if modes == ("ascii",) else most.write,
         "ascii": allowed.ascii,
         "sub_functions": allowed.sub_functions,
+        "sub_function_groups": groups(allowed.sub_functions),
         "modes": {"rtu": "rtu" in modes, "ascii": "ascii" in modes},
         "unit": Span(drive.serial.unit.min, drive.serial.unit.max),
         "broadcast": drive.serial.broadcast,
+        "start_groups": groups(drive.serial.broadcast.start_addresses if drive.serial.broadcast else ()),
         "example_read": allowed.readable[0].first if allowed.readable else 0,
     }
 
@@ -132,25 +136,39 @@ def scales(drive: Drive) -> Iterator[Context]:
     """For Scale: one context per register with a scale."""
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
+            operation, constant = times(row.scale.factor)
             yield {
                 **_register(drive, section, row, UNIT_NAMES[row.unit]),
                 "unit": row.unit,
                 "factor": f"{row.scale.factor.normalize():f}",
                 "signed": row.signed,
-                "operation": times(row.scale.factor),
+                "operation": operation,
+                "constant": constant,
                 "condition": condition_text(row.scale.when) if row.scale.when else "",
             }
 
 
-def times(factor: Decimal) -> str:
-    """`/ 100.0` for 0.01, `* 2.5` for 2.5, `* 3.0 / 1000.0` for 0.003: whole numbers where REAL cannot hold the factor.
+def times(factor: Decimal) -> tuple[str, str]:
+    """What turns a count into engineering units, and the REAL constant that it needs, if any.
 
-    A literal such as 0.003 is a double to a C compiler and a REAL elsewhere; 3.0 and 1000.0 are the same in both.
+    `/ 100.0` for 0.01, `* 2.5` for 2.5, `* 3.0 / 1000.0` for 0.003: numbers that a REAL holds, so that a C compiler,
+    for which a literal is a double, gets the same. What no literals give exactly is a constant of type REAL.
     """
     ratio = Fraction(factor)
-    if ratio.denominator & (ratio.denominator - 1) == 0:
-        return f"* {real(factor)}"
-    return f"/ {ratio.denominator}.0" if ratio.numerator == 1 else f"* {ratio.numerator}.0 / {ratio.denominator}.0"
+    if _is_real(ratio):
+        return f"* {real(factor)}", ""
+    if ratio.numerator == 1:
+        return f"/ {ratio.denominator}.0", ""
+    if 0xFFFF * ratio.numerator < 1 << _REAL_BITS:
+        return f"* {ratio.numerator}.0 / {ratio.denominator}.0", ""
+    return "* FACTOR", real(factor)
+
+
+def _is_real(number: Fraction) -> bool:
+    """Whether a REAL holds a number exactly: 24 bits, and no exponent that a scale could have is too large."""
+    lowest = number.numerator & -number.numerator
+    whole = number.denominator & (number.denominator - 1) == 0
+    return whole and (number.numerator // max(lowest, 1)).bit_length() <= _REAL_BITS
 
 
 def real(value: Decimal) -> str:
@@ -209,7 +227,8 @@ def _value_parts(row: Register) -> Iterator[Context]:
     if known and row.masks:
         yield part("Unknown", "BOOL", _unlisted_bits(row), "TRUE: no bit is set, or one that the manual does not list")
     elif known:
-        yield part("Unknown", "BOOL", _none_of(known), "TRUE: a value that the manual does not list")
+        first, *more = _none_of(known)
+        yield {**part("Unknown", "BOOL", first, "TRUE: a value that the manual does not list"), "more": more}
 
 
 def _unlisted_bits(row: Register) -> str:
@@ -217,14 +236,14 @@ def _unlisted_bits(row: Register) -> str:
     return f"(Value = {word(0)}) OR ((Value AND {others}) <> {word(0)})"
 
 
-def _none_of(names_: list[str]) -> str:
-    lines = textwrap.wrap(" OR ".join(names_), 90)
-    return "NOT (" + "\n    ".join(lines) + ")"
+def _none_of(names_: list[str]) -> list[str]:
+    """Expressions of which all must be TRUE."""
+    return ["NOT (" + "\n    ".join(textwrap.wrap(" OR ".join(group), 90)) + ")" for group in groups(names_)]
 
 
 def part(name: str, type_: str, expression: str, comment: str) -> Context:
     """One output of a decoder."""
-    return {"name": name, "type": type_, "expression": expression, "comment": comment}
+    return {"name": name, "type": type_, "expression": expression, "comment": comment, "more": []}
 
 
 def bit_test(variable: str, bit: int) -> str:
@@ -313,10 +332,15 @@ def _verify(conditions: tuple[Condition, ...]) -> str:
     return f" The word means this only while {' and '.join(map(condition_text, conditions))}: read that back first."
 
 
-def _counts(row: Register, percent: bool) -> str:
-    if percent and row.scale is not None:
-        return f"Asked / MaximumHz * {real(100 / row.scale.factor)}"
-    return f"Asked * {real(1 / row.scale.factor)}" if row.scale else "Asked * ReferenceScale"
+def _counts(row: Register, percent: bool) -> Context:
+    """Counts of a frequency: the expression, and the REAL constants of the ratio where no literal holds it."""
+    if row.scale is None:
+        return {"text": "Asked * ReferenceScale", "ratio": None}
+    asked = "Asked / MaximumHz" if percent else "Asked"
+    ratio = (100 if percent else 1) / Fraction(row.scale.factor)
+    if _is_real(ratio):
+        return {"text": f"{asked} * {real(Decimal(ratio.numerator) / ratio.denominator)}", "ratio": None}
+    return {"text": f"{asked} / DIVISOR * COUNTS", "ratio": ratio}
 
 
 def standstill(drive: Drive) -> Context:
@@ -332,6 +356,7 @@ def standstill(drive: Drive) -> Context:
         "source": source_of(drive, proof.source),
         "words": words,
         "conditions": conditions,
+        "groups": groups(conditions),
     }
 
 
@@ -339,7 +364,7 @@ def _input(drive: Drive, address: int) -> Context:
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
     return {
-        "name": symbol(row) + "Word",
+        "name": names.word_pin(row),
         "address": address,
         "address_text": address_text(address),
         "title": row.name or "",

@@ -29,7 +29,7 @@ class Language:
         return en if self.suffix == "En" else (entry.short and entry.short.zh) or entry.text_zh or en
 
 
-ENGLISH = Language("En", "ascii", "unknown code")
+ENGLISH = Language("En", "utf-8", "unknown code")
 
 
 def chinese(encoding: str = "utf-8") -> Language:

@@ -58,6 +58,8 @@ def _table(program: Script, model: SpeedReference) -> Table:
 def _row(table: Table, model: SpeedReference, case: Case) -> None:
     about, hertz, maximum, scale = case
     found = model.encode(hertz, maximum, scale)
+    if found.at_the_end:
+        return
     near = {found.value} if _exact(model, hertz, scale) else found.near
     values = {"Hertz": hertz, "Maximum": maximum} | ({"Scale": scale} if model.factor is None else {})
     says = f"{found.value}{', limited' if found.limited else ''}" if found.result == "OK" else WORDS[found.result]

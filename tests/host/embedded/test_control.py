@@ -50,6 +50,17 @@ def test_case_without_match_and_else_does_nothing() -> None:
     assert run("y := 7; CASE n OF 1: y := 1; END_CASE;", 2) == 7
 
 
+@pytest.mark.parametrize("count", [50, 51, 100, 1200])
+def test_a_case_of_many_branches(count: int) -> None:
+    """More branches than Python takes inside each other, one of them, and what stands behind ELSE."""
+    labels = " ".join(f"{number}: y := {number + 1};" for number in range(count))
+    made = block(COUNTER, f"y := 7; CASE n OF {labels} ELSE y := -1; END_CASE;")
+    for number, expected in ((0, 1), (49, 50), (count - 1, count), (count, -1), (-1, -1)):
+        made["n"] = number
+        made.scan()
+        assert made["y"] == expected
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_while_and_exit(model: Overflow) -> None:
     """The sum of 1..n, left early at 7."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
+from copy import deepcopy
 
 from driveblocks.host.coverage import case_outcome
 from driveblocks.host.embedded.calls import returned
@@ -15,6 +16,9 @@ from driveblocks.host.embedded.syntax import place_of
 from driveblocks.host.embedded.terms import Whole
 from driveblocks.st import tree
 from driveblocks.st.types import Block
+
+# Branches of a CASE that stand inside each other, as Python has no CASE that the oldest of its versions takes.
+_ABREAST = 50
 
 
 class Statements(Invocation):
@@ -131,9 +135,21 @@ class Statements(Invocation):
         rest += self.body(statement.otherwise) if statement.otherwise else []
         for each in ends:
             self.scope.ranges.join(each)
-        for test, body in reversed(tests):
-            rest = [ast.If(test, body, rest, **place_of(test))]
+        for first in reversed(range(0, len(tests), _ABREAST)):
+            rest = self._chosen(tests[first : first + _ABREAST], rest)
         return [kept, *rest]
+
+    def _chosen(self, tests: list[tuple[ast.expr, list[ast.stmt]]], rest: list[ast.stmt]) -> list[ast.stmt]:
+        """The branch whose test is true, or the rest. Some hundred branches inside each other are too deep for Python,
+        so those that follow stand inside one test for these.
+        """
+        chain: list[ast.stmt] = [] if len(tests) == _ABREAST else rest
+        for test, body in reversed(tests):
+            chain = [ast.If(test, body, chain, **place_of(test))]
+        if len(tests) < _ABREAST:
+            return chain
+        any_of_these = self.pen.junction(ast.Or(), *(deepcopy(test) for test, _ in tests))
+        return [ast.If(any_of_these, chain, rest, **place_of(any_of_these))]
 
     def _case_branch(
         self, statement: tree.Case, branch: tree.CaseBranch, name: str, before: Ranges

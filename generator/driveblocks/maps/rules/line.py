@@ -89,6 +89,9 @@ def _limits(drive: Drive, report: Report) -> None:
     if drive.limits.ascii_data_bytes and "ascii" not in drive.serial.mode.modes:
         wrong = "a limit for ASCII frames, but the drive speaks no ASCII"
         report.add(drive.limits.place("ascii_data_bytes"), wrong, "remove it, or add ascii to `modes`")
+    if drive.limits.data_bytes and drive.serial.mode.modes == ("ascii",):
+        wrong = "a limit for RTU frames, but the drive speaks no RTU"
+        report.add(drive.limits.place("data_bytes"), wrong, "remove it, add rtu to `modes`, or use `ascii_data_bytes`")
 
 
 def _functions(drive: Drive, report: Report) -> None:
@@ -104,6 +107,9 @@ def _functions(drive: Drive, report: Report) -> None:
 
 def _function(function: Function, report: Report) -> None:
     unique(function.sub_functions, "code", "sub-function", report, "{:04X}H".format)
+    for sub in function.sub_functions:
+        if not 0 <= sub.code <= 0xFFFF:
+            report.add(sub.place("code"), f"sub-function {sub.code:X}H", "a sub-function is a word, 0000H to FFFFH")
     if not 1 <= function.code <= 0x7F:
         wrong = f"function {function.code:02X}H is no Modbus function"
         report.add(function.place("code"), wrong, "function codes lie within 01H to 7FH")

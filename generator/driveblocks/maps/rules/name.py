@@ -1,9 +1,8 @@
-"""Rules on names and texts: the manual's own wording, one line, short enough, and a sound identifier for a pin."""
+"""Rules on names and texts: the manual's own wording, one line, short enough."""
 
 import re
 from collections.abc import Iterator
 
-from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Manual, Named, Register, Returned, Short, Text
 from driveblocks.maps.problem import Place, Report
 
@@ -11,10 +10,9 @@ LONGEST = 80
 """Bytes of a text in a block: what an unsized STRING holds on every target."""
 
 ENCODINGS = ("utf-8", "gb18030")
-"""The encodings in which Chinese can be built; English stays within ASCII."""
+"""The encodings in which Chinese can be built; English beyond ASCII is UTF-8."""
 
 _WORD = re.compile(r"[a-z]{3}")
-_NOT_LETTERS = re.compile(r"[^A-Z0-9]+")
 
 Some = Named | Register | Bit | Text
 """What has words."""
@@ -30,8 +28,6 @@ def check(drive: Drive, report: Report) -> None:
             _wording(drive.manual, entry, key, english, report)
             if isinstance(entry, Named) or (isinstance(entry, Text) and _translated(drive, entry)):
                 worded(drive.manual, entry, f"`{english}`", report)
-    for _, row in drive.registers():
-        _identifiers(row, report)
     for returned in _returned(drive):
         for language, text, place in _wordings(returned):
             _fits(language, text, place, report)
@@ -107,24 +103,3 @@ def _texts(entry: Some, key: str, english: str | None, report: Report) -> None:
     if english is not None and entry.zh == english and _WORD.search(english):
         wrong = f"`zh` repeats the English `{key}`: the manual's wording is missing"
         report.add(entry.place("zh"), wrong, "write `zh` as the manual prints it")
-
-
-def identifier(name: str) -> str:
-    """What is left of a name in an identifier, whose case does not matter: `External fault 1` -> EXTERNALFAULT1."""
-    return _NOT_LETTERS.sub("", name.upper())
-
-
-def _identifiers(row: Register, report: Report) -> None:
-    seen: dict[str, Bit] = {}
-    named: tuple[Register | Bit, ...] = (row, *row.bits)
-    for entry in named:
-        if entry.name and not entry.symbol and not identifier(entry.name)[:1].isalpha():
-            wrong = f"`{entry.name}` cannot become an identifier"
-            report.add(entry.place("name"), wrong, "start the name with a letter A to Z, or add a `symbol`")
-    for bit in row.bits:
-        if not bit.name:
-            continue
-        other = seen.setdefault(identifier(bit.symbol or bit.name), bit)
-        if other is not bit:
-            wrong = f"`{bit.name}` makes the same identifier as line {other.at[0]} of {address_text(row.address.first)}"
-            report.add(bit.place("name"), wrong, "give each bit of a register its own name or `symbol`")

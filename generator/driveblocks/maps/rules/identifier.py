@@ -1,0 +1,106 @@
+"""Rules on identifiers: a block or a pin has a name that every compiler takes, and that nothing else has."""
+
+import re
+from collections.abc import Iterable, Iterator
+
+from driveblocks.maps import names
+from driveblocks.maps.model import Bit, Drive, Register, Value
+from driveblocks.maps.problem import Report
+
+_LIBRARY = ("MB", "DB")
+"""Prefixes of the blocks that every drive shares, and of the harness of the tests."""
+
+OWN_NAMES = (
+    "CanRead", "CanWrite", "Request", "Reply", "Command", "Reference", "Standstill", "FaultNumber", "FaultTextEn",
+    "ErrorTextEn", "BitTextEn", "ValueTextEn",
+)  # fmt: skip
+"""The blocks that every drive has; texts in other languages end in two other letters."""
+
+OWN = re.compile(
+    r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
+    r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|Frames|JogForward|JogReverse|KeepWord|"
+    r"Reference|Request|Scales|Sequence|Standstill|Tables|Write|(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
+    re.IGNORECASE,
+)
+"""What a register's block cannot be called: the other blocks of a drive, and its test programs."""
+
+_OWN_PINS = ("Value", "Unknown")
+"""What every decoder has."""
+
+
+def check(drive: Drive, report: Report) -> None:
+    """Note every name that makes no identifier, or one that is taken."""
+    prefixed = _prefix(drive, report)
+    blocks = _Taken("block", report)
+    for _, row in drive.registers():
+        for suffix in suffixes(row):
+            name = names.symbol(row) + suffix
+            made = names.block(drive.prefix, name)
+            own = "is one of the drive's own" if OWN.fullmatch(name) else None
+            blocks.add(row, made, own or (names.wrong_block(made) if prefixed else None))
+        pins = _Taken("output", report, _OWN_PINS)
+        for entry in _outputs(row):
+            pins.add(entry, names.symbol(entry), names.wrong_pin(names.symbol(entry)))
+    _inputs(drive, (one.register for one in drive.operation.standstill.all), report)
+    if drive.faults.bits is not None:
+        _inputs(drive, range(drive.faults.bits.first, drive.faults.bits.last + 1), report)
+
+
+def suffixes(row: Register) -> Iterator[str]:
+    """The blocks that a register has: a decoder, a scale."""
+    if row.values or any(bit.name and not bit.unused for bit in row.bits):
+        yield ""
+    if row.scale is not None and row.unit is not None:
+        yield names.UNIT_NAMES[row.unit]
+
+
+class _Taken:
+    """Names of one kind that must differ, whatever the case of their letters."""
+
+    def __init__(self, kind: str, report: Report, own: Iterable[str] = ()) -> None:
+        """Start with the names that the block itself has."""
+        self.kind, self.report = kind, report
+        self.lines: dict[str, tuple[object, str]] = {name.upper(): (self, "the block itself") for name in own}
+
+    def add(self, entry: Register | Bit | Value, made: str, wrong: str | None) -> None:
+        """Note an entry's name that makes no identifier, that cannot be, or that an earlier entry has."""
+        place = entry.place("symbol" if entry.symbol else "name")
+        if no_symbol := names.wrong_symbol(entry):
+            self.report.add(place, no_symbol, "add a `symbol` of letters A to Z and digits")
+            return
+        line = f"line {entry.at[0]}"
+        taken = self.lines.setdefault(made.upper(), (entry, line))
+        if wrong is None and taken[0] is not entry:
+            wrong = f"is taken by {taken[1]}"
+        if wrong:
+            right = "choose another `symbol`" if entry.symbol else "add a short `symbol`"
+            self.report.add(place, f"the {self.kind} name {made} {wrong}", right)
+
+
+def _prefix(drive: Drive, report: Report) -> bool:
+    """Whether the prefix spoils none of the names that every drive has."""
+    made = (names.block(drive.prefix, name) for name in OWN_NAMES)
+    wrong = next((f"the block name {each} {why}" for each in made if (why := names.wrong_block(each))), None)
+    if drive.prefix in _LIBRARY:
+        wrong = f"the prefix {drive.prefix} is the library's own"
+    if wrong:
+        report.add(drive.place("prefix"), wrong, "choose another prefix")
+    return wrong is None
+
+
+def _outputs(row: Register) -> Iterator[Bit | Value]:
+    """What becomes outputs of a register's decoder."""
+    for bit in row.bits:
+        if bit.name and not bit.unused:
+            yield bit
+            yield from bit.values if len(bit.bit) > 1 else ()
+    yield from row.values
+
+
+def _inputs(drive: Drive, addresses: Iterable[int], report: Report) -> None:
+    """The registers whose words a block takes."""
+    pins = _Taken("input", report)
+    for address in dict.fromkeys(addresses):
+        row = drive.register_at(address)
+        if row is not None:
+            pins.add(row, names.word_pin(row), names.wrong_pin(names.word_pin(row)))

@@ -1,0 +1,115 @@
+"""What `check` calls good builds, lints clean and passes its generated tests: the short form, and the judge awake."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from tests.blocks import promise
+from tests.maps import mutate
+
+from driveblocks.maps import check
+from driveblocks.maps.load import loads
+from driveblocks.maps.rules import identifier
+
+Plain = dict[str, Any]
+NAMES = {original.name: original for original in promise.originals()}
+
+
+def document(name: str) -> Plain:
+    """A map as mappings and lists that may be changed."""
+    made: Plain = mutate.plain(NAMES[name].root)
+    return made
+
+
+def judged(changed: Plain) -> list[str]:
+    """What breaks the promise of a map that `check` calls good."""
+    text = json.dumps(changed, ensure_ascii=False)
+    loads(text, "map.yaml")
+    return list(promise.broken(text))
+
+
+def rows(changed: Plain, count: int, **keys: Any) -> list[str]:
+    """Add registers that stand apart; their addresses."""
+    first = 0xA000 + 0x400 * len(keys)
+    made = [{"address": f"{first + 2 * n:04X}H", "name": f"Row {first + n}", "zh": "行", **keys} for n in range(count)]
+    changed["sections"][1]["registers"] += made
+    return [str(row["address"]) for row in made]
+
+
+def factors(changed: Plain) -> None:
+    """Scales that no REAL holds; the reference counts in one of them."""
+    for number, factor in enumerate(("0.03", "0.333333333", "0.123456789", "999999999.999999999", "0.007", "7")):
+        row = {"name": f"Scaled {number}", "zh": "值", "unit": "V", "scale": {"factor": factor, "source": "part C"}}
+        changed["sections"][1]["registers"].append({"address": f"{0xB000 + number:04X}H", **row})
+    changed["sections"][0]["registers"][1]["scale"] = {"factor": "0.03", "source": "part C"}
+
+
+def frequency(changed: Plain) -> None:
+    """A reference in Hz whose word ends where a usual frequency falls."""
+    changed["sections"][0]["registers"][1] |= {
+        "unit": "Hz", "scale": {"factor": "0.007", "source": "part C"}, "range": {"min": "0", "max": "7142"}
+    }  # fmt: skip
+    changed["operation"]["reference"] = {"register": "8001H", "means": "frequency", "source": "part C"}
+
+
+def long_lists(changed: Plain) -> None:
+    """More of everything than one statement takes."""
+    subs = [{"code": f"{n:04X}H", "name": f"Test {n}", "zh": "试"} for n in (*range(110), 0xFFFF)]
+    changed["functions"][1]["sub_functions"] = [*subs, {"code": "00A5H", "name": "Maker's test", "zh": "厂家测试"}]
+    starts = rows(changed, 60, access="rw")
+    changed["serial"]["broadcast"]["start_addresses"] += starts
+    changed["operation"]["standstill"]["all"] += [{"register": address, "equals": "0"} for address in starts]
+    values = [{"value": f"{n * 3}", "name": f"Kind {n}", "zh": f"种{n}"} for n in range(110)]
+    changed["sections"][1]["registers"].append({"address": "F000H", "name": "Kinds", "zh": "种", "values": values})
+
+
+def many_codes(changed: Plain) -> None:
+    """A thousand faults with texts of every kind."""
+    texts = ("85 °C", "it's $5", "(* a *)", "a *) b", "{{ x }}", "Überlast", "long " * 30 + "end")
+    changed["faults"]["codes"] = [
+        {"code": f"{n + 1}", "name": f"{texts[n % len(texts)]} {n}", "zh": f"{'过' * (n % 30)}(*{n}"}
+        for n in range(1000)
+    ]
+
+
+def names(changed: Plain) -> None:
+    """Names that are words of the language, but no names of a pin or block by themselves."""
+    for number, name in enumerate(("Step", "Limit", "Over 85 °C", "Real to int", "Check", "Test mode", "Max")):
+        row = {"address": f"{0xB000 + number:04X}H", "name": name, "zh": "值"}
+        changed["sections"][1]["registers"].append({**row, "values": [{"value": "1", "name": "On site", "zh": "一"}]})
+
+
+CHANGES: list[tuple[str, Callable[[Plain], None]]] = [
+    ("baumhof.yaml", factors),
+    ("baumhof.yaml", frequency),
+    ("nordwind.yaml", long_lists),
+    ("baumhof.yaml", many_codes),
+    ("nordwind.yaml", names),
+]
+
+
+@pytest.mark.parametrize(("name", "change"), CHANGES, ids=[change.__name__ for _, change in CHANGES])
+def test_a_good_map_builds_lints_clean_and_passes(name: str, change: Callable[[Plain], None]) -> None:
+    changed = document(name)
+    change(changed)
+    assert judged(changed) == []
+
+
+def test_changes_as_authors_make_them() -> None:
+    tries = [promise.glance(7, number) for number in range(40)]
+    assert [each for each in tries if each.wrong] == []
+    good = [each.number for each in tries if each.digest]
+    assert 10 <= len(good) <= 35
+    assert promise.judge(7, good[0]).wrong == ()
+
+
+def test_a_change_is_made_from_its_seed_and_number_alone() -> None:
+    assert promise.changed(3, 5) == promise.changed(3, 5) != promise.changed(4, 5)
+
+
+def test_the_judge_is_awake(monkeypatch: pytest.MonkeyPatch) -> None:
+    changed = document("baumhof.yaml")
+    changed["sections"][0]["registers"][0]["bits"][0]["symbol"] = "EN"
+    monkeypatch.setattr(check, "_PARTS", [part for part in check._PARTS if part is not identifier])
+    assert any(wrong.startswith("lint") and "EN is a keyword" in wrong for wrong in judged(changed))
