@@ -57,8 +57,8 @@ def test_names_that_differ_in_case_alone_are_refused(tmp_path: Path, one: str, o
     for number, path in enumerate(paths):
         path.parent.mkdir()
         path.write_text(EXAMPLE.read_text("utf-8").replace("prefix: EX100", f"prefix: E{number}"), encoding="utf-8")
-    said = f"{paths[1]}:1:1: the folder {other}/ is taken by"
+    said = [f"{path}:1:1: the folder {path.stem}/ is taken by" for path in paths]
     for command in ("check", "build"):
         result = CliRunner().invoke(app, [command, *map(str, paths), *(["-o", str(tmp_path)] * (command == "build"))])
         assert result.exit_code == 2
-        assert said in result.output
+        assert any(one in result.output for one in said)
