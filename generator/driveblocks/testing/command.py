@@ -147,6 +147,8 @@ def _resets() -> Iterator[tuple[str, Pins]]:
     yield from _named("asked twice", *twice, ("fault_reset",), ("stop_acknowledged",), ("reset_acknowledged",), ())
     yield from _named("nothing to acknowledge", ("reset_acknowledged",), ("run_forward", "stop_acknowledged"), ())
     yield from _named("before its stop is acknowledged", ("fault_reset",), ("reset_acknowledged",), (), *over)
+    early = ("run_forward",), ("fault_reset", "stop_acknowledged"), ("stop_acknowledged",), ("reset_acknowledged",)
+    yield from _named("no stop was told that could be acknowledged", *early)
     yield from _named("with the pin held on", ("fault_reset", "run_forward"), ("fault_reset",), ("fault_reset", "stop"))
 
 
@@ -163,7 +165,7 @@ def _reset_stops() -> Iterator[tuple[str, Pins]]:
 
 def _jogs(jog: str, other: str) -> Iterator[tuple[str, Pins]]:
     yield from _named("a jog and its end", (jog,), (jog,), (), ())
-    yield from _named("a jog, then a run", (jog,), ("run_forward",), (), ())
+    yield from _named("a jog, then a run", (jog,), ("run_forward",), (), (jog,), ("run_reverse",), ())
     yield from _named("a jog beside a run", ("run_forward",), ("run_forward", jog), (jog,), ())
     yield from _named("a jog the other way", (jog,), (other,), (jog, other), (), ())
     for stop in ("stop", "quick_stop", "coast_stop", "-enable"):

@@ -26,7 +26,7 @@ PLANTED = {
     "reference-JSCC-maximum": ("JSCC_Reference", "Asked > MaximumHz", "Asked >= MaximumHz"),
     "reference-JSCC-scale": ("JSCC_Reference", "ReferenceScale <= 1.0E6", "ReferenceScale < 1.0E6"),
     "reference-SN300G5-speed": ("SN300G5_Reference", "Count > 65535.0", "Count > 65536.0"),
-    "reference-SN300G5-maximum": ("SN300G5_Reference", "MaximumHz >= 0.0", "MaximumHz > 0.0"),
+    "reference-SN300G5-maximum": ("SN300G5_Reference", "MaximumHz >= LEAST", "MaximumHz > LEAST"),
     "reference-words": ("CHF_Reference", "* 10000.0;", "* 10001.0;"),
     "replies": ("MB_ParseReply", "Length > 254", "Length > 255"),
     "request-blocks": ("SN300G5_Request", "UnitAddress > 32", "UnitAddress > 33"),
