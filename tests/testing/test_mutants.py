@@ -28,7 +28,12 @@ DRIVE = [
     ("EX100_Command", "IF ResetWaits AND StopStands THEN", "IF ResetWaits THEN", "FaultReset"),
     ("EX100_Command", "IF StopAcknowledged AND Stopping THEN", "IF StopAcknowledged THEN", "FaultReset"),
     ("EX100_Command", "    ResetWaits := FALSE;\n    StopStands := FALSE;", "    ResetWaits := FALSE;", "FaultReset"),
-    ("EX100_Command", "  IF NewStop THEN\n    StopStands := FALSE;", "  IF NewStop THEN\n    Held := Held;", "ResetStop"),
+    (
+        "EX100_Command",
+        "  IF NewStop THEN\n    StopStands := FALSE;",
+        "  IF NewStop THEN\n    Held := Held;",
+        "ResetStop",
+    ),
     ("EX100_Command", "OR (EnableMemory AND NOT Enable)", "", "ResetStop"),
     ("EX100_Command", "  ELSIF NOT Motion THEN", "  ELSIF NOT RunForward THEN", "FaultReset"),
     ("EX100_Command", "ELSIF RunForward AND NOT Held THEN", "ELSIF RunForward THEN", "FaultReset"),

@@ -126,6 +126,7 @@ def _sequences() -> Iterator[tuple[str, Pins]]:
     yield from _named("turning round", ("run_forward",), ("run_reverse",), ("run_forward", "run_reverse"), ())
     for stop in STOPS:
         asked = f"-{stop}" if stop == "enable" else stop
+        yield from _named("a run, and a stop", ("run_forward",), ("run_forward", asked), ("run_forward",), (asked,))
         yield from _named("a stop is sent anew when its pin rises", (), (asked,), (asked,), ())
 
 
@@ -148,7 +149,7 @@ def _resets() -> Iterator[tuple[str, Pins]]:
     yield from _named("nothing to acknowledge", ("reset_acknowledged",), ("run_forward", "stop_acknowledged"), ())
     yield from _named("before its stop is acknowledged", ("fault_reset",), ("reset_acknowledged",), (), *over)
     early = ("run_forward",), ("fault_reset", "stop_acknowledged"), ("stop_acknowledged",), ("reset_acknowledged",)
-    yield from _named("no stop was told that could be acknowledged", *early)
+    yield from _named("no stop was told that could be acknowledged", ("reset_acknowledged",), (), *early)
     yield from _named("with the pin held on", ("fault_reset", "run_forward"), ("fault_reset",), ("fault_reset", "stop"))
 
 
@@ -167,6 +168,7 @@ def _jogs(jog: str, other: str) -> Iterator[tuple[str, Pins]]:
     yield from _named("a jog and its end", (jog,), (jog,), (), ())
     yield from _named("a jog, then a run", (jog,), ("run_forward",), (), (jog,), ("run_reverse",), ())
     yield from _named("a jog beside a run", ("run_forward",), ("run_forward", jog), (jog,), ())
+    yield from _named("a run, then a jog", ("run_forward",), (jog,), ("run_reverse",), (jog,), ())
     yield from _named("a jog the other way", (jog,), (other,), (jog, other), (), ())
     for stop in ("stop", "quick_stop", "coast_stop", "-enable"):
         yield from _named("a jog and a stop", (jog,), (jog, stop), (), (), (jog,), (stop,), ())

@@ -178,7 +178,24 @@ def _ruled(bench: Bench, model: SpeedReference, prefix: str, pins: list[tuple[in
 
 
 def _tried(model: SpeedReference, several: int) -> Iterator[tuple[int, int, int]]:
-    edges = [0.0, 1.0e-45, 0.0025, 0.005, 0.1, 10000.0, 0.5, 37.21, 50.0, 100.0, 327.675, 655.345, 655.35, 655.36, 1.0e6, 1.0e30]
+    edges = [
+        0.0,
+        1.0e-45,
+        0.0025,
+        0.005,
+        0.1,
+        10000.0,
+        0.5,
+        37.21,
+        50.0,
+        100.0,
+        327.675,
+        655.345,
+        655.35,
+        655.36,
+        1.0e6,
+        1.0e30,
+    ]
     near = [pattern(stored(edge)) + step for edge in edges for step in (-1, 0, 1) if edge or step >= 0]
     near += [INFINITY - 1, INFINITY, INFINITY + 1]
     both = [*near, *(bits | 0x80000000 for bits in near)]
