@@ -1,4 +1,4 @@
-"""The files of the ST library: generic blocks, then the blocks of each drive, in an order that every compiler takes."""
+"""The files of the ST library: generic blocks, then the blocks of each drive, each behind what it uses."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

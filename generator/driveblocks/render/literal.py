@@ -1,4 +1,4 @@
-"""Literals and comments of Structured Text, as every compiler reads them."""
+"""Literals and comments of Structured Text, in the forms of the portable part."""
 
 import itertools
 import re
