@@ -37,14 +37,16 @@ class Identity:
 def identity(drive: Drive) -> Identity:
     """Prefix, family and manual of a drive."""
     edition = f", edition {drive.manual.edition}" if drive.manual.edition else ""
-    manual = f"{drive.manual.title.en} ({drive.manual.title.zh}), {drive.manual.publisher.en}{edition}."
+    manual = (
+        f"{drive.manual.title.en} ({drive.manual.title.zh}), {drive.manual.publisher.en}{edition}".rstrip(".") + "."
+    )
     vendor = "" if drive.vendor.en in drive.family.en else f"{drive.vendor.en} "
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
 
 
 def source_of(drive: Drive, source: str) -> str:
     """The place of a fact: manual and section."""
-    return f"{drive.manual.title.en} ({drive.manual.title.zh}): {source}."
+    return f"{drive.manual.title.en} ({drive.manual.title.zh}): {source.rstrip('.')}."
 
 
 def symbol(entry: Register | Bit | Value, fallback: str = "") -> str:
@@ -160,9 +162,14 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Con
         "address_text": address_text(row.address.first),
         "title": _inside_a_sentence(row.name or ""),
         "zh": row.text_zh,
-        "note": row.note,
+        "note": _elsewhere(row.note or ""),
         "source": source_of(drive, row.source or section.source),
     }
+
+
+def _elsewhere(text: str) -> str:
+    """A text of the map, whose other parts a reader of the block has not before him."""
+    return text.replace("`absent`", "`absent` in the map of the drive")
 
 
 def _inside_a_sentence(name: str) -> str:
@@ -338,7 +345,7 @@ def standstill(drive: Drive) -> Context:
     conditions = [{"expression": _test(named[one.register], one), "comment": condition_text(one)} for one in proof.all]
     return {
         "drive": identity(drive),
-        "why": proof.why[:1].upper() + proof.why[1:].rstrip(".") + ".",
+        "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
         "source": source_of(drive, proof.source),
         "words": words,
         "conditions": conditions,
@@ -349,7 +356,7 @@ def _input(drive: Drive, address: int) -> Context:
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
     return {
-        "name": symbol(row) + "Word",
+        "name": f"{symbol(row).removesuffix('Word')}Word",
         "address": address,
         "address_text": address_text(address),
         "title": row.name or "",

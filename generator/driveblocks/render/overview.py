@@ -30,6 +30,7 @@ def overview(files: list[File], drives: list[Drive]) -> str:
         "README.md.j2",
         groups={_heading(folder, drives, files): found for folder, found in rows.items()},
         types=[_type(file, types) for file in files if file.name in types],
+        texts=next((file.name for file in files if file.name.startswith("MB_ResultText")), "the page above"),
         examples=[_example(drive, checked.blocks) for drive in drives],
     )
 

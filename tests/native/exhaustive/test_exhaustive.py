@@ -40,7 +40,7 @@ PLANTED = {
     "scales": ("JSCC_OutputFrequencyHz", "/ 10.0;", "/ 10.00001;"),
     "fault-numbers": ("SN300G5_FaultNumber", "WORD#16#0031", "WORD#16#0033"),
     "code-texts": ("JSCC_FaultTextEn", "unknown code", "unknown"),
-    "permissions": ("CHF_CanWrite", "First >= 32768", "First >= 32767"),
+    "permissions": ("CHF_CanWrite", "WORD#16#8000", "WORD#16#7FFF"),
     "checksums": ("MB_Crc16", "WORD#16#8081", "WORD#16#8082"),
     "digits": ("MB_HexDigit", "Number MOD 16", "Number MOD 15"),
 }
