@@ -5,6 +5,7 @@ import random
 from collections.abc import Iterator
 from dataclasses import astuple, replace
 from math import inf, nan
+from typing import Any
 
 from tests.blocks.library import Blocks, number, result, scan
 
@@ -48,12 +49,17 @@ def check_commands(blocks: Blocks, drive: Drive, steps: Iterator[Pins]) -> None:
         assert outputs == astuple(told), (pins, outputs, told)
 
 
+def pressed(pins: dict[str, Any]) -> Pins:
+    """Pins by their names in the reference model."""
+    return Pins(**pins)
+
+
 def all_pins() -> Iterator[Pins]:
     """Every combination of pins, one after the other in a fixed order by chance."""
     combinations = list(itertools.product([False, True], repeat=len(PIN_NAMES)))
     random.Random(9).shuffle(combinations)
     for each in combinations:
-        yield Pins(**dict(zip(PIN_NAMES.values(), each, strict=True)))
+        yield pressed(dict(zip(PIN_NAMES.values(), each, strict=True)))
 
 
 def motions() -> Iterator[Pins]:
@@ -61,7 +67,7 @@ def motions() -> Iterator[Pins]:
     asks = [{}, *({name: True} for name in list(PIN_NAMES.values())[1:]), {"enable": False}]
     for first, second in itertools.product(asks, repeat=2):
         for ask in (first, {}, second, {}):
-            yield Pins(**ask)
+            yield pressed(ask)
 
 
 def resets() -> Iterator[Pins]:
@@ -72,7 +78,7 @@ def resets() -> Iterator[Pins]:
         for _ in range(chance.randint(3, 9)):
             over = dict.fromkeys(held, chance.random() < 0.7)
             flags = {name: chance.random() < 0.3 for name in list(PIN_NAMES.values())[8:]}
-            yield Pins(enable=chance.random() < 0.9, **{**over, **flags})
+            yield pressed({"enable": chance.random() < 0.9, **over, **flags})
 
 
 def encode(blocks: Blocks, drive: Drive, hertz: float, maximum: float, scale: float) -> Encoded:

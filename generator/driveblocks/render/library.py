@@ -15,7 +15,8 @@ BLOCKS = (
     "MB_BuildRead", "MB_BuildWriteSingle", "MB_BuildWriteMultiple", "MB_BuildDiagnostics", "MB_ParseReply",
 )  # fmt: skip
 BOXES = (("Adu", 256), ("Chars", 513))
-PACKERS = ("Pack", "Unpack")
+PACKERS = {"Pack": "Outgoing", "Unpack": "Incoming"}
+"""Blocks, and the buffer of their example: what goes out and what comes in never share one."""
 
 
 @dataclass(frozen=True)
@@ -39,9 +40,10 @@ def generic(languages: list[Language]) -> Iterator[File]:
     for name in (*FUNCTIONS, *BLOCKS):
         yield File("modbus", name, render(f"modbus/{name}.st.j2", **_texts_of(languages)))
     for box, most in BOXES:
-        for packer in PACKERS:
+        for packer, way in PACKERS.items():
             for bits in (8, 16):
-                rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", box=box, most=most)
+                values = {"box": box, "most": most, "buffer": way + box.removeprefix("Adu")}
+                rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", **values)
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered)
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))

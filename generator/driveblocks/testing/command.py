@@ -84,7 +84,7 @@ def _steps(table: Table, drive: Drive, steps: list[tuple[str, Pins]]) -> None:
     """Rows in their order: the block remembers, and so does the reference model."""
     model = Commands(drive)
     for about, pins in steps:
-        kept = dict.fromkeys(keeps(model), KEPT) | pins.keep
+        kept = {**dict.fromkeys(keeps(model), KEPT), **pins.keep}
         told = model.step(replace(pins, keep=kept))
         values: dict[str, bool | int] = {pin: getattr(pins, name) for name, pin in _PINS.items()}
         values |= {pin: kept[register] for register, pin in keeps(model).items()}
