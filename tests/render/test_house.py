@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from driveblocks.maps import catalog
-from driveblocks.maps.load import load
+from driveblocks.maps.load import load, loads
 from driveblocks.render import build, text
 from driveblocks.st.checker import check
 from driveblocks.st.lint import lint
@@ -83,6 +83,15 @@ def test_comments_do_not_trip_their_reader(library: dict[str, str]) -> None:
         assert re.findall(r"see `absent`(?! in)|[^.]\.\.(?!\.)[\s)]|WordWord|AND WORD#16#FFFF", content) == [], name
         if not name.endswith(("Crc16.st", "Crc16Compact.st", "Lrc.st")):  # which sum up a frame of either way
             assert re.findall(r"\bAdu := Adu\b", content.partition("*)")[0]) == [], name
+
+
+def test_a_word_called_so_and_an_edition_with_a_full_stop_are_not_said_twice() -> None:
+    edited = MAPS[-1].read_text("utf-8").replace("name: Status\n", "name: Status word\n")
+    edited = edited.replace("edition: V1.0\n", "edition: V1.0 corr.\n", 1)
+    drive = loads(edited, "edited.yaml")
+    made = {file.name: file.text for file in build.library.drive("edited", drive, [])}
+    assert re.search(r"V1\.0\s+corr\.\n", made["EX100_Request"])
+    assert re.findall(r"^  (\w+) : WORD;", made["EX100_Standstill"], re.MULTILINE)[0] == "StatusWord"
 
 
 @pytest.mark.parametrize("codes", [["en"], ["zh"], ["zh", "en"]])
