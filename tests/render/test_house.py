@@ -8,6 +8,7 @@ import pytest
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load, loads
 from driveblocks.render import build, text
+from driveblocks.render import library as library_of
 from driveblocks.st.checker import check
 from driveblocks.st.lint import lint
 from driveblocks.st.parser import parse
@@ -89,7 +90,7 @@ def test_a_word_called_so_and_an_edition_with_a_full_stop_are_not_said_twice() -
     edited = MAPS[-1].read_text("utf-8").replace("name: Status\n", "name: Status word\n")
     edited = edited.replace("edition: V1.0\n", "edition: V1.0 corr.\n", 1)
     drive = loads(edited, "edited.yaml")
-    made = {file.name: file.text for file in build.library.drive("edited", drive, [])}
+    made = {file.name: file.text for file in library_of.drive("edited", drive, [])}
     assert re.search(r"V1\.0\s+corr\.\n", made["EX100_Request"])
     assert re.findall(r"^  (\w+) : WORD;", made["EX100_Standstill"], re.MULTILINE)[0] == "StatusWord"
 
