@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from tests.blocks.library import Blocks, scan
 
 from driveblocks.maps.model import Drive, Register
-from driveblocks.reference import fault, register, standstill, text
+from driveblocks.reference import fault, naming, register, standstill, text
 from driveblocks.reference.naming import name_of
 
 UNITS = {
@@ -82,7 +82,7 @@ def word_pin(drive: Drive, address: int) -> str:
     """The pin that takes a register's word."""
     row = drive.register_at(address)
     assert row is not None
-    return f"{name_of(row)}Word"
+    return naming.word_pin(row)
 
 
 def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:

@@ -8,14 +8,16 @@ from pathlib import Path
 
 import pytest
 from tests.blocks import asking, driving, meanings, vectors, wire
-from tests.blocks.library import Blocks, built
+from tests.blocks.library import Blocks, built, scan
 from tests.blocks.test_reply import check_by_chance
 
-from driveblocks.host.engine import Engine, Source
+from driveblocks.host.engine import Engine, Instance, Source, Value
+from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Answer
 from driveblocks.reference.request import Asked
 from driveblocks.render import build
+from driveblocks.render import library as library_of
 from driveblocks.render import text as texts
 from driveblocks.st.lint import lint_sources
 
@@ -88,6 +90,7 @@ def test_meanings(engine: Engine, drive: Drive) -> None:
 def test_driving(engine: Engine, drive: Drive) -> None:
     driving.check_commands(fourth(engine), drive, driving.all_pins())
     driving.check_commands(fourth(engine), drive, driving.motions())
+    driving.check_commands(fourth(engine), drive, driving.resets())
     for given in driving.references(drive):
         driving.check_reference(fourth(engine), drive, *given)
 
@@ -138,9 +141,72 @@ def test_refusals_that_no_shipped_drive_has(
     assert wire.parse(fourth(engine), f"{prefix}_Reply", wire.opened(asked), bytes.fromhex(body)) == wanted
 
 
+def steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Value) -> None:
+    """Calls with the pins that are TRUE beside Enable, and the register and word that must be told."""
+    pins = ("RunForward", "RunReverse", "QuickStop", "CoastStop", "FaultReset", "StopAcknowledged", "ResetAcknowledged")
+    for asked, telegram in calls:
+        scan(instance, {"Enable": True, **{pin: pin in asked.split() for pin in pins}, **always})
+        assert (instance["Address"], instance["Value"]) == telegram, asked
+
+
 def test_a_reset_goes_to_its_own_register_and_never_into_the_command_register(engine: Engine) -> None:
-    done = fourth(engine).run("BH_Command", {"Enable": True, "FaultReset": True, "KeepWord": 0xFFFF})
-    assert (done["Address"], done["Value"]) == (0x8002, 16)
+    """Before it a stop is acknowledged: a run bit that stands would start the motor that is reset."""
+    running, stopped, reset = (0x8000, 0x0011), (0x8000, 0x0001), (0x8002, 16)
+    calls = [("RunForward", running), ("RunForward FaultReset", stopped), ("StopAcknowledged", reset)]
+    instance = fourth(engine).library.instance("BH_Command")
+    steps(instance, *calls, ("", reset), ("ResetAcknowledged", stopped), KeepWord=0xFFFF)
+
+
+def edited(engine: Engine, *edits: tuple[str, str]) -> tuple[Drive, Blocks]:
+    """Baumhof's drive with other commands."""
+    text = MAPS[0].read_text(encoding="utf-8")
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new)
+    drive = loads(text, "edited.yaml")
+    block = next(file for file in library_of.drive("edited", drive, []) if file.name == "BH_Command")
+    return drive, Blocks(engine.build([Source(block.name, block.text)]))
+
+
+RESET_BIT = (
+    ("{bit: 8-F, unused: true}", '{bit: 8, name: Clear trip, zh: "1: 复位"}\n          - {bit: 9-F, unused: true}'),
+    ("{does: fault_reset, register: 8002H, value: 16,", "{does: fault_reset, register: 8000H, set: [8],"),
+)
+TWO_REGISTERS = (
+    (
+        "{address: 8002H, name: Reset, zh: 故障复位, access: w, range: {min: 16, max: 16}}",
+        "{address: 8002H, name: More control bits, zh: 控制字2, bits: [{bit: 0, name: Outer fault, zh: 外部故障},"
+        ' {bit: 1, name: Fast stop, zh: "1: 快速停车"}, {bit: 2, name: Clear trip, zh: "1: 复位"},'
+        " {bit: 3, name: Fan, zh: 风扇}, {bit: 4-F, unused: true}]}",
+    ),
+    ("{does: quick_stop, register: 8000H, set: [6], clear: [4, 5],", "{does: quick_stop, register: 8002H, set: [1],"),
+    ("{does: fault_reset, register: 8002H, value: 16,", "{does: fault_reset, register: 8002H, set: [2], clear: [1],"),
+)
+
+
+@pytest.mark.parametrize("edits", [RESET_BIT, TWO_REGISTERS], ids=["beside the run bits", "in two registers"])
+def test_commands_by_bits_in_other_places(engine: Engine, edits: tuple[tuple[str, str], ...]) -> None:
+    drive, blocks = edited(engine, *edits)
+    for walk in (driving.all_pins(), driving.motions(), driving.resets()):
+        driving.check_commands(blocks, drive, walk)
+
+
+def test_a_reset_by_a_bit_beside_the_run_bits_is_a_stop_as_well(engine: Engine) -> None:
+    instance = edited(engine, *RESET_BIT)[1].library.instance("BH_Command")
+    calls = [("RunForward", 0x0011), ("RunForward FaultReset", 0x0001), ("RunForward StopAcknowledged", 0x0101)]
+    more = [("RunForward ResetAcknowledged", 0x0001), ("", 0x0001), ("RunReverse", 0x0021)]
+    steps(instance, *((asked, (0x8000, word)) for asked, word in (*calls, *more)), KeepWord=0xFFFF)
+
+
+def test_each_command_register_keeps_its_own_bits_and_passes_no_unused_one(engine: Engine) -> None:
+    instance = edited(engine, *TWO_REGISTERS)[1].library.instance("BH_Command")
+    kept: dict[str, Value] = {"KeepWord": 0xFFFF, "KeepWord8002H": 0xFFFE}
+    quick = ("QuickStop", (0x8002, 0x000A))
+    steps(instance, ("RunForward", (0x8000, 0x0011)), quick, ("StopAcknowledged", (0x8000, 0x0001)), **kept)
+    reset = [("FaultReset", (0x8000, 0x0001)), ("StopAcknowledged", (0x8002, 0x000C))]
+    steps(instance, *reset, ("ResetAcknowledged", (0x8000, 0x0001)), **kept)
+    swapped: dict[str, Value] = {"KeepWord": 0xFFFE, "KeepWord8002H": 0x0001}
+    steps(instance, ("RunForward", (0x8000, 0x0010)), ("QuickStop", (0x8002, 0x0003)), **swapped)
 
 
 def test_there_is_no_reverse_where_the_map_has_none(engine: Engine) -> None:

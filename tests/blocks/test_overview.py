@@ -5,11 +5,12 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import BLOCKS, Blocks, sources
+from tests.blocks.library import BLOCKS, Blocks, octets, sources
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import Value
+from driveblocks.host.engine import Source, Value
+from driveblocks.reference.framing import rtu_seal
 
 WIDTHS = {"BOOL": 1, "BYTE": 1, "USINT": 1, "WORD": 2, "UINT": 2, "INT": 2, "DINT": 4, "UDINT": 4, "REAL": 4}
 TYPES = {"MB_Adu": 256, "MB_Chars": 513, "MB_Words": 250, "MB_Registers": 1026, "MB_Request": 12}
@@ -137,3 +138,28 @@ def test_blocks_without_loops_have_none_inside(block: str) -> None:
 
 def test_every_block_with_loops_is_tried_at_its_worst() -> None:
     assert {name for name, (_, _, loops) in ROWS.items() if loops != "none"} == set(WORST)
+
+
+EXAMPLES = {
+    prefix: text for text, prefix in re.findall(r"```\n(PROGRAM (\w+)_Example\n.*?END_PROGRAM\n)```", README, re.DOTALL)
+}
+REPLY = bytes((1, 3, 2, 0, 1))
+
+
+@pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
+def test_the_example_of_a_drive_believes_a_reply_and_no_buffer_that_nothing_came_into(prefix: str) -> None:
+    """Where one buffer held both frames, a port that received nothing left the request to be read as the reply."""
+    source = Source("example.st", EXAMPLES[prefix])
+    program = EmbeddedEngine().build([*sources(), source]).instance(f"{prefix}_Example")
+    for frame, trouble in ((b"", 20), (rtu_seal(REPLY).data, 0), (rtu_seal(REPLY).data[:-1], 23)):
+        program.scan()
+        sent = octets(program, "Outgoing", 8)
+        assert (program["State"], program["Trouble"], sent) == (1, 0, rtu_seal(sent[:6]).data)
+        for index, octet in enumerate(frame):
+            program[f"Incoming[{index}]"] = octet
+        program["Received"], program["State"] = len(frame), 2
+        program.scan()
+        assert (program["State"], program["Trouble"]) == (0, trouble)
+    program["Received"], program["State"] = 8, 2
+    program.scan()
+    assert program["Trouble"] != 0

@@ -34,7 +34,7 @@ def block(prefix: str, name: str) -> str:
 
 def word_pin(row: Register) -> str:
     """The input that takes a register's word."""
-    return f"{symbol(row)}Word"
+    return f"{symbol(row).removesuffix('Word')}Word"
 
 
 def wrong_symbol(entry: Register | Bit | Value) -> str | None:

@@ -10,5 +10,10 @@ def name_of(entry: Register | Bit | Value) -> str:
     return entry.symbol or re.sub(r"[^A-Za-z0-9]*([A-Za-z0-9])([A-Za-z0-9]*)[^A-Za-z0-9]*", _capital, entry.name or "")
 
 
+def word_pin(row: Register) -> str:
+    """The pin that takes a register's word: `Status word` -> `StatusWord`, `Status` -> `StatusWord`."""
+    return f"{name_of(row).removesuffix('Word')}Word"
+
+
 def _capital(match: re.Match[str]) -> str:
     return match[1].upper() + match[2]

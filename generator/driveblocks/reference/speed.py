@@ -13,8 +13,13 @@ from driveblocks.reference.single import stored
 BEYOND = Fraction(stored(1.0e30))
 """A pin above this size is taken for no number, as infinity is."""
 
+LEAST_MAXIMUM, MOST_MAXIMUM = Fraction(stored(0.1)), Fraction(10_000)
+"""A maximum in Hz outside of these is not set, or a mistake."""
+
 MOST_COUNTS = 1_000_000
 """Counts per Hz; a word ends at 65535, so more is a mistake, and what it gives, clamped, would be full speed."""
+
+HALF = Fraction(1, 2)
 
 SLACK = Fraction(1, 2**21)
 """What a few roundings to single precision may change, as a part of the count."""
@@ -29,6 +34,8 @@ class Encoded:
     limited: bool = False
     near: frozenset[int] = frozenset({0})
     """The words that arithmetic in single precision may give: more than one only beside a half."""
+    results: frozenset[str] = frozenset()
+    """What it may say: more than one only beside half a count below zero."""
     at_the_end: bool = False
     """So near to the end of the word that single precision may or may not call it limited."""
 
@@ -51,18 +58,16 @@ class SpeedReference:
         """The reference register."""
         return self.spec.register
 
-    def encode(self, hertz: float, maximum: float = 0.0, scale: float = 0.0) -> Encoded:
-        """The word for a frequency in Hz; `maximum` in Hz, 0 for none; `scale` in counts per Hz if the map has none."""
+    def encode(self, hertz: float, maximum: float, scale: float = 0.0) -> Encoded:
+        """The word for a frequency in Hz; `maximum` in Hz; `scale` in counts per Hz if the map has none."""
         asked, most, counts = _exact(hertz), _exact(maximum), _exact(scale)
         if asked is None:
-            return Encoded("NOT_A_NUMBER")
-        if asked < 0:
-            return Encoded("NEGATIVE")
-        if most is None or most < 0 or (self.percent and most == 0):
-            return Encoded("NO_SCALE")
+            return _refused("NOT_A_NUMBER")
+        if most is None or not LEAST_MAXIMUM <= most <= MOST_MAXIMUM:
+            return _refused("NO_MAXIMUM")
         if self.factor is None and (counts is None or not 0 < counts <= MOST_COUNTS):
-            return Encoded("NO_SCALE")
-        limited = most > 0 and asked > most
+            return _refused("NO_SCALE")
+        limited = asked > most
         return self._counted(self._counts(most if limited else asked, most, counts), limited)
 
     def _counts(self, hertz: Fraction, most: Fraction, counts: Fraction | None) -> Fraction:
@@ -72,11 +77,21 @@ class SpeedReference:
         return (hertz / most * 100 if self.percent else hertz) / self.factor
 
     def _counted(self, counts: Fraction, limited: bool) -> Encoded:
+        """The count as a word; what noise leaves within half a count below zero is zero."""
+        below = {counts * (1 + part) < -HALF for part in (-SLACK, SLACK)}
+        results = frozenset("NEGATIVE" if each else "OK" for each in below)
+        if counts < -HALF:
+            return Encoded("NEGATIVE", results=results)
         near = {_half_up(min(counts * (1 + part), Fraction(self.highest))) for part in (-SLACK, SLACK)}
         open_ = not limited and 0 < abs(counts - self.highest) <= counts * SLACK
         limited = limited or counts > self.highest
         value = _half_up(min(counts, Fraction(self.highest)))
-        return Encoded("OK", value, limited, frozenset(near | {value}), open_)
+        words = frozenset({max(each, 0) for each in near} | {value})
+        return Encoded("OK", value, limited, words, results, open_)
+
+
+def _refused(result: str) -> Encoded:
+    return Encoded(result, results=frozenset({result}))
 
 
 def _exact(number: float) -> Fraction | None:
@@ -88,4 +103,4 @@ def _exact(number: float) -> Fraction | None:
 
 
 def _half_up(counts: Fraction) -> int:
-    return floor(counts + Fraction(1, 2))
+    return floor(counts + HALF)

@@ -1,7 +1,7 @@
 """Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -39,14 +39,14 @@ class Identity:
 def identity(drive: Drive) -> Identity:
     """Prefix, family and manual of a drive."""
     edition = f", edition {drive.manual.edition}" if drive.manual.edition else ""
-    manual = f"{title(drive)}, {drive.manual.publisher.en}{edition}."
+    manual = f"{title(drive)}, {drive.manual.publisher.en}{edition}".rstrip(".") + "."
     vendor = "" if drive.vendor.en in drive.family.en else f"{drive.vendor.en} "
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
 
 
 def source_of(drive: Drive, source: str) -> str:
     """The place of a fact: manual and section."""
-    return f"{title(drive)}: {source}."
+    return f"{title(drive)}: {source.rstrip('.')}."
 
 
 def title(drive: Drive) -> str:
@@ -184,9 +184,14 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Con
         "address_text": address_text(row.address.first),
         "title": _inside_a_sentence(row.name or ""),
         "own": row.own,
-        "note": row.note,
+        "note": _elsewhere(row.note or ""),
         "source": source_of(drive, row.source or section.source),
     }
+
+
+def _elsewhere(text: str) -> str:
+    """A text of the map, whose other parts a reader of the block has not before him."""
+    return text.replace("`absent`", "`absent` in the map of the drive")
 
 
 def _inside_a_sentence(name: str) -> str:
@@ -263,42 +268,62 @@ def condition_text(condition: Condition) -> str:
 def command(drive: Drive) -> Context:
     """For Command."""
     commands = {one.does: one for one in drive.operation.commands}
-    moving = [one for one in commands.values() if one.value is None]
-    mask = _mask(moving)
+    stop = commands["stop"]
+    keeps = _keeps(drive, stop.register)
     printed: dict[str, Context] = {
-        does: {"text": _command_text(one, mask), "word": one.value or 0, "register": one.register}
-        for does, one in commands.items()
+        does: {"text": _command_text(one, stop, keeps), "register": one.register} for does, one in commands.items()
     }
     asked = [
-        ("ResetEdge", printed.get("fault_reset")),
         ("RunForward", printed.get("run_forward")),
         ("RunReverse", printed.get("run_reverse")),
         ("JogForward", printed.get("jog_forward")),
         ("JogReverse", printed.get("jog_reverse")),
     ]
     optional = ("run_reverse", "jog_forward", "jog_reverse", "jog_stop", "quick_stop", "coast_stop", "fault_reset")
+    stops = {one.register for one in commands.values() if one.does in ("coast_stop", "quick_stop", "jog_stop")}
     return {
         "drive": identity(drive),
-        "source": source_of(drive, commands["stop"].source),
-        "register": commands["stop"].register,
+        "source": source_of(drive, stop.source),
+        "register": stop.register,
         "elsewhere_too": len({one.register for one in commands.values()}) > 1,
-        "stop": printed["stop"],
-        "keep": mask if moving else None,
+        "stops_elsewhere": bool(stops - {stop.register}),
+        "stop": {**printed["stop"], "word": stop.value if stop.value is not None else _bits(stop.set)},
+        "keeps": keeps.values(),
         "asked": asked,
         **{does: printed.get(does) for does in optional},
     }
 
 
-def _mask(commands: list[Command]) -> int:
-    """Bits that motion commands set or clear."""
-    return sum(1 << bit for bit in {bit for one in commands for span in (*one.set, *one.clear) for bit in span})
+def _keeps(drive: Drive, first: int) -> dict[int, Context]:
+    """The pin and the mask of each command register with bits that are in use and belong to no command."""
+    by_bits = [one for one in drive.operation.commands if one.value is None]
+    found = {}
+    for register in sorted({one.register for one in by_bits}, key=lambda register: (register != first, register)):
+        row = drive.register_at(register)
+        used = _bits(bit.bit for bit in (row.bits if row else ()) if not bit.unused)
+        mask = used & ~_bits(span for one in by_bits if one.register == register for span in (*one.set, *one.clear))
+        if mask:
+            name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
+            found[register] = {"name": name, "address": register, "mask": mask}
+    return found
 
 
-def _command_text(one: Command, mask: int) -> str:
+def _bits(spans: Iterable[Span]) -> int:
+    """The word in which the bits of some spans are set."""
+    return sum(1 << bit for bit in {bit for span in spans for bit in span})
+
+
+def _command_text(one: Command, stop: Command, keeps: dict[int, Context]) -> str:
+    """The word of a command; a reset beside the run bits is a stop with the bits of the reset."""
     if one.value is not None:
         return word(one.value)
-    kept = f"KeepWord AND {word(~mask)}"
-    bits = sum(1 << bit for span in one.set for bit in span)
+    bits = _bits(one.set)
+    if one.does == "fault_reset" and one.register == stop.register:
+        bits |= _bits(stop.set) & ~_bits(one.clear)
+    keep = keeps.get(one.register)
+    if keep is None:
+        return word(bits)
+    kept = f"{keep['name']} AND {word(keep['mask'])}"
     return f"({kept}) OR {word(bits)}" if bits else kept
 
 
@@ -352,7 +377,7 @@ def standstill(drive: Drive) -> Context:
     conditions = [{"expression": _test(named[one.register], one), "comment": condition_text(one)} for one in proof.all]
     return {
         "drive": identity(drive),
-        "why": proof.why[:1].upper() + proof.why[1:].rstrip(".") + ".",
+        "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
         "source": source_of(drive, proof.source),
         "words": words,
         "conditions": conditions,

@@ -1,4 +1,4 @@
-"""The files of the ST library: generic blocks, then the blocks of each drive, in an order that every compiler takes."""
+"""The files of the ST library: generic blocks, then the blocks of each drive, each behind what it uses."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,7 +15,8 @@ BLOCKS = (
     "MB_BuildRead", "MB_BuildWriteSingle", "MB_BuildWriteMultiple", "MB_BuildDiagnostics", "MB_ParseReply",
 )  # fmt: skip
 BOXES = (("Adu", 256), ("Chars", 513))
-PACKERS = ("Pack", "Unpack")
+PACKERS = {"Pack": "Outgoing", "Unpack": "Incoming"}
+"""Blocks, and the buffer of their example: what goes out and what comes in never share one."""
 
 
 @dataclass(frozen=True)
@@ -37,11 +38,12 @@ def generic(languages: list[Language]) -> Iterator[File]:
     for name in TYPES:
         yield File("types", name, render(f"types/{name}.st.j2"))
     for name in (*FUNCTIONS, *BLOCKS):
-        yield File("modbus", name, render(f"modbus/{name}.st.j2"))
+        yield File("modbus", name, render(f"modbus/{name}.st.j2", **_texts_of(languages)))
     for box, most in BOXES:
-        for packer in PACKERS:
+        for packer, way in PACKERS.items():
             for bits in (8, 16):
-                rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", box=box, most=most)
+                values = {"box": box, "most": most, "buffer": way + box.removeprefix("Adu")}
+                rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", **values)
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered)
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
@@ -49,22 +51,28 @@ def generic(languages: list[Language]) -> Iterator[File]:
 
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """The blocks of one drive. Raises ValueError when a name makes no identifier."""
-    prefix = drive.prefix
+    prefix, named = drive.prefix, _texts_of(languages)
     for use in ("r", "w"):
         yield _file(stem, "CanAccess", context.access(drive, use))
-    yield _file(stem, "Request", {**context.request(drive), "name": f"{prefix}_Request"})
-    yield _file(stem, "Reply", {**context.reply(drive), "name": f"{prefix}_Reply"})
+    yield _file(stem, "Request", {**context.request(drive), **named, "name": f"{prefix}_Request"})
+    yield _file(stem, "Reply", {**context.reply(drive), **named, "name": f"{prefix}_Reply"})
     yield _file(stem, "Command", {**context.command(drive), "name": f"{prefix}_Command"})
     yield _file(stem, "Reference", {**context.reference(drive), "name": f"{prefix}_Reference"})
     yield _file(stem, "Standstill", {**context.standstill(drive), "name": f"{prefix}_Standstill"})
     numbers = context.fault_number(drive)
     if numbers is not None:
-        yield _file(stem, "FaultNumber", {**numbers, "name": f"{prefix}_FaultNumber"})
+        yield _file(stem, "FaultNumber", {**numbers, **named, "name": f"{prefix}_FaultNumber"})
     for one in context.decoders(drive):
         yield _file(stem, "Decoder", one)
     for one in context.scales(drive):
         yield _file(stem, "Scale", one)
     yield from _texts(stem, drive, languages)
+
+
+def _texts_of(languages: list[Language]) -> context.Context:
+    """The language whose texts a comment points to, the first that is built, and the function of the result codes."""
+    suffix = languages[0].suffix if languages else text.ENGLISH.suffix
+    return {"language": suffix, "texts": f"MB_ResultText{suffix}"}
 
 
 def _texts(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:

@@ -1,10 +1,14 @@
-"""Literals and comments of Structured Text, as every compiler reads them."""
+"""Literals and comments of Structured Text, in the forms of the portable part."""
 
 import itertools
 import re
 import textwrap
 from collections.abc import Iterable
 
+WIDTH = 120
+"""Longest line, but for a string that is longer itself."""
+
+_BESIDE = re.compile(r"( *)(\S.*;) (\(\*.*\*\))")
 _DECLARED = re.compile(r"  (\w+ : [^;]*;) +(\(\*.*\*\))")
 
 
@@ -45,15 +49,27 @@ def paragraph(label: str, text: str, width: int = 100) -> str:
 
 
 def aligned(text: str) -> str:
-    """The text with the comments behind consecutive declarations in one column."""
+    """The text with the comments behind consecutive declarations in one column, and no line too long for a comment."""
     lines: list[str] = []
     for declared, group in itertools.groupby(text.split("\n"), lambda line: bool(_DECLARED.fullmatch(line))):
         run = list(group)
-        lines.extend(_column(run) if declared else run)
+        lines.extend(_column(run) if declared else map(_above, run))
     return "\n".join(lines)
 
 
 def _column(lines: list[str]) -> list[str]:
     matches = [match for line in lines if (match := _DECLARED.fullmatch(line))]
     width = max(len(match[1]) for match in matches)
-    return [f"  {match[1]:<{width}} {match[2]}" for match in matches]
+    return [_wrapped(f"  {match[1]:<{width}} ", match[2]) for match in matches]
+
+
+def _wrapped(lead: str, comment: str) -> str:
+    """A declaration whose comment goes on below itself where the line ends."""
+    lines = textwrap.wrap(comment, max(WIDTH - len(lead), 40), break_long_words=False, break_on_hyphens=False)
+    return lead + f"\n{' ' * (len(lead) + 3)}".join(lines)
+
+
+def _above(line: str) -> str:
+    """A statement with its comment, the comment above where both are too long for one line."""
+    match = _BESIDE.fullmatch(line) if len(line) > WIDTH else None
+    return f"{match[1]}{match[3]}\n{match[1]}{match[2]}" if match else line

@@ -33,6 +33,7 @@ def overview(files: list[File], drives: list[Drive]) -> str:
         groups={_heading(folder, drives, files): found for folder, found in rows.items()},
         unproved={context.identity(drive).family: UNPROVED for drive in drives if not drive.frames},
         types=[_type(file, types) for file in files if file.name in types],
+        texts=next((file.name for file in files if file.name.startswith("MB_ResultText")), "the page above"),
         examples=[_example(drive, checked.blocks) for drive in drives],
     )
 

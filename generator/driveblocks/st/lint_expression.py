@@ -55,6 +55,18 @@ def _sign(scope: Scope, value: Unary) -> None:
         scope.add(value.at, "stray-sign", text)
     elif value.op == "+" and not isinstance(value.operand, Literal):
         scope.add(value.at, "stray-sign", "matiec refuses + in front of anything but a number: leave it out")
+    elif value.op == "NOT" and _compares_reals(value.operand):
+        text = "STruC++ makes C++ of it that does not compile: store the comparison in a BOOL first, and negate that"
+        scope.add(value.at, "negated-comparison", text)
+
+
+def _compares_reals(value: Expression) -> bool:
+    """Whether an expression is a comparison of REALs, or joins some."""
+    if not isinstance(value, Binary):
+        return False
+    if value.op in _COMPARISONS:
+        return value.operand_type.kind is Kind.REAL
+    return _compares_reals(value.left) or _compares_reals(value.right)
 
 
 def _binary(scope: Scope, value: Binary) -> None:

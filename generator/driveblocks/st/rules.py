@@ -140,6 +140,7 @@ _REMARKS = """
 406 string-conversion      INT_TO_STRING and its kind
 407 string-order           < and > on strings
 408 bool-shift             SHL, SHR, ROL and ROR of a BOOL
+409 negated-comparison     NOT over a bracketed comparison of REALs
 """
 
 

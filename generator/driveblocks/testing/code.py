@@ -3,8 +3,9 @@
 NUMBERS = {
     "OK": 0, "UNIT": 1, "FUNCTION": 2, "QUANTITY": 3, "WRAP": 4, "NOT_READABLE": 5, "NOT_WRITABLE": 6,
     "NO_BROADCAST": 7, "LENGTH": 8, "ASCII_LIMIT": 9, "SUB_FUNCTION": 10, "MODE": 11, "NOT_A_NUMBER": 12,
-    "NEGATIVE": 13, "BOTH_DIRECTIONS": 14, "NO_SCALE": 15, "NOT_ABLE": 16, "SILENCE": 20, "SHORT": 21, "LONG": 22,
-    "CHECKSUM": 23, "NO_START": 24, "NO_END": 25, "ODD_DIGITS": 26, "NOT_HEX": 27, "NO_REQUEST": 30, "BROADCAST": 31,
+    "NEGATIVE": 13, "BOTH_DIRECTIONS": 14, "NO_SCALE": 15, "NOT_ABLE": 16, "NO_MAXIMUM": 17, "HELD": 18,
+    "SILENCE": 20, "SHORT": 21, "LONG": 22, "CHECKSUM": 23, "NO_START": 24, "NO_END": 25, "ODD_DIGITS": 26,
+    "NOT_HEX": 27, "NO_REQUEST": 30, "BROADCAST": 31,
     "OTHER_UNIT": 32, "OTHER_FUNCTION": 33, "BYTE_COUNT": 34, "OTHER_ADDRESS": 35, "OTHER_VALUE": 36,
     "OTHER_QUANTITY": 37, "OTHER_SUB_FUNCTION": 38, "REFUSED": 40,
 }  # fmt: skip
@@ -25,8 +26,10 @@ WORDS = {
     "NOT_A_NUMBER": "no number",
     "NEGATIVE": "negative",
     "BOTH_DIRECTIONS": "both directions at once",
-    "NO_SCALE": "a required setting is missing",
+    "NO_SCALE": "the scale is not set",
     "NOT_ABLE": "the drive has no such command",
+    "NO_MAXIMUM": "no maximum, or one without sense",
+    "HELD": "a run pin is held since the reset",
     "SILENCE": "nothing was received",
     "SHORT": "too short",
     "LONG": "too long",

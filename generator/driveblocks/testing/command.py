@@ -1,24 +1,27 @@
 """Programs for the command block: what each combination of pins tells the drive, and sequences of them."""
 
-from collections.abc import Iterable, Iterator
-from dataclasses import fields
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields, replace
 from itertools import product
 
 from driveblocks.maps.model import Drive
-from driveblocks.reference.command import Commands, Pins
+from driveblocks.reference.command import MOTIONS, Commands, Pins
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import MOST_STAGES, Script
 from driveblocks.testing.table import Table
 
-_PINS = {field.name: "".join(part.capitalize() for part in field.name.split("_")) for field in fields(Pins)}
+_PINS = {
+    field.name: "".join(part.capitalize() for part in field.name.split("_"))
+    for field in fields(Pins)
+    if field.name != "keep"
+}
 """Name in the reference model -> pin: run_forward -> RunForward."""
 
 KEPT = 0xFFFF
-"""What stands in the command register beside the commands' bits, unless a case says otherwise."""
+"""What stands in every command register, unless a case says otherwise."""
 
 STOPS = ("enable", "stop", "quick_stop", "coast_stop")
-MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
@@ -28,6 +31,8 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
         ("Sequence", "what the pins tell the drive one after the other", _sequences()),
         ("JogForward", "jogging forward, and how it ends", _jogs("jog_forward", "jog_reverse")),
         ("JogReverse", "jogging in reverse, and how it ends", _jogs("jog_reverse", "jog_forward")),
+        ("FaultReset", "a fault reset, and what it holds back", _resets()),
+        ("ResetStop", "a fault reset, and the stops that go before it", _reset_stops()),
         ("KeepWord", "bits beside the commands' own pass through", _kept(drive)),
     ):
         program = bench.script(drive, stem, subject, title, _source(drive))
@@ -42,30 +47,34 @@ def _source(drive: Drive) -> str:
     return "; ".join(dict.fromkeys(command.source for command in drive.operation.commands))
 
 
-def keeps(drive: Drive) -> bool:
-    """Whether the drive is commanded by bits, so that its block has the pin KeepWord."""
-    return any(command.value is None for command in drive.operation.commands)
+def keeps(model: Commands) -> dict[int, str]:
+    """The command registers with bits that pass through, and the pin of each."""
+    return {
+        register: "KeepWord" if register == model.home else f"KeepWord{register:04X}H"
+        for register, bits in sorted(model.kept.items())
+        if bits
+    }
 
 
 def _table(program: Script, drive: Drive) -> Table:
-    table = Table(program)
-    pins = {name: pin for name, pin in _PINS.items() if name != "keep"}
-    for name, pin in pins.items():
+    table, model = Table(program), Commands(drive)
+    for name, pin in _PINS.items():
         table.column(pin, "BOOL", name == "enable", "input of Command, see there")
-    if keeps(drive):
-        table.column("KeepWord", "WORD", KEPT, "input of Command, see there")
-        pins["keep"] = "KeepWord"
-    table.column("WantedAddress", "WORD", Commands(drive).known["stop"].register, "register to write")
+    for pin in keeps(model).values():
+        table.column(pin, "WORD", KEPT, "input of Command, see there")
+    table.column("WantedAddress", "WORD", model.home, "register to write")
     table.column("WantedValue", "WORD", 0, "word to write")
     table.column("WantedError", "UINT", 0, "ErrorID that Command must give")
     table.column("WantedStopping", "BOOL", True, "whether the word is a stop")
-    table.column("WantedChanged", "BOOL", False, "whether the telegram differs from the one before")
+    table.column("WantedResetting", "BOOL", False, "whether the word is the fault reset")
+    table.column("WantedChanged", "BOOL", False, "whether it is to be written")
     table.do(
-        f"Command({', '.join(f'{pin} := {pin}' for pin in pins.values())});",
+        f"Command({', '.join(f'{pin} := {pin}' for pin in (*_PINS.values(), *keeps(model).values()))});",
         bench.is_word("Command.Address", "WantedAddress", "Address"),
         bench.is_word("Command.Value", "WantedValue", "Value"),
         bench.is_number("Command.ErrorID", "WantedError", "ErrorID"),
         bench.is_flag("Command.Stopping", "WantedStopping", "Stopping"),
+        bench.is_flag("Command.Resetting", "WantedResetting", "Resetting"),
         bench.is_flag("Command.Changed", "WantedChanged", "Changed"),
     )
     return table
@@ -74,63 +83,97 @@ def _table(program: Script, drive: Drive) -> Table:
 def _steps(table: Table, drive: Drive, steps: list[tuple[str, Pins]]) -> None:
     """Rows in their order: the block remembers, and so does the reference model."""
     model = Commands(drive)
-    last: tuple[int, int] | None = None
     for about, pins in steps:
-        told = model.step(pins)
-        values = {pin: getattr(pins, name) for name, pin in _PINS.items() if name != "keep"}
-        if keeps(drive):
-            values["KeepWord"] = pins.keep
-        said = "a stop" if told.stopping else f"{told.value:04X}H"
+        kept = {**dict.fromkeys(keeps(model), KEPT), **pins.keep}
+        told = model.step(replace(pins, keep=kept))
+        values: dict[str, bool | int] = {pin: getattr(pins, name) for name, pin in _PINS.items()}
+        values |= {pin: kept[register] for register, pin in keeps(model).items()}
+        said = "a stop" if told.stopping else "the reset" if told.resetting else f"{told.value:04X}H"
         wanted = {
             "WantedAddress": told.address,
             "WantedValue": told.value,
             "WantedError": NUMBERS[told.result],
             "WantedStopping": told.stopping,
-            "WantedChanged": last != (told.address, told.value),
+            "WantedResetting": told.resetting,
+            "WantedChanged": told.changed,
         }
         words = f"{about}: {said}" + (f", {WORDS[told.result]}" if told.result != "OK" else "")
         table.row(words, values | wanted)
-        last = (told.address, told.value)
 
 
-def _pins(*names: str, keep: int = KEPT) -> tuple[str, Pins]:
+def _pins(*names: str, keep: Mapping[int, int] | None = None) -> tuple[str, Pins]:
     """Pins that are TRUE beside Enable (`-enable`: without it), and words for them."""
     given = {name: True for name in names if not name.startswith("-")}
-    pins = Pins(enable="-enable" not in names, keep=keep, **given)
+    pins = Pins(enable="-enable" not in names, keep=dict(keep or {}), **given)
     shown = [_PINS[name] for name in given]
     return " and ".join([*(["not Enable"] if not pins.enable else []), *shown]) or "nothing", pins
 
 
 def _combinations() -> Iterator[tuple[str, Pins]]:
-    """All motions with and without a rising reset; all stops with no motion, with one, and with everything."""
+    """All motions, all stops with no motion, with one, and with everything; and a reset that is held over motions."""
     for chosen in product((False, True), repeat=len(MOTIONS)):
-        motion = [name for name, wanted in zip(MOTIONS, chosen, strict=True) if wanted]
-        yield _pins(*motion)
-        yield _pins(*motion, "fault_reset")
+        yield _pins(*(name for name, wanted in zip(MOTIONS, chosen, strict=True) if wanted))
     for chosen in product((False, True), repeat=len(STOPS)):
         stops = [name if name != "enable" else "-enable" for name, on in zip(STOPS, chosen, strict=True) if on]
-        for others in ((), ("run_forward",), (*MOTIONS, "fault_reset"), ("jog_reverse",)) if stops else ():
+        for others in ((), ("run_forward",), MOTIONS, ("jog_reverse",)) if stops else ():
             yield _pins(*stops, *others)
+    for chosen in product((False, True), repeat=len(MOTIONS)):
+        yield _pins("fault_reset", *(name for name, wanted in zip(MOTIONS, chosen, strict=True) if wanted))
 
 
 def _sequences() -> Iterator[tuple[str, Pins]]:
     yield from _named("first call", ("run_forward",), ("run_forward",), ())
-    yield from _named("reset is an edge", ("fault_reset",), ("fault_reset",), ("fault_reset",), (), ("fault_reset",))
-    yield from _named("reset while running", ("run_forward",), ("run_forward", "fault_reset"), ("run_forward",))
-    yield from _named(
-        "reset held before Enable", ("-enable", "fault_reset"), ("fault_reset",), (), ("fault_reset",), ()
-    )
     yield from _named("turning round", ("run_forward",), ("run_reverse",), ("run_forward", "run_reverse"), ())
+    for stop in STOPS:
+        asked = f"-{stop}" if stop == "enable" else stop
+        yield from _named("a run, and a stop", ("run_forward",), ("run_forward", asked), ("run_forward",), (asked,))
+        yield from _named("a stop is sent anew when its pin rises", (), (asked,), (asked,), ())
+
+
+def _resets() -> Iterator[tuple[str, Pins]]:
+    """A reset from its edge to its acknowledgement, beside every motion."""
+    over = ("stop_acknowledged",), ("fault_reset", "reset_acknowledged"), ()
+    yield from _named("first call", ("fault_reset",), ("fault_reset",), ())
+    yield from _named("its stop and itself acknowledged", *over)
+    for running in ("run_forward", "run_reverse", "jog_forward", "jog_reverse"):
+        held = (running,), (running, "fault_reset"), (running, "stop_acknowledged"), (running,)
+        yield from _named(f"with {_PINS[running]} held", *held, (running, "reset_acknowledged"), (running,), ())
+        yield from _named("pressed again", (running,), ())
+    pressed = ("stop_acknowledged",), ("fault_reset",), ("run_forward",), ("run_forward", "reset_acknowledged")
+    yield from _named("a run that rose before the acknowledgement", *pressed, ("run_forward",), (), ("run_forward",))
+    both = ("run_forward", "run_reverse")
+    yield from _named("both directions", (), both, (*both, "fault_reset"), (*both, "stop_acknowledged"), both)
+    yield from _named("both directions after it", (*both, "reset_acknowledged"), both, ())
+    twice = ("stop_acknowledged",), ("fault_reset",), (), ("fault_reset",), ("reset_acknowledged",)
+    yield from _named("asked twice", *twice, ("fault_reset",), ("stop_acknowledged",), ("reset_acknowledged",), ())
+    yield from _named("nothing to acknowledge", ("reset_acknowledged",), ("run_forward", "stop_acknowledged"), ())
+    yield from _named("before its stop is acknowledged", ("fault_reset",), ("reset_acknowledged",), (), *over)
+    early = ("run_forward",), ("fault_reset", "stop_acknowledged"), ("stop_acknowledged",), ("reset_acknowledged",)
+    yield from _named("no stop was told that could be acknowledged", ("reset_acknowledged",), (), *early)
+    yield from _named("with the pin held on", ("fault_reset", "run_forward"), ("fault_reset",), ("fault_reset", "stop"))
+
+
+def _reset_stops() -> Iterator[tuple[str, Pins]]:
+    """A reset under a stop that stands, and beside one that rises."""
+    for stop in ("-enable", "stop", "quick_stop", "coast_stop"):
+        steady = (stop,), (stop, "stop_acknowledged"), (stop, "fault_reset"), (stop,), (stop, "reset_acknowledged")
+        yield from _named("under a steady stop", *steady, (stop,), ())
+        rising = ("stop_acknowledged",), ("fault_reset",), (stop,), (stop, "stop_acknowledged"), (stop,)
+        yield from _named("a stop goes first when it rises", *rising, (stop, "reset_acknowledged"), ())
+        late = ("stop_acknowledged",), ("fault_reset",), (stop, "reset_acknowledged"), (stop, "stop_acknowledged"), ()
+        yield from _named("acknowledged while the stop goes first", *late)
 
 
 def _jogs(jog: str, other: str) -> Iterator[tuple[str, Pins]]:
     yield from _named("a jog and its end", (jog,), (jog,), (), ())
-    yield from _named("a jog, then a run", (jog,), ("run_forward",), (), ())
+    yield from _named("a jog, then a run", (jog,), ("run_forward",), (), (jog,), ("run_reverse",), ())
     yield from _named("a jog beside a run", ("run_forward",), ("run_forward", jog), (jog,), ())
+    yield from _named("a run, then a jog", ("run_forward",), (jog,), ("run_reverse",), (jog,), ())
     yield from _named("a jog the other way", (jog,), (other,), (jog, other), (), ())
     for stop in ("stop", "quick_stop", "coast_stop", "-enable"):
         yield from _named("a jog and a stop", (jog,), (jog, stop), (), (), (jog,), (stop,), ())
-    yield from _named("a jog and a reset", (jog,), (jog, "fault_reset"), (), ())
+    reset = (jog,), (jog, "fault_reset"), ("stop_acknowledged",), ("reset_acknowledged",), (), (jog,), ()
+    yield from _named("a jog and a reset", *reset)
 
 
 def _named(about: str, *steps: Iterable[str]) -> Iterator[tuple[str, Pins]]:
@@ -140,16 +183,17 @@ def _named(about: str, *steps: Iterable[str]) -> Iterator[tuple[str, Pins]]:
 
 
 def _kept(drive: Drive) -> Iterator[tuple[str, Pins]]:
-    """Each command with all sorts of bits beside its own; nothing where whole words are written."""
-    for keep in (0x0000, 0xFFFF, 0xAAAA, 0x5555) if keeps(drive) else ():
-        for names in (
-            (),
-            ("run_forward",),
-            ("run_reverse",),
-            ("jog_forward",),
-            ("coast_stop",),
-            ("fault_reset",),
-            MOTIONS,
-        ):
-            words, pins = _pins(*names, keep=keep)
-            yield f"kept bits {keep:04X}H: {words}", pins
+    """Each command with all sorts of bits beside its own, other ones in each register."""
+    registers = keeps(Commands(drive))
+    for keep in (0x0000, 0xFFFF, 0xAAAA, 0x5555) if registers else ():
+        words = {register: keep ^ (0x00FF * bool(number)) for number, register in enumerate(registers)}
+        for names in _COMMANDS:
+            about, pins = _pins(*names, keep=words)
+            yield f"kept bits {keep:04X}H: {about}", pins
+
+
+_COMMANDS: tuple[tuple[str, ...], ...] = (
+    (), ("run_forward",), ("run_reverse",), ("jog_forward",), ("jog_reverse",), MOTIONS, ("quick_stop",),
+    ("coast_stop",), (), ("stop_acknowledged",), ("fault_reset",), ("reset_acknowledged",), (),
+)  # fmt: skip
+"""Pins that tell each command once."""

@@ -11,7 +11,7 @@ NAMES = (
     "DB_Failure", "DB_Failures", "DB_Report", "DB_CheckBytes", "DB_CheckWord", "DB_CheckNumber", "DB_CheckFlag",
     "DB_CheckBetween", "DB_CheckReal", "DB_CheckText", "DB_CheckAdu", "DB_CheckChars",
 )  # fmt: skip
-"""Types and blocks in an order that every compiler takes."""
+"""Types and blocks each behind what it uses."""
 
 
 @cache

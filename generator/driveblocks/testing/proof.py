@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference.fault import numbered
-from driveblocks.reference.naming import name_of
+from driveblocks.reference.naming import word_pin
 from driveblocks.reference.standstill import proven
 from driveblocks.testing import bench
 from driveblocks.testing.script import Script
@@ -29,7 +29,7 @@ def _pins(drive: Drive, table: Table, addresses: list[int]) -> dict[int, str]:
     for address in addresses:
         row = drive.register_at(address)
         assert row is not None  # noqa: S101  (a checked map lists them)
-        pins[address] = f"{name_of(row)}Word"
+        pins[address] = word_pin(row)
         table.column(pins[address], "WORD", 0, f"register {address_text(address)}")
     return pins
 

@@ -15,7 +15,7 @@ from driveblocks.testing.suite import ROOT, drive_suite, shared_suite
 
 @dataclass(frozen=True)
 class Unit:
-    """A suite and the library that it tests, in an order that every compiler takes."""
+    """A suite and the library that it tests, each behind what it uses."""
 
     suite: Suite
     blocks: tuple[Source, ...]

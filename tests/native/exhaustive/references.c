@@ -9,25 +9,26 @@ typedef struct {
     int limited;
 } NAME(Count);
 
+static NAME(Count) NAME(count)(float asked, float most, float scale)
+{
+    NAME(Count) count = {.limited = asked > most};
+    count.above = (double)(count.limited ? most : asked) * TIMES * (HAS_SCALE ? (double)scale : 1);
+    count.below = (PERCENT ? (double)most : 1) * BY;
+    return count;
+}
+
 /* The error that the pins must give; 0 without. */
 static unsigned NAME(refusal)(float asked, float most, float scale)
 {
     const float largest = 1.0e30f;
     if (!(asked >= -largest && asked <= largest))
         return NOT_A_NUMBER;
-    if (asked < 0)
-        return NEGATIVE;
-    if (!(most >= 0 && most <= largest) || (PERCENT && most == 0))
+    if (!(most >= 0.1f && most <= 10000.0f))
+        return NO_MAXIMUM;
+    if (HAS_SCALE && !(scale > 0 && scale <= 1.0e6f))
         return NO_SCALE;
-    return HAS_SCALE && !(scale > 0 && scale <= 1.0e6f) ? NO_SCALE : 0;
-}
-
-static NAME(Count) NAME(count)(float asked, float most, float scale)
-{
-    NAME(Count) count = {.limited = most > 0 && asked > most};
-    count.above = (double)(count.limited ? most : asked) * TIMES * (HAS_SCALE ? (double)scale : 1);
-    count.below = (PERCENT ? (double)most : 1) * BY;
-    return count;
+    NAME(Count) count = NAME(count)(asked, most, scale);
+    return 2 * count.above < -count.below ? NEGATIVE : 0;
 }
 
 /* Half up: the word w for which (2 w - 1) below <= 2 above < (2 w + 1) below. */
@@ -35,6 +36,8 @@ static unsigned NAME(rounded)(const NAME(Count) *count)
 {
     if (count->above >= HIGHEST * count->below)
         return HIGHEST;
+    if (count->above <= 0)
+        return 0;
     unsigned word = (unsigned)(count->above / count->below + 0.5);
     while ((2.0 * word + 1) * count->below <= 2 * count->above)
         word++;
@@ -93,12 +96,22 @@ static int NAME(at_the_end)(float asked, float most, float scale)
     return fabs(count.above - HIGHEST * count.below) <= count.above * 0x1p-21;
 }
 
+/* Whether the count is so near half a count below zero that single precision cannot say if it is below. */
+static int NAME(at_zero)(float asked, float most, float scale)
+{
+    NAME(Count) count = NAME(count)(asked, most, scale);
+    return count.above < 0 && fabs(2 * count.above + count.below) <= count.below * 0x1p-21;
+}
+
 /* Whether the answer is what the rule says, or as good; `beside` counts the latter. */
 static int NAME(is_right)(Swept *swept, const Encoded *found, float asked, float most, float scale)
 {
     unsigned error = NAME(refusal)(asked, most, scale);
-    if (error || found->error)
-        return found->error == error && found->value == 0 && !found->limited && found->address_is_right;
+    if (error || found->error) {
+        int either = (error ? error : found->error) == NEGATIVE && NAME(at_zero)(asked, most, scale);
+        swept->beside += either && found->error != error;
+        return (found->error == error || either) && found->value == 0 && !found->limited && found->address_is_right;
+    }
     NAME(Count) count = NAME(count)(asked, most, scale);
     int limited = count.limited || count.above > HIGHEST * count.below;
     swept->words++;

@@ -35,7 +35,7 @@ class Sweep:
     prefix: str
     pin: int
     speed: float = 0.0
-    maximum: float = 0.0
+    maximum: float = 10000.0
     scale: float = 0.0
 
     def run(self, bench: Bench, first: int, last: int, step: int) -> Finding:
@@ -100,7 +100,7 @@ def sweeping(name: str) -> Callable[[Sequence[Bench], bool], Iterator[Finding]]:
 
 def _parts() -> Iterator[tuple[int, int, int]]:
     yield (0, 0xFFFFFFFF, 65537)
-    for value in (0.0, 1.0e30, 50.0, 37.21, 655.35, 1.0e6):
+    for value in (0.0, 0.0025, 0.005, 0.1, 1.0e30, 50.0, 37.21, 655.35, 10000.0, 1.0e6):
         for near in (pattern(value), pattern(-value)):
             yield (max(near - 2000, 0), near + 2000, 1)
     yield (INFINITY - 500, INFINITY + 500, 1)
@@ -121,7 +121,7 @@ def words(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
 
 def _around(model: SpeedReference, count: int) -> Iterator[tuple[int, int, int]]:
     """The REAL nearest to a count, then those on both sides of the half below and of the half above it."""
-    maximum, scale = (50.0 if model.percent else 0.0), (100.0 if model.factor is None else 0.0)
+    maximum, scale = (50.0 if model.percent else 10000.0), (100.0 if model.factor is None else 0.0)
     step = (model.factor or Fraction(1, 100)) * (Fraction(maximum) / 100 if model.percent else 1)
     for part in (Fraction(0), Fraction(-1, 2), Fraction(1, 2)):
         at = pattern(nearest(max(step * (count + part), Fraction(0))))
@@ -178,7 +178,24 @@ def _ruled(bench: Bench, model: SpeedReference, prefix: str, pins: list[tuple[in
 
 
 def _tried(model: SpeedReference, several: int) -> Iterator[tuple[int, int, int]]:
-    edges = [0.0, 1.0e-45, 0.005, 0.5, 37.21, 50.0, 100.0, 327.675, 655.345, 655.35, 655.36, 1.0e6, 1.0e30]
+    edges = [
+        0.0,
+        1.0e-45,
+        0.0025,
+        0.005,
+        0.1,
+        10000.0,
+        0.5,
+        37.21,
+        50.0,
+        100.0,
+        327.675,
+        655.345,
+        655.35,
+        655.36,
+        1.0e6,
+        1.0e30,
+    ]
     near = [pattern(stored(edge)) + step for edge in edges for step in (-1, 0, 1) if edge or step >= 0]
     near += [INFINITY - 1, INFINITY, INFINITY + 1]
     both = [*near, *(bits | 0x80000000 for bits in near)]
@@ -196,6 +213,5 @@ def _around_half(model: SpeedReference, chance: random.Random) -> Iterator[tuple
     half = chance.randrange(model.highest) + Fraction(1, 2)
     unit = model.factor if model.factor is not None else 1 / Fraction(scale)
     at = nearest(half * unit * (Fraction(maximum) / 100 if model.percent else 1))
-    none = not model.percent and chance.random() < 0.5
     for step in (-2, -1, 0, 1, 2):
-        yield pattern(at) + step, pattern(0.0 if none else maximum), pattern(scale)
+        yield pattern(at) + step, pattern(maximum), pattern(scale)

@@ -26,7 +26,7 @@ PLANTED = {
     "reference-JSCC-maximum": ("JSCC_Reference", "Asked > MaximumHz", "Asked >= MaximumHz"),
     "reference-JSCC-scale": ("JSCC_Reference", "ReferenceScale <= 1.0E6", "ReferenceScale < 1.0E6"),
     "reference-SN300G5-speed": ("SN300G5_Reference", "Count > 65535.0", "Count > 65536.0"),
-    "reference-SN300G5-maximum": ("SN300G5_Reference", "MaximumHz >= 0.0", "MaximumHz > 0.0"),
+    "reference-SN300G5-maximum": ("SN300G5_Reference", "MaximumHz >= LEAST", "MaximumHz > LEAST"),
     "reference-words": ("CHF_Reference", "* 10000.0;", "* 10001.0;"),
     "replies": ("MB_ParseReply", "Length > 254", "Length > 255"),
     "request-blocks": ("SN300G5_Request", "UnitAddress > 32", "UnitAddress > 33"),
@@ -40,7 +40,7 @@ PLANTED = {
     "scales": ("JSCC_OutputFrequencyHz", "/ 10.0;", "/ 10.00001;"),
     "fault-numbers": ("SN300G5_FaultNumber", "WORD#16#0031", "WORD#16#0033"),
     "code-texts": ("JSCC_FaultTextEn", "unknown code", "unknown"),
-    "permissions": ("CHF_CanWrite", "First >= 32768", "First >= 32767"),
+    "permissions": ("CHF_CanWrite", "WORD#16#8000", "WORD#16#7FFF"),
     "checksums": ("MB_Crc16", "WORD#16#8081", "WORD#16#8082"),
     "digits": ("MB_HexDigit", "Number MOD 16", "Number MOD 15"),
 }

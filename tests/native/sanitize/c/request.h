@@ -87,14 +87,17 @@ static const char *MB_HEXDIGIT_right(UINT number, BYTE result)
     return digit_value(result) == number % 16 && MB_HEXVALUE_call(result) == number % 16 ? NULL : "the digit is wrong";
 }
 
-/* References: what is no number, infinite or negative is refused; 0.0 and -0.0 are a standstill. */
-static const char *check_reference(float hertz, unsigned value, unsigned limited, unsigned error)
+/* References: what is no number, infinite or negative is refused, and everything without a maximum; 0.0 and -0.0 are a
+ * standstill, and what is below them gives no other word. */
+static const char *check_reference(float hertz, float maximum, unsigned value, unsigned limited, unsigned error)
 {
     if (error && (value || limited))
         return "a value in spite of an error";
     if (!isfinite(hertz) && error != 12)
         return "what is no number is taken";
-    if (isfinite(hertz) && hertz < 0.0f && error != 13 && error != 12)
+    if (isfinite(hertz) && !(maximum >= 0.1f && maximum <= 10000.0f) && error != 17 && error != 12)
+        return "there is no maximum";
+    if (isfinite(hertz) && hertz < 0.0f && value)
         return "a negative reference is taken";
     if (hertz >= 0.0f && hertz <= 1.0e30f && (error == 12 || error == 13))
         return "a number is refused";
@@ -104,21 +107,25 @@ static const char *check_reference(float hertz, unsigned value, unsigned limited
 #define REFERENCE_BLOCK(NAME)                                                                                          \
     static const char *NAME##_right(const NAME *x, const NAME *was)                                                    \
     {                                                                                                                  \
-        return check_reference(was->SPEEDREFERENCEHZ.value, x->VALUE.value, x->LIMITED.value, x->ERRORID.value);       \
+        return check_reference(was->SPEEDREFERENCEHZ.value, was->MAXIMUMHZ.value, x->VALUE.value, x->LIMITED.value, x->ERRORID.value);       \
     }
 
-/* Commands: a stop wins over everything; forward and reverse together are a stop and an error. */
+/* Commands: a stop wins over every motion; forward and reverse together are a stop and an error, and a run that is not
+ * possible is as well; a reset is no stop, and an error where the drive has none. */
 typedef struct {
-    int enable, stop, quick, coast, forward, reverse;
+    int enable, stop, quick, coast, forward, reverse, reset;
 } Pressed;
 
-static const char *check_command(const Pressed *pressed, unsigned stopping, unsigned error)
+static const char *check_command(const Pressed *pressed, unsigned stopping, unsigned resetting, unsigned error)
 {
-    if (error && !stopping)
+    int asked = !pressed->enable || pressed->stop || pressed->quick || pressed->coast;
+    if (stopping && resetting)
+        return "a stop and a reset at once";
+    if (error && !stopping && !resetting && !(error == 16 && pressed->reset))
         return "an error without a stop";
-    if (!pressed->enable || pressed->stop || pressed->quick || pressed->coast)
-        return stopping && !error ? NULL : "a stop does not win";
-    if (pressed->forward && pressed->reverse && (!stopping || error != 14))
+    if (asked && ((!stopping && !resetting) || (error && !(error == 16 && pressed->reset))))
+        return "a stop does not win";
+    if (!asked && !resetting && pressed->forward && pressed->reverse && (!stopping || error != 14))
         return "both directions are no stop";
     return NULL;
 }
@@ -129,6 +136,7 @@ static const char *check_command(const Pressed *pressed, unsigned stopping, unsi
         Pressed pressed = {was->ENABLE.value,    was->STOP.value,                                                      \
                            was->QUICKSTOP.value, was->COASTSTOP.value,                                                 \
                            was->RUNFORWARD.value || was->JOGFORWARD.value,                                             \
-                           was->RUNREVERSE.value || was->JOGREVERSE.value};                                            \
-        return check_command(&pressed, x->STOPPING.value, x->ERRORID.value);                                           \
+                           was->RUNREVERSE.value || was->JOGREVERSE.value,                                             \
+                           was->FAULTRESET.value};                                                                     \
+        return check_command(&pressed, x->STOPPING.value, x->RESETTING.value, x->ERRORID.value);                       \
     }
