@@ -31,7 +31,7 @@ from driveblocks.maps import catalog
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.render import build, library, text
+from driveblocks.render import build, library, overview, text
 from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.suite import ROOT, drive_suite
@@ -82,20 +82,18 @@ def changed(seed: int, number: int) -> tuple[str, str]:
 
 
 @cache
-def shared() -> tuple[Source, ...]:
-    """What every drive's blocks need; the functions of texts are large and need no other test."""
-    files = [file for file in library.generic(LANGUAGES) if "Text" not in file.name]
-    return tuple(Source(f"{build.PLATFORM}/{file.path}", file.text) for file in files)
+def shared() -> tuple[library.File, ...]:
+    """What every drive's blocks need."""
+    return tuple(library.generic(LANGUAGES))
 
 
-def rendered(map_text: str) -> tuple[Drive, list[Source]] | None:
+def rendered(map_text: str) -> tuple[Drive, list[library.File]] | None:
     """The drive and its blocks; None for a map that `check` refuses."""
     try:
         drive = loads(map_text, "map.yaml")
     except MapError:
         return None
-    files = library.drive("map", drive, LANGUAGES)
-    return drive, [Source(f"{build.PLATFORM}/{file.path}", file.text) for file in files]
+    return drive, list(library.drive("map", drive, LANGUAGES))
 
 
 def glance(seed: int, number: int) -> Try:
@@ -127,10 +125,11 @@ def broken(map_text: str) -> Iterator[str]:
     if made is None:
         return
     drive, blocks = made
-    source = build.Source(Path("map.yaml"), drive)
-    build.files([source], LANGUAGES[:1])
-    unit = Unit(drive_suite(source, LANGUAGES), (*shared(), *blocks))
-    own = {each.path for each in blocks} | {ROOT + each.path for each in unit.suite.programs}
+    overview.overview([*shared(), *blocks], [drive])
+    files = [each for each in shared() if "Text" not in each.name] + blocks  # no block needs the texts of results
+    suite = drive_suite(build.Source(Path("map.yaml"), drive), LANGUAGES)
+    unit = Unit(suite, tuple(Source(each.path, each.text) for each in files))
+    own = {each.path for each in blocks} | {ROOT + each.path for each in suite.programs}
     for problem in lint_sources([(each.path, each.text) for each in unit.sources]):
         if problem.path in own:
             yield f"lint: {problem}"
@@ -167,6 +166,8 @@ def report(tries: Iterable[Try], seed: int) -> Iterator[str]:
     """Each find as it comes, then the sum."""
     became: Counter[str] = Counter()
     for each in tries:
+        if became.total() and became.total() % 250 == 0:
+            yield f"{became.total()} done"
         became["refused" if not each.digest else "find" if each.wrong else each.digest] += 1
         if each.wrong:
             yield f"change {each.number} of seed {seed}: {each.said}"
