@@ -68,9 +68,9 @@ def lists(changed: Plain, count: int) -> None:
 
 def many_codes(changed: Plain) -> None:
     """Hundreds of faults, with texts of every kind."""
-    texts = ("85 °C", "it's $5", "(* a *)", "a *) b", "{{ x }}", "Überlast", "long " * 30 + "end")
+    texts = ("85 °C", "it's $5", "(* a *)", "a *) b", "{{ x }}", "Überlast", "long " * 14 + "end")
     changed["faults"]["codes"] = [
-        {"code": f"{n + 1}", "name": f"{texts[n % len(texts)]} {n}", "zh": f"{'过' * (n % 30)}(*{n}"}
+        {"code": f"{n + 1}", "name": f"{texts[n % len(texts)]} {n}", "zh": f"{'过' * (n % 24)}(*{n}"}
         for n in range(400)
     ]
 

@@ -25,6 +25,7 @@ UNREACHED = {
     ("modbus/MB_BuildWriteMultiple.st", "WHILE Index < Quantity DO"),
     ("modbus/MB_AsciiEncode.st", "WHILE Index < Length DO"),
     ("modbus/MB_AsciiDecode.st", "WHILE (Position < Behind) AND (ErrorID = 0) DO"),
+    ("modbus/MB_ParseReply.st", "WHILE (Index < Request.Quantity) AND (Index < 125) DO"),
 }
 """CHF_Reference guards a quotient that the clamp before it keeps at 1.0 or less; the lengths and quantities that bound
 these loops are checked before, so that none ends without a turn."""
