@@ -209,10 +209,10 @@ class ExpressionChecker(OperatorChecker):
 
     def index_type(self, value: Expression) -> None:
         """An index is an integer."""
-        kind = self.infer(value).kind
-        if untyped(value.type):
+        if untyped(self.infer(value)):
             self.choose(value)
-        elif kind is Kind.BITS:
+        kind = value.type.kind
+        if kind is Kind.BITS:
             text = f"expected an integer as index, found {value.type}: write {plain(value.type).name}_TO_UINT(...)"
             self.report.add(value.at, "implicit-conversion", text)
         elif kind is not Kind.INTEGER and value.type is not UNKNOWN:

@@ -111,10 +111,13 @@ class OperatorChecker(ValueChecker):
         if shared is UNKNOWN:
             return UNKNOWN
         if untyped(shared):
-            if Kind.BITS not in kinds:
+            if shared is UNTYPED_REAL and Kind.REAL not in kinds:
+                shared = REAL
+            elif Kind.BITS not in kinds:
                 self.zero_divisor(value)
                 return shared
-            shared = self.default(value.left)
+            else:
+                shared = self.default(value.left)
         for each in (value.left, value.right):
             self.fits(each, shared)
         self.zero_divisor(value)
@@ -165,7 +168,8 @@ class OperatorChecker(ValueChecker):
         """Both operands of one elementary type; enumerations only for `=` and `<>`."""
         shared = self.shared(value)
         if untyped(shared):
-            shared = max((self.default(value.left), self.default(value.right)), key=lambda each: each.size)
+            either = self.default(value.left), self.default(value.right)
+            shared = max(either, key=lambda each: (each.size, each.kind is Kind.BITS))
             leave_open(value.left)
             leave_open(value.right)
         if shared is UNKNOWN:
