@@ -16,7 +16,7 @@ from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.runtime import namespace
 from driveblocks.host.embedded.scope import GLOBALS, SELF, Options, Scope, UnsupportedError
-from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar
+from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar, record_class
 from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.embedded.statements import Statements
 from driveblocks.host.embedded.syntax import Pen
@@ -182,7 +182,7 @@ class Compiler:
         block = present(pou.type)
         self._note_loops(pou, block)
         slots = [each.name.upper() for each in kept(pou)]
-        self.classes[block] = type(pou.name, (Record,), {"__slots__": (*slots, GLOBALS)})
+        self.classes[block] = record_class(pou.name, (*slots, GLOBALS))
         pen = Pen(present(pou.unit))
         scope = self._scope(pou, pen)
         body: list[ast.stmt] = []
