@@ -68,4 +68,3 @@ def _detail(outcome: Outcome) -> str:
     else:
         lines.append(outcome.message)
     return "\n".join(lines)
-
