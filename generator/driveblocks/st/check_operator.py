@@ -79,7 +79,8 @@ class OperatorChecker(ValueChecker):
             text = f"expected a bit string for {op}, found {have}: write {conversion_to_bits(have)}(...)"
             self.report.add(value.at, "implicit-conversion", text)
         else:
-            shown = "a bit string" if Kind.BITS in kinds else "a number" if Kind.INTEGER in kinds else "another type"
+            number = "an integer" if kinds == ANY_INT else "a number"
+            shown = "a bit string" if Kind.BITS in kinds else number if Kind.INTEGER in kinds else "another type"
             self.report.add(value.at, "type-mismatch", f"expected {shown} for {op}, found {have}")
         return UNKNOWN
 

@@ -92,7 +92,7 @@ class ValueChecker:
         self.settle(value, wanted or self.default(value))
 
     def unsuitable(self, value: Expression, wanted: Type) -> None:
-        """Tell of a number without prefix that cannot be of the wanted type; it gets the type that it has by default."""
+        """Tell of a number without prefix that cannot be of the wanted type; it gets the type it has by default."""
         culprit = self.misfit(value, wanted) or value
         if wanted.kind is Kind.REAL and isinstance(culprit, Literal):
             text = f"expected {wanted}, found the integer {culprit.text}: write {culprit.text}.0"

@@ -16,7 +16,6 @@ from driveblocks.st.report import Report, nearest
 from driveblocks.st.rules import CODES, RULES
 from driveblocks.st.tree import Function, FunctionBlock, Pou, Program, Unit
 
-
 _WORD = re.compile(r"\w+")
 _FOUND = re.compile(r"found (\w+)")
 

@@ -113,8 +113,10 @@ class Compiler:
             elif isinstance(pou, tree.FunctionBlock | tree.Program):
                 self._block(pou)
         except UnsupportedError as error:
-            line, column = unit.place(error.at)
-            self.messages.append(Message(unit.path, line, column, str(error)))
+            self.messages.append(Message(unit.path, *unit.place(error.at), str(error)))
+        except RecursionError:
+            text = f"{pou.name} is nested too deeply for the embedded engine: put the inner parts into a block"
+            self.messages.append(Message(unit.path, *unit.place(pou.name_at), text))
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
         ranges = Ranges(trusted=self.options.model != "c")

@@ -1,6 +1,6 @@
 """Loops of ST as Python loops over an iterator that is the budget of the scan.
 
-`for _ in run.budget: if not condition: break ...` counts turns at almost no cost; a loop that uses the budget up
+`for turn in run.budget: if not condition: break ...` counts turns at almost no cost; a loop that uses the budget up
 falls into `else`, which raises. All loops of a scan share one iterator.
 """
 
@@ -249,7 +249,7 @@ class Loops(Calls):
         before_continue: Callable[[], list[ast.stmt]],
     ) -> list[ast.stmt]:
         if len(self._open) == DEEPEST_LOOPS:
-            text = f"the embedded engine runs at most {DEEPEST_LOOPS} loops in one another: put the inner ones into a block"
+            text = f"the embedded engine runs at most {DEEPEST_LOOPS} loops in one another: put some into a block"
             raise UnsupportedError(statement.at, text)
         fetch, put_back, hoisted = self._hoist(statement)
         self._settle(statement, turn, before_continue)

@@ -18,7 +18,6 @@ from driveblocks.host.embedded.terms import Whole
 from driveblocks.st import tree
 from driveblocks.st.types import Block
 
-
 # How many branches Python nests in one another; 40 levels of ST in the last of each must still go in its stack.
 _LONGEST_CHAIN = 16
 
