@@ -106,8 +106,10 @@ def test_a_failure_has_place_expected_and_actual() -> None:
 
 def test_no_attribute_and_no_text_holds_what_xml_cannot() -> None:
     hostile = "a\x00\x1b[2J\r\x85\u202e\ud800\uffff\U000e0001z"
-    fields = dict.fromkeys(("words", "message", "expected", "actual", "path"), hostile)
-    outcomes = tuple(Outcome(status=status, **fields) for status in ("passed", "failed", "error"))
+    outcomes = tuple(
+        Outcome(hostile, status, message=hostile, expected=hostile, actual=hostile, path=hostile)
+        for status in ("passed", "failed", "error")
+    )
     text = junit.text(Run([Result(hostile, hostile, hostile, outcomes, properties=((hostile, hostile),))]))
     seen = r"a\u0000\u001b[2J\u000d\u0085\u202e\ud800\uffff\udb40\udc01z"
     root = ElementTree.fromstring(text)  # noqa: S314  (our own text)
