@@ -14,7 +14,8 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    # `color` keeps typer from taking escape codes out of what does not go to a terminal: the streams write them out.
+    context_settings={"help_option_names": ["-h", "--help"], "color": True},
 )
 
 
@@ -44,7 +45,7 @@ for _module in pkgutil.iter_modules(commands.__path__):
 
 def main() -> None:
     """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input."""
-    console.use_utf8()
+    console.use_safe_utf8()
     app()
 
 

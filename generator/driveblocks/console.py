@@ -1,18 +1,89 @@
-"""Where commands print: a terminal with colours, or a plain file or pipe; the same words and columns in both."""
+"""Where commands print: a terminal with colours, or a plain file or pipe; the same words and columns in both.
 
+What users name and write into maps, sources and frames is printed, too. Control characters in it would steer the
+terminal, and those that turn the direction of writing would show another text than is there: they are written out.
+"""
+
+import re
 import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, TextIO, cast
 
-from rich.console import Console, RenderableType
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.segment import Segment
+from rich.text import Text
 
 NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
 
+_HIDDEN = re.compile(
+    "[\0-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f"
+    "\ufeff\ufff9-\ufffb\ufffe\uffff\ud800-\udfff\U000e0000-\U000e0fff]"
+)
+"""Control characters but for tab and line feed, what directs or hides text, and what is no character at all."""
 
-def use_utf8() -> None:
-    """Make both standard streams UTF-8: under a C locale Python may choose ASCII, and the manuals are Chinese."""
+
+def visible(text: str) -> str:
+    """A text with what nobody can see written as JSON does, \\u001b; tabs and line feeds stay."""
+    return _HIDDEN.sub(lambda match: _written(match[0]), text)
+
+
+def name(path: str | Path) -> str:
+    """The name of a file as a message holds it: in one line, whatever is in it."""
+    return visible(str(path)).replace("\n", _written("\n")).replace("\t", _written("\t"))
+
+
+def _written(character: str) -> str:
+    units = character.encode("utf-16-be", "surrogatepass").hex()
+    return "".join(f"\\u{units[at : at + 4]}" for at in range(0, len(units), 4))
+
+
+class Shown:
+    """A stream on which everything is visible; `stream` is the one beneath."""
+
+    def __init__(self, stream: TextIO) -> None:
+        """Write to this stream."""
+        self.stream = stream
+
+    def write(self, text: str) -> int:
+        """Write a text."""
+        return self.stream.write(visible(text))
+
+    def writelines(self, lines: Iterable[str]) -> None:
+        """Write several texts."""
+        for line in lines:
+            self.write(line)
+
+    def __getattr__(self, attribute: str) -> Any:
+        """Whatever else the stream can do."""
+        return getattr(self.stream, attribute)
+
+
+def use_safe_utf8() -> None:
+    """Make both standard streams UTF-8, and what goes there visible.
+
+    Under a C locale Python may choose ASCII, and the manuals are Chinese.
+    """
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
+    sys.stdout, sys.stderr = cast("TextIO", Shown(sys.stdout)), cast("TextIO", Shown(sys.stderr))
+
+
+class _Console(Console):
+    """A console that makes texts visible before it colours them and reckons their width."""
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """A text, or one in a cell of a table."""
+        return super().render_str(visible(text), **options)
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
+        """Anything; a text that has its colours already comes here only."""
+        if isinstance(renderable, Text):
+            renderable = renderable.copy()
+            renderable.plain = visible(renderable.plain)
+        return super().render(renderable, options)
 
 
 def write(*pieces: RenderableType) -> None:
@@ -21,7 +92,8 @@ def write(*pieces: RenderableType) -> None:
     Text is printed as it is: no markup, no emoji names, no colouring by guess. What does not go to a terminal has no
     escape codes and no blanks at the end of a line.
     """
-    console = Console(markup=False, emoji=False, highlight=False)
+    beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
+    console = _Console(file=beneath, markup=False, emoji=False, highlight=False)
     console.width = max(console.width, NARROWEST)
     if console.is_terminal:
         for piece in pieces:
@@ -30,4 +102,4 @@ def write(*pieces: RenderableType) -> None:
     with console.capture() as capture:
         for piece in pieces:
             console.print(piece)
-    sys.stdout.write("".join(f"{line.rstrip()}\n" for line in capture.get().splitlines()))
+    beneath.write("".join(f"{line.rstrip()}\n" for line in capture.get().split("\n")[:-1]))

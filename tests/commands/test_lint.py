@@ -90,7 +90,39 @@ def test_syntax_errors_end_with_2(tmp_path: Path) -> None:
     path.write_text(CLEAN.replace(":= Count", "= Count"), encoding="utf-8")
     result = run("--ignore", "ST0", path)
     assert result.exit_code == 2
-    assert result.output == f"{path}:5:9: ST001 syntax: expected `:=` or `(`, found =\n"
+    assert result.stdout == f"{path}:5:9: ST001 syntax: expected `:=` or `(`, found =\n"
+    assert result.stderr == f"{path}: not judged beyond its syntax\n"
+
+
+def test_a_broken_file_silences_no_other(tmp_path: Path, loop: Path) -> None:
+    types = "TYPE\n  T_Row : ARRAY[0..9] OF INT;\nEND_TYPE\nTYPE\n  T_Odd : ARRAY[0..] OF INT;\nEND_TYPE\n"
+    user = CLEAN.replace("Example", "User").replace("INT;", "T_Row; Odd : T_Odd; Even : T_Even;")
+    broken, block = tmp_path / "broken.st", tmp_path / "user.st"
+    broken.write_text(types, encoding="utf-8")
+    block.write_text(user.replace("Count := Count + 1", "Count[10] := 1"), encoding="utf-8")
+    result = run("--select", "ST0", broken, block, tmp_path / "missing.st", loop)
+    assert result.exit_code == 2
+    assert [line.split(": ")[0] + " " + line.split(": ")[1] for line in result.stdout.splitlines()] == [
+        f"{broken}:5:20 ST001 syntax",
+        f"{block}:3:38 ST003 unknown-type",
+        f"{block}:5:9 ST009 index-range",
+    ]
+    assert result.stderr.splitlines() == [
+        f"{tmp_path / 'missing.st'}:1:1: cannot be read: No such file or directory",
+        f"{broken}: not judged beyond its syntax",
+    ]
+
+
+def test_a_folder_stands_for_the_sources_in_it(tmp_path: Path) -> None:
+    for name in ("b/z.ST", "a.st", "b/a/x.st", ".hidden/y.st", "notes.txt"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(LOOP.replace("Example", f"Example_{path.stem}"), encoding="utf-8")
+    result = run("--select", "ST301", tmp_path, tmp_path / "a.st")
+    assert result.exit_code == 1
+    assert [line.split(":")[0] for line in result.output.splitlines()] == [
+        str(tmp_path / name) for name in ("a.st", "b/a/x.st", "b/z.ST")
+    ]
 
 
 @pytest.mark.parametrize(
@@ -109,11 +141,13 @@ def test_what_is_no_source_is_told(tmp_path: Path, content: bytes, said: str) ->
 
 
 def test_all_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
-    result = run(tmp_path / "missing.st", tmp_path)
+    odd = tmp_path / "a\n\x1b.st"
+    result = run(tmp_path / "missing.st", tmp_path, odd)
     assert result.exit_code == 2
-    assert result.output.splitlines() == [
+    assert result.stderr.splitlines() == [
+        f"{tmp_path}:1:1: expected .st files in this folder, found none",
         f"{tmp_path / 'missing.st'}:1:1: cannot be read: No such file or directory",
-        f"{tmp_path}:1:1: expected a file, found a directory: name the files in it",
+        rf"{tmp_path}/a\u000a\u001b.st:1:1: cannot be read: No such file or directory",
     ]
 
 

@@ -128,6 +128,18 @@ def test_a_register_is_told_with_unit_scale_and_what_is_recorded(word: str) -> N
         assert text in shown
 
 
+@pytest.mark.parametrize("word", ["4096", "1000H", "0x1000", "1000"])
+def test_an_address_may_be_decimal(word: str) -> None:
+    result = show("chf", word)
+    assert (result.exit_code, result.stdout.splitlines()[0]) == (0, "CHF  1000H")
+
+
+def test_a_decimal_address_that_is_one_in_hexadecimal_too_is_named() -> None:
+    shown = show("chf", "8192").stdout
+    assert shown.startswith("CHF  8192H\n")
+    assert "also: 2000H  register  Communication setting" in shown
+
+
 def test_a_register_is_told_with_its_bits_values_and_commands() -> None:
     shown = squeezed(page("0000H"))
     for text in (

@@ -1,5 +1,7 @@
 """Replies against a request: the field that does not match, echoes, and requests that are none."""
 
+from contextlib import suppress
+
 import pytest
 from tests.explain.explaining import Explain, rtu
 
@@ -91,9 +93,22 @@ def test_a_wrong_reply_is_repaired_and_read_with_the_names_of_the_request(explai
         ("01 03 02 01 F4 B8 53", "request:1:1: this is no good request: it reads as a reply"),
         ("01 03 20 00 00 01 CA 8F", "request:1:1: this is no good request: the CRC does not fit"),
         ("01 03 2G", "request:1:8: `G` is no hexadecimal digit"),
+        (rtu("01 10 20 00 00 80"), "request:1:1: this is no good request: "),
+        (rtu("01 10 20 00 00 80 00"), "request:1:1: this is no good request: "),
+        (rtu("01 10 20 00 00 80 00" + " 00" * 256), "request:1:1: this is no good request: "),
+        (rtu("01 03 20 00 00"), "request:1:1: this is no good request: "),
     ],
 )
 def test_requests_that_are_none(explain: Explain, request_frame: str, message: str) -> None:
     with pytest.raises(UnreadableError) as caught:
         explain("JSCC", "01 03 02 01 F4 B8 53", request_frame)
     assert str(caught.value).startswith(message)
+
+
+@pytest.mark.parametrize("quantity", [0, 1, 127, 128, 200, 0x7FFF, 0x8000, 0xFFFF])
+@pytest.mark.parametrize("function", [1, 3, 4, 15])
+def test_a_request_of_any_quantity_is_compared(explain: Explain, function: int, quantity: int) -> None:
+    request = rtu(f"01 {function:02X} 20 00 {quantity:04X}" + (" 02 00 00" if function == 15 else ""))
+    for reply in (rtu("01 03 02 01 F4"), rtu(f"01 {function:02X} 20 00 {quantity:04X}"), rtu("01 04 00 01")):
+        with suppress(UnreadableError):
+            assert explain("", reply, request).asked

@@ -549,3 +549,11 @@ def test_a_tree_cannot_be_analysed_beside_other_files_later() -> None:
     with pytest.raises(ValueError, match=r"one\.st was analysed with other files already: parse it again"):
         check([first, second])
     assert check([parse(INNER, "one.st"), second]).programs.keys() == {"GO"}
+
+
+@pytest.mark.parametrize("use", ["x := Part.Now;", "Part.Now := 1;", "Part(x => Part.Now);"])
+def test_what_an_instance_does_not_keep_cannot_be_reached_from_outside(use: str) -> None:
+    inner = "FUNCTION_BLOCK Inner VAR_OUTPUT x : INT; END_VAR VAR_TEMP Now : INT; END_VAR x := Now; END_FUNCTION_BLOCK"
+    text = f"{inner}\nPROGRAM Example VAR x : INT; Part : Inner; END_VAR\n{use}\nEND_PROGRAM"
+    said = [each.text for each in lint_sources([("one.st", text)]) if each.rule == "undeclared-name"]
+    assert said == ["Now is no part of an instance of Inner, being a VAR_TEMP: make it a VAR_OUTPUT"]

@@ -99,9 +99,27 @@ def test_a_failure_has_place_expected_and_actual() -> None:
     first, second = root.iter("failure")
     assert first.attrib == {"message": "expected 1, found 2", "type": "failed"}
     assert first.text == "1: a & b < c\nat b.st:7\nexpected: 1\nactual: 2"
-    assert second.text == "3: text\nat b.st:11\nexpected: x\nactual: \\x00\\x1B"
+    assert second.text == "3: text\nat b.st:11\nexpected: x\nactual: \\u0000\\u001b"
     (error,) = root.iter("error")
     assert error.text == "2: never\nat b.st:9\nb.st:9: index 4"
+
+
+def test_no_attribute_and_no_text_holds_what_xml_cannot() -> None:
+    hostile = "a\x00\x1b[2J\r\x85\u202e\ud800\uffff\U000e0001z"
+    outcomes = tuple(
+        Outcome(hostile, status, message=hostile, expected=hostile, actual=hostile, path=hostile)
+        for status in ("passed", "failed", "error")
+    )
+    text = junit.text(Run([Result(hostile, hostile, hostile, outcomes, properties=((hostile, hostile),))]))
+    seen = r"a\u0000\u001b[2J\u000d\u0085\u202e\ud800\uffff\udb40\udc01z"
+    root = ElementTree.fromstring(text)  # noqa: S314  (our own text)
+    suite = root[0].attrib["name"]
+    assert suite == f"{seen}.{seen} on {seen}"
+    assert [(each.attrib["name"], each.attrib["value"]) for each in root.iter("property")] == [
+        ("engine", seen),
+        (seen, seen),
+    ]
+    assert all(sign.isprintable() or sign == "\n" for sign in text)
 
 
 def test_chinese_stays_chinese(real: Run) -> None:

@@ -1,10 +1,13 @@
 """`driveblocks lint`: say what in an ST source one compiler or another refuses or compiles differently."""
 
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from driveblocks import console
 
 if TYPE_CHECKING:
     from driveblocks.st.problems import Problem
@@ -12,7 +15,10 @@ if TYPE_CHECKING:
 # A source of more is no source; the largest library in public use has a tenth of it.
 MOST_BYTES = 8 << 20
 
-Files = Annotated[list[Path] | None, typer.Argument(metavar="FILE", help="ST sources that belong together.")]
+Files = Annotated[
+    list[Path] | None,
+    typer.Argument(metavar="FILE", help="ST sources that belong together; a folder stands for every .st file in it."),
+]
 Select = Annotated[
     list[str] | None,
     typer.Option(help="Tell only this rule, by name, code or beginning of a code (ST3); may be repeated."),
@@ -32,8 +38,9 @@ def run(
     """Find what is not portable in Structured Text.
 
     A finding is one line, `file:line:col: CODE rule: why; what to write instead`. The files are taken as one text:
-    each may use what another declares. The exit status is 0 without findings, 1 with findings, and 2 if a file cannot
-    be read or parsed. docs/lint.md explains every rule.
+    each may use what another declares. Of a file that cannot be read or parsed only that is told, and the others are
+    judged all the same. The exit status is 0 without findings, 1 with findings, and 2 if a file could not be judged;
+    standard error names it. docs/lint.md explains every rule.
 
     Example: driveblocks lint --ignore case-without-else types.st blocks.st
     """
@@ -50,11 +57,15 @@ def run(
         selection = Selection.of(_split(select), _split(ignore))
     except UnknownRuleError as error:
         _stop(str(error))
-    sources = _read(files or [])
+    sources, unread = _read(files or [])
     problems = lint_sources(sources, selection)
     _print(problems, output)
+    broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
+    unjudged = [*unread, *(f"{path}: not judged beyond its syntax" for path in broken)]
+    if unjudged:
+        _stop("\n".join(unjudged))
     if problems:
-        raise typer.Exit(2 if any(each.rule in ("syntax", "long-expression") for each in problems) else 1)
+        raise typer.Exit(1)
 
 
 def _stop(text: str) -> None:
@@ -68,24 +79,39 @@ def _split(words: list[str] | None) -> list[str]:
     return [each.strip() for word in words or [] for each in word.split(",") if each.strip()]
 
 
-def _read(files: list[Path]) -> list[tuple[str, str]]:
-    """The text of every file by its path; all that cannot be read are told before it ends with status 2."""
+def _read(named: list[Path]) -> tuple[list[tuple[str, str]], list[str]]:
+    """The text of every file by its name, and what cannot be read, with the reason."""
     sources: list[tuple[str, str]] = []
     bad: list[str] = []
-    for path in dict.fromkeys(files):
+    for path in dict.fromkeys(file for each in named for file in _files(each, bad)):
         try:
-            sources.append((str(path), _text(path)))
+            sources.append((console.name(path), _text(path)))
         except (OSError, ValueError) as error:
-            bad.append(f"{path}:1:1: {_reason(error)}")
-    if bad:
-        _stop("\n".join(bad))
-    return sources
+            bad.append(f"{console.name(path)}:1:1: {_reason(error)}")
+    return sources, bad
+
+
+def _files(path: Path, bad: list[str]) -> list[Path]:
+    """A file, or the sources in a folder and below, hidden folders left out, in the order of their names."""
+    if not path.is_dir():
+        return [path]
+    found: list[Path] = []
+
+    def told(error: OSError) -> None:
+        bad.append(f"{console.name(error.filename)}:1:1: {_reason(error)}")
+
+    for folder, inner, names in os.walk(path, onerror=told):
+        inner[:] = sorted(each for each in inner if not each.startswith("."))
+        found += [Path(folder, each) for each in names if each.lower().endswith(".st")]
+    if not found:
+        bad.append(f"{console.name(path)}:1:1: expected .st files in this folder, found none")
+    pipes = [each for each in found if each.exists() and not each.is_file()]
+    bad += [f"{console.name(each)}:1:1: expected a file, found a pipe or device" for each in sorted(pipes)]
+    return sorted(each for each in found if each not in pipes)
 
 
 def _text(path: Path) -> str:
     """The text of one file. Raises OSError, or ValueError saying why it is no source."""
-    if path.is_dir():
-        raise ValueError("expected a file, found a directory: name the files in it")
     with path.open("rb") as stream:
         data = stream.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:

@@ -7,7 +7,7 @@ _SPELLED = {
     "\n": re.compile(r"<LF>|\[LF\]|\{LF\}|\\n|\\x0a|<0A>|\[0A\]|\$L|\$0A|␊|\^J|(?<=[\r\s])LF(?![0-9A-Z])", re.I),
 }
 _QUOTES = re.compile(r"^\s*b?[\"'`]|[\"'`][;,\s]*$")
-_START = re.compile(r"\s*b?[\"'`]?\s*:")
+_START = re.compile(r"b?[\"'`]?\s*:")
 
 NOT_SHOWN = "CR and LF at the end are not in the text; they are taken as sent"
 BLANKS = "blanks between the characters are left out"
@@ -18,7 +18,7 @@ Lines = list[tuple[int, str]]
 def fits(lines: list[str]) -> bool:
     """Whether the lines are characters of ASCII frames, and not bytes with colons between them."""
     pieces = [piece.strip() for piece in _bare(lines[0]).strip().split(":")]
-    if _START.match(lines[0]) is None:
+    if _START.match(lines[0].lstrip()) is None:
         return False
     return len(pieces) == 2 or any(len(piece) > 2 for piece in pieces[1:])
 

@@ -2,8 +2,9 @@
 
 from driveblocks.explain.layout import Layout, take
 from driveblocks.explain.reading import Wrong
+from driveblocks.explain.suspicion import asked_by
 from driveblocks.reference.reply import Manners, parse
-from driveblocks.reference.request import READS, Asked, body
+from driveblocks.reference.request import READS, Asked
 
 _LATE = "a late reply to an earlier request"
 _OTHER_DRIVE = "another drive answered, or two have the same address"
@@ -14,14 +15,15 @@ def compared(manners: Manners, asked: Asked, data: bytes) -> tuple[Wrong, ...]:
     result = parse(manners, asked, data).result
     if result in ("OK", "REFUSED"):
         return ()
-    if _is_request(asked, data):
+    if _is_request(manners, asked, data):
         return (Wrong("this is the request itself", ("the adapter hears what it sends (half-duplex echo)",)),)
     one = take(data, "reply", manners)
     return (_told(result, asked, one, data),)
 
 
-def _is_request(asked: Asked, data: bytes) -> bool:
-    return asked.function in (3, 4, 16) and data == body(asked)
+def _is_request(manners: Manners, asked: Asked, data: bytes) -> bool:
+    one = take(data, "request", manners)
+    return asked.function in (3, 4, 16) and one.fits and asked_by(one, ascii_mode=asked.ascii) == asked
 
 
 def _told(result: str, asked: Asked, one: Layout, data: bytes) -> Wrong:
@@ -74,7 +76,7 @@ def _count(one: Layout, asked: Asked) -> str:
 
 
 def _why_count(data: bytes, size: int) -> tuple[str, ...]:
-    if data[2:4] == size.to_bytes(2, "big"):
+    if int.from_bytes(data[2:4], "big") == size:
         return ("the byte count is a word: two-byte count",)
     if len(data) == 6:
         return ("this is a request, not a reply", _LATE)

@@ -9,6 +9,9 @@ _OFFSET = re.compile(r"\s*(?:0x)?(?P<digits>[0-9A-Fa-f]{4,8})h?(?P<end>:[ \t]+|[
 _GROUPS = re.compile(r"\s*(?:[0-9A-Fa-f]{2,8}(?:[ -](?=[0-9A-Fa-f])|$))+")
 _GAP = re.compile(r"[ \t]{2,}|\t|[ ](?=\|)")
 
+_WIDEST = 2 * 513
+"""Bytes and characters beyond which a line is none of a dump: it would hold more than any frame."""
+
 Lines = list[tuple[int, str]]
 
 
@@ -16,7 +19,7 @@ def read(lines: Lines) -> bytes | None:
     """The bytes of a dump; None if the lines are none. Raises Spot for a line of a dump that cannot be read."""
     if _offset(lines[0][1], 0) is None:
         return _columns(lines)
-    data = b""
+    data = bytearray()
     for place, line in lines:
         if data and _closing(line, len(data)):
             break
@@ -25,7 +28,7 @@ def read(lines: Lines) -> bytes | None:
             wrong = f"this line does not start with the offset {len(data):04X}"
             raise Spot(place, wrong, "paste the dump's lines as they were printed, without gaps")
         data += _body(line[behind:], place + behind)
-    return data
+    return bytes(data)
 
 
 def _offset(line: str, expected: int) -> int | None:
@@ -65,19 +68,33 @@ def _body(line: str, place: int) -> bytes:
 def _split(line: str) -> tuple[int, bool]:
     """Where the bytes of a line end, and whether a column of characters follows that shows the same bytes."""
     text = line.rstrip("\r\n")
-    for gap in reversed(list(_GAP.finditer(text))):
-        before = text[: gap.start()]
-        if all(_GROUPS.fullmatch(part) for part in re.split(r"[ \t]{2,}|\t", before.strip())):
-            data = bytes.fromhex(re.sub(r"[^0-9A-Fa-f]", "", before)) if _even(before) else b""
-            column = text[gap.end() :].rstrip(" \t")
-            bare = column[1:].removesuffix("|") if column.startswith("|") else column
-            if data and (_shows(bare, data) or _shows(column, data)):
-                return gap.start(), True
+    digits, ends = _ends(text)
+    for gap, count in reversed(ends):
+        if len(text) - gap.end() > _WIDEST or count > 2 * _WIDEST:
+            break
+        data = bytes.fromhex(digits[:count]) if count % 2 == 0 else b""
+        column = text[gap.end() :].rstrip(" \t")
+        bare = column[1:].removesuffix("|") if column.startswith("|") else column
+        if data and (_shows(bare, data) or _shows(column, data)):
+            return gap.start(), True
     return len(text), False
 
 
-def _even(text: str) -> bool:
-    return len(re.sub(r"[^0-9A-Fa-f]", "", text)) % 2 == 0
+def _ends(text: str) -> tuple[str, list[tuple[re.Match[str], int]]]:
+    """The digits that a line begins with, and every gap behind nothing but digits with how many stand before it."""
+    pieces: list[str] = []
+    ends: list[tuple[re.Match[str], int]] = []
+    count = start = 0
+    for gap in _GAP.finditer(text):
+        part = text[start : gap.start()].strip()
+        start = gap.end()
+        if part:
+            if _GROUPS.fullmatch(part) is None:
+                break
+            pieces.append(re.sub(r"[ -]", "", part))
+            count += len(pieces[-1])
+            ends.append((gap, count))
+    return "".join(pieces), ends
 
 
 def _shows(column: str, data: bytes) -> bool:

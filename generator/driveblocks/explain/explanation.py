@@ -61,11 +61,11 @@ class Explainer:
     def _asked(self, request: Paste) -> tuple[Asked, bytes]:
         """The request that was pasted. Raises UnreadableError if it is no good request."""
         made = self._explained(request.data, None, None)
-        fits = [one for one in made.readings if one.direction == "request"]
-        if made.wrongs or not fits or not made.wire.right:
+        taken = layout.take(made.wire.body, "request", self.manners) if made.wire.right else None
+        fits = taken is not None and taken.fits and any(one.direction == "request" for one in made.readings)
+        if made.wrongs or taken is None or not fits:
             why = made.all_wrongs[0].what if made.all_wrongs else "it reads as a reply"
             raise UnreadableError(f"request:1:1: this is no good request: {why}; paste the request as it was sent")
-        taken = layout.take(made.wire.body, "request", self.manners)
         return asked_by(taken, ascii_mode=made.wire.mode == "ascii"), made.wire.frame
 
     # ------------------------------------------------------------ what kind of thing it is
@@ -85,7 +85,7 @@ class Explainer:
     def _zeros_behind(self, wire: Wire, asked: Asked | None, sent: bytes | None) -> Explanation | None:
         """A good frame with 00 behind it: the rest behind a CRC is 0, so 00 there leaves the CRC right."""
         core = wire.frame.rstrip(b"\0")
-        for end in range(len(core), len(wire.frame)):
+        for end in range(len(core), min(len(wire.frame), RTU_BYTES + 1)):
             if wire.mode == "rtu" and open_(wire.frame[:end]).right and self._whole(open_(wire.frame[:end])):
                 inside = self._explained(wire.frame[:end], asked, sent)
                 extra = scan.Piece(end, wire.frame[end:], good=False)

@@ -34,7 +34,7 @@ def read(line: str, start: int = 0) -> bytes:
     quoted = _ESCAPED.match(line)
     if quoted and ("\\" in quoted["inner"] or is_literal(line)):
         return _string(quoted["inner"], start + quoted.start("inner"))
-    data, at = b"", 0
+    data, at = bytearray(), 0
     while at < len(line):
         match = _TOKEN.match(line, at)
         if match is None:
@@ -44,7 +44,7 @@ def read(line: str, start: int = 0) -> bytes:
             following = line[match.end() : match.end() + 1] if group in ("plain", "p") else ""
             data += _bytes(match[group], start + match.start(group), following)
         at = match.end()
-    return data
+    return bytes(data)
 
 
 def _bytes(digits: str, place: int, following: str) -> bytes:
@@ -68,7 +68,7 @@ def _stranger(character: str) -> tuple[str, str]:
 
 def _string(inner: str, start: int) -> bytes:
     """The bytes of a string as programming languages print it: what is not escaped stands for itself."""
-    data, at = b"", 0
+    data, at = bytearray(), 0
     while at < len(inner):
         match = _INNER.match(inner, at)
         if match is None or (match["literal"] or " ") > "\x7e":
@@ -76,6 +76,6 @@ def _string(inner: str, start: int) -> bytes:
         if match["hex"]:
             data += bytes.fromhex(match["hex"])
         else:
-            data += bytes([_SIGNS[match["sign"]] if match["sign"] else ord(match["literal"])])
+            data.append(_SIGNS[match["sign"]] if match["sign"] else ord(match["literal"]))
         at = match.end()
-    return data
+    return bytes(data)

@@ -92,7 +92,7 @@ def _lines(text: str) -> list[tuple[int, str]]:
 
 def _unlabelled(line: str) -> int:
     """Where a line's content starts, behind a time, TX, RX and the like; at its start if nothing would be left."""
-    start = 0
-    while (match := _LABEL.match(line, start)) and line[match.end() :].strip():
+    start, end = 0, len(line.rstrip())
+    while (match := _LABEL.match(line, start)) and match.end() < end:
         start = match.end()
     return start

@@ -24,6 +24,9 @@ Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting
 
 _ADDRESS = re.compile(r"(?:0X)?([0-9A-F]{1,4})H?")
 
+_DECIMAL = re.compile(r"[1-9][0-9]{3,4}")
+"""An address as some PLCs want it, in decimal: 4096 is 1000H, unless there is a 4096H. Fewer digits are a code, too."""
+
 
 @dataclass(frozen=True)
 class Match:
@@ -47,6 +50,8 @@ def find(drive: Drive, word: str) -> list[Match]:
         address = upper.startswith("0X") or len(upper.rstrip("H")) == 4
         found += _at_address(drive, number, spelled=address)
         found += _by_code(drive, number, spelled=not address)
+    if _DECIMAL.fullmatch(upper):
+        found += _at_address(drive, int(upper), spelled=not any(match.spelled for match in found))
     return sorted(found, key=lambda match: not match.spelled)
 
 

@@ -61,6 +61,7 @@ from driveblocks.st.types import (
 _FIXED_LITERALS = {LiteralKind.BOOL: BOOL, LiteralKind.STRING: STRING, LiteralKind.WSTRING: WSTRING}
 _FIXED_LITERALS |= {LiteralKind.TIME: TIME, LiteralKind.DATE: DATE}
 _FIXED_LITERALS |= {LiteralKind.TIME_OF_DAY: TIME_OF_DAY, LiteralKind.DATE_AND_TIME: DATE_AND_TIME}
+_NOT_KEPT = (VarKind.TEMP, VarKind.EXTERNAL)
 _DIRECT = {"X": BOOL, "B": BYTE, "W": WORD, "D": DWORD, "L": LWORD}
 
 
@@ -171,6 +172,10 @@ class ExpressionChecker(OperatorChecker):
         elif isinstance(base, Block):
             value.symbol = self.block_variable(base, upper)
             known = [each.name for each in base.parameters.values()]
+            if isinstance(value.symbol, VarDecl) and value.symbol.kind in _NOT_KEPT:
+                text = f"{value.name} is no part of an instance of {base}, being a {value.symbol.kind.value}"
+                self.report.add(value.at, "undeclared-name", f"{text}: make it a VAR_OUTPUT")
+                return UNKNOWN
         else:
             if base is not UNKNOWN:
                 text = f"expected a structure or block before .{value.name}, found {base}"
@@ -209,10 +214,10 @@ class ExpressionChecker(OperatorChecker):
 
     def index_type(self, value: Expression) -> None:
         """An index is an integer."""
-        kind = self.infer(value).kind
-        if untyped(value.type):
+        if untyped(self.infer(value)):
             self.choose(value)
-        elif kind is Kind.BITS:
+        kind = value.type.kind
+        if kind is Kind.BITS:
             text = f"expected an integer as index, found {value.type}: write {plain(value.type).name}_TO_UINT(...)"
             self.report.add(value.at, "implicit-conversion", text)
         elif kind is not Kind.INTEGER and value.type is not UNKNOWN:

@@ -79,7 +79,8 @@ class OperatorChecker(ValueChecker):
             text = f"expected a bit string for {op}, found {have}: write {conversion_to_bits(have)}(...)"
             self.report.add(value.at, "implicit-conversion", text)
         else:
-            shown = "a bit string" if Kind.BITS in kinds else "a number" if Kind.INTEGER in kinds else "another type"
+            number = "an integer" if kinds == ANY_INT else "a number"
+            shown = "a bit string" if Kind.BITS in kinds else number if Kind.INTEGER in kinds else "another type"
             self.report.add(value.at, "type-mismatch", f"expected {shown} for {op}, found {have}")
         return UNKNOWN
 
@@ -111,10 +112,13 @@ class OperatorChecker(ValueChecker):
         if shared is UNKNOWN:
             return UNKNOWN
         if untyped(shared):
-            if Kind.BITS not in kinds:
+            if shared is UNTYPED_REAL and Kind.REAL not in kinds:
+                shared = REAL
+            elif Kind.BITS not in kinds:
                 self.zero_divisor(value)
                 return shared
-            shared = self.default(value.left)
+            else:
+                shared = self.default(value.left)
         for each in (value.left, value.right):
             self.fits(each, shared)
         self.zero_divisor(value)
@@ -165,7 +169,8 @@ class OperatorChecker(ValueChecker):
         """Both operands of one elementary type; enumerations only for `=` and `<>`."""
         shared = self.shared(value)
         if untyped(shared):
-            shared = max((self.default(value.left), self.default(value.right)), key=lambda each: each.size)
+            either = self.default(value.left), self.default(value.right)
+            shared = max(either, key=lambda each: (each.size, each.kind is Kind.BITS))
             leave_open(value.left)
             leave_open(value.right)
         if shared is UNKNOWN:

@@ -9,6 +9,7 @@ from driveblocks.st.standard import Conversion, Group, Signature
 from driveblocks.st.tree import Argument, Binding, Call, Expression
 from driveblocks.st.types import (
     ANY,
+    ANY_BIT,
     BOOL,
     DINT,
     REAL,
@@ -95,11 +96,21 @@ class StandardChecker(BindingChecker):
     def untyped_shared(self, values: list[Expression | None], group: Group, name: str) -> Type:
         """What numbers without prefix share; told if the function is not for numbers."""
         given = [each for each in values if each is not None]
-        if group & {Kind.INTEGER, Kind.REAL, Kind.BITS}:
-            return UNTYPED_REAL if any(each.type is UNTYPED_REAL for each in given) else UNTYPED_INTEGER
-        self.report.add(given[0].at, "type-mismatch", f"expected another type for {name}, found {given[0].type}")
+        reals = [each for each in given if each.type is UNTYPED_REAL]
+        numbers = group & {Kind.INTEGER, Kind.REAL, Kind.BITS}
+        if reals == given and Kind.REAL in group:
+            return UNTYPED_REAL
+        if not reals and numbers - {Kind.REAL}:
+            return UNTYPED_INTEGER
+        if Kind.REAL in group:
+            for each in given:
+                self.settle(each, REAL)
+            return UNKNOWN
+        what = "another type" if not numbers else "a bit string" if group == ANY_BIT else "an integer"
+        at = (reals or given)[0]
+        self.report.add(at.at, "type-mismatch", f"expected {what} for {name}, found {at.type}")
         for each in given:
-            self.settle(each, self.default(each))
+            self.push(each, self.default(each))
         return UNKNOWN
 
     @staticmethod

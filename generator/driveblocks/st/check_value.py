@@ -9,6 +9,7 @@ from driveblocks.st.report import Report
 from driveblocks.st.standard import FUNCTIONS
 from driveblocks.st.tree import Binary, Call, Expression, Literal, LiteralKind, Unary
 from driveblocks.st.types import (
+    ANY_BIT,
     DINT,
     INT,
     LINT,
@@ -18,6 +19,7 @@ from driveblocks.st.types import (
     UNKNOWN,
     UNTYPED_INTEGER,
     UNTYPED_REAL,
+    WORD,
     Array,
     Builtin,
     Elementary,
@@ -90,23 +92,36 @@ class ValueChecker:
         self.settle(value, wanted or self.default(value))
 
     def unsuitable(self, value: Expression, wanted: Type) -> None:
-        """Tell of a number without prefix that cannot be of the wanted type."""
-        if wanted.kind is Kind.REAL and isinstance(value, Literal):
-            text = f"expected {wanted}, found the integer {value.text}: write {value.text}.0"
-            self.report.add(value.at, "integer-for-real", text)
+        """Tell of a number without prefix that cannot be of the wanted type; it gets the type it has by default."""
+        culprit = self.misfit(value, wanted) or value
+        if wanted.kind is Kind.REAL and isinstance(culprit, Literal):
+            text = f"expected {wanted}, found the integer {culprit.text}: write {culprit.text}.0"
+            self.report.add(culprit.at, "integer-for-real", text)
+        elif isinstance(culprit, Call) and _gives_bits(culprit) and convertible(WORD, wanted):
+            name = culprit.target.name if isinstance(culprit.target, Builtin) else ""
+            text = f"expected {wanted}, found the bit string of {name}: write {conversion(WORD, wanted)}({name}(...))"
+            self.report.add(culprit.at, "implicit-conversion", text)
         else:
-            self.report.add(value.at, "type-mismatch", f"expected {wanted}, found {value.type}")
-        self.settle(value, self.default(value))
+            self.report.add(culprit.at, "type-mismatch", f"expected {wanted}, found {culprit.type}")
+        self.push(value, self.default(value))
 
     def takes(self, wanted: Type, value: Expression) -> bool:
         """Whether a number without prefix can be of this type at all."""
+        return self.misfit(value, wanted) is None
+
+    def misfit(self, value: Expression, wanted: Type) -> Expression | None:
+        """The part of a number without prefix that cannot be of this type."""
         if wanted.kind not in _LITERAL_KINDS or (value.type is UNTYPED_REAL) != (wanted.kind is Kind.REAL):
-            return False
-        if isinstance(value, Binary | Unary) and wanted.kind in (Kind.BITS, Kind.BOOL):
-            return False
+            return value
+        if isinstance(value, Literal):
+            return value if wanted.kind is Kind.BOOL and value.value not in (0, 1) else None
         if isinstance(value, Call):
-            return self.call_takes(value, wanted)
-        return wanted.kind is not Kind.BOOL or (isinstance(value, Literal) and value.value in (0, 1))
+            if not self.call_takes(value, wanted):
+                return value
+        elif not isinstance(value, Binary | Unary) or wanted.kind in (Kind.BITS, Kind.BOOL):
+            return value
+        parts = (each for each in _alike(value) if untyped(each.type))
+        return next((found for each in parts if (found := self.misfit(each, wanted)) is not None), None)
 
     @staticmethod
     def call_takes(value: Call, wanted: Type) -> bool:
@@ -183,6 +198,8 @@ class ValueChecker:
         """The type of a number whose context gives none: the smallest of INT, DINT, LINT, ULINT that holds it; REAL."""
         if value.type is UNTYPED_REAL:
             return LREAL if isinstance(value, Literal) and abs(float(value.value)) > _LARGEST_REAL else REAL
+        if isinstance(value, Call) and _gives_bits(value):
+            return WORD
         if not isinstance(value, Literal) or not isinstance(value.value, int):
             return INT
         return next((each for each in (INT, DINT, LINT) if each.low <= value.value <= each.high), ULINT)
@@ -199,6 +216,19 @@ def leave_open(value: Expression, bits: int = _BITS_OF_INT) -> None:
         value.open = bits
     for each in children(value):
         leave_open(each, bits)
+
+
+def _alike(value: Expression) -> list[Expression]:
+    """The parts of an operation or call that have its type if they have none of their own."""
+    if isinstance(value, Call):
+        return [each.value for each in value.bindings if each.value is not None]
+    return list(children(value))
+
+
+def _gives_bits(value: Call) -> bool:
+    """Whether a call gives a bit string and never a number: SHL, AND and their kind."""
+    signature = FUNCTIONS.get(value.target.family) if isinstance(value.target, Builtin) else None
+    return signature is not None and signature.group == ANY_BIT
 
 
 def untyped_of(kind: LiteralKind) -> Type:

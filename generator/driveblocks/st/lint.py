@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,9 @@ from driveblocks.st.problems import ParseError, Problem
 from driveblocks.st.report import Report, nearest
 from driveblocks.st.rules import CODES, RULES
 from driveblocks.st.tree import Function, FunctionBlock, Pou, Program, Unit
+
+_WORD = re.compile(r"\w+")
+_FOUND = re.compile(r"found (\w+)")
 
 
 class UnknownRuleError(ValueError):
@@ -72,15 +76,31 @@ def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Prob
 
 
 def lint_sources(sources: Iterable[tuple[str, str]], selection: Selection | None = None) -> list[Problem]:
-    """As `lint`, from (path, text). Syntax errors are told too, whatever the selection, and end it."""
+    """As `lint`, from (path, text).
+
+    Of a file that cannot be parsed the syntax errors are told, whatever the selection, and no more. The others are
+    judged with what stands whole in it; a name that only its broken parts may declare is not told as unknown.
+    """
     units: list[Unit] = []
-    broken: list[Problem] = []
+    broken: dict[str, ParseError] = {}
     for path, text in sources:
         try:
             units.append(parse(text, path))
         except ParseError as error:
-            broken.extend(error.problems)
-    return sorted(broken) if broken else lint(units, selection)
+            units.append(error.unit)
+            broken[path] = error
+    found = lint(units, selection)
+    if not broken:
+        return found
+    words = {word.upper() for error in broken.values() for word in _WORD.findall(error.unit.text)}
+    told = (each for each in found if each.path not in broken and not _may_be_known(each, words))
+    return sorted({*told, *(each for error in broken.values() for each in error.problems)})
+
+
+def _may_be_known(problem: Problem, words: set[str]) -> bool:
+    """Whether a name that is told as unknown is one of these words."""
+    name = _FOUND.search(problem.text) if problem.rule in ("undeclared-name", "unknown-type") else None
+    return name is not None and name[1].upper() in words
 
 
 def _pous(units: Sequence[Unit]) -> list[Pou]:

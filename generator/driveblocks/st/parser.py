@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
+
 from driveblocks.st.collector import paused
 from driveblocks.st.cursor import SyntaxProblem, TooManyProblemsError
 from driveblocks.st.lexer import END, tokenize
@@ -41,13 +43,25 @@ def _parsed(text: str, path: str) -> Unit:
         elements = parser.elements()
     except TooManyProblemsError:
         parser.problems.append((len(text), "too many problems: the rest is not shown", "syntax"))
-    unit = Unit(path, text, elements, tokens.comments, line_starts(text), tokens.notes)
-    if parser.problems:
-        raise ParseError([Problem(path, *unit.place(at), said, rule) for at, said, rule in sorted(parser.problems)])
-    for element in elements:
+    wrong = sorted(parser.problems)
+    whole = _whole(elements, [at for at, _, _ in wrong], tokens.ats) if wrong else elements
+    unit = Unit(path, text, whole, tokens.comments, line_starts(text), tokens.notes)
+    for element in whole:
         if not isinstance(element, VarBlock | Unsupported) and hasattr(element, "unit"):
             element.unit = unit
+    if wrong:
+        raise ParseError([Problem(path, *unit.place(at), said, rule) for at, said, rule in wrong], unit)
     return unit
+
+
+def _whole(elements: list[Element], wrong: list[int], ats: list[int]) -> list[Element]:
+    """The elements without a mistake, which may also be noticed at the token behind them."""
+
+    def torn(element: Element) -> bool:
+        behind = ats[min(bisect_left(ats, element.end), len(ats) - 1)]
+        return bisect_right(wrong, element.at) < bisect_right(wrong, behind)
+
+    return [element for element in elements if not torn(element)]
 
 
 class _Parser(ConfigurationParser):

@@ -1,13 +1,10 @@
 """Results as JUnit XML, as continuous integration reads it: a suite per program and engine, a case per check."""
 
-import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+from driveblocks.console import visible
 from driveblocks.testing.outcome import ERROR, FAILED, Outcome, Result, Run
-
-_ILLEGAL = re.compile(r"[^\t\n\r\x20-\uD7FF\uE000-\uFFFD\U00010000-\U0010FFFF]")
-"""Characters that XML 1.0 cannot hold."""
 
 
 def write(run: Run, path: Path) -> None:
@@ -27,6 +24,10 @@ def text(run: Run) -> str:
     )
     for result in run.results:
         root.append(_suite(result))
+    for each in root.iter():
+        # XML 1.0 cannot hold control characters, not even as references.
+        each.text = each.text and visible(each.text)
+        each.attrib = {name: visible(value) for name, value in each.attrib.items()}
     ElementTree.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
@@ -51,13 +52,11 @@ def _suite(result: Result) -> ElementTree.Element:
 
 
 def _case(classname: str, outcome: Outcome, seconds: float) -> ElementTree.Element:
-    case = ElementTree.Element("testcase", classname=classname, name=_legal(outcome.words), time=f"{seconds:.6f}")
+    case = ElementTree.Element("testcase", classname=classname, name=outcome.words, time=f"{seconds:.6f}")
     kinds = {FAILED: "failure", ERROR: "error"}
     if outcome.status in kinds:
-        wrong = ElementTree.SubElement(
-            case, kinds[outcome.status], message=_legal(outcome.message), type=outcome.status
-        )
-        wrong.text = _legal(_detail(outcome))
+        wrong = ElementTree.SubElement(case, kinds[outcome.status], message=outcome.message, type=outcome.status)
+        wrong.text = _detail(outcome)
     return case
 
 
@@ -69,8 +68,3 @@ def _detail(outcome: Outcome) -> str:
     else:
         lines.append(outcome.message)
     return "\n".join(lines)
-
-
-def _legal(words: str) -> str:
-    """The text with what XML cannot hold as \\x00."""
-    return _ILLEGAL.sub(lambda match: f"\\x{ord(match[0]):02X}", words)

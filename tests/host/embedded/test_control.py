@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from tests.host.embedded.snippets import MODELS, block, build
 
-from driveblocks.host.engine import Overflow, ScanError
+from driveblocks.host.engine import BuildError, Overflow, ScanError
 
 COUNTER = "VAR_INPUT n : INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR i : INT; k : INT; END_VAR"
 
@@ -217,3 +217,63 @@ def test_both_sides_of_and_are_evaluated_except_in_c() -> None:
         made["n"] = 4
         made.scan()
         assert made["y"] is answer
+
+
+@pytest.mark.parametrize("branches", [1, 15, 16, 17, 32, 33, 3000])
+@pytest.mark.parametrize("word", ["IF", "CASE"])
+def test_chains_of_any_length(word: str, branches: int) -> None:
+    texts = [f"n = {each} THEN y := {each}; " if word == "IF" else f"{each}: y := {each}; " for each in range(branches)]
+    chain = "ELSIF ".join(texts) if word == "IF" else "".join(texts)
+    body = f"{'IF ' if word == 'IF' else 'CASE n OF '}{chain}ELSE y := -1; END_{word};"
+    made = block(COUNTER, body)
+    for n in {-1, 0, 14, 15, 16, 17, 31, 32, branches - 1, branches, 2999}:
+        made["n"] = n
+        made.scan()
+        assert made["y"] == (n if 0 <= n < branches else -1)
+
+
+def test_a_long_chain_is_left_and_counted_as_a_short_one() -> None:
+    chain = "ELSIF ".join(f"i = {each} THEN k := {each}; " for each in range(40))
+    body = f"WHILE TRUE DO i := i + 1; IF {chain}ELSE EXIT; END_IF; END_WHILE; y := k;"
+    library = build(f"FUNCTION_BLOCK Test {COUNTER} {body} END_FUNCTION_BLOCK", coverage=1)
+    made = library.instance("Test")
+    made.scan()
+    assert made["y"] == 39
+    (outcomes,) = library.branches().values()
+    counts = [hits for outcome, hits in sorted(outcomes.items()) if "IF" in outcome[2]]
+    assert sum(counts) == 39 + sum(range(1, 40)) + 40
+
+
+@pytest.mark.parametrize(
+    "loop", ["WHILE i < 1 DO {} i := i + 1; END_WHILE;", "REPEAT {} i := i + 1; UNTIL TRUE END_REPEAT;"]
+)
+def test_loops_in_loops_as_deep_as_python_goes(loop: str) -> None:
+    text = "y := y + 1;"
+    for _ in range(19):
+        text = loop.format(text)
+    assert run(text, 0) == 1
+    with pytest.raises(BuildError, match=r"test\.st:4:\d+: the embedded engine runs at most 19 loops in one another"):
+        run(loop.format(text), 0)
+
+
+def test_what_may_be_too_deep_for_python_runs_or_is_told() -> None:
+    """How deep Python goes differs from version to version."""
+    chain = "".join(f"{each}: y := {each}; " for each in range(1, 16))
+    text = f"r := r{' * 1.5' * 249};"
+    for _ in range(38):
+        text = f"CASE n OF {chain}0: {text} ELSE y := 2; END_CASE;"
+    try:
+        block(f"{COUNTER} VAR r : REAL; END_VAR", text).scan()
+    except BuildError as error:
+        assert "Test is nested too deeply for the embedded engine" in str(error)  # noqa: PT017 - it may run, too
+
+
+def test_names_that_mean_something_to_python() -> None:
+    names = ["__a", "__a__", "_", "self", "None", "s", "t1", "run", "turn", "globals_"]
+    types = "TYPE __T : STRUCT __f : INT; END_STRUCT; END_TYPE\n"
+    declared = f"{COUNTER} VAR {', '.join(names)} : INT; t : __T; END_VAR"
+    turn = " ".join(f"{each} := k;" for each in names)
+    body = f"WHILE k < 2 DO k := k + 1; {turn} END_WHILE; t.__f := {' + '.join(names)}; y := t.__f;"
+    made = block(declared, body, types=types)
+    made.scan()
+    assert (made["y"], made["t.__f"], made["__a"]) == (20, 20, 2)

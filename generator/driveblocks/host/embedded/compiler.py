@@ -16,7 +16,7 @@ from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.runtime import namespace
 from driveblocks.host.embedded.scope import GLOBALS, SELF, Options, Scope, UnsupportedError
-from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar
+from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar, record_class
 from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.embedded.statements import Statements
 from driveblocks.host.embedded.syntax import Pen
@@ -113,8 +113,10 @@ class Compiler:
             elif isinstance(pou, tree.FunctionBlock | tree.Program):
                 self._block(pou)
         except UnsupportedError as error:
-            line, column = unit.place(error.at)
-            self.messages.append(Message(unit.path, line, column, str(error)))
+            self.messages.append(Message(unit.path, *unit.place(error.at), str(error)))
+        except RecursionError:
+            text = f"{pou.name} is nested too deeply for the embedded engine: put the inner parts into a block"
+            self.messages.append(Message(unit.path, *unit.place(pou.name_at), text))
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
         ranges = Ranges(trusted=self.options.model != "c")
@@ -182,7 +184,7 @@ class Compiler:
         block = present(pou.type)
         self._note_loops(pou, block)
         slots = [each.name.upper() for each in kept(pou)]
-        self.classes[block] = type(pou.name, (Record,), {"__slots__": (*slots, GLOBALS)})
+        self.classes[block] = record_class(pou.name, (*slots, GLOBALS))
         pen = Pen(present(pou.unit))
         scope = self._scope(pou, pen)
         body: list[ast.stmt] = []

@@ -13,7 +13,7 @@ from driveblocks.host.embedded.certainty import known, present
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.faults import FAULTS, scan_error
 from driveblocks.host.embedded.paths import Paths
-from driveblocks.host.embedded.shapes import Record
+from driveblocks.host.embedded.shapes import record_class
 from driveblocks.host.embedded.values import Values
 from driveblocks.host.engine import Value
 from driveblocks.st import tree
@@ -47,7 +47,7 @@ def globals_of(compiler: Compiler) -> Any:
     """A fresh set of all globals with their initial values; instances refer to it."""
     variables = [each for _, each in global_variables(compiler)]
     slots = [compiler.shapes.global_slot(each) for each in variables]
-    made = type("Globals", (Record,), {"__slots__": tuple(slots)})()
+    made = record_class("Globals", tuple(slots))()
     for slot, each in zip(slots, variables, strict=True):
         setattr(made, slot, compiler.shapes.maker(each.type, each.start)(made))
     return made

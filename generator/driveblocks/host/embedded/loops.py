@@ -1,6 +1,6 @@
 """Loops of ST as Python loops over an iterator that is the budget of the scan.
 
-`for _ in run.budget: if not condition: break ...` counts turns at almost no cost; a loop that uses the budget up
+`for turn in run.budget: if not condition: break ...` counts turns at almost no cost; a loop that uses the budget up
 falls into `else`, which raises. All loops of a scan share one iterator.
 """
 
@@ -14,7 +14,7 @@ from driveblocks.host.coverage import Outcome
 from driveblocks.host.embedded.calls import Calls
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.ranges import Ranges
-from driveblocks.host.embedded.scope import Scope
+from driveblocks.host.embedded.scope import Scope, UnsupportedError
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.terms import Whole, is_integral
 from driveblocks.host.embedded.usage import reads, writes
@@ -24,6 +24,8 @@ from driveblocks.st.tree import VarKind
 # Deeper than this, variables that a loop writes are taken to hold anything: analysis would cost a power of the depth.
 _ANALYSED_DEPTH = 2
 _ROUNDS = 6
+# CPython has room for 20 loops and `try` in one another; around the outermost loop stands a `try`.
+DEEPEST_LOOPS = 19
 _HOISTED = (VarKind.LOCAL, VarKind.INPUT, VarKind.OUTPUT, VarKind.IN_OUT, VarKind.STAT)
 
 
@@ -246,6 +248,9 @@ class Loops(Calls):
         turn: Callable[[], list[ast.stmt]],
         before_continue: Callable[[], list[ast.stmt]],
     ) -> list[ast.stmt]:
+        if len(self._open) == DEEPEST_LOOPS:
+            text = f"the embedded engine runs at most {DEEPEST_LOOPS} loops in one another: put some into a block"
+            raise UnsupportedError(statement.at, text)
         fetch, put_back, hoisted = self._hoist(statement)
         self._settle(statement, turn, before_continue)
         body, loop = self._turn(turn, before_continue)

@@ -7,7 +7,7 @@ life: assignments copy into them, so that references to them (in-outs) stay vali
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from driveblocks.host.embedded.certainty import known, present
@@ -34,6 +34,13 @@ class Record:
     """A structure or an instance; subclasses have one slot per field."""
 
     __slots__ = ()
+
+
+def record_class(name: str, slots: Sequence[str]) -> type[Record]:
+    """A class of records. It gets its name late: Python would write the class into a slot such as `__A`."""
+    made = type("_", (Record,), {"__slots__": tuple(slots)})
+    made.__name__ = name
+    return made
 
 
 class Shapes:
@@ -154,7 +161,7 @@ class Shapes:
     def class_of(self, kind: Struct) -> type[Record]:
         """The class of a structure."""
         if kind not in self.classes:
-            self.classes[kind] = type(kind.name, (Record,), {"__slots__": tuple(kind.fields)})
+            self.classes[kind] = record_class(kind.name, tuple(kind.fields))
         return self.classes[kind]
 
     def copier(self, kind: Type) -> Copier:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable
-from copy import deepcopy
+from dataclasses import dataclass
+from itertools import chain, repeat
 
 from driveblocks.host.coverage import case_outcome
 from driveblocks.host.embedded.calls import returned
@@ -17,8 +18,16 @@ from driveblocks.host.embedded.terms import Whole
 from driveblocks.st import tree
 from driveblocks.st.types import Block
 
-# Branches of a CASE that stand inside each other, as Python has no CASE that the oldest of its versions takes.
-_ABREAST = 50
+# How many branches Python nests in one another; 40 levels of ST in the last of each must still go in its stack.
+_LONGEST_CHAIN = 16
+
+
+@dataclass(slots=True)
+class _Link:
+    """One branch of a chain, and what happens before the next one is looked at."""
+
+    branch: ast.If
+    before_next: list[ast.stmt]
 
 
 class Statements(Invocation):
@@ -92,30 +101,44 @@ class Statements(Invocation):
     # ------------------------------------------------------------ choices
 
     def _if(self, statement: tree.If) -> list[ast.stmt]:
-        return self._branches(statement.branches, statement.otherwise)
-
-    def _branches(
-        self, branches: list[tree.Branch], otherwise: list[tree.Statement] | None, keyword: str = "IF"
-    ) -> list[ast.stmt]:
-        """IF with its first branch, the rest as what stands behind ELSE."""
+        """IF and its ELSIFs; what is known behind it is what all ways have in common."""
         ranges = self.scope.ranges
-        first = branches[0]
-        self.pen.move(first.condition.at)
-        test = self.truth(first.condition)
-        refuted = self.supposing(first.condition, False)
-        ranges.assume(first.condition, True, self.interval)
-        body = self.body(first.body)
-        taken = ranges.copy()
-        ranges.become(refuted)
-        rest: list[ast.stmt] = []
-        if len(branches) > 1:
-            rest = self._branches(branches[1:], otherwise, "ELSIF")
-        elif otherwise:
-            rest = self.body(otherwise)
-        ranges.join(taken)
-        self.pen.move(first.at)
-        yes, no = (self.outcome(first.condition.at, f"{keyword} {word}") for word in ("TRUE", "FALSE"))
-        return [self.pen.branch(test, [*yes, *body], [*no, *rest])]
+        links: list[_Link] = []
+        taken: list[Ranges] = []
+        for keyword, each in zip(chain(["IF"], repeat("ELSIF")), statement.branches, strict=False):
+            self.pen.move(each.condition.at)
+            test = self.truth(each.condition)
+            refuted = self.supposing(each.condition, False)
+            ranges.assume(each.condition, True, self.interval)
+            body = self.body(each.body)
+            taken.append(ranges.copy())
+            ranges.become(refuted)
+            yes, no = (self.outcome(each.condition.at, f"{keyword} {word}") for word in ("TRUE", "FALSE"))
+            self.pen.move(each.at)
+            links.append(_Link(self.pen.branch(test, [*yes, *body], []), no))
+        rest = self.body(statement.otherwise) if statement.otherwise else []
+        for known in reversed(taken):
+            ranges.join(known)
+        self.pen.move(statement.at)
+        return self._chain(links, rest)
+
+    def _chain(self, links: list[_Link], rest: list[ast.stmt]) -> list[ast.stmt]:
+        """Branches of which the first that fits is taken, or else `rest`.
+
+        Python nests every `elif` in the one before it, and its compiler cannot go deep: a long chain is cut into
+        several, one behind the other, of which the next runs where the one before has found nothing.
+        """
+        parts = [links[start : start + _LONGEST_CHAIN] for start in range(0, len(links), _LONGEST_CHAIN)]
+        if len(parts) == 1:
+            return _chained(links, rest)
+        pen, name = self.pen, self.scope.fresh()
+        searching: ast.stmt = pen.assign(pen.name(name), pen.constant(True))
+        found: ast.stmt = pen.assign(pen.name(name), pen.constant(False))
+        made = [searching]
+        for part in parts:
+            behind = rest if part is parts[-1] else [searching]
+            made.append(pen.branch(pen.name(name), [found, *_chained(part, behind)], []))
+        return made
 
     def _case(self, statement: tree.Case) -> list[ast.stmt]:
         selector = self.term(statement.selector)
@@ -126,30 +149,17 @@ class Statements(Invocation):
         kept = self.pen.assign(self.pen.name(name), selector.node)
         before = self.scope.ranges.copy()
         ends: list[Ranges] = []
-        tests = []
+        links: list[_Link] = []
         for branch in statement.branches:
-            tests.append(self._case_branch(statement, branch, name, before))
+            test, body = self._case_branch(statement, branch, name, before)
+            links.append(_Link(ast.If(test, body, [], **place_of(test)), []))
             ends.append(self.scope.ranges.copy())
         self.scope.ranges.become(before)
         rest = self.outcome(statement.at, "CASE ELSE")
         rest += self.body(statement.otherwise) if statement.otherwise else []
         for each in ends:
             self.scope.ranges.join(each)
-        for first in reversed(range(0, len(tests), _ABREAST)):
-            rest = self._chosen(tests[first : first + _ABREAST], rest)
-        return [kept, *rest]
-
-    def _chosen(self, tests: list[tuple[ast.expr, list[ast.stmt]]], rest: list[ast.stmt]) -> list[ast.stmt]:
-        """The branch whose test is true, or the rest. Some hundred branches inside each other are too deep for Python,
-        so those that follow stand inside one test for these.
-        """
-        chain: list[ast.stmt] = [] if len(tests) == _ABREAST else rest
-        for test, body in reversed(tests):
-            chain = [ast.If(test, body, chain, **place_of(test))]
-        if len(tests) < _ABREAST:
-            return chain
-        any_of_these = self.pen.junction(ast.Or(), *(deepcopy(test) for test, _ in tests))
-        return [ast.If(any_of_these, chain, rest, **place_of(any_of_these))]
+        return [kept, *self._chain(links, rest)]
 
     def _case_branch(
         self, statement: tree.Case, branch: tree.CaseBranch, name: str, before: Ranges
@@ -184,3 +194,11 @@ class Statements(Invocation):
             return evaluate(label.low, selector.type), evaluate(label.high, selector.type)
         value = evaluate(label, selector.type)
         return value, value
+
+
+def _chained(links: list[_Link], rest: list[ast.stmt]) -> list[ast.stmt]:
+    """Branches, each as what stands behind the `else` of the one before it."""
+    for each in reversed(links):
+        each.branch.orelse = [*each.before_next, *rest]
+        rest = [each.branch]
+    return rest

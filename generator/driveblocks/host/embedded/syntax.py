@@ -119,8 +119,8 @@ class Pen:
         return ast.If(test, body or [self.nothing()], otherwise, **self.here)
 
     def each(self, items: ast.expr, body: list[ast.stmt], otherwise: list[ast.stmt]) -> ast.For:
-        """Write `for _ in items: body else: otherwise`."""
-        return ast.For(ast.Name("_", ast.Store(), **self.here), items, body, otherwise, **self.here)
+        """Write `for turn in items: body else: otherwise`."""
+        return ast.For(ast.Name("turn", ast.Store(), **self.here), items, body, otherwise, **self.here)
 
     def finish(self, body: list[ast.stmt], final: list[ast.stmt]) -> ast.Try:
         """Write `try: body finally: final`."""

@@ -1,0 +1,118 @@
+"""What is printed: nothing that steers a terminal or turns the direction of writing, in any command."""
+
+import io
+import json
+import sys
+import unicodedata
+from collections.abc import Callable
+
+import pytest
+from rich.text import Text
+
+from driveblocks import cli, console
+from driveblocks.tables.layout import card, heading, table
+
+HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"
+SEEN = r"\u001b[31mred\u001b]0;t\u0007\u000d\u0008\u007f\u009b5m\u202eback\u2066\u200b\u2028\ufeff\udb40\udc41"
+
+Printed = Callable[..., str]
+
+
+class Stream(io.TextIOWrapper):
+    """A stream that says that it is a terminal, or not."""
+
+    terminal = False
+
+    def isatty(self) -> bool:
+        """Whether colours go there."""
+        return self.terminal
+
+
+@pytest.fixture(params=[False, True], ids=["pipe", "terminal"])
+def printed(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Printed:
+    """What the command line prints on both streams, or what a function does."""
+    monkeypatch.setattr(Stream, "terminal", request.param)
+    monkeypatch.setenv("COLUMNS", "1000")
+    monkeypatch.setenv("TERM", "xterm-256color")
+
+    def run(*words: str, function: Callable[[], None] = cli.main) -> str:
+        buffer = io.BytesIO()
+        with monkeypatch.context() as patch:
+            patch.setattr(sys, "argv", ["driveblocks", *words])
+            for name in ("stdout", "stderr"):
+                patch.setattr(sys, name, Stream(buffer, encoding="utf-8", write_through=True))
+            if function is cli.main:
+                with pytest.raises(SystemExit):
+                    function()
+            else:
+                console.use_safe_utf8()
+                function()
+            return buffer.getvalue().decode("utf-8")
+
+    return run
+
+
+def test_everything_that_steers_or_turns_is_written_out() -> None:
+    for code in range(sys.maxunicode + 1):
+        sign = chr(code)
+        steers = unicodedata.category(sign) in ("Cc", "Cs", "Zl", "Zp") and sign not in "\t\n"
+        turns = unicodedata.bidirectional(sign) in ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
+        if steers or turns:
+            assert json.loads(f'"{console.visible(sign)}"') == sign
+            assert console.visible(sign).isascii()
+
+
+def test_what_people_write_stays() -> None:
+    text = "Überstrom\t过流，85 °C \N{EM DASH} “x” é\n１２ ✓ 𝛼"
+    assert console.visible(text) == text
+    assert console.name("a\tb\n过流.yaml") == r"a\u0009b\u000a过流.yaml"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        [HOSTILE],
+        ["show", HOSTILE],
+        ["show", f"--{HOSTILE}"],
+        ["show", "jscc", HOSTILE],
+        ["show", f"{HOSTILE}.yaml"],
+        ["check", f"{HOSTILE}.yaml", HOSTILE],
+        ["build", f"{HOSTILE}.yaml"],
+        ["build", "--lang", HOSTILE],
+        ["test", f"{HOSTILE}.yaml"],
+        ["test", "--engine", HOSTILE],
+        ["counts", HOSTILE],
+        ["lint", f"{HOSTILE}.st"],
+        ["lint", "--select", HOSTILE, "x.st"],
+        ["explain", "01 03", "--drive", HOSTILE],
+    ],
+    ids=lambda words: " ".join(words).replace(HOSTILE, "HOSTILE"),
+)
+def test_words_of_the_command_line(printed: Printed, words: list[str]) -> None:
+    text = printed(*words)
+    assert "[31mred" in text.casefold()
+    assert all(sign.isprintable() or sign == "\n" for sign in text)
+
+
+def test_what_stands_in_a_frame(printed: Printed) -> None:
+    text = printed("explain", ":0103200000\x1b[31m\x9b01DB")
+    assert r"\u001b[31m\u009b" in text
+    assert "\x1b[31m" not in text
+    assert "\x9b" not in text
+
+
+def test_tables_keep_their_columns_and_a_terminal_its_colours(printed: Printed) -> None:
+    def show() -> None:
+        made = table("name", "text")
+        made.add_row(HOSTILE, HOSTILE)
+        made.add_row("a", "b")
+        console.write(heading("Title"), card(HOSTILE, ("label", Text(HOSTILE))), made, HOSTILE)
+
+    text = printed(function=show)
+    lines = text.splitlines()
+    assert text.count(SEEN) == 3
+    assert text.count(r"m\u202eback") == 5
+    assert ("\x1b[1m" in text) is Stream.terminal
+    assert "\x1b[31m" not in text
+    row = next(line for line in lines if line.startswith("a "))
+    assert row.index("b") == len(SEEN) + 2
