@@ -75,6 +75,7 @@ def test_the_pins_are_installed_and_installed_again_when_they_change(
         calls.append(command)
         return subprocess.CompletedProcess(command, 0, "", "")
 
+    monkeypatch.setattr(bootstrap, "is_whole", lambda: True)
     monkeypatch.setattr(subprocess, "run", called)
     assert bootstrap.set_up("[test]")
     installs = [call for call in calls if "install" in call]

@@ -18,8 +18,8 @@ OWN_NAMES = (
 
 OWN = re.compile(
     r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
-    r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|Frames|JogForward|JogReverse|KeepWord|"
-    r"Reference|Request|Scales|Sequence|Standstill|Tables|Write|(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
+    r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|FaultReset|Frames|JogForward|JogReverse|KeepWord|"
+    r"Reference|Request|ResetStop|Scales|Sequence|Standstill|Tables|Write|(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
     re.IGNORECASE,
 )
 """What a register's block cannot be called: the other blocks of a drive, and its test programs."""
