@@ -15,7 +15,7 @@ counts:               ## the tables of drives in the READMEs, from the maps
 schema:               ## vendor_maps/schema.json and the key tables of the format page, from the model
 	$(DB) schema vendor_maps
 
-fuzz:                 ## 10^4 random mutations of the vendor maps, 4000 of ST files, 10^6 damaged replies per reply parser
+fuzz:                 ## 10^4 random mutations of the vendor maps, 4000 of ST files, 3200 random ST programs, 10^6 damaged replies per reply parser
 	$(PY) tests/maps/fuzz.py
 	$(PY) -m pytest -n auto -m long
 	$(PY) -m tests.blocks.fuzz
