@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+import sys
 from typing import Annotated
 
 import typer
@@ -46,7 +47,12 @@ for _module in pkgutil.iter_modules(commands.__path__):
 def main() -> None:
     """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input."""
     console.use_safe_utf8()
-    app()
+    try:
+        app()
+    except OSError as error:  # a command tells of its files itself; what is left is a full disk behind its output
+        typer.echo(f"{error.filename or 'standard output'}: {error.strerror or error}", err=True)
+        console.give_up_output()
+        sys.exit(2)
 
 
 if __name__ == "__main__":

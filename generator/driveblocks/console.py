@@ -4,11 +4,14 @@ What users name and write into maps, sources and frames is printed, too. Control
 terminal, and those that turn the direction of writing would show another text than is there: they are written out.
 """
 
+import io
+import os
 import re
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, TextIO, cast
+from typing import Any, TextIO
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
@@ -16,6 +19,8 @@ from rich.text import Text
 
 NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
+WIDEST = 1000
+"""No terminal is wider; COLUMNS may say anything."""
 
 _HIDDEN = re.compile(
     "[\0-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f"
@@ -65,10 +70,17 @@ def use_safe_utf8() -> None:
 
     Under a C locale Python may choose ASCII, and the manuals are Chinese.
     """
-    for stream in (sys.stdout, sys.stderr):
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name) or io.StringIO()  # None where it was closed before the start
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(encoding="utf-8", errors="replace")
-    sys.stdout, sys.stderr = cast("TextIO", Shown(sys.stdout)), cast("TextIO", Shown(sys.stderr))
+        setattr(sys, name, Shown(stream))
+
+
+def give_up_output() -> None:
+    """Drop what could not be written to standard output, or Python would complain of it once more at its end."""
+    with suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 class _Console(Console):
@@ -94,7 +106,7 @@ def write(*pieces: RenderableType) -> None:
     """
     beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
     console = _Console(file=beneath, markup=False, emoji=False, highlight=False)
-    console.width = max(console.width, NARROWEST)
+    console.width = min(max(console.width, NARROWEST), WIDEST)
     if console.is_terminal:
         for piece in pieces:
             console.print(piece)

@@ -1,7 +1,9 @@
 """What is printed: nothing that steers a terminal or turns the direction of writing, in any command."""
 
+import errno
 import io
 import json
+import os
 import sys
 import unicodedata
 from collections.abc import Callable
@@ -116,3 +118,42 @@ def test_tables_keep_their_columns_and_a_terminal_its_colours(printed: Printed) 
     assert "\x1b[31m" not in text
     row = next(line for line in lines if line.startswith("a "))
     assert row.index("b") == len(SEEN) + 2
+
+
+def test_a_width_beyond_any_terminal_is_not_believed(printed: Printed, monkeypatch: pytest.MonkeyPatch) -> None:
+    def show() -> None:
+        monkeypatch.setenv("COLUMNS", "99999999")
+        console.write(table("name", wide=("name",)))
+
+    assert max(map(len, printed(function=show).splitlines())) <= console.WIDEST
+
+
+def test_output_that_nobody_takes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["driveblocks", "doctor"])
+    monkeypatch.setattr(sys, "stderr", sys.stderr)
+    monkeypatch.setattr(sys, "stdout", None)
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 0
+
+
+def test_output_onto_a_full_disk(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    class Full(io.StringIO):
+        def write(self, _text: str, /) -> int:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(sys, "argv", ["driveblocks", "check", "jscc"])
+    monkeypatch.setattr(sys, "stderr", sys.stderr)
+    monkeypatch.setattr(sys, "stdout", Full())
+    with pytest.raises(SystemExit) as ended:
+        cli.main()
+    assert ended.value.code == 2
+    assert capsys.readouterr().err == f"standard output: {os.strerror(errno.ENOSPC)}\n"
+
+
+@pytest.mark.parametrize(
+    "words", [["schema"], ["schema", "--check"], ["lint"], ["show"], ["check"], ["counts"]], ids=" ".join
+)
+@pytest.mark.parametrize("name", ["x" * 300, "nowhere/x.st", __file__ + "/x"], ids=["long", "missing", "in a file"])
+def test_names_of_what_is_not_there(printed: Printed, words: list[str], name: str) -> None:
+    assert printed(*words, name).count("\n") <= 2

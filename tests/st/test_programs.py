@@ -4,6 +4,7 @@ import random
 from itertools import cycle
 
 import pytest
+from hypothesis import given, settings, strategies
 from tests.st.grammar import Program
 
 from driveblocks.host.embedded import EmbeddedEngine
@@ -108,17 +109,12 @@ def test_what_it_can_be_is_not(statement: str) -> None:
     assert not [each for each in lint_sources([("any.st", f"{HEAD}{statement};\nEND_PROGRAM\n")]) if each.line == 5]
 
 
-def test_random_programs_raise_nothing() -> None:
+def test_random_programs_run() -> None:
     ran = sum(use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), MODELS[:3]) for seed in range(24))
     assert ran > 20
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("part", range(8))
-def test_many_random_programs_raise_nothing(part: int) -> None:
-    first = random.SystemRandom().randrange(1 << 40)
-    for seed in range(first, first + 400):
-        try:
-            use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text())
-        except Exception as error:
-            raise AssertionError(f"part {part}: Program(random.Random({seed}), {0.03 * (seed % 4 == 0)})") from error
+@given(strategies.integers(0, 2**40))
+@settings(max_examples=10)
+def test_random_programs_raise_nothing(seed: int) -> None:
+    use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text())

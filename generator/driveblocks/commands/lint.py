@@ -93,7 +93,7 @@ def _read(named: list[Path]) -> tuple[list[tuple[str, str]], list[str]]:
 
 def _files(path: Path, bad: list[str]) -> list[Path]:
     """A file, or the sources in a folder and below, hidden folders left out, in the order of their names."""
-    if not path.is_dir():
+    if not os.path.isdir(path):  # noqa: PTH112 - Path.is_dir raises for a name that is too long
         return [path]
     found: list[Path] = []
 

@@ -26,13 +26,18 @@ def run(
     if folder is None:
         typer.echo(schema.text(), nl=False)
         return
-    stale = [path for path, text in _files(folder).items() if _read(path) != text]
+    try:
+        files = _files(folder)
+        stale = [path for path, text in files.items() if _read(path) != text]
+        for path in stale if not check else ():
+            path.write_text(files[path], encoding="utf-8")
+    except (OSError, ValueError) as error:
+        typer.echo(f"{folder}: cannot write the schema: {error}", err=True)
+        raise typer.Exit(2) from None
     if check and stale:
         names = ", ".join(str(path) for path in stale)
         typer.echo(f"not current: {names}; run: driveblocks schema {folder}", err=True)
         raise typer.Exit(1)
-    for path, text in _files(folder).items():
-        path.write_text(text, encoding="utf-8")
 
 
 def _files(folder: Path) -> dict[Path, str]:

@@ -1,6 +1,7 @@
 """The maps that are at hand: those that DriveBlocks ships, found by name, and any other by its path."""
 
 import difflib
+import os
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -59,7 +60,7 @@ def resolve(name: str) -> Path:
             return found[0]
         if name and found:
             raise UnknownDrive(f"`{name}` fits several drives", "write one of " + _list(p.stem for p in found))
-    if name and Path(name).exists():
+    if name and os.path.exists(name):  # noqa: PTH110 - Path.exists raises for a name that is too long
         return Path(name)
     raise _unknown(name, maps)
 
