@@ -8,6 +8,8 @@ import sys
 import unicodedata
 from collections.abc import Callable
 
+from pathlib import Path
+
 import pytest
 from rich.text import Text
 
@@ -31,8 +33,9 @@ class Stream(io.TextIOWrapper):
 
 
 @pytest.fixture(params=[False, True], ids=["pipe", "terminal"])
-def printed(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Printed:
+def printed(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Printed:
     """What the command line prints on both streams, or what a function does."""
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(Stream, "terminal", request.param)
     monkeypatch.setenv("COLUMNS", "1000")
     monkeypatch.setenv("TERM", "xterm-256color")
