@@ -7,7 +7,6 @@ import os
 import sys
 import unicodedata
 from collections.abc import Callable
-
 from pathlib import Path
 
 import pytest
