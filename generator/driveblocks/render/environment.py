@@ -54,10 +54,10 @@ def environment() -> jinja2.Environment:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    return literal.aligned(_needed(environment().get_template(template).render(**context)))
+    return literal.aligned(needed(environment().get_template(template).render(**context)))
 
 
-def _needed(text: str) -> str:
+def needed(text: str) -> str:
     """The text without those inner variables that nothing names: a template declares all that its parts may need."""
     named = Counter(_NAME.findall(_COMMENT.sub("", text)))
 
