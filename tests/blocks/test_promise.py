@@ -11,7 +11,7 @@ from tests.maps import mutate
 from driveblocks.maps import check
 from driveblocks.maps.load import loads
 from driveblocks.maps.rules import identifier
-from driveblocks.render import context
+from driveblocks.render import expression
 from driveblocks.st.lint import lint_sources
 
 Plain = dict[str, Any]
@@ -98,7 +98,7 @@ def test_a_good_map_builds_lints_clean_and_passes(name: str, change: Callable[[P
 
 
 def test_what_stands_in_several_statements_means_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(context, "TERMS", 3)
+    monkeypatch.setattr(expression, "TERMS", 3)
     changed = document("nordwind.yaml")
     lists(changed, 7)
     assert judged(changed) == []

@@ -49,6 +49,13 @@ def test_no_template_decides_by_a_drive(path: Path) -> None:
         assert not [name for name in NAMES if re.search(rf"\b{name}\b", tag, re.IGNORECASE)], tag
 
 
+@pytest.mark.parametrize("path", [path for path in TEMPLATES if "drive" in path.parts], ids=lambda path: path.name)
+def test_a_template_looks_like_the_block_that_it_prints(path: Path) -> None:
+    lines = path.read_text("utf-8").splitlines()
+    assert len([line for line in lines if "{%" in line]) <= max(6, len(lines) // 4)
+    assert not [line for line in lines if re.search(r"\{%\s*(set|macro)\b", line)]
+
+
 def test_every_declaration_has_a_comment(units: list[Unit]) -> None:
     bare: list[str] = []
     for unit in units:

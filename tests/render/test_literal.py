@@ -3,7 +3,7 @@
 import pytest
 
 from driveblocks.maps.rules.name import ENCODINGS, LONGEST
-from driveblocks.render import literal, results
+from driveblocks.render import environment, literal, results
 
 
 @pytest.mark.parametrize(
@@ -35,3 +35,14 @@ def test_comments_of_a_run_of_declarations_share_a_column() -> None:
     lines = literal.aligned(text).split("\n")
     assert lines[1].index("(*") == lines[2].index("(*")
     assert lines[4] == "  B : INT; (* three *)"
+
+
+def test_a_block_declares_what_it_names() -> None:
+    used, more, result = (
+        "VAR\n  Used : UINT; (* Spare *)\n",
+        "  Spare : UINT; (* Spare *)\n",
+        "END_VAR\n\n  Used := 1;\n",
+    )
+    pins = "VAR_INPUT\n  Idle : BOOL; (* a pin stays *)\nEND_VAR\n"
+    assert environment.needed(pins + used + more + result) == pins + used + result
+    assert environment.needed(f"VAR CONSTANT\n{more}END_VAR\n{pins}") == pins

@@ -1,28 +1,18 @@
 """Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
 
-import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from decimal import Decimal
 from fractions import Fraction
-from typing import Any, TypeVar
+from typing import Any
 
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.model import Command, Condition, Drive, Register, Section, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
-from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, plan
-from driveblocks.render.literal import word
+from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
+from driveblocks.render.expression import Test, is_real
 
 Context = dict[str, Any]
-T = TypeVar("T")
-
-TERMS = 50
-"""Terms of one statement, and branches of one IF: compilers take some hundreds, and each nests what follows."""
-
-_REAL_BITS = 24
-"""Bits of a number that a REAL holds (IEC 60559, binary32)."""
-
 STANDARD_EXCEPTION_ADD = 0x80
 """MODBUS Application Protocol V1.1b3, 7: what an exception adds to the function code."""
 
@@ -58,38 +48,35 @@ def title(drive: Drive) -> str:
 # ---------------------------------------------------------------- requests and replies
 
 
-def access(drive: Drive, use: str) -> Context:
+FUNCTIONS = {3: "read", 4: "read", 6: "write_single", 8: "diagnostics", 16: "write_multiple"}
+"""Function code -> the folder of its parts of Request."""
+
+
+def access(drive: Drive, use: str, spans: tuple[Span, ...]) -> Context:
     """For CanAccess: `use` is r or w."""
-    allowed = plan(drive)
-    spans = allowed.readable if use == "r" else allowed.writable
-    name = f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}"
-    return {"drive": identity(drive), "name": name, "use": use, "chains": groups(spans) or [()]}
+    return {"name": f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}", "use": use, "spans": spans}
 
 
-def groups(items: Sequence[T]) -> list[Sequence[T]]:
-    """The items, so many at once as one statement may have."""
-    return [items[at : at + TERMS] for at in range(0, len(items), TERMS)]
-
-
-def request(drive: Drive) -> Context:
+def request(drive: Drive, allowed: Plan) -> Context:
     """For Request."""
-    allowed: Plan = plan(drive)
-    functions = sorted(allowed.functions & {3, 4, 6, 8, 16})
-    modes = drive.serial.mode.modes
+    functions = {code: folder for code, folder in FUNCTIONS.items() if code in allowed.functions}
+    modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
+    less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
     return {
-        "drive": identity(drive),
         "functions": functions,
-        "reads": bool({3, 4} & set(functions)),
-        "most": most,
-        "longest": min(most.write, allowed.ascii.write) if modes == ("ascii",) else most.write,
-        "ascii": allowed.ascii,
+        "uncounted": [code for code in (6, 8) if code in functions],
         "sub_functions": allowed.sub_functions,
-        "sub_function_groups": groups(allowed.sub_functions),
-        "modes": {"rtu": "rtu" in modes, "ascii": "ascii" in modes},
-        "unit": Span(drive.serial.unit.min, drive.serial.unit.max),
-        "broadcast": drive.serial.broadcast,
-        "start_groups": groups(drive.serial.broadcast.start_addresses if drive.serial.broadcast else ()),
+        "modes": list(modes),
+        "most": most,
+        "ascii": allowed.ascii,
+        "tight": "ascii" in modes and less,
+        "longest": most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
+        "unit": unit,
+        "beyond": unit.max > 247,
+        "unit_pin": "Standard" if unit.max > 247 else "UnitAddress",
+        "broadcast": broadcast,
+        "start_addresses": broadcast.start_addresses if broadcast else (),
         "example_read": allowed.readable[0].first if allowed.readable else 0,
     }
 
@@ -118,7 +105,7 @@ def reply(drive: Drive) -> Context:
         source = source_of(drive, form.source)
         values = {"add": 0, "function": form.function, "address": form.address}
     tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
-    return {"drive": identity(drive), "form": {"text": text, "source": source, **values}, "two_byte_count": tolerant}
+    return {"form": {"text": text, "source": source, **values}, "two_byte_count": tolerant}
 
 
 # ---------------------------------------------------------------- decoders
@@ -136,50 +123,12 @@ def scales(drive: Drive) -> Iterator[Context]:
     """For Scale: one context per register with a scale."""
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
-            operation, constant = times(row.scale.factor)
-            yield {
-                **_register(drive, section, row, UNIT_NAMES[row.unit]),
-                "unit": row.unit,
-                "factor": f"{row.scale.factor.normalize():f}",
-                "signed": row.signed,
-                "operation": operation,
-                "constant": constant,
-                "condition": condition_text(row.scale.when) if row.scale.when else "",
-            }
-
-
-def times(factor: Decimal) -> tuple[str, str]:
-    """What turns a count into engineering units, and the REAL constant that it needs, if any.
-
-    `/ 100.0` for 0.01, `* 2.5` for 2.5, `* 3.0 / 1000.0` for 0.003: numbers that a REAL holds, so that a C compiler,
-    for which a literal is a double, gets the same. What no literals give exactly is a constant of type REAL.
-    """
-    ratio = Fraction(factor)
-    if _is_real(ratio):
-        return f"* {real(factor)}", ""
-    if ratio.numerator == 1:
-        return f"/ {ratio.denominator}.0", ""
-    if 0xFFFF * ratio.numerator < 1 << _REAL_BITS:
-        return f"* {ratio.numerator}.0 / {ratio.denominator}.0", ""
-    return "* FACTOR", real(factor)
-
-
-def _is_real(number: Fraction) -> bool:
-    """Whether a REAL holds a number exactly: 24 bits, and no exponent that a scale could have is too large."""
-    lowest = number.numerator & -number.numerator
-    whole = number.denominator & (number.denominator - 1) == 0
-    return whole and (number.numerator // max(lowest, 1)).bit_length() <= _REAL_BITS
-
-
-def real(value: Decimal) -> str:
-    """A REAL literal."""
-    text = f"{value.normalize():f}"
-    return text if "." in text else f"{text}.0"
+            named = _register(drive, section, row, UNIT_NAMES[row.unit])
+            yield {**named, "unit": row.unit, "scale": row.scale, "signed": row.signed}
 
 
 def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Context:
     return {
-        "drive": identity(drive),
         "name": names.block(drive.prefix, symbol(row) + suffix),
         "address_text": address_text(row.address.first),
         "title": _inside_a_sentence(row.name or ""),
@@ -204,19 +153,19 @@ def _bit_parts(row: Register) -> Iterator[Context]:
         if bit.unused or not bit.name:
             continue
         where = f"bit{'s' * (len(bit.bit) > 1)} {bits_text(bit.bit)}{': ' * bool(bit.own)}{bit.own}"
+        mask = _bits([bit.bit])
         if len(bit.bit) == 1:
-            yield part(symbol(bit), "BOOL", bit_test("Value", bit.bit.first), f"{bit.name}; {where}")
-        else:
-            yield from _field_parts(bit, where)
+            yield _flag(symbol(bit), Test("Value", mask, mask), f"{bit.name}; {where}")
+            continue
+        low = bit.bit.first
+        yield {"kind": "field", "name": symbol(bit), "comment": f"{bit.name}; {where}", "low": low, "mask": mask >> low}
+        for value in bit.values:
+            yield _flag(symbol(value), Test("Value", mask, value.value << low), _said(value))
 
 
-def _field_parts(bit: Bit, where: str) -> Iterator[Context]:
-    low, mask = bit.bit.first, (1 << len(bit.bit)) - 1
-    shifted = f"SHR(Value, {low})" if low else "Value"
-    yield part(symbol(bit), "UINT", f"WORD_TO_UINT({shifted} AND {word(mask)})", f"{bit.name}; {where}")
-    for value in bit.values:
-        test = f"(Value AND {word(mask << low)}) = {word(value.value << low)}"
-        yield part(symbol(value), "BOOL", test, _said(value))
+def _flag(name: str, test: Test, comment: str) -> Context:
+    """An output of a decoder that is TRUE when the word passes a test."""
+    return {"kind": "flag", "name": name, "test": test, "comment": comment}
 
 
 def _said(value: Value) -> str:
@@ -224,45 +173,24 @@ def _said(value: Value) -> str:
 
 
 def _value_parts(row: Register) -> Iterator[Context]:
-    known: list[str] = []
     for value in row.values:
-        test = bit_test("Value", value.value.bit_length() - 1) if row.masks else f"Value = {word(value.value)}"
-        known.append(symbol(value))
-        yield part(known[-1], "BOOL", test, _said(value))
-    if known and row.masks:
-        yield part("Unknown", "BOOL", _unlisted_bits(row), "TRUE: no bit is set, or one that the manual does not list")
-    elif known:
-        first, *more = _none_of(known)
-        yield {**part("Unknown", "BOOL", first, "TRUE: a value that the manual does not list"), "more": more}
-
-
-def _unlisted_bits(row: Register) -> str:
-    others = word(~sum({value.value for value in row.values}))
-    return f"(Value = {word(0)}) OR ((Value AND {others}) <> {word(0)})"
-
-
-def _none_of(names_: list[str]) -> list[str]:
-    """Expressions of which all must be TRUE."""
-    return ["NOT (" + "\n    ".join(textwrap.wrap(" OR ".join(group), 90)) + ")" for group in groups(names_)]
-
-
-def part(name: str, type_: str, expression: str, comment: str) -> Context:
-    """One output of a decoder."""
-    return {"name": name, "type": type_, "expression": expression, "comment": comment, "more": []}
-
-
-def bit_test(variable: str, bit: int) -> str:
-    """An expression that is TRUE when a bit of a WORD is set."""
-    return f"({variable} AND {word(1 << bit)}) = {word(1 << bit)}"
+        yield _flag(symbol(value), Test("Value", value.value if row.masks else 0, value.value), _said(value))
+    if row.values and row.masks:
+        others = ~sum({value.value for value in row.values})
+        comment = "TRUE: no bit is set, or one that the manual does not list"
+        yield {"kind": "other_bits", "name": "Unknown", "comment": comment, "others": others}
+    elif row.values:
+        comment = "TRUE: a value that the manual does not list"
+        yield {"kind": "other_value", "name": "Unknown", "comment": comment, "known": [*map(symbol, row.values)]}
 
 
 # ---------------------------------------------------------------- commands, reference, standstill, faults
 
 
-def condition_text(condition: Condition) -> str:
-    """`000FH bit 0 = 0`."""
-    bits = f" bit{'s' * (len(condition.bit) > 1)} {bits_text(condition.bit)}" if condition.bit else ""
-    return f"{address_text(condition.register)}{bits} = {condition.equals}"
+MOTIONS = {
+    "RunForward": "run_forward", "RunReverse": "run_reverse", "JogForward": "jog_forward", "JogReverse": "jog_reverse"
+}  # fmt: skip
+"""Pin -> the command that it asks for."""
 
 
 def command(drive: Drive) -> Context:
@@ -270,28 +198,32 @@ def command(drive: Drive) -> Context:
     commands = {one.does: one for one in drive.operation.commands}
     stop = commands["stop"]
     keeps = _keeps(drive, stop.register)
-    printed: dict[str, Context] = {
-        does: {"text": _command_text(one, stop, keeps), "register": one.register} for does, one in commands.items()
-    }
-    asked = [
-        ("RunForward", printed.get("run_forward")),
-        ("RunReverse", printed.get("run_reverse")),
-        ("JogForward", printed.get("jog_forward")),
-        ("JogReverse", printed.get("jog_reverse")),
-    ]
-    optional = ("run_reverse", "jog_forward", "jog_reverse", "jog_stop", "quick_stop", "coast_stop", "fault_reset")
+    told: dict[str, Context] = {does: _told(one, stop, keeps) for does, one in commands.items()}
     stops = {one.register for one in commands.values() if one.does in ("coast_stop", "quick_stop", "jog_stop")}
     return {
-        "drive": identity(drive),
         "source": source_of(drive, stop.source),
-        "register": stop.register,
-        "elsewhere_too": len({one.register for one in commands.values()}) > 1,
+        "elsewhere": len({one.register for one in commands.values()}) > 1,
         "stops_elsewhere": bool(stops - {stop.register}),
-        "stop": {**printed["stop"], "word": stop.value if stop.value is not None else _bits(stop.set)},
+        "stop": told["stop"],
+        "has": told,
         "keeps": keeps.values(),
-        "asked": asked,
-        **{does: printed.get(does) for does in optional},
+        "branches": list(_branches(told)),
     }
+
+
+def _branches(told: dict[str, Context]) -> Iterator[tuple[str, str, Context]]:
+    """The branches of Command in the order in which they count: the template of each, the pin that asks, its word."""
+    stop = told["stop"]
+    chain = [
+        ("fault_reset", "", told.get("fault_reset")),
+        ("stop", "CoastStop", told.get("coast_stop")),
+        ("stop", "QuickStop", told.get("quick_stop")),
+        ("stop", "Halted", stop),
+        ("contradiction", "", stop),
+        *(("motion" if does in told else "not_able", pin, told.get(does, stop)) for pin, does in MOTIONS.items()),
+        ("stop", "Jogging", told.get("jog_stop")),
+    ]
+    return ((branch, pin, word) for branch, pin, word in chain if word)
 
 
 def _keeps(drive: Drive, first: int) -> dict[int, Context]:
@@ -304,7 +236,7 @@ def _keeps(drive: Drive, first: int) -> dict[int, Context]:
         mask = used & ~_bits(span for one in by_bits if one.register == register for span in (*one.set, *one.clear))
         if mask:
             name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
-            found[register] = {"name": name, "address": register, "mask": mask}
+            found[register] = {"name": name, "register": register, "mask": mask}
     return found
 
 
@@ -313,18 +245,17 @@ def _bits(spans: Iterable[Span]) -> int:
     return sum(1 << bit for bit in {bit for span in spans for bit in span})
 
 
-def _command_text(one: Command, stop: Command, keeps: dict[int, Context]) -> str:
-    """The word of a command; a reset beside the run bits is a stop with the bits of the reset."""
+def _told(one: Command, stop: Command, keeps: dict[int, Context]) -> Context:
+    """The register of a command, its bits, and the pin whose other bits pass through.
+
+    A reset beside the run bits is a stop with the bits of the reset.
+    """
     if one.value is not None:
-        return word(one.value)
+        return {"register": one.register, "bits": one.value, "keep": None}
     bits = _bits(one.set)
     if one.does == "fault_reset" and one.register == stop.register:
         bits |= _bits(stop.set) & ~_bits(one.clear)
-    keep = keeps.get(one.register)
-    if keep is None:
-        return word(bits)
-    kept = f"{keep['name']} AND {word(keep['mask'])}"
-    return f"({kept}) OR {word(bits)}" if bits else kept
+    return {"register": one.register, "bits": bits, "keep": keeps.get(one.register)}
 
 
 def reference(drive: Drive) -> Context:
@@ -333,55 +264,35 @@ def reference(drive: Drive) -> Context:
     row = drive.register_at(spec.register)
     assert row is not None  # noqa: S101  (a checked map lists its reference register)
     percent = spec.means == "percent_of_maximum"
+    ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)
     highest, why = (
         (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
     )
     return {
-        "drive": identity(drive),
         "source": source_of(drive, spec.source),
         "register": spec.register,
         "percent": percent,
         "maximum": spec.maximum or "the maximum frequency",
         "scale": row.scale,
-        "counts": _counts(row, percent),
-        "verify": _verify(spec.verify),
+        "ratio": ratio,
+        "exact": is_real(ratio),
+        "verify": spec.verify,
         "highest": highest,
         "highest_why": f"{why} ends here",
     }
 
 
-def _verify(conditions: tuple[Condition, ...]) -> str:
-    """What a program must read back before the word means what it says."""
-    if not conditions:
-        return ""
-    return f" The word means this only while {' and '.join(map(condition_text, conditions))}: read that back first."
-
-
-def _counts(row: Register, percent: bool) -> Context:
-    """Counts of a frequency: the expression, and the REAL constants of the ratio where no literal holds it."""
-    if row.scale is None:
-        return {"text": "Asked * ReferenceScale", "ratio": None}
-    asked = "Asked / MaximumHz" if percent else "Asked"
-    ratio = (100 if percent else 1) / Fraction(row.scale.factor)
-    if _is_real(ratio):
-        return {"text": f"{asked} * {real(Decimal(ratio.numerator) / ratio.denominator)}", "ratio": None}
-    return {"text": f"{asked} / DIVISOR * COUNTS", "ratio": ratio}
-
-
 def standstill(drive: Drive) -> Context:
     """For Standstill."""
     proof = drive.operation.standstill
-    addresses = list(dict.fromkeys(condition.register for condition in proof.all))
-    words = [_input(drive, address) for address in addresses]
-    named = {one["address"]: one["name"] for one in words}
-    conditions = [{"expression": _test(named[one.register], one), "comment": condition_text(one)} for one in proof.all]
+    words = [_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
+    pins = {word["address"]: word["name"] for word in words}
     return {
-        "drive": identity(drive),
         "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
         "source": source_of(drive, proof.source),
         "words": words,
-        "conditions": conditions,
-        "groups": groups(conditions),
+        "conditions": proof.all,
+        "tests": [_test(pins[one.register], one) for one in proof.all],
     }
 
 
@@ -396,11 +307,10 @@ def _input(drive: Drive, address: int) -> Context:
     }
 
 
-def _test(name: str, condition: Condition) -> str:
+def _test(pin: str, condition: Condition) -> Test:
     if condition.bit is None:
-        return f"{name} = {word(condition.equals)}"
-    mask = ((1 << len(condition.bit)) - 1) << condition.bit.first
-    return f"({name} AND {word(mask)}) = {word(condition.equals << condition.bit.first)}"
+        return Test(pin, 0, condition.equals)
+    return Test(pin, _bits([condition.bit]), condition.equals << condition.bit.first)
 
 
 def fault_number(drive: Drive) -> Context | None:
@@ -413,4 +323,4 @@ def fault_number(drive: Drive) -> Context | None:
         row = drive.register_at(address)
         mask = sum(1 << bit.bit.first for bit in (row.bits if row else ()) if bit.id is not None)
         words.append({**_input(drive, address), "mask": mask, "base": 16 * index})
-    return {"drive": identity(drive), "source": source_of(drive, relation.source), "words": words}
+    return {"source": source_of(drive, relation.source), "words": words}

@@ -1,15 +1,22 @@
 """The Jinja environment: strict, no escaping, and the few functions that templates may call."""
 
+import re
+from collections import Counter
 from functools import cache
 
 import jinja2
 
 from driveblocks.maps import form
-from driveblocks.render import literal, results
+from driveblocks.maps.model import Condition
+from driveblocks.render import expression, literal, results
 
 ABI = 1
 """Version of the shared types; blocks of one ABI number fit together."""
 
+_SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)
+_INNER = re.compile(r"  (\w+) : ")
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+_NAME = re.compile(r"\w+")
 _RULE = "   " + "-" * 97
 
 
@@ -34,13 +41,31 @@ def environment() -> jinja2.Environment:
         span=form.span_text,
         address=form.address_text,
         assign=assign,
+        condition=condition,
+        holds=expression.holds,
+        statements=expression.statements,
+        each=expression.each,
+        none_of=expression.none_of,
+        times=expression.times,
+        real=expression.real,
     )
     return made
 
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    return literal.aligned(environment().get_template(template).render(**context))
+    return literal.aligned(needed(environment().get_template(template).render(**context)))
+
+
+def needed(text: str) -> str:
+    """The text without those inner variables that nothing names: a template declares all that its parts may need."""
+    named = Counter(_NAME.findall(_COMMENT.sub("", text)))
+
+    def kept(section: re.Match[str]) -> str:
+        lines = [line for line in section[2].splitlines(True) if not (one := _INNER.match(line)) or named[one[1]] > 1]
+        return f"{section[1]}{''.join(lines)}END_VAR\n" if any(map(_INNER.match, lines)) else ""
+
+    return _SECTION.sub(kept, text)
 
 
 def head(  # noqa: PLR0913  (the five parts of every head)
@@ -67,6 +92,12 @@ def _comment(title: str, parts: list[tuple[str, str]]) -> str:
 def assign(name: str) -> str:
     """A formal parameter in the example call of a head comment."""
     return f"{name} := ..."
+
+
+def condition(one: Condition) -> str:
+    """`000FH bit 0 = 0`."""
+    bits = f" bit{'s' * (len(one.bit) > 1)} {form.bits_text(one.bit)}" if one.bit else ""
+    return f"{form.address_text(one.register)}{bits} = {one.equals}"
 
 
 def crc_table() -> str:

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import plan
 from driveblocks.render import context, text
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
@@ -51,22 +52,28 @@ def generic(languages: list[Language]) -> Iterator[File]:
 
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """The blocks of one drive. Raises ValueError when a name makes no identifier."""
-    prefix, named = drive.prefix, _texts_of(languages)
-    for use in ("r", "w"):
-        yield _file(stem, "CanAccess", context.access(drive, use))
-    yield _file(stem, "Request", {**context.request(drive), **named, "name": f"{prefix}_Request"})
-    yield _file(stem, "Reply", {**context.reply(drive), **named, "name": f"{prefix}_Reply"})
-    yield _file(stem, "Command", {**context.command(drive), "name": f"{prefix}_Command"})
-    yield _file(stem, "Reference", {**context.reference(drive), "name": f"{prefix}_Reference"})
-    yield _file(stem, "Standstill", {**context.standstill(drive), "name": f"{prefix}_Standstill"})
+    shared = {"drive": context.identity(drive), **_texts_of(languages)}
+    for template, values in (*_blocks(drive), *_texts(drive, languages)):
+        yield _file(stem, template, {"name": f"{drive.prefix}_{template}", **shared, **values})
+
+
+def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
+    """The template of each block, and what it is to print."""
+    allowed = plan(drive)
+    yield "CanAccess", context.access(drive, "r", allowed.readable)
+    yield "CanAccess", context.access(drive, "w", allowed.writable)
+    yield "Request", context.request(drive, allowed)
+    yield "Reply", context.reply(drive)
+    yield "Command", context.command(drive)
+    yield "Reference", context.reference(drive)
+    yield "Standstill", context.standstill(drive)
     numbers = context.fault_number(drive)
     if numbers is not None:
-        yield _file(stem, "FaultNumber", {**numbers, **named, "name": f"{prefix}_FaultNumber"})
+        yield "FaultNumber", numbers
     for one in context.decoders(drive):
-        yield _file(stem, "Decoder", one)
+        yield "Decoder", one
     for one in context.scales(drive):
-        yield _file(stem, "Scale", one)
-    yield from _texts(stem, drive, languages)
+        yield "Scale", one
 
 
 def _texts_of(languages: list[Language]) -> context.Context:
@@ -75,14 +82,14 @@ def _texts_of(languages: list[Language]) -> context.Context:
     return {"language": suffix, "texts": f"MB_ResultText{suffix}"}
 
 
-def _texts(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
+def _texts(drive: Drive, languages: list[Language]) -> Iterator[tuple[str, context.Context]]:
     for language in languages:
         if text.exists(drive, "Fault", language):
-            yield _file(stem, "CodeText", text.fault_texts(drive, language))
+            yield "CodeText", text.fault_texts(drive, language)
         if text.exists(drive, "Error", language):
-            yield _file(stem, "CodeText", text.error_texts(drive, language))
+            yield "CodeText", text.error_texts(drive, language)
         for one in text.place_texts(drive, language):
-            yield _file(stem, "PlaceText", one)
+            yield "PlaceText", one
 
 
 def _file(folder: str, template: str, values: context.Context) -> File:

@@ -1,7 +1,6 @@
 """`blocks/README.md`: every block with its purpose, pins, memory and loops, and an example of use per drive."""
 
 import re
-from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import UNPROVED
@@ -10,7 +9,7 @@ from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.st.checker import check
 from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, FunctionBlock, VarKind
+from driveblocks.st.tree import Function, FunctionBlock, VarDecl, VarKind
 from driveblocks.st.types import Type
 
 _TITLE = re.compile(r"\(\* \w+: (.*?)\n\s+-{20,}", re.DOTALL)
@@ -27,14 +26,15 @@ def overview(files: list[File], drives: list[Drive]) -> str:
         if block is not None:
             rows.setdefault(file.folder, []).append(_row(file, block))
     types = {file.name: checked.types[file.name.upper()] for file in files if file.folder == "types"}
+    known = {drive.prefix: context.identity(drive) for drive in drives}
     return render(
         "README.md.j2",
         results=_results(files),
-        groups={_heading(folder, drives, files): found for folder, found in rows.items()},
-        unproved={context.identity(drive).family: UNPROVED for drive in drives if not drive.frames},
+        groups={_heading(folder, known, files): found for folder, found in rows.items()},
+        unproved={known[drive.prefix].family: UNPROVED for drive in drives if not drive.frames},
         types=[_type(file, types) for file in files if file.name in types],
         texts=next((file.name for file in files if file.name.startswith("MB_ResultText")), "the page above"),
-        examples=[_example(drive, checked.blocks) for drive in drives],
+        examples=[_example(drive, known[drive.prefix], checked.blocks) for drive in drives],
     )
 
 
@@ -44,19 +44,18 @@ def _results(files: list[File]) -> str:
     return " and ".join(names) + (" turn" if len(names) > 1 else " turns")
 
 
-def _heading(folder: str, drives: list[Drive], files: list[File]) -> str:
+def _heading(folder: str, known: dict[str, context.Identity], files: list[File]) -> str:
     """The family whose blocks stand in a folder, by the prefix of their names."""
     prefix = next(file.name.partition("_")[0] for file in files if file.folder == folder)
-    drive = next((drive for drive in drives if drive.prefix == prefix), None)
-    return context.identity(drive).family if drive else "Blocks that every drive shares"
+    return known[prefix].family if prefix in known else "Blocks that every drive shares"
 
 
-def _example(drive: Drive, blocks: dict[str, FunctionBlock]) -> dict[str, object]:
+def _example(drive: Drive, known: context.Identity, blocks: dict[str, FunctionBlock]) -> dict[str, object]:
     """Values for the example of use: read what proves standstill, one register at a time, and decode it."""
     proof = context.standstill(drive)
     decoders = [one for one in context.decoders(drive) if one["name"].upper() in blocks]
     decoder = next((one for one in decoders if one["address_text"] == proof["words"][0]["address_text"]), None)
-    return {"drive": context.identity(drive), "word": proof["words"][0], "decoder": decoder}
+    return {"drive": known, "word": proof["words"][0], "decoder": decoder}
 
 
 def _row(file: File, block: Function | FunctionBlock) -> dict[str, object]:
@@ -65,7 +64,7 @@ def _row(file: File, block: Function | FunctionBlock) -> dict[str, object]:
         "path": f"iec61131/{file.path}",
         "title": _found(_TITLE, file.text),
         "kind": "FB" if isinstance(block, FunctionBlock) else "function",
-        "pins": list(_pins(block)),
+        "pins": _pins(block),
         "bytes": block.type.size if isinstance(block, FunctionBlock) and block.type else 0,
         "loops": _found(_LOOPS, file.text),
     }
@@ -81,7 +80,7 @@ def _type(file: File, types: dict[str, Type]) -> dict[str, object]:
     return {"name": file.name, "path": f"iec61131/{file.path}", "title": title, "bytes": types[file.name].size}
 
 
-def _pins(block: Function | FunctionBlock) -> Iterator[dict[str, str]]:
-    for group in block.blocks:
-        for variable in group.variables if group.kind in _PINS else ():
-            yield {"kind": _PINS[group.kind], "name": variable.name, "type": str(variable.type)}
+def _pins(block: Function | FunctionBlock) -> dict[str, list[VarDecl]]:
+    """Inputs, in-outs and outputs, where a block has such."""
+    pins = {kind: [one for group in block.blocks if group.kind is kind for one in group.variables] for kind in _PINS}
+    return {_PINS[kind]: some for kind, some in pins.items() if some}

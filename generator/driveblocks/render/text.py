@@ -7,7 +7,7 @@ from typing import Any
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
 from driveblocks.render import results
-from driveblocks.render.context import Context, identity, source_of
+from driveblocks.render.context import Context, source_of
 from driveblocks.render.literal import string
 
 
@@ -97,7 +97,7 @@ def fault_texts(drive: Drive, language: Language) -> Context:
     """For CodeText: fault codes."""
     rows = [_entry(language, fault.code, fault) for fault in drive.faults.codes]
     head = {
-        "title": f"fault codes of {identity(drive).family}",
+        "title": "fault codes",
         "source": source_of(drive, drive.faults.source),
         "code_comment": "fault code",
     }
@@ -112,7 +112,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
         if code is not None:
             rows.append(_entry(language, code, error))
     head = {
-        "title": f"refusal codes of {identity(drive).family}",
+        "title": "refusal codes",
         "source": source_of(drive, drive.errors.source),
         "code_comment": "Reason of the reply",
     }
@@ -144,8 +144,7 @@ def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
         if any(group["rows"] for group in groups) and exists(drive, pin, language):
             yield {
                 "name": f"{drive.prefix}_{pin}Text{language.suffix}",
-                "title": f"{pin.lower()}s of {identity(drive).family}",
-                "source": identity(drive).manual,
+                "title": f"{pin.lower()}s",
                 "pin": pin,
                 "pin_comment": comment,
                 "groups": [group for group in groups if group["rows"]],
