@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from driveblocks.render.build import Plan
+    from driveblocks.building.build import Plan
     from driveblocks.render.text import Language
 
 Maps = Annotated[
@@ -37,8 +37,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.render import transaction
-    from driveblocks.render.manifest import NAME
+    from driveblocks.building import transaction
+    from driveblocks.building.manifest import NAME
     from driveblocks.render.text import missing
 
     languages, folder = _languages(lang, encoding), _folder(output)
@@ -58,14 +58,14 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 
 def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":
-    from driveblocks.render import build
+    from driveblocks.building import build
 
     with _told(folder):
         return build.plan(folder, _paths(maps), languages, only=only)
 
 
 def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool, force: bool) -> "Plan":
-    from driveblocks.render import build, transaction
+    from driveblocks.building import build, transaction
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
@@ -78,10 +78,10 @@ def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language
 @contextlib.contextmanager
 def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
+    from driveblocks.building.manifest import Refused
+    from driveblocks.building.transaction import interrupted
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
-    from driveblocks.render.manifest import Refused
-    from driveblocks.render.transaction import interrupted
 
     try:
         yield

@@ -8,7 +8,7 @@ import typer
 
 if TYPE_CHECKING:
     from driveblocks.host.discovery import Candidate
-    from driveblocks.render.build import Source
+    from driveblocks.maps.collection import Source
     from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
 
@@ -53,12 +53,12 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 100
     """
+    from driveblocks.building.build import units
     from driveblocks.render.text import languages
     from driveblocks.testing import junit as xml
     from driveblocks.testing import runner
     from driveblocks.testing.coverage import Coverage, counting, result
     from driveblocks.testing.outcome import Run
-    from driveblocks.testing.unit import units
 
     candidates, chosen = _engines(engine)
     sources = _read(maps)
@@ -86,12 +86,11 @@ def _refuse(text: str) -> NoReturn:
 
 def _read(maps: list[str] | None) -> "list[Source]":
     """Load the maps; all mistakes of all of them are told before it ends with status 2."""
-    from driveblocks.maps import catalog
+    from driveblocks.maps import catalog, collection
     from driveblocks.maps.problem import MapError
-    from driveblocks.render import build
 
     try:
-        return build.read([catalog.resolve(name) for name in maps] if maps else list(catalog.shipped()))
+        return collection.read([catalog.resolve(name) for name in maps] if maps else list(catalog.shipped()))
     except (MapError, catalog.UnknownDrive) as error:
         _refuse(str(error))
 
