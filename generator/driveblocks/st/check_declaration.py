@@ -6,19 +6,23 @@ from driveblocks.st.check_statement import StatementChecker
 from driveblocks.st.library import Library
 from driveblocks.st.report import Report
 from driveblocks.st.resolve import Resolver
-from driveblocks.st.tree import Function, FunctionBlock, NamedSpec, Pou, Program, StructSpec, TypeDecl, VarDecl, VarKind
-from driveblocks.st.types import (
-    UNKNOWN,
-    VOID,
+from driveblocks.st.tree import (
     Array,
     Block,
     Direction,
-    Kind,
+    Function,
+    FunctionBlock,
+    NamedSpec,
     Parameter,
+    Pou,
+    Program,
     Struct,
-    Type,
-    same,
+    StructSpec,
+    TypeDecl,
+    VarDecl,
+    VarKind,
 )
+from driveblocks.st.types import UNKNOWN, VOID, Kind, Type, same
 
 _DIRECTIONS = {
     VarKind.INPUT: Direction.INPUT,

@@ -7,7 +7,10 @@ from driveblocks.st.loose import tell_loose
 from driveblocks.st.ranges import whole
 from driveblocks.st.tree import (
     Binary,
+    Block,
+    Builtin,
     Call,
+    Direction,
     Expression,
     Function,
     Index,
@@ -16,7 +19,7 @@ from driveblocks.st.tree import (
     Name,
     Unary,
 )
-from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, Kind, Type, plain
+from driveblocks.st.types import BOOL, Elementary, Kind, Type, plain
 
 _ORDERS = frozenset(["<", ">", "<=", ">="])
 _ORDER_FUNCTIONS = frozenset(["LT", "GT", "LE", "GE", "MAX", "MIN", "LIMIT"])

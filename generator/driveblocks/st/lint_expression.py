@@ -7,8 +7,12 @@ from driveblocks.st.lint_scope import Scope
 from driveblocks.st.loose import tell_loose
 from driveblocks.st.tree import (
     Binary,
+    Block,
+    Builtin,
     Call,
     Case,
+    Direction,
+    EnumValue,
     Expression,
     Index,
     Literal,
@@ -20,7 +24,7 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, EnumValue, Kind, plain
+from driveblocks.st.types import BOOL, Elementary, Kind, plain
 from driveblocks.st.walk import children, expressions
 
 _ORDERS = frozenset(["<", ">", "<=", ">="])

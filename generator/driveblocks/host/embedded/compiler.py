@@ -24,9 +24,8 @@ from driveblocks.host.embedded.terms import TEMPORAL, is_integral
 from driveblocks.host.embedded.usage import callees, has_loop, touched
 from driveblocks.host.engine import Message
 from driveblocks.st import tree
-from driveblocks.st.checked import Checked
-from driveblocks.st.tree import VarKind
-from driveblocks.st.types import REAL, Block, EnumValue, Kind, String, Type, plain
+from driveblocks.st.tree import Block, Checked, EnumValue, VarKind
+from driveblocks.st.types import REAL, Kind, String, Type, plain
 
 Body = Callable[[Any], None]
 

@@ -27,7 +27,8 @@ from driveblocks.host.embedded.terms import (
     promoted,
 )
 from driveblocks.st import tree
-from driveblocks.st.types import LREAL, REAL, Builtin, Elementary, Kind, Type, plain
+from driveblocks.st.tree import Builtin
+from driveblocks.st.types import LREAL, REAL, Elementary, Kind, Type, plain
 
 _OPERATORS = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "MOD": "MOD", "AND": "AND", "OR": "OR", "XOR": "XOR"}
 _TIME_OPERATORS = {"MULTIME": "*", "DIVTIME": "/", "CONCAT_DATE_TOD": "+"}

@@ -24,8 +24,8 @@ from driveblocks.host.embedded.terms import (
 )
 from driveblocks.host.embedded.widths import Widths
 from driveblocks.st import tree
-from driveblocks.st.tree import LiteralKind
-from driveblocks.st.types import LREAL, Array, Elementary, EnumValue, Kind, String, Type, plain
+from driveblocks.st.tree import Array, EnumValue, LiteralKind
+from driveblocks.st.types import LREAL, Elementary, Kind, String, Type, plain
 
 
 class Operands:

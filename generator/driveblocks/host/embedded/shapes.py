@@ -14,7 +14,8 @@ from driveblocks.host.embedded.certainty import known, present
 from driveblocks.host.embedded.times import Span
 from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
-from driveblocks.st.types import Array, Block, Enum, Kind, Struct, Subrange, Type
+from driveblocks.st.tree import Array, Block, Enum, Struct
+from driveblocks.st.types import Kind, Subrange, Type
 
 # Makes an initial value; it is given the globals that instances of blocks see.
 Maker = Callable[[Any], Any]

@@ -14,7 +14,8 @@ from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.terms import TEMPORAL
 from driveblocks.host.engine import Overflow, Value
-from driveblocks.st.types import REAL, Array, Block, Elementary, Enum, Kind, String, Struct, Subrange, Type, plain
+from driveblocks.st.tree import Array, Block, Enum, Struct
+from driveblocks.st.types import REAL, Elementary, Kind, String, Subrange, Type, plain
 
 Reader = Callable[[Any], Value]
 # Checks a value and gives what is stored instead; `current` is what an array or structure holds, and is filled.
