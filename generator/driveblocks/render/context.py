@@ -12,7 +12,7 @@ from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Bit, Command, Condition, Drive, Register, Section, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, plan
-from driveblocks.render.literal import word
+from driveblocks.st.writing import word
 
 Context = dict[str, Any]
 T = TypeVar("T")

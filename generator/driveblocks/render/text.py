@@ -8,7 +8,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
 from driveblocks.render import results
 from driveblocks.render.context import Context, identity, source_of
-from driveblocks.render.literal import string
+from driveblocks.st.writing import string
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Language:
 
     def literal(self, text: str) -> str:
         """The text as a STRING literal, whole: a checked map has none that is too long."""
-        return string(text, self.encoding)
+        return string(text.encode(self.encoding))
 
     def pick(self, entry: Returned | Bit) -> str:
         """The text of an entry in this language, in its short wording where it has one."""

@@ -16,7 +16,6 @@ from driveblocks.st.tree import (
     Parameter,
     Pou,
     Program,
-    Struct,
     StructSpec,
     TypeDecl,
     VarDecl,
@@ -163,10 +162,3 @@ class DeclarationChecker(StatementChecker):
         elif target.constant != variable.constant:
             wanted = "VAR_EXTERNAL CONSTANT" if target.constant else "VAR_EXTERNAL without CONSTANT"
             self.report.add(variable.at, "type-mismatch", f"expected {wanted}, as the VAR_GLOBAL has it")
-
-
-def fields_of(made: Type) -> list[Type]:
-    """The types directly inside a type."""
-    if isinstance(made, Struct):
-        return [each.type for each in made.fields.values()]
-    return [made.element] if isinstance(made, Array) else []

@@ -85,15 +85,6 @@ class ExpressionChecker(OperatorChecker):
         self.infer(value)
         self.fits(value, wanted)
 
-    def of_kind(self, value: Expression, kinds: frozenset[Kind], what: str) -> Type:
-        """Check an expression that must be of one of these kinds."""
-        self.infer(value)
-        if untyped(value.type):
-            self.settle(value, self.default(value))
-        if value.type.kind not in kinds and value.type is not UNKNOWN:
-            self.report.add(value.at, "type-mismatch", f"expected {what}, found {value.type}")
-        return value.type
-
     def literal(self, value: Literal) -> Type:
         """A literal: of its prefix, or of its kind."""
         fixed = _FIXED_LITERALS.get(value.kind)

@@ -157,7 +157,7 @@ class Resolver:
                 text = f"expected a length of 1..{MOST_CHARACTERS}, found {length}"
                 self.report.add(spec.length.at, "literal-range", text)
             return base
-        return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide, sized=True)
+        return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide)
 
     def constant(self, value: Expression, what: str) -> int | None:
         """The value of a constant integer expression; told if it is none."""

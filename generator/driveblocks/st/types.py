@@ -87,11 +87,10 @@ class Subrange(Elementary):
 
 @dataclass(slots=True, eq=False)
 class String(Type):
-    """STRING or WSTRING (`wide`) of at most `length` characters; `sized` if the length was written."""
+    """STRING or WSTRING (`wide`) of at most `length` characters."""
 
     length: int = DEFAULT_STRING_LENGTH
     wide: bool = False
-    sized: bool = False
 
     @property
     def size(self) -> int:
@@ -171,6 +170,8 @@ ANY_STRING = frozenset([Kind.STRING])
 ANY_ELEMENTARY = _ELEMENTARY_KINDS | ANY_STRING
 ANY_COMPARABLE = ANY_ELEMENTARY | {Kind.ENUM}
 ANY = ANY_COMPARABLE | {Kind.ARRAY, Kind.STRUCT}
+# Durations and moments: what is counted in nanoseconds.
+TEMPORAL = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 
 
 def untyped(each: Type) -> bool:

@@ -12,14 +12,11 @@ from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
-from driveblocks.host.embedded.terms import TEMPORAL
 from driveblocks.host.engine import Overflow, Value
 from driveblocks.st.tree import Array, Block, Enum, Struct
-from driveblocks.st.types import REAL, Elementary, Kind, String, Subrange, Type, plain
+from driveblocks.st.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
 
 Reader = Callable[[Any], Value]
-# Checks a value and gives what is stored instead; `current` is what an array or structure holds, and is filled.
-Writer = Callable[[Any, Value], Any]
 
 
 def members(kind: Type) -> dict[str, Type]:
