@@ -6,6 +6,7 @@ from typing import Any
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
+from driveblocks.maps.view import error_number
 from driveblocks.render import results
 from driveblocks.render.context import Context, identity, source_of
 from driveblocks.st.writing import string
@@ -108,7 +109,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
     """For CodeText: error codes; those without a printed code have the number that another document gives."""
     rows = []
     for error in drive.errors.codes:
-        code = error.code if error.code is not None else next((c.value for c in error.corroborated if c.value), None)
+        code = error_number(error)
         if code is not None:
             rows.append(_entry(language, code, error))
     head = {

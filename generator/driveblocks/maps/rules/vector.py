@@ -3,10 +3,12 @@
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, PlcTable, Register
+from driveblocks.maps.plan import manners
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import exchange
 from driveblocks.maps.rules.access import carried
 from driveblocks.maps.rules.unique import unique
+from driveblocks.modbus.frame import checksum
 
 _MEANT = ("unit", "function", "address", "words", "byte_count", "values", "sub_function", "data", "error")
 _READS = (0x03, 0x04)
@@ -36,11 +38,11 @@ def _take_apart(drive: Drive, frame: Frame, report: Report) -> adu.Fields | None
         report.add(frame.place("mode"), wrong, "correct the mode, or add it to `serial`")
     try:
         body, given = adu.split(frame.mode, frame.correct)
-        due = adu.checksum(frame.mode, body)
+        due = checksum(frame.mode, body)
         if given != due:
             wrong = f"the checksum of `correct` is {adu.octets(given)}"
             report.add(frame.place("correct"), wrong, f"these bytes need {adu.octets(due)}")
-        fields = adu.fields(body, frame.direction, exchange.refusal(drive))
+        fields = adu.fields(body, frame.direction, manners(drive))
     except adu.FrameError as error:
         report.add(frame.place("correct"), str(error), error.right)
         return None
@@ -54,7 +56,7 @@ def _printed(frame: Frame, report: Report) -> None:
     except adu.FrameError as error:
         report.add(frame.place("printed"), f"as printed: {error}", error.right)
         return
-    due = adu.checksum(frame.mode, body)
+    due = checksum(frame.mode, body)
     verdict = "right" if given == due else "wrong"
     if verdict != frame.checksum:
         wrong = f"`checksum: {frame.checksum}`, but {adu.octets(given)} printed, {adu.octets(due)} due"
@@ -62,7 +64,7 @@ def _printed(frame: Frame, report: Report) -> None:
     owner = frame.printed_checksum_of
     if owner is not None and verdict == "right":
         report.add(frame.place("printed_checksum_of"), "the printed checksum is right", "remove the key")
-    elif owner is not None and adu.checksum(frame.mode, owner) != given:
+    elif owner is not None and checksum(frame.mode, owner) != given:
         wrong = f"the printed checksum {adu.octets(given)} does not belong to these bytes"
         report.add(frame.place("printed_checksum_of"), wrong, "find the bytes, or remove the key")
 
@@ -95,7 +97,7 @@ def _allowed(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> 
 
 
 def _refused(drive: Drive, frame: Frame, fields: adu.Fields, known: set[int], report: Report) -> None:
-    add = exchange.refusal(drive).add
+    add = manners(drive).added
     if fields.address is None and fields.function - add not in known:
         wrong = f"function {fields.function:02X}H refuses a function that is not listed under `functions`"
         report.miss(frame.means.place("function"), wrong, "add it there, or correct the frame")
