@@ -55,10 +55,10 @@ def _refuses(manners: Manners, asked: Asked, one: Layout) -> bool:
 
 
 def _granted(manners: Manners, asked: Asked, one: Layout) -> Iterator[Wrong]:
-    if asked.function in READS:
-        forgiven = manners.two_byte_count or not one.two_byte_count
-        if one.number("byte count") != 2 * asked.quantity or not forgiven:
-            yield Wrong(_count(one, asked), _why_count(one.body, 2 * asked.quantity))
+    size = _bytes_of(asked)
+    forgiven = manners.two_byte_count or not one.two_byte_count
+    if size is not None and (one.number("byte count") != size or not forgiven):
+        yield Wrong(_count(one, asked, size), _why_count(one.body, size))
     if one.missing:
         yield _length(one, asked)
     wanted = {"address": asked.address, "quantity": asked.quantity, "sub-function": asked.sub_function}
@@ -70,9 +70,9 @@ def _granted(manners: Manners, asked: Asked, one: Layout) -> Iterator[Wrong]:
 
 def _length(one: Layout, asked: Asked) -> Wrong:
     found = f"length: {len(one.body)} bytes before the checksum, and"
-    if asked.function in READS and not one.refusal:
-        size = 3 + 2 * asked.quantity
-        return Wrong(f"{found} the request asks for {size}", _why_length(size - len(one.body)))
+    size = _bytes_of(asked)
+    if size is not None and not one.refusal:
+        return Wrong(f"{found} the request asks for {3 + size}", _why_length(3 + size - len(one.body)))
     return Wrong(f"{found} such a reply has {one.size}", _why_length(one.missing))
 
 
@@ -93,11 +93,19 @@ def _why_length(missing: int) -> tuple[str, ...]:
     return (f"truncated: {many} missing",) if missing > 0 else (f"{many} too many",)
 
 
-def _count(one: Layout, asked: Asked) -> str:
+def _bytes_of(asked: Asked) -> int | None:
+    """The bytes of registers, coils or inputs that a read asks for; None for what reads none of them."""
+    if asked.function in READS:
+        return 2 * asked.quantity
+    return -(-asked.quantity // 8) if asked.function in (1, 2) else None
+
+
+def _count(one: Layout, asked: Asked, size: int) -> str:
     count = one.number("byte count")
     found = "missing" if count is None else str(count)
-    many = f"{asked.quantity} register{'s' * (asked.quantity != 1)}"
-    return f"byte count: {found}; the request asks for {many}, so it is {2 * asked.quantity}"
+    kind = {1: "coil", 2: "input"}.get(asked.function, "register")
+    many = f"{asked.quantity} {kind}{'s' * (asked.quantity != 1)}"
+    return f"byte count: {found}; the request asks for {many}, so it is {size}"
 
 
 def _why_count(data: bytes, size: int) -> tuple[str, ...]:
