@@ -1,17 +1,14 @@
 """`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
+
+from driveblocks.commands import Maps
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
     from driveblocks.maps.model import Drive
-
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
 
 
 def run(maps: Maps = None) -> None:

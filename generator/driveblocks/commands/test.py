@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
+from driveblocks.commands import Maps
+
 if TYPE_CHECKING:
     from driveblocks.host.discovery import Candidate
     from driveblocks.maps.collection import Source
@@ -15,10 +17,6 @@ if TYPE_CHECKING:
 SHOWN, PER_PROGRAM = 20, 3
 """Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
 
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
 EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
 Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
 Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
@@ -90,7 +88,7 @@ def _read(maps: list[str] | None) -> "list[Source]":
     from driveblocks.maps.problem import MapError
 
     try:
-        return collection.read([catalog.resolve(name) for name in maps] if maps else list(catalog.shipped()))
+        return collection.read(catalog.chosen(maps))
     except (MapError, catalog.UnknownDrive) as error:
         _refuse(str(error))
 

@@ -32,22 +32,18 @@ class Plan:
     ascii: Words
     readable: tuple[Span, ...]
     writable: tuple[Span, ...]
-    ram_only: Span | None
-    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
 
 
 def plan(drive: Drive) -> Plan:
     """Derive the plan of a checked map."""
     functions = {function.code: function for function in drive.functions}
-    ram_only = _ram_only(drive)
     return Plan(
         functions=frozenset(functions),
         sub_functions=tuple(sub.code for sub in functions[8].sub_functions) if 8 in functions else (),
         rtu=_words(drive, "rtu"),
         ascii=_words(drive, "ascii"),
         readable=_merged(_allowed(drive, "r")),
-        writable=_merged([*_allowed(drive, "w"), *([ram_only] if ram_only else [])]),
-        ram_only=ram_only,
+        writable=_merged([*_allowed(drive, "w"), *_ram_only(drive)]),
     )
 
 
@@ -71,11 +67,11 @@ def _value(limit: Limit | None, default: int) -> int:
     return limit.value if limit else default
 
 
-def _ram_only(drive: Drive) -> Span | None:
-    area = next((area for area in drive.areas if area.id == drive.storage.area), None)
-    if area is None or drive.storage.add is None:
-        return None
-    return Span(area.addresses.first + drive.storage.add, area.addresses.last + drive.storage.add)
+def _ram_only(drive: Drive) -> list[Span]:
+    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
+    areas = [area.addresses for area in drive.areas if area.id == drive.storage.area]
+    add = drive.storage.add
+    return [] if add is None else [Span(area.first + add, area.last + add) for area in areas]
 
 
 def _allowed(drive: Drive, use: str) -> list[Span]:

@@ -5,7 +5,6 @@ Inside, TIME may be a pair and a structure an object; outside they are nanosecon
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from driveblocks.host.embedded import times
@@ -15,8 +14,6 @@ from driveblocks.host.embedded.reals import single
 from driveblocks.host.engine import Overflow, Value
 from driveblocks.st.tree import Array, Block, Enum, Struct
 from driveblocks.st.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
-
-Reader = Callable[[Any], Value]
 
 
 def members(kind: Type) -> dict[str, Type]:

@@ -7,8 +7,8 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Quantity, Register
 from driveblocks.maps.plan import manners
 from driveblocks.maps.problem import Report
+from driveblocks.modbus.request import READS
 
-_READS = (0x03, 0x04)
 _ECHOED: dict[int, tuple[str, ...]] = {
     0x03: ("unit", "function", "words"),
     0x04: ("unit", "function", "words"),
@@ -73,7 +73,7 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
 
 
 def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, report: Report) -> None:
-    if request.function not in _READS or request.address is None or reply.error is not None:
+    if request.function not in READS or request.address is None or reply.error is not None:
         return
     for offset, word in enumerate(reply.values):
         row = drive.register_at(request.address + offset)
