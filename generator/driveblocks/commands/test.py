@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from driveblocks.commands import Maps
+from driveblocks.commands import Maps, refuse
 
 if TYPE_CHECKING:
     from driveblocks.host.discovery import Candidate
@@ -69,17 +69,12 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         if junit is not None:
             xml.write(done, junit)
     except OSError as error:
-        _refuse(f"{junit}: cannot be written: {error.strerror}")
+        refuse(f"{junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
     _unproved(sources)
     _cover(measured)
     _say(done, len(sources), junit)
     raise typer.Exit(0 if done.passed else 1)
-
-
-def _refuse(text: str) -> NoReturn:
-    typer.echo(text, err=True)
-    raise typer.Exit(2)
 
 
 def _read(maps: list[str] | None) -> "list[Source]":
@@ -90,7 +85,7 @@ def _read(maps: list[str] | None) -> "list[Source]":
     try:
         return collection.read(catalog.chosen(maps))
     except (MapError, catalog.UnknownDrive) as error:
-        _refuse(str(error))
+        refuse(str(error))
 
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
@@ -100,11 +95,11 @@ def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
     groups = {"embedded": (EMBEDDED,), "matiec": MATIEC_NAMES, "all": (EMBEDDED, *MATIEC_NAMES)}
     groups |= {each: (each,) for each in MATIEC_NAMES}
     if name not in groups:
-        _refuse(f"there is no engine `{name}`; write one of {', '.join(groups)}")
+        refuse(f"there is no engine `{name}`; write one of {', '.join(groups)}")
     found = survey().candidates()
     asked = [each for each in found if each.name in groups[name]]
     if not any(each.engine for each in asked):
-        _refuse("\n".join(f"engine {each.name} cannot be used: {each.note}" for each in asked))
+        refuse("\n".join(f"engine {each.name} cannot be used: {each.note}" for each in asked))
     return found, [each for each in asked if each.engine is not None]
 
 
