@@ -10,11 +10,11 @@ from typing import TypeVar
 from tests.bench.record import Rows
 from tests.bench.synthetic import synthetic
 
-from driveblocks.maps import catalog, load, nodes
+from driveblocks.maps import catalog, collection, load, nodes
 from driveblocks.maps.model import Drive
-from driveblocks.render import build, library, text
+from driveblocks.render import library, text
 from driveblocks.render.overview import overview
-from driveblocks.testing import programs
+from driveblocks.testing.suite import programs
 
 Made = TypeVar("Made")
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
@@ -63,25 +63,25 @@ def whole_build(count: int, registers: int) -> dict[str, float]:
     maps = [synthetic(number, registers) for number in range(count)]
     return _steps(
         lambda: [
-            build.Source(Path(f"map{number}.yaml"), load.loads(map_, f"map{number}.yaml"))
+            collection.Source(Path(f"map{number}.yaml"), load.loads(map_, f"map{number}.yaml"))
             for number, map_ in enumerate(maps)
         ]
     )
 
 
 def _shipped() -> dict[str, float]:
-    return _steps(lambda: build.read(catalog.shipped()))
+    return _steps(lambda: collection.read(catalog.shipped()))
 
 
 def _without_libyaml() -> float:
     fast, nodes._LIBYAML = nodes._LIBYAML, None
     try:
-        return timed(lambda: build.read(catalog.shipped()))[0]
+        return timed(lambda: collection.read(catalog.shipped()))[0]
     finally:
         nodes._LIBYAML = fast
 
 
-def _steps(read: Callable[[], list[build.Source]]) -> dict[str, float]:
+def _steps(read: Callable[[], list[collection.Source]]) -> dict[str, float]:
     loading, sources = timed(read)
     rendering, made = timed(lambda: _blocks(sources))
     page, _ = timed(lambda: overview(made, [source.drive for source in sources]))
@@ -90,7 +90,7 @@ def _steps(read: Callable[[], list[build.Source]]) -> dict[str, float]:
     return {"load": loading, "blocks": rendering, "page": page, "tests": tests, "MiB": peak}
 
 
-def _blocks(sources: list[build.Source]) -> list[library.File]:
+def _blocks(sources: list[collection.Source]) -> list[library.File]:
     drives = (library.drive(source.path.stem, source.drive, LANGUAGES) for source in sources)
     return [*library.generic(LANGUAGES), *(file for files in drives for file in files)]
 

@@ -7,10 +7,9 @@ from tests.bench.inputs import Pin, pins
 from tests.blocks.library import sources
 from tests.native.driver import Driver
 
-from driveblocks.st.checked import Checked
 from driveblocks.st.checker import check
 from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, FunctionBlock
+from driveblocks.st.tree import Checked, Function, FunctionBlock
 
 MAIN = """
 #if defined __has_include

@@ -27,11 +27,11 @@ from tests.maps import mutate
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Source
-from driveblocks.maps import catalog
+from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.render import build, library, overview, text
+from driveblocks.render import library, overview, text
 from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.suite import ROOT, drive_suite
@@ -127,7 +127,7 @@ def broken(map_text: str) -> Iterator[str]:
     drive, blocks = made
     overview.overview([*shared(), *blocks], [drive])
     files = [each for each in shared() if "Text" not in each.name] + blocks  # no block needs the texts of results
-    suite = drive_suite(build.Source(Path("map.yaml"), drive), LANGUAGES)
+    suite = drive_suite(collection.Source(Path("map.yaml"), drive), LANGUAGES)
     unit = Unit(suite, tuple(Source(each.path, each.text) for each in files))
     own = {each.path for each in blocks} | {ROOT + each.path for each in suite.programs}
     for problem in lint_sources([(each.path, each.text) for each in unit.sources]):

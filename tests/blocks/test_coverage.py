@@ -3,13 +3,12 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from driveblocks.building.build import units
 from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.maps import catalog
-from driveblocks.render import build
+from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
 from driveblocks.testing.coverage import Coverage, exemptions
-from driveblocks.testing.unit import units
 
 FOURTH = sorted((Path(__file__).parent / "fourth_drive").glob("*.yaml"))
 BOTH = languages(["en", "zh"], "utf-8")
@@ -20,7 +19,7 @@ Record = Callable[[str, object], None]
 def covered(maps: list[Path]) -> Coverage:
     """What the programs of some maps have run on the embedded engine; all their checks must pass."""
     measured = Coverage("embedded")
-    done = runner.run(units(build.read(maps), BOTH), [EmbeddedEngine(coverage=True)], coverage=[measured])
+    done = runner.run(units(collection.read(maps), BOTH), [EmbeddedEngine(coverage=True)], coverage=[measured])
     assert done.passed
     return measured
 

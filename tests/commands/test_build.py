@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
+from driveblocks.building import build, manifest, transaction
 from driveblocks.cli import app
-from driveblocks.render import build, manifest, transaction
+from driveblocks.maps import collection
 from driveblocks.render.text import Language
 
 ROOT = Path(__file__).parents[2]
@@ -18,7 +19,7 @@ EXAMPLE = (ROOT / "tests/maps/example.yaml").read_text(encoding="utf-8")
 FILES = {"README.md", "iec61131/order.txt", "tests/page.md"}
 
 
-def few(sources: list[build.Source], languages: list[Language]) -> dict[str, str]:
+def few(sources: list[collection.Source], languages: list[Language]) -> dict[str, str]:
     """An output that is quick to make: a page of all drives, and a block of each."""
     names = ", ".join(source.drive.prefix for source in sources)
     blocks = {f"iec61131/{source.path.stem}/{source.drive.prefix}.st": f"{len(languages)}\n" for source in sources}
@@ -336,7 +337,8 @@ def test_a_second_build_at_once_is_refused() -> None:
 KILLED = """
 import os, signal, sys
 from driveblocks.cli import app
-from driveblocks.render import build
+from driveblocks.building import build
+from driveblocks.maps import collection
 from tests.commands.test_build import few
 replace, left = os.replace, [int(sys.argv.pop(1))]
 def last(*arguments):

@@ -5,14 +5,14 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from driveblocks.building import build
+from driveblocks.building.build import units
 from driveblocks.cli import app
 from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.maps import page
-from driveblocks.render import build
+from driveblocks.maps import collection, page
 from driveblocks.render.text import languages
 from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
-from driveblocks.testing.unit import units
 
 GUIDE = Path(__file__).parents[2] / "vendor_maps/README.md"
 MOST = 60
@@ -37,7 +37,7 @@ def test_the_map_on_the_page_is_small_good_and_passes_its_tests(tmp_path: Path) 
     path.write_text(text, encoding="utf-8")
     checked = CliRunner().invoke(app, ["check", str(path)])
     assert (checked.exit_code, checked.stderr) == (0, ""), checked.output
-    both, sources = languages(["en", "zh"], "utf-8"), build.read([path])
+    both, sources = languages(["en", "zh"], "utf-8"), collection.read([path])
     made = [(name, file) for name, file in build.files(sources, both).items() if name.endswith(".st")]
     assert [str(problem) for problem in lint_sources(made)] == []
     done = runner.run(units(sources, both)[1:], [EmbeddedEngine()])
@@ -57,7 +57,7 @@ def test_the_prefix_is_the_users_as_long_as_it_may_be() -> None:
     text = Path("drive.yaml").read_text(encoding="utf-8")
     assert "\nprefix: NORDWIND2000 " in text
     assert "ACME" not in text
-    build.read([Path("drive.yaml")])
+    collection.read([Path("drive.yaml")])
 
 
 def test_a_file_that_is_there_is_never_touched() -> None:

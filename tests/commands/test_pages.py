@@ -59,3 +59,10 @@ def test_targets_of_make_are_there(page: Path) -> None:
     targets = set(re.findall(r"^([\w -]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     known = {name for names in targets for name in names.split()}
     assert {text.split()[1] for text in code(page) if text.startswith("make ")} <= known
+
+
+def test_the_way_of_a_bit_is_as_it_is_told() -> None:
+    rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", (ROOT / "CONTRIBUTING.md").read_text("utf-8"), re.MULTILINE)
+    way = [(path, word) for path, word in rows if "/" in path]
+    assert 1 < len(way) <= 6
+    assert [path for path, word in way if word not in (ROOT / path).read_text("utf-8")] == []

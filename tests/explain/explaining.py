@@ -4,9 +4,9 @@ from pathlib import Path
 
 from driveblocks.explain.explanation import Explainer, Explanation
 from driveblocks.explain.paste import read
-from driveblocks.explain.wire import seal
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
+from driveblocks.modbus.frame import seal
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 

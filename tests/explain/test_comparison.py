@@ -55,6 +55,20 @@ def test_other_drives(explain: Explain, prefix: str, frame: str, request_frame: 
     assert wrong in made.all_wrongs[0].what
 
 
+@pytest.mark.parametrize(
+    ("body", "asked", "wrong"),
+    [
+        ("01 01 02 FF 03", "01 01 00 00 00 0A", ""),
+        ("01 01 01 FF", "01 01 00 00 00 0A", "byte count: 1; the request asks for 10 coils, so it is 2"),
+        ("01 0F 00 13 00 0A", "01 0F 00 13 00 0A 02 CD 01", ""),
+        ("01 07 6D", "01 07", ""),
+    ],
+)
+def test_what_the_standard_alone_knows(explain: Explain, body: str, asked: str, wrong: str) -> None:
+    made = explain("", rtu(body), rtu(asked))
+    assert [one.what for one in made.all_wrongs] == ([wrong] if wrong else [])
+
+
 def test_a_refusal_whatever_was_asked(explain: Explain) -> None:
     made = explain("CHF", "01 06 50 01 00 05 09 09", "01 03 00 04 00 02 85 CA")
     assert made.good

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tests.explain.explaining import Explain, rtu
 
 from driveblocks.explain.explanation import Explanation
-from driveblocks.explain.wire import seal
+from driveblocks.modbus.frame import seal
 from driveblocks.reference.request import Asked, Requests
 
 PREFIXES = ["CHF", "EX100", "JSCC", "SN300G5"]

@@ -5,10 +5,11 @@ import sys
 import pytest
 from tests.explain.explaining import rtu
 
-from driveblocks.explain import scan, wire
+from driveblocks.explain import scan
 from driveblocks.explain.explanation import Explainer
 from driveblocks.explain.paste import read
-from driveblocks.reference.checksum import crc_bytes
+from driveblocks.modbus import frame
+from driveblocks.modbus.checksum import crc_bytes
 
 READ = "01 03 20 00 00 01 8F CA"
 LONG = {
@@ -51,7 +52,7 @@ def test_checksums_grow_with_the_zeros_behind_a_frame(monkeypatch: pytest.Monkey
         summed += len(data)
         return crc_bytes(data)
 
-    for module in (scan, wire):
+    for module in (scan, frame):
         monkeypatch.setattr(module, "crc_bytes", count)
     nobody = rtu("FF 03 20 00 00 01")
     sums = []

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.explain.explaining import Explain, rtu
 
-from driveblocks.explain.wire import seal
+from driveblocks.modbus.frame import seal
 from driveblocks.reference.checksum import crc16, crc_bytes, lrc
 
 READ = "01 03 20 00 00 01 8F CA"

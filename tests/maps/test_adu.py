@@ -1,4 +1,4 @@
-"""Frames taken apart: checksums and PDUs against pymodbus, refusals in each family's form, and every wrong length."""
+"""Frames taken apart: PDUs against pymodbus, refusals in each family's form, and every wrong length."""
 
 import pytest
 from hypothesis import given
@@ -18,31 +18,13 @@ from pymodbus.pdu.register_message import (
 )
 
 from driveblocks.maps import adu
-from driveblocks.maps.adu import Fields, FrameError, Refusal
+from driveblocks.maps.adu import Fields, FrameError
+from driveblocks.modbus.frame import checksum
+from driveblocks.modbus.layout import Manners
 
 WORDS = st.lists(st.integers(0, 0xFFFF), min_size=1, max_size=16)
 UNIT = st.integers(1, 247)
 WORD = st.integers(0, 0xFFFF)
-
-
-@given(st.binary(min_size=1, max_size=260))
-def test_the_crc_is_that_of_pymodbus(data: bytes) -> None:
-    assert adu.crc16(data) == FramerRTU.compute_CRC(data).to_bytes(2, "big")
-
-
-@given(st.binary(min_size=1, max_size=260))
-def test_the_lrc_is_that_of_pymodbus(data: bytes) -> None:
-    assert adu.lrc(data) == bytes([FramerAscii.compute_LRC(data)])
-
-
-def test_the_crc_of_the_standard() -> None:
-    """MODBUS over Serial Line V1.02, 6.2.2 names the register after 02 07: 1241H, sent as 41 12."""
-    assert adu.crc16(bytes([2, 7])) == bytes([0x41, 0x12])
-
-
-def test_the_lrc_wraps() -> None:
-    assert adu.lrc(b"\xff\xff") == b"\x02"
-    assert adu.lrc(b"\x00") == b"\x00"
 
 
 def both(pdu: ModbusPDU) -> list[tuple[str, bytes]]:
@@ -51,13 +33,13 @@ def both(pdu: ModbusPDU) -> list[tuple[str, bytes]]:
     return [(mode, framer.buildFrame(pdu)) for mode, framer in framers]
 
 
-def apart(pdu: ModbusPDU, direction: str, refusal: Refusal = Refusal()) -> Fields:  # noqa: B008
+def apart(pdu: ModbusPDU, direction: str, manners: Manners = Manners()) -> Fields:  # noqa: B008
     """What the frames of a PDU carry; the same in both modes, and their checksums hold."""
     found = set()
     for mode, frame in both(pdu):
         body, given = adu.split(mode, frame)
-        assert given == adu.checksum(mode, body)
-        found.add(adu.fields(body, direction, refusal))
+        assert given == checksum(mode, body)
+        found.add(adu.fields(body, direction, manners))
     assert len(found) == 1
     return found.pop()
 
@@ -111,11 +93,11 @@ def test_exceptions(unit: int, function: int, code: int) -> None:
 
 
 def test_exceptions_with_another_addition() -> None:
-    assert adu.fields(bytes([1, 0x43, 2]), "reply", Refusal(add=0x40)) == Fields(1, 0x43, error=2)
+    assert adu.fields(bytes([1, 0x43, 2]), "reply", Manners(add=0x40)) == Fields(1, 0x43, error=2)
 
 
 def test_a_refusal_by_a_write_to_a_fixed_address() -> None:
-    refusal = Refusal(function=6, address=0x5001)
+    refusal = Manners(function=6, address=0x5001)
     body = bytes([1, 6, 0x50, 1, 0, 5])
     assert adu.fields(body, "reply", refusal) == Fields(1, 6, address=0x5001, error=5)
     assert adu.fields(body, "request", refusal) == Fields(1, 6, address=0x5001, values=(5,))
@@ -123,7 +105,7 @@ def test_a_refusal_by_a_write_to_a_fixed_address() -> None:
 
 
 def test_what_a_refused_request_is_due() -> None:
-    assert adu.refused(Fields(7, 3, address=1, words=2), Refusal()) == Fields(7, 0x83)
+    assert adu.refused(Fields(7, 3, address=1, words=2), Manners()) == Fields(7, 0x83)
 
 
 @pytest.mark.parametrize(
@@ -145,7 +127,7 @@ def test_what_a_refused_request_is_due() -> None:
 )
 def test_a_wrong_length_is_named(body: str, direction: str, wrong: str) -> None:
     with pytest.raises(FrameError) as caught:
-        adu.fields(bytes.fromhex(body), direction, Refusal())
+        adu.fields(bytes.fromhex(body), direction, Manners())
     assert str(caught.value) == wrong
     assert caught.value.right
 
@@ -171,7 +153,7 @@ def test_a_frame_that_cannot_be_split_is_named(mode: str, frame: bytes, wrong: s
 @given(st.sampled_from(["request", "reply"]), st.binary(min_size=3, max_size=40))
 def test_any_body_is_taken_apart_or_named(direction: str, body: bytes) -> None:
     try:
-        found = adu.fields(body, direction, Refusal(function=6, address=0x5001))
+        found = adu.fields(body, direction, Manners(function=6, address=0x5001))
     except FrameError:
         return
     assert (found.unit, found.function) == (body[0], body[1])

@@ -6,12 +6,13 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
+from driveblocks.building import build
 from driveblocks.cli import app
-from driveblocks.maps import names
+from driveblocks.maps import collection, names
 from driveblocks.maps.load import load
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.rules.identifier import OWN
-from driveblocks.render import build, text
+from driveblocks.render import text
 
 EXAMPLE = Path(__file__).with_name("example.yaml")
 
@@ -30,7 +31,7 @@ def test_names_become_identifiers(name: str, wanted: str) -> None:
 
 
 def test_the_names_of_the_blocks_that_every_drive_has_are_taken() -> None:
-    made = build.files(build.read([EXAMPLE]), text.languages(["en", "zh"], "utf-8"))
+    made = build.files(collection.read([EXAMPLE]), text.languages(["en", "zh"], "utf-8"))
     drive = load(EXAMPLE)
     rows = {names.symbol(row) for _, row in drive.registers()}
     found = {name.removeprefix("EX100_") for path in made if (name := Path(path).stem).startswith("EX100_")}

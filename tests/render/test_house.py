@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.maps import catalog
+from driveblocks.building import build
+from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import load, loads
-from driveblocks.render import build, text
 from driveblocks.render import library as library_of
+from driveblocks.render import text
 from driveblocks.st.checker import check
 from driveblocks.st.lint import lint
 from driveblocks.st.parser import parse
@@ -25,7 +26,7 @@ TEMPLATES = sorted((ROOT / "generator").rglob("*.j2"))
 
 @pytest.fixture(scope="module")
 def library() -> dict[str, str]:
-    files = build.files(build.read(MAPS), text.languages(["en", "zh"], "utf-8"))
+    files = build.files(collection.read(MAPS), text.languages(["en", "zh"], "utf-8"))
     return {name: content for name, content in files.items() if name.startswith("iec61131/") and name.endswith(".st")}
 
 
@@ -104,7 +105,7 @@ def test_a_word_called_so_and_an_edition_with_a_full_stop_are_not_said_twice() -
 
 @pytest.mark.parametrize("codes", [["en"], ["zh"], ["zh", "en"]])
 def test_texts_are_those_of_a_language_that_is_built(codes: list[str]) -> None:
-    files = build.files(build.read([MAPS[-1]]), text.languages(codes, "utf-8"))
+    files = build.files(collection.read([MAPS[-1]]), text.languages(codes, "utf-8"))
     wanted = codes[0].capitalize()
     for content in (content for name, content in files.items() if name.startswith(("iec61131/modbus", "iec61131/ex"))):
         assert set(re.findall(r"(?:see|is) \w+Text(\w\w)\b", content)) <= {wanted}

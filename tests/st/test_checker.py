@@ -10,10 +10,15 @@ from driveblocks.st.lint import lint, lint_sources
 from driveblocks.st.parser import parse
 from driveblocks.st.problems import CheckError
 from driveblocks.st.tree import (
+    Array,
     Assign,
     Binary,
+    Block,
+    Builtin,
     Call,
     CallStatement,
+    Enum,
+    EnumValue,
     Expression,
     Function,
     FunctionBlock,
@@ -21,6 +26,7 @@ from driveblocks.st.tree import (
     Member,
     Name,
     Pou,
+    Struct,
     VarDecl,
     VarKind,
 )
@@ -35,13 +41,7 @@ from driveblocks.st.types import (
     UINT,
     UNKNOWN,
     WORD,
-    Array,
-    Block,
-    Builtin,
-    Enum,
-    EnumValue,
     Kind,
-    Struct,
     Subrange,
     untyped,
 )

@@ -11,8 +11,8 @@ from tests.steps import grows_evenly
 
 from driveblocks.st.checker import analyse
 from driveblocks.st.lint import lint, lint_sources
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import ParseError, Problem
+from driveblocks.st.parser import ParseError, parse
+from driveblocks.st.problems import Problem
 from driveblocks.st.tree import Unit
 
 HERE = Path(__file__).parent

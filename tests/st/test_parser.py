@@ -2,8 +2,7 @@
 
 import pytest
 
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import ParseError
+from driveblocks.st.parser import ParseError, parse
 from driveblocks.st.tree import (
     ArrayInitial,
     ArraySpec,

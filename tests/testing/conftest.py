@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pytest
 
+from driveblocks.building.build import units
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Source
-from driveblocks.render import build
+from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
 from driveblocks.testing.outcome import Run
-from driveblocks.testing.unit import Unit, units
+from driveblocks.testing.unit import Unit
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "tests/maps/example.yaml"
@@ -25,7 +26,7 @@ Only = Callable[..., Unit]
 @pytest.fixture(scope="session")
 def made() -> dict[str, Unit]:
     """The units of the example map by name: `modbus` for the shared blocks, `example`."""
-    return {unit.suite.name: unit for unit in units(build.read([EXAMPLE]), BOTH)}
+    return {unit.suite.name: unit for unit in units(collection.read([EXAMPLE]), BOTH)}
 
 
 @pytest.fixture(scope="session")

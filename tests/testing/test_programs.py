@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.maps import catalog
-from driveblocks.render import build
+from driveblocks.building.build import units
+from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.st.lint import lint_sources
 from driveblocks.st.names import reserved
-from driveblocks.testing import programs
 from driveblocks.testing.harness import PER_SCAN
 from driveblocks.testing.script import MOST_STAGES, Program
-from driveblocks.testing.unit import Unit, units
+from driveblocks.testing.suite import programs
+from driveblocks.testing.unit import Unit
 
 from .conftest import BOTH, EXAMPLE, ROOT
 
@@ -21,7 +21,7 @@ from .conftest import BOTH, EXAMPLE, ROOT
 @pytest.fixture(scope="module")
 def all_units() -> list[Unit]:
     """The units of every map there is."""
-    return units(build.read([*catalog.shipped(), EXAMPLE]), BOTH)
+    return units(collection.read([*catalog.shipped(), EXAMPLE]), BOTH)
 
 
 @pytest.fixture(scope="module")
@@ -77,12 +77,12 @@ def test_lines_are_no_longer_than_a_screen_but_for_texts(all_programs: list[Prog
 
 
 def test_two_runs_give_the_same_files() -> None:
-    sources = build.read([EXAMPLE])
-    assert programs(sources, BOTH) == programs(build.read([EXAMPLE]), BOTH)
+    sources = collection.read([EXAMPLE])
+    assert programs(sources, BOTH) == programs(collection.read([EXAMPLE]), BOTH)
 
 
 def test_the_order_names_every_file_and_the_page_every_program(example: Unit, shared: Unit) -> None:
-    files = programs(build.read([EXAMPLE]), BOTH)
+    files = programs(collection.read([EXAMPLE]), BOTH)
     order = files["tests/iec61131/order.txt"].split()
     assert {f"tests/iec61131/{path}" for path in order} == {path for path in files if path.endswith(".st")}
     assert order[0] == "harness/DB_Failure.st"
@@ -93,12 +93,12 @@ def test_the_order_names_every_file_and_the_page_every_program(example: Unit, sh
 
 
 def test_a_language_that_is_left_out_is_not_tested() -> None:
-    files = programs(build.read([EXAMPLE]), languages(["en"], "utf-8"))
+    files = programs(collection.read([EXAMPLE]), languages(["en"], "utf-8"))
     assert not [path for path, text in files.items() if "TextZh" in path or "TextZh" in text]
 
 
 def test_chinese_is_expected_in_the_encoding_that_was_built() -> None:
-    files = programs(build.read([EXAMPLE]), languages(["zh"], "gb18030"))
+    files = programs(collection.read([EXAMPLE]), languages(["zh"], "gb18030"))
     escaped = "".join(f"${octet:02X}" for octet in "过流".encode("gb18030"))
     assert f"'{escaped}'" in files["tests/iec61131/example/EX100_TestFaultTextZh.st"]
 
@@ -114,7 +114,7 @@ def test_what_is_expected_does_not_come_from_what_renders() -> None:
 
 def test_every_frame_of_the_manuals_is_in_a_program(all_units: list[Unit]) -> None:
     paths: list[Path] = [*catalog.shipped(), EXAMPLE]
-    for source, unit in zip(build.read(paths), all_units[1:], strict=True):
+    for source, unit in zip(collection.read(paths), all_units[1:], strict=True):
         told = {
             check.words.partition(":")[0].split(" ")[0] for program in unit.suite.programs for check in program.checks
         }

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from driveblocks.building.build import units
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Engine, EngineError, Library, Source
-from driveblocks.maps import catalog
+from driveblocks.maps import catalog, collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
-from driveblocks.render import build
 from driveblocks.testing import page, runner
-from driveblocks.testing.unit import Unit, units
+from driveblocks.testing.unit import Unit
 
 from .conftest import BOTH, EXAMPLE, only, run
 
@@ -23,7 +23,7 @@ FOURTH = sorted((Path(__file__).parents[1] / "blocks/fourth_drive").glob("*.yaml
 
 
 def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
-    made = units(build.read(catalog.shipped()), BOTH)
+    made = units(collection.read(catalog.shipped()), BOTH)
     done = run(*made)
     assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
     assert done.passed
@@ -32,7 +32,7 @@ def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
 
 @pytest.mark.parametrize("path", FOURTH, ids=lambda path: path.stem)
 def test_a_drive_that_only_a_map_describes_is_green(path: Path) -> None:
-    done = run(*units(build.read([path]), BOTH))
+    done = run(*units(collection.read([path]), BOTH))
     assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
     assert done.passed
 
@@ -65,8 +65,8 @@ def test_results_come_in_the_order_of_engines_units_and_programs(example: Unit, 
 
 
 def test_a_map_without_vectors_passes_and_says_what_its_tests_rest_on() -> None:
-    (source,) = build.read([EXAMPLE])
-    bare = build.Source(source.path, replace(source.drive, frames=()))
+    (source,) = collection.read([EXAMPLE])
+    bare = collection.Source(source.path, replace(source.drive, frames=()))
     _, unit = units([bare], BOTH)
     done = run(only(unit, "Scales"))
     assert done.passed
@@ -80,7 +80,7 @@ def test_unit_addresses_that_the_standard_reserves_are_sent_where_the_manual_has
         text = text.replace(frame, far)
     path = tmp_path / "far.yaml"
     path.write_text(text, encoding="utf-8")
-    (unit,) = units(build.read([path]), BOTH)[1:]
+    (unit,) = units(collection.read([path]), BOTH)[1:]
     done = run(only(unit, "Frames", "Request"))
     assert [outcome.message for result in done.results for outcome in result.bad] == []
     assert {result.program for result in done.results} >= {"ACME_TestFrames", "ACME_TestRequest1"}

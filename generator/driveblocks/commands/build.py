@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from driveblocks.commands import Maps
+
 if TYPE_CHECKING:
-    from driveblocks.render.build import Plan
+    from driveblocks.building.build import Plan
     from driveblocks.render.text import Language
 
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
 Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when the folder is not current.")]
 Only = Annotated[bool, typer.Option("--only", help="Remove the blocks of drives that are not named.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace also those files of an earlier build that were edited.")]
@@ -37,8 +35,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.render import transaction
-    from driveblocks.render.manifest import NAME
+    from driveblocks.building import transaction
+    from driveblocks.building.manifest import NAME
     from driveblocks.render.text import missing
 
     languages, folder = _languages(lang, encoding), _folder(output)
@@ -58,19 +56,21 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 
 def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":
-    from driveblocks.render import build
+    from driveblocks.building import build
+    from driveblocks.maps import catalog
 
     with _told(folder):
-        return build.plan(folder, _paths(maps), languages, only=only)
+        return build.plan(folder, catalog.chosen(maps), languages, only=only)
 
 
 def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool, force: bool) -> "Plan":
-    from driveblocks.render import build, transaction
+    from driveblocks.building import build, transaction
+    from driveblocks.maps import catalog
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
             typer.echo(f"{folder}: took back a build that was interrupted", err=True)
-        plan = build.plan(folder, _paths(maps), languages, only=only)
+        plan = build.plan(folder, catalog.chosen(maps), languages, only=only)
         build.write(folder, plan, force=force)
         return plan
 
@@ -78,10 +78,10 @@ def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language
 @contextlib.contextmanager
 def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
+    from driveblocks.building.manifest import Refused
+    from driveblocks.building.transaction import interrupted
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
-    from driveblocks.render.manifest import Refused
-    from driveblocks.render.transaction import interrupted
 
     try:
         yield
@@ -105,12 +105,6 @@ def _again(options: dict[str, str], maps: list[str] | None, only: bool) -> str:
     usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8"}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
     return "".join(f" {word}" for word in [*(maps or ()), *given, *(["--only"] if only else ())])
-
-
-def _paths(maps: list[str] | None) -> list[Path]:
-    from driveblocks.maps import catalog
-
-    return [catalog.resolve(name) for name in maps] if maps else list(catalog.shipped())
 
 
 def _languages(lang: str, encoding: str) -> "list[Language]":

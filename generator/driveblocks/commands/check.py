@@ -1,17 +1,14 @@
 """`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
-if TYPE_CHECKING:
-    from driveblocks.maps.model import Drive
-    from driveblocks.render.build import Source
+from driveblocks.commands import Maps
 
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
+if TYPE_CHECKING:
+    from driveblocks.maps.collection import Source
+    from driveblocks.maps.model import Drive
 
 
 def run(maps: Maps = None) -> None:
@@ -37,15 +34,14 @@ def run(maps: Maps = None) -> None:
 
 def _check(name: str, good: "list[Source]") -> int:
     """Check one map, alone and with the good ones before it; print what came out and return the number of mistakes."""
-    from driveblocks.maps import catalog, view
+    from driveblocks.maps import catalog, collection, view
     from driveblocks.maps.load import load
     from driveblocks.maps.problem import MapError, printable
-    from driveblocks.render import build
 
     try:
         path = catalog.resolve(name)
-        source = build.Source(path, load(path))
-        if wrong := build.clashes([*good, source]):
+        source = collection.Source(path, load(path))
+        if wrong := collection.clashes([*good, source]):
             raise MapError(wrong)
     except catalog.UnknownDrive as unknown:
         typer.echo(f"{printable(name)}:1:1: {unknown}", err=True)

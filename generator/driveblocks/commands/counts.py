@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from driveblocks.commands import refuse
+
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
 
@@ -32,9 +34,9 @@ def run(pages: Pages = None, check: Check = False) -> None:
             return
         current = {page: inventory.update(page.read_text(encoding="utf-8"), maps, page.parent) for page in pages}
     except MapError as error:
-        raise _refused(str(error)) from None
+        refuse(str(error))
     except (OSError, ValueError) as error:
-        raise _refused(f"cannot write the table: {error}") from None
+        refuse(f"cannot write the table: {error}")
     stale = [page for page, text in current.items() if page.read_text(encoding="utf-8") != text]
     if check and stale:
         names = " ".join(map(str, pages))
@@ -49,8 +51,3 @@ def _maps() -> "dict[Path, Drive]":
     from driveblocks.maps.load import load
 
     return {path: load(path) for path in catalog.shipped()}
-
-
-def _refused(message: str) -> typer.Exit:
-    typer.echo(message, err=True)
-    return typer.Exit(2)

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from driveblocks.commands import loaded, refuse
+
 if TYPE_CHECKING:
     from driveblocks.explain.explanation import Explanation
     from driveblocks.maps.model import Drive
@@ -37,21 +39,16 @@ def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = 
     from driveblocks.explain.paste import read
     from driveblocks.explain.unreadable import UnreadableError
 
-    known, stem = _drive(drive) if drive is not None else (None, None)
+    path, known = loaded(drive) if drive is not None else (None, None)
     name = "stdin" if frame == "-" else "frame"
     try:
         asked = read(request, "request") if request is not None else None
         made = Explainer(known).explain(read(_stdin() if frame == "-" else frame, name), asked)
     except UnreadableError as error:
-        raise _refused(str(error)) from None
-    _print(made, known, stem, json)
+        refuse(str(error))
+    _print(made, known, path.stem if path is not None else None, json)
     if not made.good:
         raise typer.Exit(1)
-
-
-def _refused(message: str) -> typer.Exit:
-    typer.echo(message, err=True)
-    return typer.Exit(2)
 
 
 def _stdin() -> str:
@@ -61,20 +58,6 @@ def _stdin() -> str:
     from driveblocks.explain.paste import LONGEST
 
     return sys.stdin.buffer.read(LONGEST + 1).decode("utf-8", "replace")
-
-
-def _drive(name: str) -> "tuple[Drive, str]":
-    from driveblocks.maps import catalog
-    from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError
-
-    try:
-        path = catalog.resolve(name)
-        return load(path), path.stem
-    except catalog.UnknownDrive as unknown:
-        raise _refused(str(unknown)) from None
-    except MapError as error:
-        raise _refused(str(error)) from None
 
 
 def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: bool) -> None:

@@ -1,9 +1,11 @@
 """`driveblocks new`: a first map to go on from."""
 
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import Annotated
 
 import typer
+
+from driveblocks.commands import refuse
 
 
 def run(
@@ -27,15 +29,15 @@ def run(
     try:
         file = path.open("x", encoding="utf-8", newline="\n")
     except FileExistsError:
-        _refuse(f"{path}: is there already; name another file with -o")
+        refuse(f"{path}: is there already; name another file with -o")
     except OSError as error:
-        _refuse(f"{path}: cannot be written: {error.strerror}")
+        refuse(f"{path}: cannot be written: {error.strerror}")
     try:
         with file:
             file.write(text)
     except OSError as error:
         path.unlink(missing_ok=True)
-        _refuse(f"{path}: cannot be written: {error.strerror}")
+        refuse(f"{path}: cannot be written: {error.strerror}")
     typer.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
     typer.echo(f"driveblocks check {path}")
 
@@ -46,15 +48,10 @@ def _named(prefix: str) -> str:
     from driveblocks.maps.problem import MapError
 
     if not form.PREFIX.pattern.fullmatch(prefix):
-        _refuse(f"this cannot be a prefix; {form.PREFIX.right}")
+        refuse(f"this cannot be a prefix; {form.PREFIX.right}")
     text = page.skeleton().replace(page.PREFIX, prefix)
     try:
         load.loads(text, "the map")
     except MapError as error:
-        _refuse(f"{prefix} cannot be a prefix: {error.problems[0].wrong}; {error.problems[0].right}")
+        refuse(f"{prefix} cannot be a prefix: {error.problems[0].wrong}; {error.problems[0].right}")
     return text
-
-
-def _refuse(text: str) -> NoReturn:
-    typer.echo(text, err=True)
-    raise typer.Exit(2)

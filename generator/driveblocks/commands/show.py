@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from driveblocks.commands import loaded, refuse
+
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
@@ -33,26 +35,13 @@ def run(drive: Name, what: What = None, json: Json = False) -> None:
     """
     from driveblocks import console
     from driveblocks.maps import catalog
-    from driveblocks.maps.load import load
-    from driveblocks.maps.problem import MapError
 
-    try:
-        path = catalog.resolve(drive)
-        known = load(path)
-    except catalog.UnknownDrive as unknown:
-        raise _refused(str(unknown)) from None
-    except MapError as error:
-        raise _refused(str(error)) from None
+    path, known = loaded(drive)
     topic = what.lower() if what and what.lower() in TOPICS else None
     if json:
         _print_json(known, path.stem, what, topic)
     else:
         console.write(*_pages(known, catalog.shown(path), what, topic))
-
-
-def _refused(message: str) -> typer.Exit:
-    typer.echo(message, err=True)
-    return typer.Exit(2)
 
 
 def _print_json(drive: "Drive", stem: str, what: str | None, topic: str | None) -> None:
@@ -61,7 +50,7 @@ def _print_json(drive: "Drive", stem: str, what: str | None, topic: str | None) 
     from driveblocks.maps import view
 
     if what is not None and topic is None:
-        raise _refused(f"`--json` prints a whole drive or a topic, not `{what}`; topics are {', '.join(TOPICS)}")
+        refuse(f"`--json` prints a whole drive or a topic, not `{what}`; topics are {', '.join(TOPICS)}")
     everything = view.of_drive(drive, stem)
     shown = {"drive": stem, topic: everything[topic]} if topic else everything
     typer.echo(dumps(shown, ensure_ascii=False, indent=2))
@@ -99,7 +88,7 @@ def _found(drive: "Drive", word: str) -> "Iterator[RenderableType]":
 
     matches = lookup.find(drive, word)
     if not matches:
-        raise _refused(_nothing(drive, word))
+        refuse(_nothing(drive, word))
     chosen = [match for match in matches if match.spelled == matches[0].spelled]
     return entry.pages(drive, chosen, [match for match in matches if match not in chosen])
 

@@ -2,23 +2,21 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from driveblocks.commands import Maps, refuse
+
 if TYPE_CHECKING:
     from driveblocks.host.discovery import Candidate
-    from driveblocks.render.build import Source
+    from driveblocks.maps.collection import Source
     from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
 
 SHOWN, PER_PROGRAM = 20, 3
 """Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
 
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
 EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
 Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
 Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
@@ -53,12 +51,12 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 100
     """
+    from driveblocks.building.build import units
     from driveblocks.render.text import languages
     from driveblocks.testing import junit as xml
     from driveblocks.testing import runner
     from driveblocks.testing.coverage import Coverage, counting, result
     from driveblocks.testing.outcome import Run
-    from driveblocks.testing.unit import units
 
     candidates, chosen = _engines(engine)
     sources = _read(maps)
@@ -71,7 +69,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         if junit is not None:
             xml.write(done, junit)
     except OSError as error:
-        _refuse(f"{junit}: cannot be written: {error.strerror}")
+        refuse(f"{junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
     _unproved(sources)
     _cover(measured)
@@ -79,21 +77,15 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     raise typer.Exit(0 if done.passed else 1)
 
 
-def _refuse(text: str) -> NoReturn:
-    typer.echo(text, err=True)
-    raise typer.Exit(2)
-
-
 def _read(maps: list[str] | None) -> "list[Source]":
     """Load the maps; all mistakes of all of them are told before it ends with status 2."""
-    from driveblocks.maps import catalog
+    from driveblocks.maps import catalog, collection
     from driveblocks.maps.problem import MapError
-    from driveblocks.render import build
 
     try:
-        return build.read([catalog.resolve(name) for name in maps] if maps else list(catalog.shipped()))
+        return collection.read(catalog.chosen(maps))
     except (MapError, catalog.UnknownDrive) as error:
-        _refuse(str(error))
+        refuse(str(error))
 
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
@@ -103,11 +95,11 @@ def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
     groups = {"embedded": (EMBEDDED,), "matiec": MATIEC_NAMES, "all": (EMBEDDED, *MATIEC_NAMES)}
     groups |= {each: (each,) for each in MATIEC_NAMES}
     if name not in groups:
-        _refuse(f"there is no engine `{name}`; write one of {', '.join(groups)}")
+        refuse(f"there is no engine `{name}`; write one of {', '.join(groups)}")
     found = survey().candidates()
     asked = [each for each in found if each.name in groups[name]]
     if not any(each.engine for each in asked):
-        _refuse("\n".join(f"engine {each.name} cannot be used: {each.note}" for each in asked))
+        refuse("\n".join(f"engine {each.name} cannot be used: {each.note}" for each in asked))
     return found, [each for each in asked if each.engine is not None]
 
 

@@ -1,10 +1,13 @@
 """A reply against the request that it should answer: which field does not match, and how that may have come."""
 
-from driveblocks.explain.layout import Layout, take
+from collections.abc import Iterator
+
 from driveblocks.explain.reading import Wrong
-from driveblocks.explain.suspicion import asked_by
-from driveblocks.reference.reply import Manners, parse
-from driveblocks.reference.request import READS, Asked
+from driveblocks.modbus.layout import Layout, Manners, granted, take
+from driveblocks.modbus.request import READS, Asked, asked_by
+
+LONGEST = 254
+"""Bytes of the longest body."""
 
 _LATE = "a late reply to an earlier request"
 _OTHER_DRIVE = "another drive answered, or two have the same address"
@@ -12,13 +15,10 @@ _OTHER_DRIVE = "another drive answered, or two have the same address"
 
 def compared(manners: Manners, asked: Asked, data: bytes) -> tuple[Wrong, ...]:
     """What is wrong with a body as the reply to a request; nothing if it answers or refuses it."""
-    result = parse(manners, asked, data).result
-    if result in ("OK", "REFUSED"):
-        return ()
-    if _is_request(manners, asked, data):
+    wrong = next(_wrongs(manners, asked, data), None)
+    if wrong is not None and _is_request(manners, asked, data):
         return (Wrong("this is the request itself", ("the adapter hears what it sends (half-duplex echo)",)),)
-    one = take(data, "reply", manners)
-    return (_told(result, asked, one, data),)
+    return (wrong,) if wrong is not None else ()
 
 
 def _is_request(manners: Manners, asked: Asked, data: bytes) -> bool:
@@ -26,32 +26,57 @@ def _is_request(manners: Manners, asked: Asked, data: bytes) -> bool:
     return asked.function in (3, 4, 16) and one.fits and asked_by(one, ascii_mode=asked.ascii) == asked
 
 
-def _told(result: str, asked: Asked, one: Layout, data: bytes) -> Wrong:
-    size = 2 * asked.quantity
-    written = {
-        "BROADCAST": Wrong("the request was a broadcast, and nobody answers one"),
-        "OTHER_UNIT": Wrong(f"unit: {data[0]} answers, and unit {asked.unit} was asked", (_OTHER_DRIVE, _LATE)),
-        "OTHER_FUNCTION": Wrong(
-            f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked", (_why_function(data, asked),)
-        ),
-        "BYTE_COUNT": Wrong(_count(one, asked), _why_count(data, size)),
-        "OTHER_ADDRESS": _field("address", one.number("address"), asked.address),
-        "OTHER_VALUE": _field("value", (one.words or (one.number("data word"),))[0], asked.value),
-        "OTHER_SUB_FUNCTION": _field("sub-function", one.number("sub-function"), asked.sub_function),
-        "OTHER_QUANTITY": _field("quantity", one.number("quantity"), asked.quantity),
-    }
-    if result in written:
-        return written[result]
-    if asked.function in READS and not one.refusal:
-        wrong = f"length: {len(data)} bytes before the checksum, and the request asks for {3 + size}"
-        return Wrong(wrong, _why_length(3 + size - len(data)))
-    return Wrong(
-        f"length: {len(data)} bytes before the checksum, and such a reply has {one.size}", _why_length(one.missing)
-    )
+def _wrongs(manners: Manners, asked: Asked, data: bytes) -> Iterator[Wrong]:
+    one = take(data, "reply", manners)
+    if asked.unit == 0:
+        yield Wrong("the request was a broadcast, and nobody answers one")
+    if not 3 <= len(data) <= LONGEST:
+        yield _length(one, asked)
+    elif data[0] != asked.unit:
+        yield Wrong(f"unit: {data[0]} answers, and unit {asked.unit} was asked", (_OTHER_DRIVE, _LATE))
+    elif _refuses(manners, asked, one):
+        if one.missing:
+            yield _length(one, asked)
+    elif data[1] != asked.function:
+        wrong = f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked"
+        yield Wrong(wrong, (_why_function(data, asked),))
+    else:
+        yield from _granted(manners, asked, granted(data, "reply"))
 
 
-def _field(name: str, found: int | None, wanted: int) -> Wrong:
-    number = found or 0
+def _refuses(manners: Manners, asked: Asked, one: Layout) -> bool:
+    """Whether a reply refuses this request, in the way in which the drive refuses."""
+    if not one.refusal:
+        return False
+    refused = one.number("refused function")
+    if refused is not None:
+        return manners.add is not None and refused == asked.function
+    return one.missing == 0 and (asked.function, asked.address) != (manners.function, manners.address)
+
+
+def _granted(manners: Manners, asked: Asked, one: Layout) -> Iterator[Wrong]:
+    size = _bytes_of(asked)
+    forgiven = manners.two_byte_count or not one.two_byte_count
+    if size is not None and (one.number("byte count") != size or not forgiven):
+        yield Wrong(_count(one, asked, size), _why_count(one.body, size))
+    if one.missing:
+        yield _length(one, asked)
+    wanted = {"address": asked.address, "quantity": asked.quantity, "sub-function": asked.sub_function}
+    wanted |= {"value": asked.value, "data word": asked.value}
+    for part in one.parts:
+        if part.number != wanted.get(part.name, part.number):
+            yield _field("value" if part.name == "data word" else part.name, part.number, wanted[part.name])
+
+
+def _length(one: Layout, asked: Asked) -> Wrong:
+    found = f"length: {len(one.body)} bytes before the checksum, and"
+    size = _bytes_of(asked)
+    if size is not None and not one.refusal:
+        return Wrong(f"{found} the request asks for {3 + size}", _why_length(3 + size - len(one.body)))
+    return Wrong(f"{found} such a reply has {one.size}", _why_length(one.missing))
+
+
+def _field(name: str, number: int, wanted: int) -> Wrong:
     turned = number == (wanted & 0xFF) << 8 | wanted >> 8
     instead = ("its bytes are swapped",) if turned else (_LATE,)
     return Wrong(f"{name}: {number:04X}H answers, and {wanted:04X}H was asked", instead)
@@ -68,11 +93,19 @@ def _why_length(missing: int) -> tuple[str, ...]:
     return (f"truncated: {many} missing",) if missing > 0 else (f"{many} too many",)
 
 
-def _count(one: Layout, asked: Asked) -> str:
+def _bytes_of(asked: Asked) -> int | None:
+    """The bytes of registers, coils or inputs that a read asks for; None for what reads none of them."""
+    if asked.function in READS:
+        return 2 * asked.quantity
+    return -(-asked.quantity // 8) if asked.function in (1, 2) else None
+
+
+def _count(one: Layout, asked: Asked, size: int) -> str:
     count = one.number("byte count")
     found = "missing" if count is None else str(count)
-    many = f"{asked.quantity} register{'s' * (asked.quantity != 1)}"
-    return f"byte count: {found}; the request asks for {many}, so it is {2 * asked.quantity}"
+    kind = {1: "coil", 2: "input"}.get(asked.function, "register")
+    many = f"{asked.quantity} {kind}{'s' * (asked.quantity != 1)}"
+    return f"byte count: {found}; the request asks for {many}, so it is {size}"
 
 
 def _why_count(data: bytes, size: int) -> tuple[str, ...]:

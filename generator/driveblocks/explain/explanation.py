@@ -2,18 +2,19 @@
 
 from dataclasses import dataclass, replace
 
-from driveblocks.explain import layout, scan
+from driveblocks.explain import scan
 from driveblocks.explain.comparison import compared
 from driveblocks.explain.guess import guesses, shown
 from driveblocks.explain.paste import Paste
 from driveblocks.explain.reading import Field, Reader, Reading, Wrong
-from driveblocks.explain.suspicion import asked_by
 from driveblocks.explain.unreadable import UnreadableError
 from driveblocks.explain.wire import Wire, open_
 from driveblocks.maps.model import Drive
-from driveblocks.reference.framing import ASCII_CHARS, RTU_BYTES
-from driveblocks.reference.reply import Manners, manners
-from driveblocks.reference.request import Asked
+from driveblocks.maps.plan import manners
+from driveblocks.modbus import layout
+from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES
+from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.request import Asked, asked_by
 
 MOST_INSIDE = 16
 """Frames that are explained one by one when many are glued together."""
@@ -50,7 +51,7 @@ class Explainer:
     def __init__(self, drive: Drive | None = None) -> None:
         """Take from the map how the drive refuses."""
         self.drive = drive
-        self.manners: Manners = manners(drive) if drive is not None else Manners()
+        self.manners = manners(drive) if drive is not None else Manners()
 
     def explain(self, paste: Paste, request: Paste | None = None) -> Explanation:
         """Explain a pasted frame, as the reply to a request if one is given. Raises UnreadableError for that one."""

@@ -3,10 +3,11 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from driveblocks.explain import layout
-from driveblocks.explain.wire import DIGITS, Wire, open_, seal
-from driveblocks.reference.checksum import change, crc16, crc_bytes, lrc
-from driveblocks.reference.reply import Manners
+from driveblocks.explain.wire import DIGITS, Wire, open_
+from driveblocks.modbus import layout
+from driveblocks.modbus.checksum import crc16, crc_bytes, lrc, table
+from driveblocks.modbus.frame import seal
+from driveblocks.modbus.layout import Manners
 
 LONGEST = 2 * 513
 """Bytes beyond which nothing is tried: the longest ASCII frame as PLC registers with a character in each."""
@@ -107,17 +108,17 @@ def _modbus_tcp(wire: Wire, manners: Manners) -> Tries:
         yield Guess("this is Modbus TCP: six bytes of header, no CRC", seal("rtu", data[6:]))
 
 
+_CCITT, _DNP = table(0x8408), table(0xA6BC)
 _OTHERS: tuple[tuple[str, Callable[[bytes], int]], ...] = (
     ("a CRC-16 that starts with 0000H instead of FFFFH", lambda data: crc16(data, 0)),
     ("a CRC-16 whose result is inverted", lambda data: crc16(data) ^ 0xFFFF),
     ("the CRC of CCITT (polynomial 1021H, start FFFFH)", lambda data: _ccitt(data, 0xFFFF)),
     ("the CRC of XMODEM (polynomial 1021H, start 0000H)", lambda data: _ccitt(data, 0)),
-    ("the CRC of KERMIT (polynomial 1021H mirrored)", lambda data: _mirrored_ccitt(data, 0)),
-    ("the CRC of X.25 (polynomial 1021H mirrored, inverted)", lambda data: _mirrored_ccitt(data, 0xFFFF) ^ 0xFFFF),
-    ("the CRC of DNP", lambda data: _dnp(data) ^ 0xFFFF),
+    ("the CRC of KERMIT (polynomial 1021H mirrored)", lambda data: crc16(data, 0, _CCITT)),
+    ("the CRC of X.25 (polynomial 1021H mirrored, inverted)", lambda data: crc16(data, 0xFFFF, _CCITT) ^ 0xFFFF),
+    ("the CRC of DNP", lambda data: crc16(data, 0, _DNP) ^ 0xFFFF),
     ("the sum of the bytes", lambda data: sum(data) & 0xFFFF),
 )
-_MIRRORED_CCITT, _DNP = change(0x11021), change(0x13D65)
 
 
 def _ccitt(data: bytes, crc: int) -> int:
@@ -125,19 +126,6 @@ def _ccitt(data: bytes, crc: int) -> int:
         crc ^= byte << 8
         for _ in range(8):
             crc = (crc << 1 ^ 0x1021 if crc & 0x8000 else crc << 1) & 0xFFFF
-    return crc
-
-
-def _mirrored_ccitt(data: bytes, crc: int) -> int:
-    for byte in data:
-        crc = crc >> 8 ^ _MIRRORED_CCITT[(crc ^ byte) & 0xFF]
-    return crc
-
-
-def _dnp(data: bytes) -> int:
-    crc = 0
-    for byte in data:
-        crc = crc >> 8 ^ _DNP[(crc ^ byte) & 0xFF]
     return crc
 
 

@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 from driveblocks.maps import view
-from driveblocks.maps.form import address_text, bits_text
+from driveblocks.maps.adu import number
+from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Drive, Register, Value
-from driveblocks.reference.register import count, number
-from driveblocks.reference.standstill import holds
 from driveblocks.tables.register import condition
+
+WORD = Span(0, 15)
 
 
 @dataclass(frozen=True)
@@ -88,14 +89,14 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
     known = Held(
         address,
         word,
-        None if word is None else count(row, word),
+        None if word is None else number(word, row.signed),
         id=view.ids(row)[address - row.address.first],
         name="not used" if row.unused else row.name or "",
         zh=row.text_zh or "",
     )
     if word is None:
         return known
-    value = count(row, word) * row.scale.factor if row.scale else None
+    value = number(word, row.signed) * row.scale.factor if row.scale else None
     lines = (*_lines(row, word), *_faults(drive, address, word), *(_commands(drive, address, word) if writing else ()))
     note = "; ".join(_notes(drive, row, word, writing))
     return replace(known, value=value, unit=row.unit, note=note, lines=lines)
@@ -103,11 +104,16 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
 
 def _lines(row: Register, word: int) -> Iterator[Line]:
     for bit in row.bits:
-        yield from _bit(bit, number(word, bit.bit))
+        yield from _bit(bit, _bits(word, bit.bit))
     for value in row.values:
         if word & value.value if row.masks else word == value.value & 0xFFFF:
             mark = f".{value.value.bit_length() - 1:X}" if row.masks else "="
             yield Line(mark, "", value.name, value.text_zh or "", 1 if row.masks else value.value)
+
+
+def _bits(word: int, span: Span) -> int:
+    """The number that some bits of a word make."""
+    return word >> span.first & (1 << len(span)) - 1
 
 
 def _bit(bit: Bit, found: int) -> Iterator[Line]:
@@ -161,7 +167,7 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield f"only while {condition(row.scale.when)}"
     if row.unit is not None and row.scale is None:
         yield f"in {row.unit}, but the manual gives no scale"
-    if row.range is not None and not row.range.holds(count(row, word)):
+    if row.range is not None and not row.range.holds(number(word, row.signed)):
         yield f"outside the range {row.range.min} to {row.range.max}"
     if row.values and not row.masks and _listed(row.values, word) is None:
         turned = _listed(row.values, (word & 0xFF) << 8 | word >> 8)
@@ -177,7 +183,7 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield f"stores all parameters{most}"
     proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
     if not writing and proofs:
-        met = all(holds(one, word) for one in proofs)
+        met = all(_bits(word, one.bit or WORD) == one.equals for one in proofs)
         yield "as at standstill" if met else "no standstill"
 
 

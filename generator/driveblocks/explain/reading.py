@@ -3,15 +3,15 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from driveblocks.explain import layout, suspicion
-from driveblocks.explain.layout import Direction, Layout, Part
+from driveblocks.explain import suspicion
 from driveblocks.explain.meaning import Held, held
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Drive, ErrorCode
-from driveblocks.reference.permission import MOST_READ
-from driveblocks.reference.reply import Manners
-from driveblocks.reference.request import Asked
-from driveblocks.reference.text import error_number
+from driveblocks.maps.plan import READ_WORDS
+from driveblocks.maps.view import error_number
+from driveblocks.modbus import layout
+from driveblocks.modbus.layout import Direction, Layout, Manners, Part
+from driveblocks.modbus.request import Asked
 from driveblocks.tables.layout import both
 
 _STANDARD = {
@@ -191,7 +191,7 @@ class Reader:
             address = first + place if first is not None and first + place <= 0xFFFF else None
             yield held(self.drive, address, word, writing=writing)
         quantity = one.number("quantity") or 0
-        if not one.words and first is not None and one.function in (3, 4, 16) and quantity <= MOST_READ:
+        if not one.words and first is not None and one.function in (3, 4, 16) and quantity <= READ_WORDS:
             for address in range(first, min(first + quantity, 0x10000)):
                 yield held(self.drive, address, None, writing=False)
 

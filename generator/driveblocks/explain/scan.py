@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from driveblocks.explain import layout
 from driveblocks.explain.wire import mode_of, open_
-from driveblocks.reference.checksum import crc_bytes
-from driveblocks.reference.framing import RTU_BYTES
-from driveblocks.reference.reply import Manners
+from driveblocks.modbus import layout
+from driveblocks.modbus.checksum import crc_bytes
+from driveblocks.modbus.frame import RTU_BYTES
+from driveblocks.modbus.layout import Manners
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,12 @@
 """What a drive, or the standard, would not take of a request or not send as a reply, and what was probably meant."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
-from driveblocks.explain.layout import KNOWN, Layout
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Drive
-from driveblocks.reference.permission import most
-from driveblocks.reference.request import BUILDABLE, COUNTED, READS, Asked, Requests
+from driveblocks.maps.plan import most, plan
+from driveblocks.modbus.layout import KNOWN, Layout
+from driveblocks.modbus.request import READS, Asked, asked_by
 
 Told = tuple[str, str]
 """What is wrong, and what it might be instead."""
@@ -23,26 +23,10 @@ def wrongs(drive: Drive | None, one: Layout, *, ascii_mode: bool) -> Iterator[To
     if one.function not in {function.code for function in drive.functions}:
         if not one.refusal:
             yield _function(drive, one)
-    elif one.function in BUILDABLE and not one.refusal:
+    elif one.function in (*READS, 6, 8, 16) and not one.refusal:
         yield from _request(drive, one, ascii_mode)
     if one.direction == "reply" and one.function in READS and not one.refusal:
         yield from _many(drive, one, ascii_mode)
-
-
-def asked_by(one: Layout, *, ascii_mode: bool = False) -> Asked:
-    """The request that a layout is, or that its reply answers as far as the reply repeats it."""
-    value = one.number("data word") if one.function == 8 else one.number("value")
-    quantity = one.number("quantity")
-    return Asked(
-        function=one.function,
-        unit=one.body[0],
-        address=one.number("address") or 0,
-        quantity=1 if quantity is None else quantity,
-        value=value or 0,
-        sub_function=one.number("sub-function") or 0,
-        words=one.words,
-        ascii=ascii_mode,
-    )
 
 
 def _unit(drive: Drive | None, one: Layout) -> Iterator[Told]:
@@ -82,7 +66,7 @@ def _standard(one: Layout) -> Iterator[Told]:
     if quantity is not None and limit is not None and not 1 <= quantity <= limit:
         yield (
             f"quantity {quantity} is out of range: 1 to {limit}",
-            _swapped(quantity, lambda turned: 1 <= turned <= limit),
+            _swapped(quantity, limit),
         )
     elif quantity is not None and address + quantity > 0x10000:
         yield "the registers run past FFFFH", ""
@@ -91,47 +75,56 @@ def _standard(one: Layout) -> Iterator[Told]:
 def _request(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
     """What the drive's request block refuses; a reply that repeats address and quantity is judged the same."""
     asked = asked_by(one, ascii_mode=ascii_mode)
-    if one.direction == "reply" and one.function in READS:
+    reading = asked.function in READS
+    if one.direction == "reply" and reading:
         return
-    requests = Requests(drive)
-    results = list(requests.wrongs(asked))
-    if "QUANTITY" in results or "ASCII_LIMIT" in results:
-        yield _quantity(drive, asked, ascii_mode="QUANTITY" not in results)
-    elif "WRAP" in results:
+    allows = plan(drive)
+    counted = asked.function in (*READS, 16)
+    wrong = list(_quantity(drive, asked)) if counted else []
+    if wrong:
+        yield wrong[0]
+    elif counted and asked.address + asked.quantity > 0x10000:
         yield "the registers run past FFFFH", ""
-    elif "NOT_READABLE" in results or "NOT_WRITABLE" in results:
-        yield _address(drive, requests, asked)
-    elif "SUB_FUNCTION" in results:
-        yield f"{drive.prefix} does not know sub-function {asked.sub_function:04X}H", ""
+    elif asked.function == 8:
+        if asked.sub_function not in allows.sub_functions:
+            yield f"{drive.prefix} does not know sub-function {asked.sub_function:04X}H", ""
+    else:
+        yield from _address(drive, asked, _within(allows.readable), _within(allows.writable))
 
 
-def _quantity(drive: Drive, asked: Asked, *, ascii_mode: bool) -> Told:
-    limits = most(drive, ascii_mode=ascii_mode)
-    limit = limits.read if asked.function in READS else limits.write
-    wrong = f"quantity {asked.quantity} is out of range: 1 to {limit}{' in ASCII' if ascii_mode else ''}"
-    return wrong, _swapped(asked.quantity, lambda turned: 1 <= turned <= limit)
+def _within(spans: tuple[Span, ...]) -> frozenset[int]:
+    return frozenset(address for span in spans for address in span)
+
+
+def _quantity(drive: Drive, asked: Asked) -> Iterator[Told]:
+    """A number of registers that no frame carries, or none in ASCII."""
+    for mode, named in (("rtu", ""), ("ascii", " in ASCII")) if asked.ascii else (("rtu", ""),):
+        words = most(drive, mode)
+        limit = words.read if asked.function in READS else words.write
+        if not 1 <= asked.quantity <= limit:
+            wrong = f"quantity {asked.quantity} is out of range: 1 to {limit}{named}"
+            yield wrong, _swapped(asked.quantity, limit)
 
 
 def _many(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
-    limit = most(drive, ascii_mode=ascii_mode).read
+    limit = most(drive, "ascii" if ascii_mode else "rtu").read
     if len(one.words) > limit:
         yield f"{len(one.words)} registers are more than {drive.prefix} sends at once: {limit}", ""
 
 
-def _address(drive: Drive, requests: Requests, asked: Asked) -> Told:
+def _address(drive: Drive, asked: Asked, readable: frozenset[int], writable: frozenset[int]) -> Iterator[Told]:
     reading = asked.function in READS
-    allowed = requests.readable if reading else requests.writable
-    count = asked.quantity if asked.function in COUNTED else 1
-    closed = [one for one in range(asked.address, asked.address + count) if one not in allowed]
-    where = (
-        span_text(Span(closed[0], closed[-1])) if closed[-1] - closed[0] == len(closed) - 1 else address_text(closed[0])
-    )
+    allowed, other = (readable, writable) if reading else (writable, readable)
+    closed = [one for one in range(asked.address, asked.address + asked.quantity) if one not in allowed]
+    if not closed:
+        return
+    whole = closed[-1] - closed[0] == len(closed) - 1
+    where = span_text(Span(closed[0], closed[-1])) if whole else address_text(closed[0])
     wrong = f"{where} may not be {'read' if reading else 'written'}"
-    if not reading and closed[0] in requests.readable:
-        return wrong, "it may only be read"
-    if reading and closed[0] in requests.writable:
-        return wrong, "it may only be written"
-    return f"{wrong}: the map does not list it as such", _meant(drive, asked.address, count, allowed)
+    if closed[0] in other:
+        yield wrong, f"it may only be {'written' if reading else 'read'}"
+    else:
+        yield f"{wrong}: the map does not list it as such", _meant(drive, asked.address, asked.quantity, allowed)
 
 
 def _meant(drive: Drive, address: int, count: int, allowed: frozenset[int]) -> str:
@@ -148,6 +141,6 @@ def _meant(drive: Drive, address: int, count: int, allowed: frozenset[int]) -> s
     return ""
 
 
-def _swapped(number: int, good: Callable[[int], bool]) -> str:
+def _swapped(number: int, limit: int) -> str:
     turned = (number & 0xFF) << 8 | number >> 8
-    return f"{turned}, if its bytes are swapped" if good(turned) else ""
+    return f"{turned}, if its bytes are swapped" if 1 <= turned <= limit else ""

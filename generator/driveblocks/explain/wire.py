@@ -2,11 +2,9 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal
 
-from driveblocks.reference.checksum import crc_bytes, lrc
+from driveblocks.modbus.frame import Mode, checksum, seal
 
-Mode = Literal["rtu", "ascii"]
 DIGITS = b"0123456789ABCDEFabcdef"
 SHORTEST = {"rtu": 4, "ascii": 3}
 """Bytes of the shortest frame: unit address, function code and checksum."""
@@ -31,7 +29,7 @@ class Wire:
     @property
     def expected(self) -> bytes:
         """The checksum that belongs to the body."""
-        return bytes([lrc(self.body)]) if self.mode == "ascii" else crc_bytes(self.body)
+        return checksum(self.mode, self.body)
 
     @property
     def right(self) -> bool:
@@ -46,13 +44,6 @@ class Wire:
     def sealed(self, body: bytes) -> bytes:
         """Another body framed in the same mode."""
         return seal(self.mode, body)
-
-
-def seal(mode: Mode, body: bytes) -> bytes:
-    """A body as a frame of some mode."""
-    if mode == "rtu":
-        return body + crc_bytes(body)
-    return b":" + (body + bytes([lrc(body)])).hex().upper().encode("ascii") + b"\r\n"
 
 
 def mode_of(data: bytes) -> Mode:

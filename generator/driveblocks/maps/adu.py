@@ -5,6 +5,8 @@ Only for judging a map's vectors; blocks and their tests have their own.
 
 from dataclasses import dataclass, replace
 
+from driveblocks.modbus.layout import Manners
+
 _MOST_SHOWN = 16
 _WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
 
@@ -33,15 +35,6 @@ class Fields:
     error: int | None = None
 
 
-@dataclass(frozen=True)
-class Refusal:
-    """How a drive refuses: by a function code with something added, or by a write reply to a fixed address."""
-
-    add: int = 0x80
-    function: int | None = None
-    address: int | None = None
-
-
 def octets(data: bytes) -> str:
     """Bytes as a map writes them: 25 C0."""
     return data.hex(" ").upper()
@@ -62,34 +55,14 @@ def number(word: int, signed: bool) -> int:
     return word - 0x10000 if signed and word & 0x8000 else word
 
 
-def refused(request: Fields, refusal: Refusal) -> Fields:
+def refused(request: Fields, manners: Manners) -> Fields:
     """Unit and function of an exception reply to a request."""
-    return Fields(request.unit, request.function + refusal.add)
-
-
-def crc16(data: bytes) -> bytes:
-    """CRC-16 of MODBUS (polynomial A001H reflected, start FFFFH) as the two bytes on the wire, low byte first."""
-    crc = 0xFFFF
-    for byte in data:
-        crc ^= byte
-        for _ in range(8):
-            crc = (crc >> 1) ^ 0xA001 if crc & 1 else crc >> 1
-    return crc.to_bytes(2, "little")
-
-
-def lrc(data: bytes) -> bytes:
-    """LRC of MODBUS ASCII: two's complement of the sum of the bytes, one byte."""
-    return bytes([-sum(data) & 0xFF])
+    return Fields(request.unit, request.function + manners.added)
 
 
 def split(mode: str, frame: bytes) -> tuple[bytes, bytes]:
     """Return (unit address, function and data; checksum). Raises FrameError."""
     return _split_ascii(frame) if mode == "ascii" else _split_rtu(frame)
-
-
-def checksum(mode: str, body: bytes) -> bytes:
-    """The checksum that a body needs in a mode."""
-    return lrc(body) if mode == "ascii" else crc16(body)
 
 
 def _split_rtu(frame: bytes) -> tuple[bytes, bytes]:
@@ -117,14 +90,14 @@ def _split_ascii(frame: bytes) -> tuple[bytes, bytes]:
     return body[:-1], body[-1:]
 
 
-def fields(body: bytes, direction: str, refusal: Refusal) -> Fields:
+def fields(body: bytes, direction: str, manners: Manners) -> Fields:
     """Take a body (without checksum) apart. Raises FrameError when the length does not fit the function."""
     base = Fields(body[0], body[1])
     data = body[2:]
-    if direction == "reply" and (base.function & 0x80 or base.function - refusal.add in _FUNCTIONS):
+    if direction == "reply" and (base.function & 0x80 or base.function - manners.added in _FUNCTIONS):
         _need(data, 1, "an exception reply")
         return replace(base, error=data[0])
-    if direction == "reply" and base.function == refusal.function and _word(data, 0) == refusal.address:
+    if direction == "reply" and base.function == manners.function and _word(data, 0) == manners.address:
         _need(data, 4, "an error reply")
         return replace(base, address=_word(data, 0), error=_word(data, 2))
     reader = _READERS.get((base.function, direction))

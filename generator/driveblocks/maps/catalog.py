@@ -65,6 +65,11 @@ def resolve(name: str) -> Path:
     raise _unknown(name, maps)
 
 
+def chosen(names: Iterable[str] | None) -> list[Path]:
+    """The maps of the words of a command line; all that are shipped without any. Raises UnknownDrive."""
+    return [resolve(name) for name in names] if names else list(shipped())
+
+
 def _names(path: Path) -> tuple[str, ...]:
     """Lower-case file stem and block prefix; a map that cannot be read keeps its stem."""
     try:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Limit
+from driveblocks.modbus.layout import Manners
 
 READ_WORDS, WRITE_WORDS = 125, 123
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: registers that fit into a PDU of 253 bytes."""
@@ -31,44 +32,46 @@ class Plan:
     ascii: Words
     readable: tuple[Span, ...]
     writable: tuple[Span, ...]
-    ram_only: Span | None
-    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
 
 
 def plan(drive: Drive) -> Plan:
     """Derive the plan of a checked map."""
     functions = {function.code: function for function in drive.functions}
-    ram_only = _ram_only(drive)
     return Plan(
         functions=frozenset(functions),
         sub_functions=tuple(sub.code for sub in functions[8].sub_functions) if 8 in functions else (),
-        rtu=_words(drive, "rtu", drive.limits.data_bytes),
-        ascii=_words(drive, "ascii", drive.limits.ascii_data_bytes),
+        rtu=_words(drive, "rtu"),
+        ascii=_words(drive, "ascii"),
         readable=_merged(_allowed(drive, "r")),
-        writable=_merged([*_allowed(drive, "w"), *([ram_only] if ram_only else [])]),
-        ram_only=ram_only,
+        writable=_merged([*_allowed(drive, "w"), *_ram_only(drive)]),
     )
 
 
-def _words(drive: Drive, mode: str, size: Limit | None) -> Words:
+def _words(drive: Drive, mode: str) -> Words:
     codes = {function.code for function in drive.functions}
     if mode not in drive.serial.mode.modes:
         return Words(0, 0)
+    limits = most(drive, mode)
+    return Words(limits.read if codes & {3, 4} else 0, limits.write if 16 in codes else 0)
+
+
+def most(drive: Drive, mode: str) -> Words:
+    """Most registers that fit into a frame of a mode, whether the drive has the mode and the functions or not."""
+    size = drive.limits.ascii_data_bytes if mode == "ascii" else drive.limits.data_bytes
     room = size.value if size else 2 * READ_WORDS + READ_OVERHEAD
     read = min(_value(drive.limits.read_words, READ_WORDS), (room - READ_OVERHEAD) // 2)
-    write = min(_value(drive.limits.write_words, WRITE_WORDS), (room - WRITE_OVERHEAD) // 2, WRITE_WORDS)
-    return Words(read if codes & {3, 4} else 0, write if 16 in codes else 0)
+    return Words(read, min(_value(drive.limits.write_words, WRITE_WORDS), (room - WRITE_OVERHEAD) // 2, WRITE_WORDS))
 
 
 def _value(limit: Limit | None, default: int) -> int:
     return limit.value if limit else default
 
 
-def _ram_only(drive: Drive) -> Span | None:
-    area = next((area for area in drive.areas if area.id == drive.storage.area), None)
-    if area is None or drive.storage.add is None:
-        return None
-    return Span(area.addresses.first + drive.storage.add, area.addresses.last + drive.storage.add)
+def _ram_only(drive: Drive) -> list[Span]:
+    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
+    areas = [area.addresses for area in drive.areas if area.id == drive.storage.area]
+    add = drive.storage.add
+    return [] if add is None else [Span(area.first + add, area.last + add) for area in areas]
 
 
 def _allowed(drive: Drive, use: str) -> list[Span]:
@@ -88,3 +91,12 @@ def _merged(spans: Iterable[Span]) -> tuple[Span, ...]:
         else:
             merged.append(span)
     return tuple(merged)
+
+
+def manners(drive: Drive) -> Manners:
+    """How the drive refuses and what it is forgiven; where the manual does not say, the standard holds."""
+    tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
+    form = drive.errors.form
+    if form is None:
+        return Manners(two_byte_count=tolerant)
+    return Manners(form.add, form.function, form.address, tolerant)

@@ -6,7 +6,7 @@ from decimal import Decimal
 from typing import Any
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Bit, Drive, Entry, Named, Register, Section
+from driveblocks.maps.model import Bit, Drive, Entry, ErrorCode, Named, Register, Section
 from driveblocks.maps.shape import keys_of
 
 Plain = dict[str, Any]
@@ -101,6 +101,12 @@ def ids(row: Register) -> tuple[str, ...]:
         return (first,) * len(row.address)
     low, width = int(match[2]), len(match[2])
     return tuple(f"{match[1]}{low + n:0{width}d}" for n in range(len(row.address)))
+
+
+def error_number(entry: ErrorCode) -> int | None:
+    """The printed code, or where none is printed the first number that another document gives."""
+    found = (one.value for one in entry.corroborated if one.value is not None)
+    return entry.code if entry.code is not None else next(found, None)
 
 
 def plain(value: Any) -> Any:

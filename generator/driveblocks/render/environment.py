@@ -8,7 +8,9 @@ import jinja2
 
 from driveblocks.maps import form
 from driveblocks.maps.model import Condition
-from driveblocks.render import expression, literal, results
+from driveblocks.modbus.checksum import MODBUS
+from driveblocks.render import expression, results
+from driveblocks.st import writing
 
 ABI = 1
 """Version of the shared types; blocks of one ABI number fit together."""
@@ -18,6 +20,7 @@ _INNER = re.compile(r"  (\w+) : ")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 _NAME = re.compile(r"\w+")
 _RULE = "   " + "-" * 97
+_MADE_BY = ("Made by", "DriveBlocks; written by the generator, so changes belong into its template or map.")
 
 
 @cache
@@ -35,9 +38,9 @@ def environment() -> jinja2.Environment:
         head=head, type_head=type_head, crc_table=crc_table, result=results.code, fail=results.fail, abi=ABI
     )
     made.filters.update(
-        word=literal.word,
-        byte=literal.byte,
-        comment=literal.comment,
+        word=writing.word,
+        byte=writing.byte,
+        comment=writing.comment,
         span=form.span_text,
         address=form.address_text,
         assign=assign,
@@ -54,7 +57,7 @@ def environment() -> jinja2.Environment:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    return literal.aligned(needed(environment().get_template(template).render(**context)))
+    return writing.aligned(needed(environment().get_template(template).render(**context)))
 
 
 def needed(text: str) -> str:
@@ -82,11 +85,12 @@ def type_head(name: str, title: str, note: str) -> str:
 
 
 def _comment(title: str, parts: list[tuple[str, str]]) -> str:
-    body = "\n".join(literal.paragraph(label, text) for label, text in parts)
-    last = literal.paragraph(
-        "Made by", "DriveBlocks; written by the generator, so changes belong into its template or map."
-    )
-    return f"(* {literal.comment(title)}\n{_RULE}\n{body}\n{last} *)"
+    body = "\n".join(_part(*each) for each in (*parts, _MADE_BY))
+    return f"(* {writing.comment(title)}\n{_RULE}\n{body} *)"
+
+
+def _part(label: str, text: str) -> str:
+    return "\n".join(writing.paragraph(f"   {label:<9}", text, width=100))
 
 
 def assign(name: str) -> str:
@@ -101,12 +105,6 @@ def condition(one: Condition) -> str:
 
 
 def crc_table() -> str:
-    """The 256 words of the CRC table, computed from the polynomial A001H, eight to a row."""
-    return literal.rows(literal.word(_crc_entry(index)) for index in range(256))
-
-
-def _crc_entry(index: int) -> int:
-    value = index
-    for _ in range(8):
-        value = (value >> 1) ^ 0xA001 if value & 1 else value >> 1
-    return value
+    """The 256 words of the CRC table, eight to a row."""
+    words = [writing.word(entry) for entry in MODBUS]
+    return ",\n".join("    " + ", ".join(words[at : at + 8]) for at in range(0, len(words), 8))

@@ -5,7 +5,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
-from driveblocks.render.literal import word
+from driveblocks.st.writing import word
 
 T = TypeVar("T")
 

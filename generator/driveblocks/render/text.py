@@ -6,9 +6,10 @@ from typing import Any
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
+from driveblocks.maps.view import error_number
 from driveblocks.render import results
 from driveblocks.render.context import Context, source_of
-from driveblocks.render.literal import string
+from driveblocks.st.writing import string
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,7 @@ class Language:
 
     def literal(self, text: str) -> str:
         """The text as a STRING literal, whole: a checked map has none that is too long."""
-        return string(text, self.encoding)
+        return string(text.encode(self.encoding))
 
     def pick(self, entry: Returned | Bit) -> str:
         """The text of an entry in this language, in its short wording where it has one."""
@@ -108,7 +109,7 @@ def error_texts(drive: Drive, language: Language) -> Context:
     """For CodeText: error codes; those without a printed code have the number that another document gives."""
     rows = []
     for error in drive.errors.codes:
-        code = error.code if error.code is not None else next((c.value for c in error.corroborated if c.value), None)
+        code = error_number(error)
         if code is not None:
             rows.append(_entry(language, code, error))
     head = {

@@ -4,17 +4,8 @@ from __future__ import annotations
 
 from driveblocks.st.check_expression import ExpressionChecker
 from driveblocks.st.report import nearest
-from driveblocks.st.tree import Argument, Binding, Call
-from driveblocks.st.types import (
-    BOOL,
-    UNKNOWN,
-    Block,
-    Direction,
-    Kind,
-    Parameter,
-    plain,
-    untyped,
-)
+from driveblocks.st.tree import Argument, Binding, Block, Call, Direction, Parameter
+from driveblocks.st.types import BOOL, UNKNOWN, Kind, plain, untyped
 
 
 class BindingChecker(ExpressionChecker):

@@ -5,15 +5,8 @@ from __future__ import annotations
 from driveblocks.st.check_standard import StandardChecker
 from driveblocks.st.report import nearest
 from driveblocks.st.standard import BLOCKS, FUNCTIONS, Conversion, conversion_of
-from driveblocks.st.tree import Call, Function, FunctionBlock, Name
-from driveblocks.st.types import (
-    UNKNOWN,
-    UNTYPED_INTEGER,
-    VOID,
-    Block,
-    Kind,
-    Type,
-)
+from driveblocks.st.tree import Block, Call, Function, FunctionBlock, Name
+from driveblocks.st.types import UNKNOWN, UNTYPED_INTEGER, VOID, Kind, Type
 
 # What dialects take addresses and sizes with.
 _ADDRESSES = frozenset(["ADR", "ADRINST", "BITADR", "REF", "SIZEOF", "INDEXOF"])

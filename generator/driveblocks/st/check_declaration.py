@@ -6,19 +6,22 @@ from driveblocks.st.check_statement import StatementChecker
 from driveblocks.st.library import Library
 from driveblocks.st.report import Report
 from driveblocks.st.resolve import Resolver
-from driveblocks.st.tree import Function, FunctionBlock, NamedSpec, Pou, Program, StructSpec, TypeDecl, VarDecl, VarKind
-from driveblocks.st.types import (
-    UNKNOWN,
-    VOID,
+from driveblocks.st.tree import (
     Array,
     Block,
     Direction,
-    Kind,
+    Function,
+    FunctionBlock,
+    NamedSpec,
     Parameter,
-    Struct,
-    Type,
-    same,
+    Pou,
+    Program,
+    StructSpec,
+    TypeDecl,
+    VarDecl,
+    VarKind,
 )
+from driveblocks.st.types import UNKNOWN, VOID, Kind, Type, same
 
 _DIRECTIONS = {
     VarKind.INPUT: Direction.INPUT,
@@ -159,10 +162,3 @@ class DeclarationChecker(StatementChecker):
         elif target.constant != variable.constant:
             wanted = "VAR_EXTERNAL CONSTANT" if target.constant else "VAR_EXTERNAL without CONSTANT"
             self.report.add(variable.at, "type-mismatch", f"expected {wanted}, as the VAR_GLOBAL has it")
-
-
-def fields_of(made: Type) -> list[Type]:
-    """The types directly inside a type."""
-    if isinstance(made, Struct):
-        return [each.type for each in made.fields.values()]
-    return [made.element] if isinstance(made, Array) else []

@@ -10,12 +10,16 @@ from driveblocks.st.check_value import untyped_of
 from driveblocks.st.library import Library, fold
 from driveblocks.st.report import Report, nearest
 from driveblocks.st.tree import (
+    Array,
     ArrayInitial,
     Binary,
     BitAccess,
+    Block,
     Call,
     Dereference,
     Direct,
+    Enum,
+    EnumValue,
     Expression,
     Index,
     Literal,
@@ -24,6 +28,7 @@ from driveblocks.st.tree import (
     Name,
     Qualified,
     Repeat,
+    Struct,
     StructInitial,
     TypeDecl,
     Unary,
@@ -45,14 +50,9 @@ from driveblocks.st.types import (
     VOID,
     WORD,
     WSTRING,
-    Array,
-    Block,
     Elementary,
-    Enum,
-    EnumValue,
     Kind,
     Pointer,
-    Struct,
     Type,
     plain,
     untyped,
@@ -84,15 +84,6 @@ class ExpressionChecker(OperatorChecker):
         """Check an expression that must be of the type `wanted`."""
         self.infer(value)
         self.fits(value, wanted)
-
-    def of_kind(self, value: Expression, kinds: frozenset[Kind], what: str) -> Type:
-        """Check an expression that must be of one of these kinds."""
-        self.infer(value)
-        if untyped(value.type):
-            self.settle(value, self.default(value))
-        if value.type.kind not in kinds and value.type is not UNKNOWN:
-            self.report.add(value.at, "type-mismatch", f"expected {what}, found {value.type}")
-        return value.type
 
     def literal(self, value: Literal) -> Type:
         """A literal: of its prefix, or of its kind."""

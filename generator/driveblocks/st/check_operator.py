@@ -13,6 +13,7 @@ from driveblocks.st.types import (
     DATE,
     DATE_AND_TIME,
     REAL,
+    TEMPORAL,
     TIME,
     TIME_OF_DAY,
     UNKNOWN,
@@ -28,7 +29,6 @@ from driveblocks.st.types import (
 
 _COMPARISONS = frozenset(["=", "<>", "<", ">", "<=", ">="])
 _KINDS_OF = {"AND": ANY_BIT, "OR": ANY_BIT, "XOR": ANY_BIT, "MOD": ANY_INT}
-_MOMENTS = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 # What + and - make of moments and durations (table 30).
 _TIMES: dict[tuple[str, Type, Type], Type] = {
     ("+", TIME, TIME): TIME,
@@ -104,7 +104,7 @@ class OperatorChecker(ValueChecker):
         """Whether an operator works on durations or moments."""
         if op not in ("+", "-", "*", "/"):
             return False
-        return bool(_MOMENTS & {left.kind, right.kind})
+        return bool(TEMPORAL & {left.kind, right.kind})
 
     def joined(self, value: Binary, kinds: frozenset[Kind]) -> Type:
         """Both operands of one type out of `kinds`; that type is the result's."""

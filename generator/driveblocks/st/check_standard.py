@@ -6,7 +6,7 @@ from driveblocks.st.check_binding import BindingChecker
 from driveblocks.st.check_operator import conversion_to_bits
 from driveblocks.st.check_value import BITS_OF_SINT, leave_open
 from driveblocks.st.standard import Conversion, Group, Signature
-from driveblocks.st.tree import Argument, Binding, Call, Expression
+from driveblocks.st.tree import Argument, Binding, Builtin, Call, Expression, Parameter
 from driveblocks.st.types import (
     ANY,
     ANY_BIT,
@@ -16,9 +16,7 @@ from driveblocks.st.types import (
     UNKNOWN,
     UNTYPED_INTEGER,
     UNTYPED_REAL,
-    Builtin,
     Kind,
-    Parameter,
     Type,
     conversion,
     plain,

@@ -8,13 +8,16 @@ from typing import Any
 from driveblocks.st.check_call import CallChecker
 from driveblocks.st.library import fold
 from driveblocks.st.tree import (
+    Array,
     ArrayInitial,
     Assign,
+    Block,
     Call,
     CallStatement,
     Case,
     Continue,
     Empty,
+    EnumValue,
     Exit,
     Expression,
     For,
@@ -27,22 +30,11 @@ from driveblocks.st.tree import (
     RepeatUntil,
     Return,
     Statement,
+    Struct,
     StructInitial,
     While,
 )
-from driveblocks.st.types import (
-    BOOL,
-    INT,
-    UNKNOWN,
-    Array,
-    Block,
-    EnumValue,
-    Kind,
-    Struct,
-    Type,
-    plain,
-    untyped,
-)
+from driveblocks.st.types import BOOL, INT, UNKNOWN, Kind, Type, plain, untyped
 
 
 class StatementChecker(CallChecker):

@@ -7,7 +7,7 @@ import sys
 from driveblocks.st.library import fold
 from driveblocks.st.report import Report
 from driveblocks.st.standard import FUNCTIONS
-from driveblocks.st.tree import Binary, Call, Expression, Literal, LiteralKind, Unary
+from driveblocks.st.tree import Array, Binary, Builtin, Call, Expression, Literal, LiteralKind, Parameter, Unary
 from driveblocks.st.types import (
     ANY_BIT,
     DINT,
@@ -20,11 +20,8 @@ from driveblocks.st.types import (
     UNTYPED_INTEGER,
     UNTYPED_REAL,
     WORD,
-    Array,
-    Builtin,
     Elementary,
     Kind,
-    Parameter,
     Subrange,
     Type,
     conversion,

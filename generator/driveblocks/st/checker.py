@@ -6,12 +6,15 @@ from collections.abc import Sequence
 from operator import is_not
 
 from driveblocks.st.check_declaration import DeclarationChecker
-from driveblocks.st.checked import Analysis, Checked
 from driveblocks.st.collector import paused
 from driveblocks.st.library import Library
 from driveblocks.st.problems import CheckError, Problem
 from driveblocks.st.report import Report
 from driveblocks.st.tree import (
+    Analysis,
+    Array,
+    Block,
+    Checked,
     Configuration,
     Expression,
     Function,
@@ -29,7 +32,7 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import BOOL, INT, TIME, VOID, Array, Block, Type
+from driveblocks.st.types import BOOL, INT, TIME, VOID, Type
 
 # Blocks in blocks in blocks: more levels are an accident.
 DEEPEST_BLOCKS = 40

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def paused() -> Iterator[None]:
-    """Keep the collector off while a tree is built; it doubles the time of a large file."""
+    """Keep the collector off while trees are built or live to the end; it doubles the time of a large file."""
     running = gc.isenabled()
     gc.disable()
     try:

@@ -10,6 +10,7 @@ from driveblocks.st.tree import (
     Binary,
     Configuration,
     Element,
+    EnumValue,
     Expression,
     Function,
     FunctionBlock,
@@ -23,7 +24,6 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import EnumValue
 
 Named = TypeDecl | Function | FunctionBlock | Program | Configuration
 

@@ -7,14 +7,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from driveblocks.st import lint_declaration, lint_expression, lint_literal, lint_statement, lint_text
-from driveblocks.st.checked import Checked
 from driveblocks.st.checker import analyse
 from driveblocks.st.lint_scope import Scope
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import ParseError, Problem
+from driveblocks.st.parser import ParseError, parse
+from driveblocks.st.problems import Problem
 from driveblocks.st.report import Report, nearest
 from driveblocks.st.rules import CODES, RULES
-from driveblocks.st.tree import Function, FunctionBlock, Pou, Program, Unit
+from driveblocks.st.tree import Checked, Function, FunctionBlock, Pou, Program, Unit
 
 _WORD = re.compile(r"\w+")
 _FOUND = re.compile(r"found (\w+)")

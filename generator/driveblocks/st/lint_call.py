@@ -7,7 +7,10 @@ from driveblocks.st.loose import tell_loose
 from driveblocks.st.ranges import whole
 from driveblocks.st.tree import (
     Binary,
+    Block,
+    Builtin,
     Call,
+    Direction,
     Expression,
     Function,
     Index,
@@ -16,12 +19,11 @@ from driveblocks.st.tree import (
     Name,
     Unary,
 )
-from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, Kind, Type, plain
+from driveblocks.st.types import BOOL, TEMPORAL, Elementary, Kind, Type, plain
 
 _ORDERS = frozenset(["<", ">", "<=", ">="])
 _ORDER_FUNCTIONS = frozenset(["LT", "GT", "LE", "GE", "MAX", "MIN", "LIMIT"])
 _COMPARING_FUNCTIONS = frozenset(["LT", "GT", "LE", "GE", "EQ", "NE", "MAX", "MIN", "LIMIT"])
-_TIMES = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 _STRING_FUNCTIONS = frozenset(["LEN", "LEFT", "RIGHT", "MID", "CONCAT", "INSERT", "DELETE", "REPLACE", "FIND"])
 _SHIFTS = frozenset(["SHL", "SHR", "ROL", "ROR"])
 _TIME_FUNCTIONS = frozenset(["ADD", "SUB", "MULTIME", "DIVTIME", "MAX", "MIN", "LIMIT", *_COMPARING_FUNCTIONS])
@@ -68,7 +70,7 @@ def _builtin(scope: Scope, value: Call, target: Builtin) -> None:
     if target.family in _STRING_FUNCTIONS:
         text = f"{target.name} differs between runtimes: keep text in byte arrays; assign and compare strings only"
         scope.add(value.at, "string-function", text)
-    if (target.family in _TIME_FUNCTIONS or target.family.startswith(("ADD_", "SUB_"))) and kinds & _TIMES:
+    if (target.family in _TIME_FUNCTIONS or target.family.startswith(("ADD_", "SUB_"))) and kinds & TEMPORAL:
         text = (
             f"matiec holds TIME in fractions of a second, and {target.name} goes wrong: count milliseconds in a UDINT"
         )
@@ -93,7 +95,7 @@ def _conversion(scope: Scope, value: Call, target: Builtin) -> None:
     if Kind.STRING in (source.kind, result.kind):
         text = f"{target.name} is refused by RuSTy, and its text differs: build the characters yourself"
         scope.add(value.at, "string-conversion", text)
-    elif _TIMES & {source.kind, result.kind}:
+    elif TEMPORAL & {source.kind, result.kind}:
         text = f"{target.name} counts seconds on matiec and milliseconds elsewhere: keep time as integer milliseconds"
         scope.add(value.at, "time-conversion", text)
     elif source.kind is Kind.REAL and result.kind is not Kind.REAL:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from driveblocks.st.checked import Checked
 from driveblocks.st.lint_scope import Scope
 from driveblocks.st.names import badly_underscored, reserved, reserved_outside
 from driveblocks.st.report import Report
 from driveblocks.st.tree import (
+    Array,
     ArrayInitial,
     ArraySpec,
+    Block,
+    Checked,
     Configuration,
     EnumSpec,
     Expression,
@@ -23,6 +25,7 @@ from driveblocks.st.tree import (
     Repeat,
     Spec,
     StringSpec,
+    Struct,
     StructInitial,
     StructSpec,
     SubrangeSpec,
@@ -32,7 +35,7 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import Array, Block, Kind, Struct
+from driveblocks.st.types import Kind
 from driveblocks.st.walk import expressions
 
 _PARAMETERS = frozenset([VarKind.INPUT, VarKind.OUTPUT, VarKind.IN_OUT])

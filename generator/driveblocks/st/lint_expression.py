@@ -7,8 +7,12 @@ from driveblocks.st.lint_scope import Scope
 from driveblocks.st.loose import tell_loose
 from driveblocks.st.tree import (
     Binary,
+    Block,
+    Builtin,
     Call,
     Case,
+    Direction,
+    EnumValue,
     Expression,
     Index,
     Literal,
@@ -20,12 +24,11 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import BOOL, Block, Builtin, Direction, Elementary, EnumValue, Kind, plain
+from driveblocks.st.types import BOOL, TEMPORAL, Elementary, Kind, plain
 from driveblocks.st.walk import children, expressions
 
 _ORDERS = frozenset(["<", ">", "<=", ">="])
 _COMPARISONS = _ORDERS | {"=", "<>"}
-_TIMES = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 
 
 def pou(scope: Scope) -> None:
@@ -79,7 +82,7 @@ def _binary(scope: Scope, value: Binary) -> None:
         tell_loose(scope, value.right, value.op)
     elif value.op in ("AND", "OR") and value.type is BOOL:
         _short_circuit(scope, value)
-    if _TIMES & {value.left.type.kind, value.right.type.kind}:
+    if TEMPORAL & {value.left.type.kind, value.right.type.kind}:
         text = f"matiec holds TIME in fractions of a second, and {value.op} goes wrong: count milliseconds in a UDINT"
         scope.add(value.at, "time-arithmetic", text)
 

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from driveblocks.st.checked import Checked
 from driveblocks.st.ranges import Ranges, ranges_of
 from driveblocks.st.report import Report
-from driveblocks.st.tree import ArrayInitial, Expression, Literal, Pou, Repeat, Statement
+from driveblocks.st.tree import ArrayInitial, Checked, Expression, Literal, Pou, Repeat, Statement
 from driveblocks.st.walk import expressions, heads, statements
 
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from driveblocks.st.lint_scope import Scope
 from driveblocks.st.ranges import whole
-from driveblocks.st.tree import Binary, Call, Expression, Literal, Unary
-from driveblocks.st.types import Builtin, Elementary, Kind, plain
+from driveblocks.st.tree import Binary, Builtin, Call, Expression, Literal, Unary
+from driveblocks.st.types import Elementary, Kind, plain
 
 # `i + 1` at the very end of a type's range is what people check by other means; telling of each would bury the rest.
 _SMALL_STEP = 256

@@ -35,13 +35,6 @@ class DeclarationParser(StatementParser):
 
     __slots__ = ()
 
-    def var_blocks(self) -> list[VarBlock]:
-        """All VAR blocks that follow."""
-        made: list[VarBlock] = []
-        while self.kinds[self.i] in VAR_KINDS:
-            made.append(self.var_block())
-        return made
-
     def var_block(self) -> VarBlock:
         """`VAR_INPUT ... END_VAR`. Never raises SyntaxProblem."""
         leading, at = self.leading(), self.ats[self.i]

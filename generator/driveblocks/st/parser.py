@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
 
 from driveblocks.st.collector import paused
 from driveblocks.st.cursor import SyntaxProblem, TooManyProblemsError
 from driveblocks.st.lexer import END, tokenize
 from driveblocks.st.parse_configuration import ConfigurationParser
 from driveblocks.st.parse_declaration import VAR_KINDS
-from driveblocks.st.problems import ParseError, Problem
+from driveblocks.st.problems import Problem, SourceError
 from driveblocks.st.tree import (
     Element,
     Function,
@@ -26,6 +27,15 @@ from driveblocks.st.tree import (
 _SKIPPED = ("METHOD", "PROPERTY", "ACTION", "ACTIONS", "TRANSITION", "STEP", "INITIAL_STEP")
 _TOPS = frozenset(["TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM", "CONFIGURATION", END])
 _MODIFIERS = frozenset(["ABSTRACT", "FINAL", "PUBLIC", "PRIVATE", "PROTECTED", "INTERNAL", "OVERRIDE"])
+
+
+class ParseError(SourceError):
+    """The text is no Structured Text; `unit` holds those elements of it that are whole."""
+
+    def __init__(self, problems: Sequence[Problem], unit: Unit) -> None:
+        """Keep the problems and what could be read."""
+        super().__init__(problems)
+        self.unit = unit
 
 
 def parse(text: str, path: str) -> Unit:

@@ -4,10 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from driveblocks.st.tree import Unit
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -32,15 +28,6 @@ class SourceError(Exception):
         """Keep the problems; the text of the error is one per line."""
         self.problems = tuple(problems)
         super().__init__("\n".join(str(each) for each in self.problems))
-
-
-class ParseError(SourceError):
-    """The text is no Structured Text; `unit` holds those elements of it that are whole."""
-
-    def __init__(self, problems: Sequence[Problem], unit: Unit) -> None:
-        """Keep the problems and what could be read."""
-        super().__init__(problems)
-        self.unit = unit
 
 
 class CheckError(SourceError):

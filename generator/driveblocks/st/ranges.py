@@ -12,7 +12,9 @@ from functools import cache
 from driveblocks.st.tree import (
     Assign,
     Binary,
+    Builtin,
     Call,
+    Direction,
     Expression,
     For,
     Literal,
@@ -23,7 +25,7 @@ from driveblocks.st.tree import (
     VarDecl,
     VarKind,
 )
-from driveblocks.st.types import Builtin, Direction, Elementary, Kind, Subrange, Type, plain
+from driveblocks.st.types import Elementary, Kind, Subrange, Type, plain
 
 Interval = tuple[int, int]
 _OWN = frozenset([VarKind.LOCAL, VarKind.OUTPUT, VarKind.TEMP, VarKind.RESULT])

@@ -6,9 +6,14 @@ from driveblocks.st.library import Library, fold
 from driveblocks.st.report import nearest
 from driveblocks.st.standard import BLOCKS, default_string
 from driveblocks.st.tree import (
+    Array,
     ArraySpec,
+    Block,
+    Enum,
     EnumSpec,
+    EnumValue,
     Expression,
+    Field,
     FunctionBlock,
     Literal,
     NamedSpec,
@@ -16,28 +21,13 @@ from driveblocks.st.tree import (
     Range,
     Spec,
     StringSpec,
+    Struct,
     StructSpec,
     SubrangeSpec,
     TypeDecl,
     VarDecl,
 )
-from driveblocks.st.types import (
-    ELEMENTARY,
-    UNKNOWN,
-    VOID,
-    Array,
-    Block,
-    Elementary,
-    Enum,
-    EnumValue,
-    Field,
-    Kind,
-    Pointer,
-    String,
-    Struct,
-    Subrange,
-    Type,
-)
+from driveblocks.st.types import ELEMENTARY, UNKNOWN, VOID, Elementary, Kind, Pointer, String, Subrange, Type
 
 # An array of more elements is an accident, and would stop every tool behind the checker.
 MOST_ELEMENTS = 1 << 24
@@ -167,7 +157,7 @@ class Resolver:
                 text = f"expected a length of 1..{MOST_CHARACTERS}, found {length}"
                 self.report.add(spec.length.at, "literal-range", text)
             return base
-        return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide, sized=True)
+        return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide)
 
     def constant(self, value: Expression, what: str) -> int | None:
         """The value of a constant integer expression; told if it is none."""

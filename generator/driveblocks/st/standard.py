@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from driveblocks.st.tree import Block, Direction, Parameter
 from driveblocks.st.types import (
     ANY,
     ANY_BIT,
@@ -28,10 +29,7 @@ from driveblocks.st.types import (
     ULINT,
     UNTYPED_INTEGER,
     WSTRING,
-    Block,
-    Direction,
     Kind,
-    Parameter,
     String,
     Type,
 )

@@ -1,5 +1,7 @@
 """The tree of a Structured Text source: what the parser builds, the checker completes, and everybody else reads.
 
+Declarations make types and types know their declarations, so both are here; `types` has those that need no source.
+
 Positions: `at` is the offset of the node's first character in `Unit.text`, `end` (declarations and statements) the
 offset behind its last. `unit.place(node.at)` gives the 1-based (line, column), `unit.line(node.at)` the line alone.
 
@@ -16,13 +18,10 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
-from enum import Enum
-from typing import TYPE_CHECKING
+from enum import Enum as PythonEnum
 
-from driveblocks.st.types import UNKNOWN, Block, Builtin, EnumValue, Field, Parameter, Type
-
-if TYPE_CHECKING:
-    from driveblocks.st.checked import Analysis
+from driveblocks.st.problems import Problem
+from driveblocks.st.types import ENUM_BITS, UNKNOWN, Elementary, Type
 
 LiteralValue = bool | int | float | bytes | str
 
@@ -59,7 +58,7 @@ class Expression(Node):
     parentheses: int = field(default=0, init=False)
 
 
-class LiteralKind(Enum):
+class LiteralKind(PythonEnum):
     """How a literal is written."""
 
     BOOL = "bool"
@@ -105,7 +104,7 @@ class Qualified(Expression):
 class Member(Expression):
     """`base.name`: a field of a structure, or a variable of an instance (parameter, or a block's own variable).
 
-    `symbol` is a `types.Field`, a `types.Parameter` (standard blocks) or a `VarDecl` (blocks in ST);
+    `symbol` is a `Field`, a `Parameter` (standard blocks) or a `VarDecl` (blocks in ST);
     an `EnumValue` for the third edition's `E_STATE.IDLE`.
     """
 
@@ -445,7 +444,7 @@ class PointerSpec(Spec):
 # ---------------------------------------------------------------- declarations
 
 
-class VarKind(Enum):
+class VarKind(PythonEnum):
     """Where a variable is declared; RESULT is the function's own name as a variable, FIELD a structure's field."""
 
     LOCAL = "VAR"
@@ -671,6 +670,167 @@ class Unit:
     def line(self, at: int) -> int:
         """The 1-based line of an offset."""
         return bisect_right(self.starts, at)
+
+
+# ---------------------------------------------------------------- the types that declarations make
+
+
+@dataclass(slots=True, eq=False)
+class Array(Type):
+    """An array; `bounds` holds (low, high) per dimension, both inclusive; row-major, the last index fastest.
+
+    `start` is the initial value of an element whose TYPE declares one; None for the element type's.
+    """
+
+    element: Type
+    bounds: tuple[tuple[int, int], ...]
+    initial: Expression | None = None
+    start: Expression | None = None
+
+    @property
+    def length(self) -> int:
+        """How many elements in all dimensions together."""
+        count = 1
+        for low, high in self.bounds:
+            count *= high - low + 1
+        return count
+
+    @property
+    def size(self) -> int:
+        """Bytes of all elements."""
+        return self.length * self.element.size
+
+
+@dataclass(slots=True, eq=False)
+class Field:
+    """A field of a structure; `initial` is its own initial value or that of the TYPE it names, None for the type's."""
+
+    name: str
+    type: Type
+    initial: Expression | None = None
+    declaration: VarDecl | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Struct(Type):
+    """A structure; `fields` by upper-case name in the order of declaration."""
+
+    fields: dict[str, Field] = field(default_factory=dict)
+    initial: Expression | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of all fields."""
+        return sum(each.type.size for each in self.fields.values())
+
+
+@dataclass(slots=True, eq=False)
+class EnumValue:
+    """One value of an enumeration and its number (0, 1, ... or as written)."""
+
+    name: str
+    number: int
+    type: Enum
+
+
+@dataclass(slots=True, eq=False)
+class Enum(Type):
+    """An enumeration; `values` by upper-case name in order. `base` if one was written (third edition)."""
+
+    values: dict[str, EnumValue] = field(default_factory=dict)
+    base: Elementary | None = None
+    initial: Expression | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of the number."""
+        return self.base.size if self.base else ENUM_BITS // 8
+
+
+class Direction(PythonEnum):
+    """Which way a parameter passes."""
+
+    INPUT = "VAR_INPUT"
+    OUTPUT = "VAR_OUTPUT"
+    IN_OUT = "VAR_IN_OUT"
+
+
+@dataclass(slots=True, eq=False)
+class Parameter:
+    """A formal parameter of a function or block. `default` is its declared initial value (None: the type's).
+
+    That is its own or the one of the TYPE that it names.
+    For a standard function `type` is what the overload resolved to in this very call.
+    """
+
+    name: str
+    type: Type
+    direction: Direction = Direction.INPUT
+    default: Expression | None = None
+    declaration: VarDecl | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Block(Type):
+    """A function block or program as a type. `declaration` is None for a standard block (then `name` says which).
+
+    `parameters` (inputs, outputs, in-outs) by upper-case name in the order of declaration; the variables that are no
+    parameters are in `declaration.symbols`. `size` counts all of its variables, an in-out as the thing it stands for.
+    """
+
+    parameters: dict[str, Parameter] = field(default_factory=dict)
+    declaration: FunctionBlock | Program | None = None
+
+    @property
+    def size(self) -> int:
+        """Bytes of all variables; of a standard block those of its parameters."""
+        if self.declaration is None:
+            return sum(each.type.size for each in self.parameters.values())
+        return sum(each.type.size for each in self.declaration.symbols.values())
+
+
+@dataclass(slots=True, eq=False)
+class Builtin:
+    """A standard function as one call resolved it.
+
+    `name` is upper case as called (`ADD`, `INT_TO_REAL`). `family` is what an engine dispatches on: the name itself,
+    or `CONVERT` for every `X_TO_Y` (source is `parameters[0].type`, destination `result`), `TRUNC` for TRUNC and
+    `X_TRUNC_Y`, `BCD_TO` and `TO_BCD`. Extensible functions (ADD, MUL, AND, OR, XOR, MAX, MIN, MUX, CONCAT, GT ... LE)
+    have as many parameters as the call has arguments, named IN1, IN2 ... (MUX: K, IN0, IN1 ...).
+    """
+
+    name: str
+    family: str
+    parameters: tuple[Parameter, ...]
+    result: Type
+
+
+# ---------------------------------------------------------------- what the checker makes of units
+
+
+@dataclass(slots=True)
+class Checked:
+    """Sources whose every expression has its type. All tables are keyed by upper-case name, in source order.
+
+    `types` holds the declared types only (not the elementary ones, not the blocks). `callees_first` lists the
+    functions and function blocks so that each stands behind all that it calls or contains; recursion is an error.
+    """
+
+    units: list[Unit] = field(default_factory=list)
+    types: dict[str, Type] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
+    blocks: dict[str, FunctionBlock] = field(default_factory=dict)
+    programs: dict[str, Program] = field(default_factory=dict)
+    configurations: dict[str, Configuration] = field(default_factory=dict)
+    callees_first: list[Function | FunctionBlock] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class Analysis:
+    """What files that were analysed together came to: what could be typed, and every problem in order of place."""
+
+    checked: Checked
+    problems: list[Problem]
 
 
 def line_starts(text: str) -> list[int]:

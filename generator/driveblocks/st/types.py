@@ -1,4 +1,4 @@
-"""The data types of IEC 61131-3, second edition (table 10 and clause 2.3), with their sizes.
+"""The elementary data types of IEC 61131-3, second edition (table 10 and clause 2.3), with their sizes.
 
 Types are compared by identity: one elementary type is one object (`INT is ELEMENTARY["INT"]`), one `TYPE` declaration
 makes one object, and an alias (`TYPE A : INT; END_TYPE`) is the very type that it names. Only strings of different
@@ -8,11 +8,7 @@ lengths are equal through `same`.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import Enum as PythonEnum
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from driveblocks.st import tree
+from enum import Enum
 
 # The length of a STRING without `[n]`. The standard leaves it to the implementation; 126 is what matiec's runtime has.
 DEFAULT_STRING_LENGTH = 126
@@ -20,7 +16,7 @@ DEFAULT_STRING_LENGTH = 126
 ENUM_BITS = 16
 
 
-class Kind(PythonEnum):
+class Kind(Enum):
     """What a type is made of."""
 
     BOOL = "bool"
@@ -91,11 +87,10 @@ class Subrange(Elementary):
 
 @dataclass(slots=True, eq=False)
 class String(Type):
-    """STRING or WSTRING (`wide`) of at most `length` characters; `sized` if the length was written."""
+    """STRING or WSTRING (`wide`) of at most `length` characters."""
 
     length: int = DEFAULT_STRING_LENGTH
     wide: bool = False
-    sized: bool = False
 
     @property
     def size(self) -> int:
@@ -104,140 +99,10 @@ class String(Type):
 
 
 @dataclass(slots=True, eq=False)
-class Array(Type):
-    """An array; `bounds` holds (low, high) per dimension, both inclusive; row-major, the last index fastest.
-
-    `start` is the initial value of an element whose TYPE declares one; None for the element type's.
-    """
-
-    element: Type
-    bounds: tuple[tuple[int, int], ...]
-    initial: tree.Expression | None = None
-    start: tree.Expression | None = None
-
-    @property
-    def length(self) -> int:
-        """How many elements in all dimensions together."""
-        count = 1
-        for low, high in self.bounds:
-            count *= high - low + 1
-        return count
-
-    @property
-    def size(self) -> int:
-        """Bytes of all elements."""
-        return self.length * self.element.size
-
-
-@dataclass(slots=True, eq=False)
-class Field:
-    """A field of a structure; `initial` is its own initial value or that of the TYPE it names, None for the type's."""
-
-    name: str
-    type: Type
-    initial: tree.Expression | None = None
-    declaration: tree.VarDecl | None = None
-
-
-@dataclass(slots=True, eq=False)
-class Struct(Type):
-    """A structure; `fields` by upper-case name in the order of declaration."""
-
-    fields: dict[str, Field] = field(default_factory=dict)
-    initial: tree.Expression | None = None
-
-    @property
-    def size(self) -> int:
-        """Bytes of all fields."""
-        return sum(each.type.size for each in self.fields.values())
-
-
-@dataclass(slots=True, eq=False)
-class EnumValue:
-    """One value of an enumeration and its number (0, 1, ... or as written)."""
-
-    name: str
-    number: int
-    type: Enum
-
-
-@dataclass(slots=True, eq=False)
-class Enum(Type):
-    """An enumeration; `values` by upper-case name in order. `base` if one was written (third edition)."""
-
-    values: dict[str, EnumValue] = field(default_factory=dict)
-    base: Elementary | None = None
-    initial: tree.Expression | None = None
-
-    @property
-    def size(self) -> int:
-        """Bytes of the number."""
-        return self.base.size if self.base else ENUM_BITS // 8
-
-
-class Direction(PythonEnum):
-    """Which way a parameter passes."""
-
-    INPUT = "VAR_INPUT"
-    OUTPUT = "VAR_OUTPUT"
-    IN_OUT = "VAR_IN_OUT"
-
-
-@dataclass(slots=True, eq=False)
-class Parameter:
-    """A formal parameter of a function or block. `default` is its declared initial value (None: the type's).
-
-    That is its own or the one of the TYPE that it names.
-    For a standard function `type` is what the overload resolved to in this very call.
-    """
-
-    name: str
-    type: Type
-    direction: Direction = Direction.INPUT
-    default: tree.Expression | None = None
-    declaration: tree.VarDecl | None = None
-
-
-@dataclass(slots=True, eq=False)
-class Block(Type):
-    """A function block or program as a type. `declaration` is None for a standard block (then `name` says which).
-
-    `parameters` (inputs, outputs, in-outs) by upper-case name in the order of declaration; the variables that are no
-    parameters are in `declaration.symbols`. `size` counts all of its variables, an in-out as the thing it stands for.
-    """
-
-    parameters: dict[str, Parameter] = field(default_factory=dict)
-    declaration: tree.FunctionBlock | tree.Program | None = None
-
-    @property
-    def size(self) -> int:
-        """Bytes of all variables; of a standard block those of its parameters."""
-        if self.declaration is None:
-            return sum(each.type.size for each in self.parameters.values())
-        return sum(each.type.size for each in self.declaration.symbols.values())
-
-
-@dataclass(slots=True, eq=False)
 class Pointer(Type):
     """POINTER TO, REF_TO or REFERENCE TO: parsed so that it can be named, never run."""
 
     target: Type
-
-
-@dataclass(slots=True, eq=False)
-class Builtin:
-    """A standard function as one call resolved it.
-
-    `name` is upper case as called (`ADD`, `INT_TO_REAL`). `family` is what an engine dispatches on: the name itself,
-    or `CONVERT` for every `X_TO_Y` (source is `parameters[0].type`, destination `result`), `TRUNC` for TRUNC and
-    `X_TRUNC_Y`, `BCD_TO` and `TO_BCD`. Extensible functions (ADD, MUL, AND, OR, XOR, MAX, MIN, MUX, CONCAT, GT ... LE)
-    have as many parameters as the call has arguments, named IN1, IN2 ... (MUX: K, IN0, IN1 ...).
-    """
-
-    name: str
-    family: str
-    parameters: tuple[Parameter, ...]
-    result: Type
 
 
 def _table() -> dict[str, Elementary]:
@@ -305,6 +170,8 @@ ANY_STRING = frozenset([Kind.STRING])
 ANY_ELEMENTARY = _ELEMENTARY_KINDS | ANY_STRING
 ANY_COMPARABLE = ANY_ELEMENTARY | {Kind.ENUM}
 ANY = ANY_COMPARABLE | {Kind.ARRAY, Kind.STRUCT}
+# Durations and moments: what is counted in nanoseconds.
+TEMPORAL = frozenset([Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME])
 
 
 def untyped(each: Type) -> bool:

@@ -2,7 +2,3 @@
 
 What they expect comes from the map's vectors and from the reference model, never from what renders the blocks.
 """
-
-from driveblocks.testing.suite import programs
-
-__all__ = ["programs"]

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.request import Asked
+from driveblocks.st.writing import byte, dword, flag, real, string, word
 from driveblocks.testing.code import NUMBERS
-from driveblocks.testing.literal import byte, dword, flag, real, string, word
 from driveblocks.testing.script import Item, Probe, Script
 
 GENERIC = "modbus"

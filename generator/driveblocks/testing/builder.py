@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.reference.request import Asked, body
+from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import WORDS
-from driveblocks.testing.literal import word
 from driveblocks.testing.script import Item, Script
 
 LINE = "MODBUS over Serial Line V1.02"

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from driveblocks.reference.checksum import crc16, lrc
+from driveblocks.st.writing import byte, word
 from driveblocks.testing import bench
-from driveblocks.testing.literal import byte, word
 from driveblocks.testing.script import Item, Script
 
 LINE = "MODBUS over Serial Line V1.02"

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from driveblocks.reference.packing import pack, unpack
+from driveblocks.st.writing import word
 from driveblocks.testing import bench
-from driveblocks.testing.literal import word
 from driveblocks.testing.script import Item, Script
 
 BOXES = {"Adu": 256, "Chars": 513}

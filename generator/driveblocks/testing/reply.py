@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Manners, manners, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
+from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
-from driveblocks.testing.literal import word
 from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
 

@@ -1,15 +1,14 @@
 """Run suites on engines: build each unit once per engine, run its programs, and keep going whatever goes wrong."""
 
-import gc
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from functools import partial
 
 from driveblocks.host.discovery import EMBEDDED
 from driveblocks.host.engine import Engine, EngineError, Library
 from driveblocks.maps.view import UNPROVED
+from driveblocks.st.collector import paused
 from driveblocks.testing.coverage import Counted, Coverage
 from driveblocks.testing.execute import Setting, execute
 from driveblocks.testing.outcome import ERROR, PASSED, Outcome, Result, Run
@@ -34,7 +33,7 @@ def run(
     """
     start = time.perf_counter()
     results: list[Result] = []
-    with _without_collection(), ThreadPoolExecutor(BUILDS) as pool:
+    with paused(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
             sums = [each for each in coverage if each.engine == engine.name]
             for unit, built in zip(units, _builds(engine, units, pool), strict=True):
@@ -51,18 +50,6 @@ def _counted(coverage: Coverage, unit: Unit, built: _Built) -> Iterator[Result]:
     except EngineError as error:
         outcome = Outcome("what has run is known", ERROR, str(error))
         yield Result(coverage.engine, unit.suite.name, "coverage", (outcome,))
-
-
-@contextmanager
-def _without_collection() -> Iterator[None]:
-    """Trees of hundreds of thousands of nodes that live to the end: looking for garbage in them takes half the time."""
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()
 
 
 def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor) -> Iterable[_Built]:

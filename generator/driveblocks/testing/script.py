@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
+from driveblocks.st.writing import comment, flowing, paragraph, remarked
 from driveblocks.testing.harness import PER_SCAN
-from driveblocks.testing.literal import comment, flowing, paragraph, remarked
 
 MOST_STAGES = 100
 """Stages of one program; what needs more becomes several programs."""

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Iterator
 
 from driveblocks.reference.permission import MOST_READ
 from driveblocks.reference.reply import Manners, parse
+from driveblocks.st.writing import word
 from driveblocks.testing import bench, builder, checksum, framing, packing, reply, text
-from driveblocks.testing.literal import word
 from driveblocks.testing.script import Script
 
 PROTOCOL = "MODBUS Application Protocol V1.1b3"

@@ -6,9 +6,9 @@ from fractions import Fraction
 from driveblocks.maps.model import Drive
 from driveblocks.reference.single import stored
 from driveblocks.reference.speed import SpeedReference
+from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
-from driveblocks.testing.literal import word
 from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
 

@@ -1,10 +1,8 @@
 """All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
-from typing import Protocol
 
-from driveblocks.maps.model import Drive
+from driveblocks.maps.collection import Source
 from driveblocks.testing import (
     access,
     command,
@@ -29,25 +27,13 @@ PAGE = "tests/README.md"
 """The page that lists them."""
 
 
-class Mapped(Protocol):
-    """A checked map and its file."""
-
-    @property
-    def path(self) -> Path:
-        """The file."""
-
-    @property
-    def drive(self) -> Drive:
-        """What it says."""
-
-
 def shared_suite(languages: Sequence[text.Language]) -> Suite:
     """The programs of the blocks that every drive shares."""
     made = tuple(_finished(shared.scripts(languages)))
     return Suite(GENERIC, made, len(made))
 
 
-def drive_suite(source: Mapped, languages: Sequence[text.Language]) -> Suite:
+def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
     scripts: list[Script] = []
@@ -62,12 +48,12 @@ def _finished(scripts: Iterable[Script]) -> Iterator[Program]:
         yield from script.programs()
 
 
-def suites(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> list[Suite]:
+def suites(sources: Iterable[Source], languages: Sequence[text.Language]) -> list[Suite]:
     """The shared suite, then that of each drive."""
     return [shared_suite(languages), *(drive_suite(source, languages) for source in sources)]
 
 
-def programs(sources: Iterable[Mapped], languages: Sequence[text.Language]) -> dict[str, str]:
+def programs(sources: Iterable[Source], languages: Sequence[text.Language]) -> dict[str, str]:
     """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
     made = suites(sources, languages)
     texts = harness.texts() | {program.path: program.text for suite in made for program in suite.programs}

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from driveblocks.testing.literal import byte, dword, flag, real, word
+from driveblocks.st.writing import byte, dword, flag, real, word
 from driveblocks.testing.script import Item, Script
 
 _LITERALS: dict[str, Callable[[Any], str]] = {

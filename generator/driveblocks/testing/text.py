@@ -6,9 +6,9 @@ from typing import Protocol
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference import text as reference
+from driveblocks.st.writing import string, word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
-from driveblocks.testing.literal import string, word
 from driveblocks.testing.script import Probe, Script
 
 

@@ -1,16 +1,11 @@
 """What is built and run together: a library of blocks and the programs that test it."""
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from driveblocks.host.engine import Source
-from driveblocks.render import library
-from driveblocks.render.build import PLATFORM
-from driveblocks.render.build import Source as Map
-from driveblocks.render.text import Language
 from driveblocks.testing import harness
 from driveblocks.testing.script import Suite
-from driveblocks.testing.suite import ROOT, drive_suite, shared_suite
+from driveblocks.testing.suite import ROOT
 
 
 @dataclass(frozen=True)
@@ -26,18 +21,3 @@ class Unit:
         tests = [Source(ROOT + path, text) for path, text in harness.texts().items()]
         tests += [Source(ROOT + program.path, program.text) for program in self.suite.programs]
         return [*self.blocks, *tests]
-
-
-def units(sources: Sequence[Map], languages: list[Language]) -> list[Unit]:
-    """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
-    generic = tuple(_sources(library.generic(languages)))
-    made = [Unit(shared_suite(languages), generic)]
-    for source in sources:
-        own = _sources(library.drive(source.path.stem, source.drive, languages))
-        made.append(Unit(drive_suite(source, languages), (*generic, *own)))
-    return made
-
-
-def _sources(files: Iterator[library.File]) -> Iterator[Source]:
-    for file in files:
-        yield Source(f"{PLATFORM}/{file.path}", file.text)

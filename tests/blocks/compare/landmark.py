@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from driveblocks.host.embedded.usage import walk
 from driveblocks.st import tree
-from driveblocks.st.tree import VarKind
-from driveblocks.st.types import Block
+from driveblocks.st.tree import Block, VarKind
 from driveblocks.st.walk import bodies
 
 Arm = tuple[tuple[str, int], ...]

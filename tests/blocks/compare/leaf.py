@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.host.embedded.values import members
-from driveblocks.st.types import REAL, Array, Block, Direction, Kind, Struct, Type
+from driveblocks.st.tree import Array, Block, Direction, Struct
+from driveblocks.st.types import REAL, Kind, Type
 
 
 @dataclass(frozen=True)

@@ -16,11 +16,11 @@ from tests.blocks.library import sources
 
 from driveblocks.host.engine import Source
 from driveblocks.st import tree
-from driveblocks.st.checked import Checked
 from driveblocks.st.checker import check
 from driveblocks.st.lexer import tokenize
 from driveblocks.st.parser import parse
-from driveblocks.st.types import Array, Block, Direction, Elementary, Kind, Parameter, Struct, Type
+from driveblocks.st.tree import Array, Block, Checked, Direction, Parameter, Struct
+from driveblocks.st.types import Elementary, Kind, Type
 
 AROUND = "around.st"
 """The source that holds the blocks around functions."""

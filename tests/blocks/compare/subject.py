@@ -21,7 +21,8 @@ from driveblocks.host.embedded.library import EmbeddedInstance, EmbeddedLibrary
 from driveblocks.host.engine import Value
 from driveblocks.host.matiec.layout import ArrayNode, Memory, Scalar
 from driveblocks.host.matiec.library import MatiecInstance, MatiecLibrary
-from driveblocks.st.types import Array, Kind
+from driveblocks.st.tree import Array
+from driveblocks.st.types import Kind
 
 Image = tuple[object, ...]
 Setter = Callable[[Value], None]

@@ -14,8 +14,8 @@ from driveblocks.host.embedded.scope import UnsupportedError
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.terms import Floating, Term
 from driveblocks.st import tree
-from driveblocks.st.tree import Binding
-from driveblocks.st.types import Array, Builtin, Direction, Kind, Parameter, Type, plain
+from driveblocks.st.tree import Array, Binding, Builtin, Direction, Parameter
+from driveblocks.st.types import Kind, Type, plain
 
 
 def returned(function: tree.Function) -> list[Parameter]:

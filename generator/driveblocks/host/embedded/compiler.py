@@ -20,13 +20,12 @@ from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar, r
 from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.embedded.statements import Statements
 from driveblocks.host.embedded.syntax import Pen
-from driveblocks.host.embedded.terms import TEMPORAL, is_integral
+from driveblocks.host.embedded.terms import is_integral
 from driveblocks.host.embedded.usage import callees, has_loop, touched
 from driveblocks.host.engine import Message
 from driveblocks.st import tree
-from driveblocks.st.checked import Checked
-from driveblocks.st.tree import VarKind
-from driveblocks.st.types import REAL, Block, EnumValue, Kind, String, Type, plain
+from driveblocks.st.tree import Block, Checked, EnumValue, VarKind
+from driveblocks.st.types import REAL, TEMPORAL, Kind, String, Type, plain
 
 Body = Callable[[Any], None]
 

@@ -17,8 +17,8 @@ from driveblocks.host.embedded.shapes import record_class
 from driveblocks.host.embedded.values import Values
 from driveblocks.host.engine import Value
 from driveblocks.st import tree
-from driveblocks.st.tree import VarKind
-from driveblocks.st.types import BOOL, INT, TIME, Block, Direction, Kind, Parameter
+from driveblocks.st.tree import Block, Direction, Parameter, VarKind
+from driveblocks.st.types import BOOL, INT, TIME, Kind
 
 PathsOf = Callable[[Block], Paths]
 

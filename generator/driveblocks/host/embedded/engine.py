@@ -9,8 +9,8 @@ from driveblocks.host.embedded.library import EmbeddedLibrary
 from driveblocks.host.embedded.scope import Options
 from driveblocks.host.engine import BuildError, Message, Overflow, Source
 from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import ParseError, Problem, SourceError
+from driveblocks.st.parser import ParseError, parse
+from driveblocks.st.problems import Problem, SourceError
 from driveblocks.st.tree import Unit
 
 # Turns of loops in one scan. A frame of 256 bytes needs hundreds; a scan of a million takes some 0.1 s here.

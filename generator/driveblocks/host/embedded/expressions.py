@@ -8,9 +8,9 @@ from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.operands import Operands
 from driveblocks.host.embedded.scope import Scope
 from driveblocks.host.embedded.syntax import is_quiet
-from driveblocks.host.embedded.terms import TEMPORAL, CInteger, Floating, Plain, Term, Whole, common, elementary
+from driveblocks.host.embedded.terms import CInteger, Floating, Plain, Term, Whole, common, elementary
 from driveblocks.st import tree
-from driveblocks.st.types import LREAL, Elementary, Kind, Type
+from driveblocks.st.types import LREAL, TEMPORAL, Elementary, Kind, Type
 
 _ORDER: dict[str, type[ast.cmpop]] = {
     "=": ast.Eq,

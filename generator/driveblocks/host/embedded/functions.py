@@ -16,7 +16,6 @@ from driveblocks.host.embedded.scope import Scope, UnsupportedError
 from driveblocks.host.embedded.syntax import is_quiet
 from driveblocks.host.embedded.terms import (
     C_UNSIGNED,
-    TEMPORAL,
     CInteger,
     Floating,
     Plain,
@@ -27,7 +26,8 @@ from driveblocks.host.embedded.terms import (
     promoted,
 )
 from driveblocks.st import tree
-from driveblocks.st.types import LREAL, REAL, Builtin, Elementary, Kind, Type, plain
+from driveblocks.st.tree import Builtin
+from driveblocks.st.types import LREAL, REAL, TEMPORAL, Elementary, Kind, Type, plain
 
 _OPERATORS = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "MOD": "MOD", "AND": "AND", "OR": "OR", "XOR": "XOR"}
 _TIME_OPERATORS = {"MULTIME": "*", "DIVTIME": "/", "CONCAT_DATE_TOD": "+"}

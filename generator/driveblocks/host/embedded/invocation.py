@@ -16,8 +16,8 @@ from driveblocks.host.embedded.loops import Loops
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.syntax import place_of
 from driveblocks.st import tree
-from driveblocks.st.tree import Binding
-from driveblocks.st.types import Block, Direction, plain
+from driveblocks.st.tree import Binding, Block, Direction
+from driveblocks.st.types import plain
 
 
 def body_name(block: Block) -> str:

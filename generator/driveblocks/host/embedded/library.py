@@ -16,7 +16,7 @@ from driveblocks.host.embedded.values import Values
 from driveblocks.host.engine import Value
 from driveblocks.st import tree
 from driveblocks.st.standard import BLOCKS
-from driveblocks.st.types import Block, Direction
+from driveblocks.st.tree import Block, Direction
 
 
 class EmbeddedInstance:

@@ -12,7 +12,6 @@ from driveblocks.host.embedded.ranges import Interval, declared
 from driveblocks.host.embedded.scope import Scope, UnsupportedError
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.terms import (
-    TEMPORAL,
     Floating,
     Plain,
     Term,
@@ -24,8 +23,8 @@ from driveblocks.host.embedded.terms import (
 )
 from driveblocks.host.embedded.widths import Widths
 from driveblocks.st import tree
-from driveblocks.st.tree import LiteralKind
-from driveblocks.st.types import LREAL, Array, Elementary, EnumValue, Kind, String, Type, plain
+from driveblocks.st.tree import Array, EnumValue, LiteralKind
+from driveblocks.st.types import LREAL, TEMPORAL, Elementary, Kind, String, Type, plain
 
 
 class Operands:

@@ -12,7 +12,8 @@ from driveblocks.host.embedded import times
 from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.values import Values, members
 from driveblocks.host.engine import Value
-from driveblocks.st.types import Array, Block, Struct, Type, plain
+from driveblocks.st.tree import Array, Block, Struct
+from driveblocks.st.types import Type, plain
 
 _STEP = re.compile(r"\.?(?P<name>[A-Za-z_]\w*)|\[(?P<indices>\s*-?\d+\s*(?:,\s*-?\d+\s*)*)\]")
 

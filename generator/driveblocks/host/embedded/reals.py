@@ -20,9 +20,8 @@ _INDEFINITE_64 = -(1 << 63)
 _INVALID = -math.nan
 # The functions of glibc that make a NaN without a sign.
 _POSITIVE_NAN = ("LOG", "ASIN", "ACOS")
-# Whole numbers up to this size are exact in single and in double precision.
+# Whole numbers up to this size are exact in single precision.
 EXACT_SINGLE = 1 << 24
-EXACT_DOUBLE = 1 << 53
 
 
 def _single_by_cell(number: float, cell: memoryview[float] = _CELL) -> float:

@@ -52,7 +52,6 @@ class Scope:
     objects: dict[str, Any]
     hoisted: set[tree.VarDecl] = field(default_factory=set)
     temporaries: int = 0
-    rehearsals: int = 0
 
     @property
     def model(self) -> Overflow:

@@ -14,15 +14,15 @@ from driveblocks.host.embedded.certainty import known, present
 from driveblocks.host.embedded.times import Span
 from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
-from driveblocks.st.types import Array, Block, Enum, Kind, Struct, Subrange, Type
+from driveblocks.st.tree import Array, Block, Enum, Struct
+from driveblocks.st.types import TEMPORAL, Kind, Subrange, Type
 
 # Makes an initial value; it is given the globals that instances of blocks see.
 Maker = Callable[[Any], Any]
 Copier = Callable[[Any, Any], None]
 Evaluator = Callable[[tree.Expression, Type], Any]
 
-_TEMPORAL = (Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME)
-_PLAIN_SCALARS = (Kind.BOOL, Kind.BITS, Kind.INTEGER, Kind.REAL, Kind.STRING, Kind.ENUM, *_TEMPORAL)
+_PLAIN_SCALARS = (Kind.BOOL, Kind.BITS, Kind.INTEGER, Kind.REAL, Kind.STRING, Kind.ENUM, *TEMPORAL)
 
 
 def is_scalar(each: Type) -> bool:
@@ -94,7 +94,7 @@ class Shapes:
             return 0.0
         if kind.kind is Kind.STRING:
             return b""
-        return Span(0, 0) if kind.kind in _TEMPORAL and self.model == "c" else 0
+        return Span(0, 0) if kind.kind in TEMPORAL and self.model == "c" else 0
 
     def _block_maker(self, kind: Block, initial: tree.Expression | None) -> Maker:
         settings = self._settings(initial, {name: each.type for name, each in _members(kind).items()})

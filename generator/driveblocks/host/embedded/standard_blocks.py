@@ -14,7 +14,8 @@ from driveblocks.host.embedded.faults import FaultError
 from driveblocks.host.embedded.shapes import Record
 from driveblocks.host.engine import Overflow
 from driveblocks.st.standard import BLOCKS
-from driveblocks.st.types import Block, Elementary
+from driveblocks.st.tree import Block
+from driveblocks.st.types import Elementary
 
 Body = Callable[[Any], None]
 

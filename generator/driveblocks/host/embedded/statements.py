@@ -16,7 +16,7 @@ from driveblocks.host.embedded.scope import Scope, UnsupportedError
 from driveblocks.host.embedded.syntax import place_of
 from driveblocks.host.embedded.terms import Whole
 from driveblocks.st import tree
-from driveblocks.st.types import Block
+from driveblocks.st.tree import Block
 
 # How many branches Python nests in one another; 40 levels of ST in the last of each must still go in its stack.
 _LONGEST_CHAIN = 16

@@ -126,23 +126,25 @@ def c_delete(text: bytes, count: int, position: int) -> bytes:
     """DELETE; lengths pass through 8 bits. Position 0 writes outside the string on matiec. FaultError."""
     if _count(count, position):
         return b""
-    count, position = count & 0xFF, position & 0xFF
-    if position == 0:
-        raise FaultError("DELETE at position 0 writes outside the string on matiec")
-    place = len(text) if position > len(text) else position - 1
-    return text[:place] + text[place + count :]
+    place = _place("DELETE", text, position)
+    return text[:place] + text[place + (count & 0xFF) :]
 
 
 def c_replace(text: bytes, other: bytes, count: int, position: int) -> bytes:
     """REPLACE by no more characters than are removed. Position 0 writes outside on matiec. FaultError."""
     if _count(count, position):
         return b""
-    count, position = count & 0xFF, position & 0xFF
-    if position == 0:
-        raise FaultError("REPLACE at position 0 writes outside the string on matiec")
-    place = len(text) if position > len(text) else position - 1
+    count, place = count & 0xFF, _place("REPLACE", text, position)
     rest = text[place + count :] if place + count <= 0xFF else text[(place + count) & 0xFF :]
     return (text[:place] + other[:count] + rest)[:DEFAULT_STRING_LENGTH]
+
+
+def _place(name: str, text: bytes, position: int) -> int:
+    """How many characters stand before a position of 8 bits."""
+    position &= 0xFF
+    if position == 0:
+        raise FaultError(f"{name} at position 0 writes outside the string on matiec")
+    return len(text) if position > len(text) else position - 1
 
 
 def _naive_find(text: bytes, other: bytes) -> int:

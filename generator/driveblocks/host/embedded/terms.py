@@ -109,7 +109,6 @@ class Plain:
 Term = Whole | Floating | Plain
 
 INTEGRAL = (Kind.BITS, Kind.INTEGER)
-TEMPORAL = (Kind.TIME, Kind.DATE, Kind.TIME_OF_DAY, Kind.DATE_AND_TIME)
 
 
 def elementary(each: Type) -> Elementary:

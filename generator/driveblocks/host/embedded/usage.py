@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Iterator
 
 from driveblocks.st import tree
-from driveblocks.st.types import Block, Direction
+from driveblocks.st.tree import Block, Direction
 
 # What hangs in the tree without being a part of it.
 _FOREIGN = (tree.VarDecl, tree.Pou, tree.Unit)

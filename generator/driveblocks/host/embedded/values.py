@@ -5,20 +5,15 @@ Inside, TIME may be a pair and a structure an object; outside they are nanosecon
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
-from driveblocks.host.embedded.terms import TEMPORAL
 from driveblocks.host.engine import Overflow, Value
-from driveblocks.st.types import REAL, Array, Block, Elementary, Enum, Kind, String, Struct, Subrange, Type, plain
-
-Reader = Callable[[Any], Value]
-# Checks a value and gives what is stored instead; `current` is what an array or structure holds, and is filled.
-Writer = Callable[[Any, Value], Any]
+from driveblocks.st.tree import Array, Block, Enum, Struct
+from driveblocks.st.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
 
 
 def members(kind: Type) -> dict[str, Type]:

@@ -12,8 +12,7 @@ from driveblocks.host.coverage import Branches, Lines, Outcome, case_outcome
 from driveblocks.host.engine import EngineError
 from driveblocks.host.matiec.text import Listing
 from driveblocks.st import tree
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import ParseError
+from driveblocks.st.parser import ParseError, parse
 from driveblocks.st.walk import bodies, statements
 
 COUNTS = ("dbk_hits", "dbk_begun")

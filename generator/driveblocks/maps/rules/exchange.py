@@ -5,9 +5,10 @@ from decimal import Decimal
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Quantity, Register
+from driveblocks.maps.plan import manners
 from driveblocks.maps.problem import Report
+from driveblocks.modbus.request import READS
 
-_READS = (0x03, 0x04)
 _ECHOED: dict[int, tuple[str, ...]] = {
     0x03: ("unit", "function", "words"),
     0x04: ("unit", "function", "words"),
@@ -37,12 +38,6 @@ def check(drive: Drive, frames: Frames, parsed: Parsed, report: Report) -> None:
             _proof(row, row.scale.proof, frames, report)
 
 
-def refusal(drive: Drive) -> adu.Refusal:
-    """How the drive refuses; as the standard has it where the manual does not say."""
-    form = drive.errors.form
-    return adu.Refusal() if form is None else adu.Refusal(form.add or 0x80, form.function, form.address)
-
-
 def _asked(frame: Frame, frames: Frames, parsed: Parsed, report: Report) -> Frame | None:
     """The request that a frame answers; notes a reply without one, unless it refuses whatever was asked."""
     if frame.answers is None:
@@ -69,7 +64,7 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
     due = request
     if reply.error is not None:
         keys = ("unit",) if reply.address is not None else ("unit", "function")
-        due = adu.refused(request, refusal(drive))
+        due = adu.refused(request, manners(drive))
     for key in keys:
         if getattr(due, key) != getattr(reply, key):
             got, asked = (adu.shown(key, getattr(fields, key)) for fields in (reply, due))
@@ -78,7 +73,7 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
 
 
 def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, report: Report) -> None:
-    if request.function not in _READS or request.address is None or reply.error is not None:
+    if request.function not in READS or request.address is None or reply.error is not None:
         return
     for offset, word in enumerate(reply.values):
         row = drive.register_at(request.address + offset)

@@ -3,15 +3,15 @@
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, PlcTable, Register
+from driveblocks.maps.plan import READ_WORDS, manners
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import exchange
 from driveblocks.maps.rules.access import carried
 from driveblocks.maps.rules.unique import unique
+from driveblocks.modbus.frame import checksum
+from driveblocks.modbus.request import READS
 
 _MEANT = ("unit", "function", "address", "words", "byte_count", "values", "sub_function", "data", "error")
-_READS = (0x03, 0x04)
-_MOST_WORDS = 125
-"""MODBUS Application Protocol V1.1b3, 6.3: no frame carries more."""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -36,11 +36,11 @@ def _take_apart(drive: Drive, frame: Frame, report: Report) -> adu.Fields | None
         report.add(frame.place("mode"), wrong, "correct the mode, or add it to `serial`")
     try:
         body, given = adu.split(frame.mode, frame.correct)
-        due = adu.checksum(frame.mode, body)
+        due = checksum(frame.mode, body)
         if given != due:
             wrong = f"the checksum of `correct` is {adu.octets(given)}"
             report.add(frame.place("correct"), wrong, f"these bytes need {adu.octets(due)}")
-        fields = adu.fields(body, frame.direction, exchange.refusal(drive))
+        fields = adu.fields(body, frame.direction, manners(drive))
     except adu.FrameError as error:
         report.add(frame.place("correct"), str(error), error.right)
         return None
@@ -54,7 +54,7 @@ def _printed(frame: Frame, report: Report) -> None:
     except adu.FrameError as error:
         report.add(frame.place("printed"), f"as printed: {error}", error.right)
         return
-    due = adu.checksum(frame.mode, body)
+    due = checksum(frame.mode, body)
     verdict = "right" if given == due else "wrong"
     if verdict != frame.checksum:
         wrong = f"`checksum: {frame.checksum}`, but {adu.octets(given)} printed, {adu.octets(due)} due"
@@ -62,7 +62,7 @@ def _printed(frame: Frame, report: Report) -> None:
     owner = frame.printed_checksum_of
     if owner is not None and verdict == "right":
         report.add(frame.place("printed_checksum_of"), "the printed checksum is right", "remove the key")
-    elif owner is not None and adu.checksum(frame.mode, owner) != given:
+    elif owner is not None and checksum(frame.mode, owner) != given:
         wrong = f"the printed checksum {adu.octets(given)} does not belong to these bytes"
         report.add(frame.place("printed_checksum_of"), wrong, "find the bytes, or remove the key")
 
@@ -95,7 +95,7 @@ def _allowed(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> 
 
 
 def _refused(drive: Drive, frame: Frame, fields: adu.Fields, known: set[int], report: Report) -> None:
-    add = exchange.refusal(drive).add
+    add = manners(drive).added
     if fields.address is None and fields.function - add not in known:
         wrong = f"function {fields.function:02X}H refuses a function that is not listed under `functions`"
         report.miss(frame.means.place("function"), wrong, "add it there, or correct the frame")
@@ -111,7 +111,7 @@ def _unit(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> Non
             wrong = f"unit {fields.unit} is no unit address of this drive"
             report.add(frame.means.place("unit"), wrong, f"it has {unit.min} to {unit.max}")
         return
-    if fields.function in _READS or (frame.direction == "reply" and not cast.replies):
+    if fields.function in READS or (frame.direction == "reply" and not cast.replies):
         report.add(frame.means.place("unit"), "a broadcast is neither read from nor answered", "correct the frame")
     if cast.start_addresses and fields.address is not None and fields.address not in cast.start_addresses:
         wrong = f"a broadcast cannot start at {address_text(fields.address)}"
@@ -121,8 +121,8 @@ def _unit(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> Non
 
 def _limits(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> None:
     limits = drive.limits
-    limit = limits.read_words if fields.function in _READS else limits.write_words
-    most = limit.value if limit is not None else _MOST_WORDS
+    limit = limits.read_words if fields.function in READS else limits.write_words
+    most = limit.value if limit is not None else READ_WORDS
     words = fields.words if fields.words is not None else len(fields.values)
     if words > most or fields.words == 0:
         report.add(frame.place("correct"), f"{words} words, but a frame has 1 to {most}", "one of the two is wrong")
@@ -143,9 +143,9 @@ def _sub_function(drive: Drive, frame: Frame, fields: adu.Fields, report: Report
 def _registers(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> None:
     if fields.address is None or fields.error is not None:
         return
-    use = "r" if fields.function in _READS else "w"
+    use = "r" if fields.function in READS else "w"
     words = fields.words if fields.words is not None else 1
-    for offset in range(min(words, _MOST_WORDS)):
+    for offset in range(min(words, READ_WORDS)):
         row = carried(drive, fields.address + offset, use, frame.means.place("address"), report)
         if row is not None and use == "w" and offset < len(fields.values):
             _value(row, fields.values[offset], frame, report)

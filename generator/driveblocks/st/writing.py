@@ -1,10 +1,17 @@
-"""Literals and comments of the test programs."""
+"""Literals, comments and lines of the Structured Text that is written here, in the forms of the portable part."""
 
+import itertools
 import re
 import textwrap
 
 WIDTH = 110
-"""Columns of the longest line."""
+"""Columns of the longest line of a program."""
+
+MOST = 120
+"""Columns of the longest line with a comment, but for a string that is longer itself."""
+
+_BESIDE = re.compile(r"( *)(\S.*;) (\(\*.*\*\))")
+_DECLARED = re.compile(r"  (\w+ : [^;]*;) +(\(\*.*\*\))")
 
 
 def word(value: int) -> str:
@@ -81,3 +88,30 @@ def remarked(statement: str, words: str, indent: str, width: int = WIDTH) -> lis
     if len(lines[-1]) + 1 + len(remark) <= width + 10:
         return [*lines[:-1], f"{lines[-1]} {remark}"]
     return [*paragraph(f"{indent}(* ", words, " *)", width), *lines]
+
+
+def aligned(text: str) -> str:
+    """The text with the comments behind consecutive declarations in one column, and no line too long for a comment."""
+    lines: list[str] = []
+    for declared, group in itertools.groupby(text.split("\n"), lambda line: bool(_DECLARED.fullmatch(line))):
+        run = list(group)
+        lines.extend(_column(run) if declared else map(_above, run))
+    return "\n".join(lines)
+
+
+def _column(lines: list[str]) -> list[str]:
+    matches = [match for line in lines if (match := _DECLARED.fullmatch(line))]
+    width = max(len(match[1]) for match in matches)
+    return [_wrapped(f"  {match[1]:<{width}} ", match[2]) for match in matches]
+
+
+def _wrapped(lead: str, comment: str) -> str:
+    """A declaration whose comment goes on below itself where the line ends."""
+    lines = textwrap.wrap(comment, max(MOST - len(lead), 40), break_long_words=False, break_on_hyphens=False)
+    return lead + f"\n{' ' * (len(lead) + 3)}".join(lines)
+
+
+def _above(line: str) -> str:
+    """A statement with its comment, the comment above where both are too long for one line."""
+    match = _BESIDE.fullmatch(line) if len(line) > MOST else None
+    return f"{match[1]}{match[3]}\n{match[1]}{match[2]}" if match else line

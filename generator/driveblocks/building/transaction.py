@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.render.manifest import Refused, digest, is_below, parents, text_digest
+from driveblocks.building.manifest import Refused, digest, is_below, parents, text_digest
 
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
 JOURNAL, NEW, OLD = "journal.json", "new", "old"

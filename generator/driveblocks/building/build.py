@@ -1,80 +1,25 @@
 """Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from driveblocks.building import manifest, transaction
+from driveblocks.building.manifest import Manifest, Refused, State
+from driveblocks.host.engine import Source as Text
 from driveblocks.maps import catalog
-from driveblocks.maps.load import load
-from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import MapError, Problem
-from driveblocks.render import library, manifest, transaction
-from driveblocks.render.manifest import Manifest, Refused, State
+from driveblocks.maps.collection import Source, read
+from driveblocks.maps.problem import MapError
+from driveblocks.render import library
 from driveblocks.render.overview import overview
 from driveblocks.render.text import Language, told
-from driveblocks.testing import programs
+from driveblocks.testing.suite import drive_suite, programs, shared_suite
+from driveblocks.testing.unit import Unit
 
 PLATFORM = "iec61131"
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
-
-
-@dataclass(frozen=True)
-class Source:
-    """A checked map and the file that it came from."""
-
-    path: Path
-    drive: Drive
-
-
-def read(paths: Iterable[Path]) -> list[Source]:
-    """Load maps that can become blocks. Raises MapError with the mistakes of all of them."""
-    sources: list[Source] = []
-    problems: list[Problem] = []
-    for path in paths:
-        try:
-            sources.append(Source(path, load(path)))
-        except MapError as error:
-            problems.extend(error.problems)
-    problems.extend(clashes(sources))
-    if problems:
-        raise MapError(problems)
-    return sources
-
-
-def clashes(sources: list[Source]) -> list[Problem]:
-    """What stands in the way of one library for all of these maps."""
-    return [*_shared_prefixes(sources), *_shared_folders(sources)]
-
-
-def _shared_prefixes(sources: list[Source]) -> list[Problem]:
-    """Two maps of one prefix would write blocks of one name."""
-    problems = []
-    first: dict[str, Source] = {}
-    for source in sources:
-        other = first.setdefault(source.drive.prefix.upper(), source)
-        if other is not source:
-            line, column = source.drive.place("prefix")
-            wrong = f"prefix {source.drive.prefix} is taken by {other.path}"
-            problems.append(Problem(str(source.path), line, column, wrong, "give each map a prefix of its own"))
-    return problems
-
-
-def _shared_folders(sources: list[Source]) -> list[Problem]:
-    """A drive's folder has the name of its map's file; some names belong to the library itself.
-
-    The case of letters makes no difference, as on Windows.
-    """
-    problems = []
-    taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
-    for source in sources:
-        stem = source.path.stem.lower()
-        if stem in taken:
-            wrong = f"the folder {source.path.stem}/ is taken by {taken[stem]}"
-            problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
-        taken[stem] = str(source.path)
-    return problems
 
 
 def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
@@ -87,6 +32,21 @@ def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
     texts[f"{PLATFORM}/order.txt"] = "".join(f"{file.path}\n" for file in made)
     texts["README.md"] = overview(made, [source.drive for source in sources])
     return texts | programs(sources, languages)
+
+
+def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
+    """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
+    generic = tuple(_sources(library.generic(languages)))
+    made = [Unit(shared_suite(languages), generic)]
+    for source in sources:
+        own = _sources(library.drive(source.path.stem, source.drive, languages))
+        made.append(Unit(drive_suite(source, languages), (*generic, *own)))
+    return made
+
+
+def _sources(files: Iterator[library.File]) -> Iterator[Text]:
+    for file in files:
+        yield Text(f"{PLATFORM}/{file.path}", file.text)
 
 
 @dataclass(frozen=True)

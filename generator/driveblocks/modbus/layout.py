@@ -7,12 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from driveblocks.reference.reply import Manners
-
 Direction = Literal["request", "reply"]
 DIRECTIONS: tuple[Direction, Direction] = ("request", "reply")
 
-_FIXED: dict[tuple[int, Direction], tuple[str, ...]] = {
+WORDS_OF: dict[tuple[int, Direction], tuple[str, ...]] = {
     **{(function, "request"): ("address", "quantity") for function in (1, 2, 3, 4)},
     **{(function, direction): ("address", "value") for function in (5, 6) for direction in DIRECTIONS},
     (7, "request"): (),
@@ -29,6 +27,23 @@ _WORDS = frozenset({3, 4, 16})
 """Functions whose counted bytes are registers."""
 
 KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
+
+
+@dataclass(frozen=True)
+class Manners:
+    """How a drive refuses, and what is tolerated. As it stands: what the standard says."""
+
+    add: int | None = 0x80
+    """A refusal is function code + add with one byte of reason."""
+    function: int | None = None
+    address: int | None = None
+    """A refusal is a reply of this function at this address, with a word of reason."""
+    two_byte_count: bool = False
+
+    @property
+    def added(self) -> int:
+        """What is added to the function code where a refusal has the form of an exception."""
+        return 0x80 if self.add is None else self.add
 
 
 @dataclass(frozen=True)
@@ -110,7 +125,7 @@ def take(body: bytes, direction: Direction, manners: Manners) -> Layout:
         refusal = _exception(body, manners) or _write_reply(body, manners)
         if refusal is not None:
             return refusal
-    return _granted(body, direction)
+    return granted(body, direction)
 
 
 def readings(body: bytes, manners: Manners) -> tuple[Layout, ...]:
@@ -121,7 +136,7 @@ def readings(body: bytes, manners: Manners) -> tuple[Layout, ...]:
 
 
 def _exception(body: bytes, manners: Manners) -> Layout | None:
-    add = manners.add if manners.add is not None else 0x80
+    add = manners.added
     if body[1] < add or (add != 0x80 and body[1] - add not in KNOWN):
         return None
     parts = [Part("unit", body[:1]), Part("function", body[1:2]), Part("reason", body[2:3])]
@@ -138,15 +153,16 @@ def _write_reply(body: bytes, manners: Manners) -> Layout | None:
     return Layout("reply", body, (*_filled(parts), *_surplus(body[6:])), 6, refusal=True)
 
 
-def _granted(body: bytes, direction: Direction) -> Layout:
+def granted(body: bytes, direction: Direction) -> Layout:
+    """Take a body apart that refuses nothing."""
     kind = (body[1], direction)
     head = [Part("unit", body[:1]), Part("function", body[1:2])]
     if kind == (7, "reply"):
         return Layout(direction, body, (*head, *_filled([Part("status", body[2:3])]), *_surplus(body[3:])), 3)
-    if kind not in _FIXED:
+    if kind not in WORDS_OF:
         return Layout(direction, body, (*head, *_filled([Part("data", body[2:])])), len(body))
     at = 2
-    for name in _FIXED[kind]:
+    for name in WORDS_OF[kind]:
         head.append(Part(name, body[at : at + 2]))
         at += 2
     if kind not in _COUNTED:

@@ -1,0 +1,66 @@
+"""Maps of one library: each with its file, and what stands in the way of having the blocks of all of them together."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError, Problem
+
+
+@dataclass(frozen=True)
+class Source:
+    """A checked map and the file that it came from."""
+
+    path: Path
+    drive: Drive
+
+
+def read(paths: Iterable[Path]) -> list[Source]:
+    """Load maps that can become blocks. Raises MapError with the mistakes of all of them."""
+    sources: list[Source] = []
+    problems: list[Problem] = []
+    for path in paths:
+        try:
+            sources.append(Source(path, load(path)))
+        except MapError as error:
+            problems.extend(error.problems)
+    problems.extend(clashes(sources))
+    if problems:
+        raise MapError(problems)
+    return sources
+
+
+def clashes(sources: list[Source]) -> list[Problem]:
+    """What stands in the way of one library for all of these maps."""
+    return [*_shared_prefixes(sources), *_shared_folders(sources)]
+
+
+def _shared_prefixes(sources: list[Source]) -> list[Problem]:
+    """Two maps of one prefix would write blocks of one name."""
+    problems = []
+    first: dict[str, Source] = {}
+    for source in sources:
+        other = first.setdefault(source.drive.prefix.upper(), source)
+        if other is not source:
+            line, column = source.drive.place("prefix")
+            wrong = f"prefix {source.drive.prefix} is taken by {other.path}"
+            problems.append(Problem(str(source.path), line, column, wrong, "give each map a prefix of its own"))
+    return problems
+
+
+def _shared_folders(sources: list[Source]) -> list[Problem]:
+    """A drive's folder has the name of its map's file; some names belong to the library itself.
+
+    The case of letters makes no difference, as on Windows.
+    """
+    problems = []
+    taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
+    for source in sources:
+        stem = source.path.stem.lower()
+        if stem in taken:
+            wrong = f"the folder {source.path.stem}/ is taken by {taken[stem]}"
+            problems.append(Problem(str(source.path), 1, 1, wrong, "give the file of this map another name"))
+        taken[stem] = str(source.path)
+    return problems

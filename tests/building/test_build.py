@@ -1,0 +1,66 @@
+"""What is built from maps: the same text every time, in the languages asked for."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from driveblocks.building import build
+from driveblocks.cli import app
+from driveblocks.maps import catalog, collection, page
+from driveblocks.render import text
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "tests/maps/example.yaml"
+BOTH = text.languages(["en", "zh"], "utf-8")
+
+
+@pytest.fixture(scope="module")
+def wanted() -> dict[str, str]:
+    return build.files(collection.read([EXAMPLE]), BOTH)
+
+
+def test_two_builds_are_equal(wanted: dict[str, str]) -> None:
+    assert build.files(collection.read([EXAMPLE]), BOTH) == wanted
+
+
+def test_nothing_in_the_output_depends_on_the_machine(wanted: dict[str, str], tmp_path: Path) -> None:
+    elsewhere = tmp_path / "example.yaml"
+    elsewhere.write_bytes(EXAMPLE.read_bytes())
+    assert build.files(collection.read([elsewhere]), BOTH) == wanted
+
+
+def test_a_language_left_out_costs_nothing() -> None:
+    english = build.files(collection.read([EXAMPLE]), text.languages(["en"], "utf-8"))
+    assert not [name for name in english if name.endswith("Zh.st")]
+    assert "TextZh" not in english["iec61131/order.txt"]
+
+
+def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> None:
+    fourth = sorted((ROOT / "tests/blocks/fourth_drive").glob("*.yaml"))
+    made = build.files(collection.read([*catalog.shipped(), *fourth, EXAMPLE]), text.languages(["en"], "utf-8"))
+    assert [name for name, content in made.items() if not content.replace("°C", "").isascii()] == []
+
+
+@pytest.mark.parametrize(
+    ("lang", "files", "said"),
+    [
+        ("en,zh", 1, "ACME: the map has no Chinese texts: its texts are English alone"),
+        ("zh", 0, "ACME: the map has no Chinese texts: it gets no text functions; --lang en makes them"),
+        ("en", 1, ""),
+    ],
+)
+def test_a_map_without_chinese_gets_none_and_that_is_said(tmp_path: Path, lang: str, files: int, said: str) -> None:
+    path = tmp_path / "acme.yaml"
+    path.write_text(page.skeleton(), encoding="utf-8")
+    result = CliRunner().invoke(app, ["build", str(path), "-o", str(tmp_path / "out"), "--lang", lang])
+    assert result.exit_code == 0
+    assert "\n".join(result.stdout.splitlines()[1:]) == said
+    assert len(list((tmp_path / "out").rglob("ACME_FaultText*.st"))) == files
+    assert not list((tmp_path / "out").rglob("ACME_*TextZh.st"))
+
+
+def test_chinese_can_be_gb18030() -> None:
+    made = build.files(collection.read([EXAMPLE]), text.languages(["zh"], "gb18030"))
+    shown = made["iec61131/modbus/MB_ResultTextZh.st"]
+    assert "'" + "".join(f"${byte:02X}" for byte in "无应答".encode("gb18030")) + "'" in shown

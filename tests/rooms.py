@@ -1,0 +1,45 @@
+"""What each module of the generator imports."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import driveblocks
+
+ROOT = Path(driveblocks.__file__).parent
+
+
+def modules() -> dict[str, Path]:
+    """Every module by its dotted name."""
+    names = {path: path.relative_to(ROOT.parent).with_suffix("").parts for path in ROOT.rglob("*.py")}
+    return {".".join(parts).removesuffix(".__init__"): path for path, parts in names.items()}
+
+
+def imports(path: Path, known: dict[str, Path]) -> Iterator[str]:
+    """What a module imports, wherever it does; what is imported for types alone counts, too."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            named = (f"{node.module}.{alias.name}" for alias in node.names)
+            yield from (name if name in known else node.module for name in named)
+
+
+def room(module: str) -> str:
+    """The folder or file right below the package that a module is in; the package's own is called as itself."""
+    return [*module.split("."), "driveblocks"][1]
+
+
+GRAPH = {name: set(imports(path, modules())) for name, path in modules().items()}
+
+
+def reached(start: str) -> set[str]:
+    """Modules that a room imports, and those that they import."""
+    found: set[str] = set()
+    waiting = [name for name in GRAPH if room(name) == start]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += GRAPH.get(name, ())
+    return found
