@@ -43,7 +43,7 @@ NEXT = """
 made
   {blocks}: the function blocks, their page README.md, and their test programs in tests{sep}
 next
-  read CONTRIBUTING.md for how the manual of your own drive becomes a map, or try
+  read vendor_maps/README.md for how the manual of your own drive becomes a map, or try
   {driveblocks} show jscc     a drive with its commands, registers and faults
   {driveblocks} test          the test programs of all drives, one by one
   {driveblocks} --help        everything else
