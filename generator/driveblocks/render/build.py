@@ -67,7 +67,7 @@ def _shared_prefixes(sources: list[Source]) -> list[Problem]:
 def _shared_folders(sources: list[Source]) -> list[Problem]:
     """A drive's folder has the name of its map's file; some names belong to the library itself."""
     problems = []
-    taken = dict.fromkeys(("modbus", "types", "harness"), "the library's own folder")
+    taken = dict.fromkeys(("modbus", "line", "types", "harness"), "the library's own folder")
     for source in sources:
         stem = source.path.stem
         if stem in taken:

@@ -69,13 +69,13 @@ def assign(name: str) -> str:
     return f"{name} := ..."
 
 
-def crc_table() -> str:
-    """The 256 words of the CRC table, computed from the polynomial A001H, eight to a row."""
-    return literal.rows(literal.word(_crc_entry(index)) for index in range(256))
+def crc_table(octets: int = 1) -> str:
+    """The 256 words of the CRC table, from the polynomial A001H, eight to a row: the change by one byte, and zeros."""
+    return literal.rows(literal.word(_crc_entry(index, octets)) for index in range(256))
 
 
-def _crc_entry(index: int) -> int:
+def _crc_entry(index: int, octets: int) -> int:
     value = index
-    for _ in range(8):
+    for _ in range(8 * octets):
         value = (value >> 1) ^ 0xA001 if value & 1 else value >> 1
     return value

@@ -36,6 +36,8 @@ def overview(files: list[File], drives: list[Drive]) -> str:
 
 def _heading(folder: str, drives: list[Drive], files: list[File]) -> str:
     """The family whose blocks stand in a folder, by the prefix of their names."""
+    if folder == "line":
+        return "The line: one block per RS-485 port"
     prefix = next(file.name.partition("_")[0] for file in files if file.folder == folder)
     drive = next((drive for drive in drives if drive.prefix == prefix), None)
     return context.identity(drive).family if drive else "Blocks that every drive shares"
