@@ -1,7 +1,7 @@
 /* A virtual RS-485 line in virtual time around the matiec build of MB_Line8 or MB_Line32. Times in microseconds.
 
    vline run KEY=VALUE ...       one line for `ms` milliseconds; prints what was measured, KEY VALUE per line
-   vline random FIRST COUNT KIND so many random lines of a kind (stops, timing, faults); prints the sums and each failure's seed
+   vline random FIRST COUNT KIND so many random lines of a kind (timing, stops, late, broken, faults); prints the sums and each failure's seed
    vline cost KEY=VALUE ...      nanoseconds per call of the line, by what the call had to do
 
    SLOT_COUNT is 8 or 32. The drives come from drives.h, which is written from the same table as the virtual line in Python. */
@@ -155,7 +155,7 @@ static void hear(const unsigned char *text, int count, us end) {
   if (happens(c.loss)) return;
   us start = end + between(c.turn_low, c.turn_high); int in_time = start - end <= c.turn_ms * 1000LL;
   if (happens(c.late)) { start = end + between(c.turn_ms * 1000L, c.longest_ms * 1000L); in_time = 0; }
-  if (!in_time) any_broken = any_broken || !c.late || 1;
+  if (!in_time) any_broken = 1;
   int twice = happens(c.duplicate);
   open_good = transmit(reply, length, start, 1) && in_time;
   if (twice) { us again = reply_to + silence(); transmit(reply, length, again, 0); }
@@ -325,6 +325,7 @@ static void draw(uint64_t seed, const char *what) {
   c.loss = between(0, 2) == 0 ? between(0, 50000) : 0; c.garble = between(0, 2) == 0 ? between(0, 30000) : 0;
   c.dead = between(0, 3) == 0 ? between(0, c.drives) : 0; c.stop_every = between(20, 300); c.lone = between(0, 1);
   c.all_every = between(0, 3) == 0 ? between(50, 200) : 0;
+  if (!strcmp(what, "late")) { c.longest_ms = between(1, 5) * c.turn_ms; c.late = between(0, 5000); c.revive_ms = between(0, 1) * between(500, 5000); }
   if (!strcmp(what, "broken")) c.turn_high = 3 * c.turn_ms * 1000;
   if (!strcmp(what, "faults")) {
     c.turn_high = between(1, 3) * c.turn_ms * 1000; c.longest_ms = 3 * c.turn_ms; c.late = between(0, 3000); c.duplicate = between(0, 3000);
@@ -338,9 +339,9 @@ static int run_random(uint64_t first, long count, const char *what, int scans) {
     draw(first + k, what); begin();
     for (int i = 0; i < scans; i++) scan(0);
     finish(); hours += now / 3.6e9;
-    int strict = strcmp(what, "faults") && strcmp(what, "broken");
-    int bad = f.lost_stops || f.false_acks || (f.short_silences && !c.stall && !c.foreign_ms && strcmp(what, "faults"))
-      || (strict && (f.false_timeouts || f.wrong_readings || f.late_stops || f.late_lone_stops));
+    int late = !strcmp(what, "late"), strict = !late && strcmp(what, "faults") && strcmp(what, "broken");
+    int bad = f.lost_stops || f.false_acks || (late && f.wrong_readings)
+      || (strict && (f.short_silences || f.false_timeouts || f.wrong_readings || f.late_stops || f.late_lone_stops));
     if (bad && failures++ < 10)
       printf("failure seed %llu kind %s: lost %ld false_acks %ld short %ld false_timeouts %ld wrong %ld late %ld lone %ld\n", (unsigned long long)(first + k), what,
         f.lost_stops, f.false_acks, f.short_silences, f.false_timeouts, f.wrong_readings, f.late_stops, f.late_lone_stops);
