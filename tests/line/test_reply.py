@@ -84,10 +84,11 @@ def test_an_echo_is_found_by_reads_and_never_believed() -> None:
 def test_until_the_echo_is_known_only_reads_and_stops_leave_and_no_stop_is_believed() -> None:
     bench = Bench(Config(drives=1, echo=True))
     bench.drives[0].alive = False
-    bench.fill(0, 3, 6, 0x2000)  # a poll that is no read never decides it
+    bench.fill(0, 3, 6, 0x2000)
     bench.stop(0)
-    sent = bench.run(1000)
-    assert {each.stop for each in sent if each.pdu[2:4] == b"\x10\x00"} == {True}
+    bench.command(0)
+    assert {each.stop for each in bench.run(1000)} == {True}, "a poll that is no read decides nothing, and never leaves"
+    assert bench["Echo"] == 0
     assert bench.answer(0, STOP) == ""
 
 
@@ -104,10 +105,10 @@ def test_the_echo_is_decided_anew_behind_an_error_of_the_port() -> None:
 
 def test_an_adapter_that_begins_to_echo_is_noticed_at_the_next_read() -> None:
     bench = Bench().ready()
-    object.__setattr__(bench.config, "echo", True)
+    bench.echoes = True
     bench.run(100)
     assert bench["Echo"] == 2
-    object.__setattr__(bench.config, "echo", False)
+    bench.echoes = False
     bench.run(300)
     assert bench["Echo"] == 1
 

@@ -15,7 +15,7 @@ from tests.blocks.library import sources
 from tests.line.drives import KINDS, Kind
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
+from driveblocks.host.engine import Instance, Library, Source
 from driveblocks.reference.checksum import crc16, lrc
 from driveblocks.render.results import RESULTS
 
@@ -131,12 +131,14 @@ def opened(text: bytes, ascii_: bool) -> bytes:
 class Bench:
     """A line with its drives."""
 
-    def __init__(self, config: Config | None = None, seed: int = 0, edit: Edit = str, **pins: int | bool) -> None:
-        """Begin a line; `pins` are inputs of the block."""
+    def __init__(
+        self, config: Config | None = None, seed: int = 0, block: Instance | None = None, **pins: int | bool
+    ) -> None:
+        """Begin a line; `block` in the place of a fresh one on the embedded engine; `pins` are its inputs."""
         self.config = config or Config()
         self.chance = Random(seed)  # noqa: S311  (a seed is a run)
         self.kind = KINDS[self.config.kind]
-        self.block = library(edit).instance("MB_Line8")
+        self.block = block or library().instance("MB_Line8")
         self.now = 0
         self.called = 0
         self.sent: list[Sent] = []
@@ -150,6 +152,7 @@ class Bench:
         self._busy = (0, 0)
         self._held = 0
         self.port_takes = True
+        self.echoes = self.config.echo
         self.set(BitRate=self.config.rate, CharacterBits=self.config.bits, Ascii=self.config.ascii, **pins)
         self.set(MaxScanMs=self.config.max_scan)
         held = (self.config.tx_late + self.config.rx_late) * self.config.max_scan
@@ -313,7 +316,7 @@ class Bench:
         end = start + self._us(len(text))
         self._last = max(self._last, end)
         collides = start < self._busy[1] and end > self._busy[0]
-        if self.config.echo:
+        if self.echoes:
             self.transmit(text, start, whole=not collides)
         for drive in self.drives:
             if drive.unit == frame[0] and not collides:
