@@ -49,17 +49,18 @@ class CLine:
         return self.run("random", str(first), str(count), kind)
 
 
-def texts() -> list[str]:
-    """The files of the library that a line needs."""
+def texts(slots: int = 8) -> list[str]:
+    """The files of the library that a line of so many slots needs."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
-    shared = [name for name in names if name.partition("/")[0] in ("types", "modbus", "line")]
-    return [(BLOCKS / name).read_text(encoding="utf-8") for name in shared]
+    own = [name for name in names if name.startswith(("types/", "modbus/MB_Hex", "line/")) and "ByteLine" not in name]
+    wanted = [name for name in own if not name.endswith({8: "32.st", 32: "s8.st"}[slots])]
+    return [(BLOCKS / name).read_text(encoding="utf-8") for name in wanted if name != f"line/MB_Line{40 - slots}.st"]
 
 
 def build(folder: Path, slots: int = 8, edit: Callable[[str], str] = str, tool: Installation | None = None) -> CLine:
     """Compile a line of so many slots in a folder; `edit` may plant a fault in the ST. Raises AssertionError."""
     tool = tool or FOUND[0]
-    translate(tool, [edit(text) for text in texts()], folder)
+    translate(tool, [edit(text) for text in texts(slots)], folder)
     (folder / "drives.h").write_text(header(), encoding="utf-8")
     program = folder / f"vline{slots}"
     headers = ["-isystem", str(tool.library / "C"), "-I", "."]

@@ -223,6 +223,7 @@ def test_frames_that_nobody_asked_for_are_counted(frame: bytes, counted: int, as
     before = bench["ForeignFrames"]
     while bench["Phase"] or bench["QuietMs"] < 100 or bench["Track[0].PauseMs"] < 200:
         bench.scan()
+    bench.now += bench.chance.randrange(9000)  # so that it may be split between two scans
     bench.foreign(frame)
     bench.run(100)
     assert bench["ForeignFrames"] == before + counted

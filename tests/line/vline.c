@@ -26,7 +26,7 @@ typedef long long us;
 typedef struct {
   int drives, rate, bits, ascii, keeps, tx_late, rx_late, whole, words, scan, jitter, max_scan, behind, kind;
   int turn_low, turn_high, turn_ms, longest_ms; /* true turn-round, and what the slot promises */
-  int loss, garble, late, duplicate, truncate, stall; /* per 100,000 replies or scans */
+  int loss, garble, late, duplicate, truncate, scramble, stall; /* per 100,000 replies or scans */
   int dead, revive_ms, dip_ms, echo, foreign_ms, unattended, command_ms, reset, stop_every, all_every, lone, poll_ms;
   int ms, drain;
 } Config;
@@ -35,7 +35,7 @@ static Config c;
 static struct { const char *name; int *value; } KEYS[] = {
   KEY(drives), KEY(rate), KEY(bits), KEY(ascii), KEY(keeps), KEY(tx_late), KEY(rx_late), KEY(whole), KEY(words), KEY(scan),
   KEY(jitter), KEY(max_scan), KEY(behind), KEY(kind), KEY(turn_low), KEY(turn_high), KEY(turn_ms), KEY(longest_ms), KEY(loss),
-  KEY(garble), KEY(late), KEY(duplicate), KEY(truncate), KEY(stall), KEY(dead), KEY(revive_ms), KEY(dip_ms), KEY(echo),
+  KEY(garble), KEY(late), KEY(duplicate), KEY(truncate), KEY(scramble), KEY(stall), KEY(dead), KEY(revive_ms), KEY(dip_ms), KEY(echo),
   KEY(foreign_ms), KEY(unattended), KEY(command_ms), KEY(reset), KEY(stop_every), KEY(all_every), KEY(lone), KEY(poll_ms),
   KEY(ms), KEY(drain)};
 
@@ -72,7 +72,7 @@ static void spoil(us from, us to) {
 /* ---- what is measured ---- */
 typedef struct {
   long scans, requests, short_silences, false_timeouts, wrong_readings, false_acks, stops, late_stops, lost_stops, lone_stops,
-    late_lone_stops, broken_stops, readings, undetected, started_blind, overdue, foreign, timeouts, timeouts_after_lone_echo;
+    late_lone_stops, broken_stops, readings, scrambled, overdue, foreign, timeouts, timeouts_after_lone_echo;
   us refresh_sum, refresh_worst, stop_worst, command_sum, command_worst; long refreshes, commands; double ratio, lone_ratio;
 } Found;
 static Found f;
@@ -116,6 +116,9 @@ static int sealed(unsigned char *bytes, int count, unsigned char *text) {
 static int transmit(unsigned char *bytes, int count, us start, int faults) {
   unsigned char text[170]; int good = 1, length = sealed(bytes, count, text);
   if (faults && happens(c.garble)) { text[between(0, length - 1)] ^= 1 << between(0, 7); good = 0; }
+  if (faults && happens(c.scramble) && length > 5) { /* all behind the head by chance: a checksum of 16 bits lets one in 65,536 pass */
+    for (int i = 3; i < length; i++) text[i] = chance();
+    good = 0; f.scrambled++; }
   if (faults && happens(c.truncate)) { length = between(0, length - 1); good = 0; }
   us end = start + characters(length);
   int collides = start < reply_to && end > reply_from;
@@ -300,7 +303,7 @@ static void defaults(void) {
 static void told(const char *name, double value) { printf("%s %.10g\n", name, value); }
 static void report(void) {
   told("scans", f.scans); told("requests", f.requests); told("short_silences", f.short_silences); told("false_timeouts", f.false_timeouts);
-  told("timeouts", f.timeouts); told("readings", f.readings); told("wrong_readings", f.wrong_readings); told("false_acks", f.false_acks);
+  told("scrambled", f.scrambled); told("timeouts", f.timeouts); told("readings", f.readings); told("wrong_readings", f.wrong_readings); told("false_acks", f.false_acks);
   told("stops", f.stops); told("late_stops", f.late_stops); told("lost_stops", f.lost_stops); told("broken_stops", f.broken_stops);
   told("lone_stops", f.lone_stops); told("late_lone_stops", f.late_lone_stops); told("ratio", f.ratio); told("lone_ratio", f.lone_ratio);
   told("stop_worst_ms", f.stop_worst / 1000.0); told("refresh_ms", f.refreshes ? f.refresh_sum / 1000.0 / f.refreshes : 0);
@@ -322,6 +325,7 @@ static void draw(uint64_t seed, const char *what) {
   c.turn_ms = between(1, 40); c.turn_low = 0; c.turn_high = c.turn_ms * 1000; c.longest_ms = c.turn_ms;
   c.echo = between(0, 4) == 0; c.command_ms = between(0, 2) * between(1, 500);
   if (!strcmp(what, "timing")) { c.stall = between(0, 1) && !c.tx_late && !c.rx_late && !c.whole ? 1000 : 0; return; }
+  c.longest_ms = between(1, 4) * c.turn_ms;
   c.loss = between(0, 2) == 0 ? between(0, 50000) : 0; c.garble = between(0, 2) == 0 ? between(0, 30000) : 0;
   c.dead = between(0, 3) == 0 ? between(0, c.drives) : 0; c.stop_every = between(20, 300); c.lone = between(0, 1);
   c.all_every = between(0, 3) == 0 ? between(50, 200) : 0;
