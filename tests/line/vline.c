@@ -80,7 +80,7 @@ static Found f;
 /* ---- the drives ---- */
 typedef struct {
   int alive, reply_good; us dies, revives; unsigned truth, written; long stops_heard, stops_seen; us stop_pin, last_fresh, next_command, command_pin;
-  int stop_open, alone, stop_broken; unsigned fresh, freshest, timeouts, last_command; long stops_at_pin; unsigned command_number;
+  int stop_open, alone, moved; unsigned fresh, freshest, timeouts, last_command; long stops_at_pin; unsigned command_number;
 } Drive;
 static Drive drive[SLOT_COUNT];
 static us open_end; static int open_drive, open_good, open_stop, any_broken;
@@ -148,7 +148,8 @@ static void hear(const unsigned char *text, int count, us end) {
       if (own > 1 && !limit) f.late_lone_stops++; }
   }
   if (!one->alive) return;
-  if (open_stop) one->stops_heard++;
+  if (open_stop) { one->stops_heard++; one->moved = 0; }
+  else if (bytes[1] != 3 && bytes[1] != 4) one->moved = 1;
   memcpy(reply, bytes, 6);
   if (bytes[1] == 3 || bytes[1] == 4) {
     int words = bytes[5]; one->truth = (one->truth + 1) & 0xFFFF;
@@ -214,7 +215,8 @@ static void drive_block(int i, us warm) {
     one->last_fresh = now; one->fresh = slot->FRESH;
   }
   if (one->stop_open == 2 && !waits(i, 0)) { one->stop_open = 0;
-    if (one->stops_heard == one->stops_at_pin) f.false_acks++; }
+    /* without late replies it must have been heard; with them an earlier stop's may pass for it, if nothing moved since */
+    if (one->stops_heard == one->stops_at_pin && (one->moved || !any_broken)) f.false_acks++; }
   if (one->command_pin && !waits(i, 1)) {
     if (slot->ANSWER.table[1].ERRORID == 0) { us took = now - one->command_pin; f.command_sum += took; f.commands++; if (took > f.command_worst) f.command_worst = took;
       if (one->written != one->last_command) f.false_acks++; }
