@@ -11,7 +11,7 @@ import typer
 from driveblocks.cli import app
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md")]
+PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md", "docs/line.md")]
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 
 

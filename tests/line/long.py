@@ -69,10 +69,10 @@ def _line(folder: Path, slots: int = 8) -> CLine:
 
 
 def formula(drives: int, rate: int, bits: int, scan_ms: int, keeps: bool, late: int, words: int = 6, turn: int = 5) -> float:
-    """Refresh in ms: whole scans per transaction, one more where the line keeps the silence, those of the adapter."""
+    """Refresh in ms: whole scans per transaction, those of the silence where the line keeps it, those of the adapter."""
     wire = (8 + 5 + 2 * words) * bits * 1000 / rate + turn
     silence = 1.75 if rate > 19200 else 3.5 * bits * 1000 / rate
-    scans = ceil((wire + silence) / scan_ms) if keeps else ceil(wire / scan_ms) + 1
+    scans = ceil((wire + silence) / scan_ms) if keeps else ceil(wire / scan_ms) + int((silence + 1) / scan_ms) + 1
     return drives * (scans + late) * scan_ms
 
 
@@ -115,7 +115,7 @@ def _bus(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
     )
     for loss in ("loss", "garble"):
         yield True, f"| 1 % of replies {'lost' if loss == 'loss' else 'garbled'} | {line.run('run', ms=600_000, **{loss: 1000})['refresh_ms']:.1f} ms |"
-    noise = line.run("run", drives=1, scramble=100_000, ms=36_000_000)
+    noise = line.run("run", drives=1, scramble=30_000, ms=360_000_000)
     theory = noise["scrambled"] / 65536
     yield noise["wrong_readings"] <= 2 * theory + 10, (
         f"| replies with every byte behind the head by chance | {noise['wrong_readings']:.0f} of {noise['scrambled']:.0f} believed; "
@@ -187,7 +187,7 @@ def _write(lines: list[str]) -> None:
     """Put the table into the page, between its marks."""
     page = PAGE.read_text(encoding="utf-8")
     table = "\n".join(["| what | measured |", "|---|---|", *lines])
-    made = re.sub(r"(?s)(<!-- measured -->\n).*?(\n<!-- end -->)", lambda found: found[1] + table + found[2], page)
+    made = re.sub(r"(?s)(<!-- measured -->\n).*?(<!-- end -->)", lambda found: found[1] + table + "\n" + found[2], page)
     PAGE.write_text(made, encoding="utf-8")
 
 

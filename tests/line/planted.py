@@ -39,7 +39,6 @@ PLANTED = (
     Planted("silence is a millisecond short", "(QuietMs > SilenceMs))", "(QuietMs >= SilenceMs))", "timing"),
     Planted("the turn-round is forgotten", "DueMs := MB_Plus(Number := Slots[Slot].TurnRoundMs, More := ", "DueMs := MB_Plus(Number := 0, More := ", "timing"),
     Planted("time runs before the port has the request", "    SinceMs := Passed;\n    QuietMs := 0;\n", "    SinceMs := MB_Plus(Number := SinceMs, More := 20);\n    QuietMs := 0;\n", "timing"),
-    Planted("a late scan gives no grace", "IF (ElapsedMs > MaxScanMs) AND NOT Graced THEN", "IF (ElapsedMs > 60000) AND NOT Graced THEN", "timing"),
     Planted("late replies are not waited out", "IF (Best > 1) AND (DrainMs > 0) THEN", "IF (Best > 9) AND (DrainMs > 0) THEN", "late"),
     Planted("the checksum is not looked at", "      IF Check <> WORD#16#0000 THEN", "      IF Check <> Check THEN", "stops"),
     Planted("an adapter that keeps requests back is forgotten in the timeout", "    DueMs := MB_Plus(Number := DueMs, More := Port.LateMs);\n", "", "timing"),
