@@ -68,7 +68,9 @@ def _line(folder: Path, slots: int = 8) -> CLine:
 # ---------------------------------------------------------------- refresh
 
 
-def formula(drives: int, rate: int, bits: int, scan_ms: int, keeps: bool, late: int, words: int = 6, turn: int = 5) -> float:
+def formula(
+    drives: int, rate: int, bits: int, scan_ms: int, keeps: bool, late: int, words: int = 6, turn: int = 5
+) -> float:
     """Refresh in ms: whole scans per transaction, those of the silence where the line keeps it, those of the adapter."""
     wire = (8 + 5 + 2 * words) * bits * 1000 / rate + turn
     silence = 1.75 if rate > 19200 else 3.5 * bits * 1000 / rate
@@ -87,11 +89,16 @@ def _refresh(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
             ms=6000 + 40 * int(formula(drives, rate, bit, scan, keeps, late)),
         )  # fmt: skip
         share = ran["refresh_ms"] / formula(drives, rate, bit, scan, keeps, late)
-        worst[keeps] = max(worst[keeps], (share, f"{drives} drives, {rate} bit/s, {bit} bits, {scan} ms, {late} scans late"))
+        worst[keeps] = max(
+            worst[keeps], (share, f"{drives} drives, {rate} bit/s, {bit} bits, {scan} ms, {late} scans late")
+        )
         count += 1
     for keeps, (share, where) in worst.items():
         who = "port" if keeps else "line"
-        yield share <= SLACK, f"| refresh beside the formula, {count // 2} lines, silence kept by the {who} | at most {share:.2f} ({where}) |"
+        yield (
+            share <= SLACK,
+            f"| refresh beside the formula, {count // 2} lines, silence kept by the {who} | at most {share:.2f} ({where}) |",
+        )
 
 
 def _bus(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
@@ -103,23 +110,38 @@ def _bus(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
     for keeps in (1, 0):
         both = line.run("run", keeps=keeps, command_ms=1)
         told = f"{both['refresh_ms']:.0f} ms, a command answered behind {both['command_ms']:.0f} ms, {both['command_worst_ms']:.0f} at most"
-        yield True, f"| one write and one read per drive and round, {'port' if keeps else 'line'} keeps the silence | {told} |"
+        yield (
+            True,
+            f"| one write and one read per drive and round, {'port' if keeps else 'line'} keeps the silence | {told} |",
+        )
     dead = line.run("run", dead=1, ms=600_000)
-    yield dead["refresh_ms"] <= 1.02 * 6 / 7 * good["refresh_ms"], f"| one drive of seven dead | {dead['refresh_ms']:.1f} ms for the others; 6/7 would be {6 / 7 * good['refresh_ms']:.1f} |"
+    yield (
+        dead["refresh_ms"] <= 1.02 * 6 / 7 * good["refresh_ms"],
+        f"| one drive of seven dead | {dead['refresh_ms']:.1f} ms for the others; 6/7 would be {6 / 7 * good['refresh_ms']:.1f} |",
+    )
     late = line.run("run", late=1000, longest_ms=100, ms=3_600_000)
     hasty = line.run("run", late=1000, longest_ms=100, drain=1, ms=3_600_000)
     share = late["refresh_ms"] / hasty["refresh_ms"]
-    yield not late["wrong_readings"] and share < 1.03, (
-        f"| 1 % of replies late, up to 100 ms | {late['refresh_ms']:.1f} ms, {late['wrong_readings']:.0f} of {late['readings']:.0f} readings wrong; "
-        f"going on at once {hasty['refresh_ms']:.1f} ms, {hasty['wrong_readings']:.0f} wrong |"
+    yield (
+        not late["wrong_readings"] and share < 1.03,
+        (
+            f"| 1 % of replies late, up to 100 ms | {late['refresh_ms']:.1f} ms, {late['wrong_readings']:.0f} of {late['readings']:.0f} readings wrong; "
+            f"going on at once {hasty['refresh_ms']:.1f} ms, {hasty['wrong_readings']:.0f} wrong |"
+        ),
     )
     for loss in ("loss", "garble"):
-        yield True, f"| 1 % of replies {'lost' if loss == 'loss' else 'garbled'} | {line.run('run', ms=600_000, **{loss: 1000})['refresh_ms']:.1f} ms |"
+        yield (
+            True,
+            f"| 1 % of replies {'lost' if loss == 'loss' else 'garbled'} | {line.run('run', ms=600_000, **{loss: 1000})['refresh_ms']:.1f} ms |",
+        )
     noise = line.run("run", drives=1, scramble=30_000, ms=360_000_000)
     theory = noise["scrambled"] / 65536
-    yield noise["wrong_readings"] <= 2 * theory + 10, (
-        f"| replies with every byte behind the head by chance | {noise['wrong_readings']:.0f} of {noise['scrambled']:.0f} believed; "
-        f"a checksum of 16 bits lets {theory:.1f} pass |"
+    yield (
+        noise["wrong_readings"] <= 2 * theory + 10,
+        (
+            f"| replies with every byte behind the head by chance | {noise['wrong_readings']:.0f} of {noise['scrambled']:.0f} believed; "
+            f"a checksum of 16 bits lets {theory:.1f} pass |"
+        ),
     )
 
 
@@ -147,7 +169,10 @@ def _random(folder: Path, runs: int, first: int) -> Iterator[tuple[bool, str]]:
             ran = line.random(first, count, kind)
             for failure in ran.failures:
                 print(failure, flush=True)
-            yield not ran.failures, f"| {count} random lines of kind {kind}, {slots} slots, {tool.iec2c.parent.name} | {_sums(ran)} |"
+            yield (
+                not ran.failures,
+                f"| {count} random lines of kind {kind}, {slots} slots, {tool.iec2c.parent.name} | {_sums(ran)} |",
+            )
 
 
 def _planted(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
@@ -161,7 +186,10 @@ def _planted(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
                 found = count
                 break
         first = ran.failures[0].partition(" kind")[0].removeprefix("failure ") if ran.failures else "not found"
-        yield found > 0, f"| planted: {planted.name} | {first}, {ran['failures']:.0f} of {count} lines of kind {planted.kind} |"
+        yield (
+            found > 0,
+            f"| planted: {planted.name} | {first}, {ran['failures']:.0f} of {count} lines of kind {planted.kind} |",
+        )
 
 
 def _engines(*_: object) -> Iterator[tuple[bool, str]]:
@@ -170,16 +198,22 @@ def _engines(*_: object) -> Iterator[tuple[bool, str]]:
         if each.engine is not None and each.name in MATIEC_NAMES:
             for seed in range(WALKS):
                 walk(seed, SCANS, twins(with_double(each.engine)))
-            yield True, f"| {WALKS * SCANS} scans of walks, full state after each | {each.name} and the embedded engine alike |"
+            yield (
+                True,
+                f"| {WALKS * SCANS} scans of walks, full state after each | {each.name} and the embedded engine alike |",
+            )
 
 
 def _cost(folder: Path, *_: int) -> Iterator[tuple[bool, str]]:
     for slots in (8, 32):
         line = _line(folder, slots)
         ran, idle = line.run("cost", drives=slots), line.run("cost", drives=slots, poll_ms=30_000)
-        yield ran["line_bytes"] <= 200 * slots + 1200, (
-            f"| line of {slots} slots and drives | {ran['line_bytes']:.0f} bytes, {ran['slot_bytes']:.0f} per slot; {idle['idle_ns']:.0f} ns idle, "
-            f"{ran['waiting_ns']:.0f} waiting, {ran['transaction_ns']:.0f} with a transaction |"
+        yield (
+            ran["line_bytes"] <= 200 * slots + 1200,
+            (
+                f"| line of {slots} slots and drives | {ran['line_bytes']:.0f} bytes, {ran['slot_bytes']:.0f} per slot; {idle['idle_ns']:.0f} ns idle, "
+                f"{ran['waiting_ns']:.0f} waiting, {ran['transaction_ns']:.0f} with a transaction |"
+            ),
         )
 
 

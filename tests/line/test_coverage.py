@@ -11,6 +11,8 @@ from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.embedded.library import EmbeddedLibrary
 
 SEEDS = range(16)
+
+
 def long_dead(bench: Bench) -> None:
     """A drive that is dead for long, the last of eight."""
     bench.drives[7].alive = False

@@ -39,7 +39,11 @@ class Twins:
             first, *others = map(_state, self.instances)
             for other in others:
                 if other != first:
-                    unlike = [f"{path}: {first[path]!r}, {other.get(path)!r}" for path in first if first[path] != other.get(path)]
+                    unlike = [
+                        f"{path}: {first[path]!r}, {other.get(path)!r}"
+                        for path in first
+                        if first[path] != other.get(path)
+                    ]
                     raise DifferentError(f"scan {self.scans}: {unlike[:10]}")
 
     def state(self) -> dict[str, Value]:

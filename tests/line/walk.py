@@ -91,10 +91,14 @@ class Walk:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
             if bench["ErrorID"] in (55, 56, 58) and not sent.stop and not bench.config.tx_late:
-                raise BrokenRuleError(f"seed {self.seed}, scan {number}: {sent} leaves though ErrorID {bench['ErrorID']}")
+                raise BrokenRuleError(
+                    f"seed {self.seed}, scan {number}: {sent} leaves though ErrorID {bench['ErrorID']}"
+                )
 
     def _stops(self, frame: bytes) -> bool:
-        return frame[1] == self.bench.kind.stop_function and frame[2:4] == self.bench.kind.stop_address.to_bytes(2, "big")
+        return frame[1] == self.bench.kind.stop_function and frame[2:4] == self.bench.kind.stop_address.to_bytes(
+            2, "big"
+        )
 
     # ------------------------------------------------------------ what may happen
 
@@ -120,17 +124,26 @@ class Walk:
 
     def parameter(self, slot: int) -> None:
         function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4)])
-        self.bench.ask(slot, PARAMETER, function, self.chance.choice([0, 0x0123, 0xFFFF]), quantity, self.chance.randrange(65536))
+        self.bench.ask(
+            slot, PARAMETER, function, self.chance.choice([0, 0x0123, 0xFFFF]), quantity, self.chance.randrange(65536)
+        )
 
     def invalid(self, slot: int) -> None:
-        box, function, quantity = self.chance.choice([(1, 5, 1), (2, 3, 5), (2, 16, 0), (3, 3, 17), (0, 5, 1), (3, 16, 2), (2, 3, 0)])
+        box, function, quantity = self.chance.choice(
+            [(1, 5, 1), (2, 3, 5), (2, 16, 0), (3, 3, 17), (0, 5, 1), (3, 16, 2), (2, 3, 0)]
+        )
         if self.bench.answer(slot, STOP) or box:
             self.bench.ask(slot, box, function, 0x2000, quantity)
 
     def polls(self, slot: int) -> None:
         kind, chance = self.bench.kind, self.chance
         double = self.chance.random() < 0.3
-        self.bench.put(slot, PollEveryMs=chance.choice([0, 0, 200]), OtherQuantity=chance.choice([0, 7]), SilenceMs=chance.choice([0, 0, 25]))
+        self.bench.put(
+            slot,
+            PollEveryMs=chance.choice([0, 0, 200]),
+            OtherQuantity=chance.choice([0, 7]),
+            SilenceMs=chance.choice([0, 0, 25]),
+        )
         self.bench.put(slot, TwoByteCount=double)
         self.bench.drives[slot].answer = self._double if double else None
         words, address = chance.choice([(1, 2), (6, kind.read_address), (12, kind.read_address)])
@@ -175,12 +188,24 @@ class Walk:
             self.bench.block["Port.ErrorID"] = 4  # behind an error it is decided anew; nothing else could tell
 
     def foreign(self, slot: int) -> None:
-        frames = [bytes([99, 3, 0, 0, 0, 2]), bytes([slot + 1, 6, 0, 1, 0, 2]), bytes([99, 16, 0, 0, 0, 1, 2, 3, 4]), bytes([99, 0x83, 2])]
+        frames = [
+            bytes([99, 3, 0, 0, 0, 2]),
+            bytes([slot + 1, 6, 0, 1, 0, 2]),
+            bytes([99, 16, 0, 0, 0, 1, 2, 3, 4]),
+            bytes([99, 0x83, 2]),
+        ]
         for frame in self.chance.sample(frames, 2):
             self.bench.foreign(frame)
 
     def noise(self, slot: int) -> None:
-        odd = [b":0G\r\n", b":01\n", bytes([slot + 1, 3, 3]), bytes([slot + 1]) * 5, self.chance.randbytes(40), b":" + b"01" * 60]
+        odd = [
+            b":0G\r\n",
+            b":01\n",
+            bytes([slot + 1, 3, 3]),
+            bytes([slot + 1]) * 5,
+            self.chance.randbytes(40),
+            b":" + b"01" * 60,
+        ]
         self.bench.transmit(self.chance.choice(odd), self.bench.now)
 
     def neglect(self, slot: int) -> None:
@@ -216,7 +241,14 @@ class Walk:
         for slot, drive in enumerate(bench.drives):
             drive.alive, drive.answer, drive.unit = True, None, slot + 1
             bench.put(slot, UnitAddress=slot + 1, Shared=False, SupplyOff=False, BusyReason=0, TwoByteCount=False)
-            bench.fill(slot, STOP, bench.kind.stop_function, bench.kind.stop_address, bench.kind.stop_words, bench.kind.stop_word)
+            bench.fill(
+                slot,
+                STOP,
+                bench.kind.stop_function,
+                bench.kind.stop_address,
+                bench.kind.stop_words,
+                bench.kind.stop_word,
+            )
             bench.ask(slot, POLL, bench.kind.read_function, bench.kind.read_address, bench.config.words)
 
 
