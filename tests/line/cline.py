@@ -26,6 +26,10 @@ class Ran:
         """One figure."""
         return self.figures[name]
 
+    def told(self, words: str) -> str:
+        """Words with figures in them, as in `{refresh_ms:.0f} ms`."""
+        return words.format_map(self.figures)
+
 
 @dataclass(frozen=True)
 class CLine:

@@ -32,4 +32,5 @@ def header() -> str:
     """The same table in C."""
     names = "".join(f"int {field.name}; " for field in fields(Kind))
     rows = ",\n".join("  {" + ", ".join(map(str, astuple(kind))) + "}" for kind in KINDS)
-    return f"typedef struct {{ {names}}} Kind;\n#define KIND_COUNT {len(KINDS)}\nstatic const Kind KINDS[] = {{\n{rows}}};\n"
+    table = f"static const Kind KINDS[] = {{\n{rows}}};\n"
+    return f"typedef struct {{ {names}}} Kind;\n#define KIND_COUNT {len(KINDS)}\n{table}"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, what stands in the text, what stands there instead, and the kind of random lines that tells."""
+    """A mistake: its name, what stands in the text, what instead, and the kind of random lines that tells."""
 
     name: str
     old: str
@@ -40,7 +40,8 @@ PLANTED = (
     Planted(
         "a stop is acknowledged when it leaves",
         "  IF Box = 3 THEN\n      Track",
-        "  IF Box = 0 THEN\n      Slots[Slot].Answer[0].Number := Asked;\n    END_IF;\n    IF Box = 3 THEN\n      Track",
+        "  IF Box = 0 THEN\n      Slots[Slot].Answer[0].Number := Asked;\n    END_IF;\n"
+        "    IF Box = 3 THEN\n      Track",
     ),
     Planted("the turn of stops never moves", "      TurnRest := Slot + 1;\n", "      TurnRest := 0;\n"),
     Planted("the line keeps no silence", "(NOT LineKeeps OR (QuietMs > SilenceMs))", "(QuietMs < 65535)", "timing"),

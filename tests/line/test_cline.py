@@ -1,4 +1,4 @@
-"""The virtual line in C, in short: random lines of every kind, and the planted mistakes that the long form looks for."""
+"""The virtual line in C, in short: random lines of every kind, and the place of each planted mistake."""
 
 import pytest
 from tests.line.cline import WHY_NOT, CLine, build, texts

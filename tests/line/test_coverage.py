@@ -1,4 +1,4 @@
-"""Random walks keep every rule, reach every line and outcome of the line's blocks, and stay within the loops it states."""
+"""Random walks keep every rule, reach all of the line's text, and stay within the loops that it states."""
 
 import re
 from functools import cache
@@ -49,9 +49,9 @@ def strangers(bench: Bench) -> None:
 
 def odd_replies(bench: Bench) -> None:
     """A write reply to a read; an ASCII reply that does not end."""
-    bench.ready().drives[0].answer = lambda request: bytes([1, 6, 0, 0, 0, 0])
+    bench.ready().drives[0].answer = lambda _: bytes([1, 6, 0, 0, 0, 0])
     bench.run(100)
-    bench.drives[0].answer = lambda request: bytes([1, 3, 12]) + bytes(60)
+    bench.drives[0].answer = lambda _: bytes([1, 3, 12]) + bytes(60)
     bench.run(300)
 
 

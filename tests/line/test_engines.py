@@ -10,7 +10,6 @@ from tests.line.walk import walk
 
 from driveblocks.host.engine import Engine, Library
 
-
 _BUILT: dict[str, Library] = {}
 
 

@@ -1,5 +1,7 @@
 """A stop is a compartment of its own: never merged, never behind anything, never given up, and somebody says so."""
 
+from itertools import pairwise
+
 import pytest
 from tests.line.vline import COMMAND, POLL, STOP, Bench, Config
 
@@ -52,7 +54,7 @@ def test_a_stop_that_nobody_acknowledges_is_repeated_and_overdue() -> None:
     sent = bench.run(3000)
     stops = [each.ms for each in sent if each.stop]
     assert len(stops) > 5
-    assert max(later - before for before, later in zip(stops, stops[1:], strict=False)) < 1150
+    assert max(later - before for before, later in pairwise(stops)) < 1150
     assert bench["StopOverdue"]
     assert not bench.slot(1, "Online")
     bench.drives[1].alive = True
@@ -217,7 +219,7 @@ def test_two_figures_for_how_late_a_stop_leaves() -> None:
 def test_a_standing_poll_does_not_outlive_a_stop_in_numbers() -> None:
     """An answer names the request that it answers, polls too."""
     bench = Bench().ready()
-    number = bench.ask(1, POLL, 3, 0x2100, 2)
+    number = bench.ask(1, POLL, 3, 0x2100, quantity=2)
     bench.run(100)
     assert bench.slot(1, "Answer[3].Number") == number
     assert bench.slot(1, "PollCount") == 2

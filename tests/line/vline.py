@@ -120,7 +120,8 @@ def sealed(frame: bytes, ascii_: bool) -> bytes:
 def opened(text: bytes, ascii_: bool) -> bytes:
     """A frame of the line without its checksum, which must be right."""
     if ascii_:
-        assert text[:1] == b":" and text[-2:] == b"\r\n"
+        assert text[:1] == b":"
+        assert text[-2:] == b"\r\n"
         frame = bytes.fromhex(text[1:-2].decode())
         assert lrc(frame[:-1]) == frame[-1]
         return frame[:-1]
@@ -136,7 +137,7 @@ class Bench:
     ) -> None:
         """Begin a line; `block` in the place of a fresh one on the embedded engine; `pins` are its inputs."""
         self.config = config or Config()
-        self.chance = Random(seed)  # noqa: S311  (a seed is a run)
+        self.chance = Random(seed)
         self.kind = KINDS[self.config.kind]
         self.block = block or library().instance("MB_Line8")
         self.now = 0
@@ -174,8 +175,13 @@ class Bench:
         }
         for name, value in fields.items():
             self.block[path + name] = value
-        self.fill(slot, STOP, kind.stop_function, kind.stop_address, kind.stop_words, kind.stop_word)
-        self.ask(slot, POLL, kind.read_function, kind.read_address, self.config.words)
+        self.fill_as_kind(slot)
+
+    def fill_as_kind(self, slot: int) -> None:
+        """The stop and the poll of the drives' kind."""
+        kind = self.kind
+        self.fill(slot, STOP, kind.stop_function, kind.stop_address, quantity=kind.stop_words, word=kind.stop_word)
+        self.ask(slot, POLL, kind.read_function, kind.read_address, quantity=self.config.words)
 
     # ------------------------------------------------------------ what a user does
 
@@ -199,7 +205,7 @@ class Bench:
         for name, value in fields.items():
             self.block[f"Slots[{slot}].{name}"] = value
 
-    def fill(self, slot: int, box: int, function: int, address: int, quantity: int = 1, word: int = 0) -> None:
+    def fill(self, slot: int, box: int, function: int, address: int, *, quantity: int = 1, word: int = 0) -> None:
         """Fill a compartment without asking."""
         path = f"Slots[{slot}].Ask[{box}]."
         self.block[path + "FunctionCode"] = function
@@ -207,9 +213,9 @@ class Bench:
         self.block[path + "Quantity"] = quantity
         self.block[path + "Words"] = [word]
 
-    def ask(self, slot: int, box: int, function: int, address: int, quantity: int = 1, word: int = 0) -> int:
+    def ask(self, slot: int, box: int, function: int, address: int, *, quantity: int = 1, word: int = 0) -> int:
         """Fill a compartment and ask; the Number."""
-        self.fill(slot, box, function, address, quantity, word)
+        self.fill(slot, box, function, address, quantity=quantity, word=word)
         return self.post(slot, box)
 
     def post(self, slot: int, box: int) -> int:

@@ -1,4 +1,4 @@
-"""Random walks over everything that can happen to a line, its rules checked at every scan: `python -m tests.line.walk SEED`.
+"""Random walks over all that can happen to a line, its rules checked at every scan: `python -m tests.line.walk SEED`.
 
 A seed is a walk; a failure names it, and the command above walks it again.
 """
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from random import Random
 
 from tests.line.drives import KINDS
-from tests.line.vline import COMMAND, PARAMETER, POLL, STOP, Bench, Config
+from tests.line.vline import PARAMETER, POLL, STOP, Bench, Config
 
 from driveblocks.host.engine import Instance
 
@@ -22,7 +22,7 @@ class BrokenRuleError(AssertionError):
 
 def config_of(seed: int) -> Config:
     """The line of a seed: the first seeds go through modes, kinds and echo in turn."""
-    chance = Random(seed)  # noqa: S311  (a seed is a walk)
+    chance = Random(seed)
     faults = {name: chance.choice([0, 0, 3000]) for name in ("loss", "garble", "truncate", "duplicate", "late")}
     return Config(
         drives=chance.choice([1, 3, 8]),
@@ -52,7 +52,7 @@ class Walk:
 
     def __post_init__(self) -> None:
         """Nothing is open yet."""
-        self.clean = not (self.bench.config.duplicate or self.bench.config.late and self.bench.config.longest_ms <= 5)
+        self.clean = not (self.bench.config.duplicate or (self.bench.config.late and self.bench.config.longest_ms <= 5))
         self.stops_heard = dict.fromkeys(range(self.bench.config.drives), 0)
         self.odd = dict.fromkeys(range(self.bench.config.drives), 0)
         self.took: int | None = None
@@ -61,8 +61,9 @@ class Walk:
     def go(self, scans: int = SCANS) -> None:
         """Walk. Raises BrokenRuleError."""
         actions: list[Callable[[int], None]] = [
-            self.stop, self.stop, self.again, self.command, self.command, self.reset, self.parameter, self.invalid, self.polls, self.die, self.die,
-            self.refuse, self.busy, self.pins, self.port, self.foreign, self.noise, self.neglect, self.address, self.shared, self.stall, self.supply, self.clear, self.clear,
+            self.stop, self.stop, self.again, self.command, self.command, self.reset, self.parameter, self.invalid,
+            self.polls, self.die, self.die, self.refuse, self.busy, self.pins, self.port, self.foreign, self.noise,
+            self.neglect, self.address, self.shared, self.stall, self.supply, self.clear, self.clear,
         ]  # fmt: skip
         for number in range(scans):
             if self.chance.random() < 0.08:
@@ -84,9 +85,10 @@ class Walk:
                     raise BrokenRuleError(f"seed {self.seed}, scan {number}: a stop of slot {slot} was not heard")
             if drive.answer is not None:
                 self.odd[slot] = bench.now + 1_000_000
-            if self.clean and bench.slot(slot, "Fresh") != fresh[slot][0] and bench.now > self.odd[slot]:
-                if bench.slot(slot, "PollWords[0]") != fresh[slot][1] & 0xFFFF:
-                    raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} shows an old reading")
+            shown, reads = bench.slot(slot, "PollWords[0]"), fresh[slot][1] & 0xFFFF
+            told = self.clean and bench.slot(slot, "Fresh") != fresh[slot][0] and bench.now > self.odd[slot]
+            if told and shown != reads:
+                raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} shows an old reading")
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
@@ -124,16 +126,15 @@ class Walk:
 
     def parameter(self, slot: int) -> None:
         function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4)])
-        self.bench.ask(
-            slot, PARAMETER, function, self.chance.choice([0, 0x0123, 0xFFFF]), quantity, self.chance.randrange(65536)
-        )
+        address, word = self.chance.choice([0, 0x0123, 0xFFFF]), self.chance.randrange(65536)
+        self.bench.ask(slot, PARAMETER, function, address, quantity=quantity, word=word)
 
     def invalid(self, slot: int) -> None:
         box, function, quantity = self.chance.choice(
             [(1, 5, 1), (2, 3, 5), (2, 16, 0), (3, 3, 17), (0, 5, 1), (3, 16, 2), (2, 3, 0)]
         )
         if self.bench.answer(slot, STOP) or box:
-            self.bench.ask(slot, box, function, 0x2000, quantity)
+            self.bench.ask(slot, box, function, 0x2000, quantity=quantity)
 
     def polls(self, slot: int) -> None:
         kind, chance = self.bench.kind, self.chance
@@ -147,7 +148,7 @@ class Walk:
         self.bench.put(slot, TwoByteCount=double)
         self.bench.drives[slot].answer = self._double if double else None
         words, address = chance.choice([(1, 2), (6, kind.read_address), (12, kind.read_address)])
-        self.bench.ask(slot, POLL, kind.read_function, address if double else kind.read_address, words)
+        self.bench.ask(slot, POLL, kind.read_function, address if double else kind.read_address, quantity=words)
 
     def _double(self, request: bytes) -> bytes:
         """The reply of a drive whose byte count is a word."""
@@ -241,21 +242,13 @@ class Walk:
         for slot, drive in enumerate(bench.drives):
             drive.alive, drive.answer, drive.unit = True, None, slot + 1
             bench.put(slot, UnitAddress=slot + 1, Shared=False, SupplyOff=False, BusyReason=0, TwoByteCount=False)
-            bench.fill(
-                slot,
-                STOP,
-                bench.kind.stop_function,
-                bench.kind.stop_address,
-                bench.kind.stop_words,
-                bench.kind.stop_word,
-            )
-            bench.ask(slot, POLL, bench.kind.read_function, bench.kind.read_address, bench.config.words)
+            bench.fill_as_kind(slot)
 
 
 def walk(seed: int, scans: int = SCANS, block: Instance | None = None) -> Bench:
     """Walk a seed. Raises BrokenRuleError with the seed."""
     bench = Bench(config_of(seed), seed, block)
-    Walk(bench, Random(f"walk {seed}"), seed).go(scans)  # noqa: S311  (a seed is a walk)
+    Walk(bench, Random(f"walk {seed}"), seed).go(scans)
     return bench
 
 

@@ -43,10 +43,7 @@ def generic(languages: list[Language]) -> Iterator[File]:
     """Types and blocks that every drive shares."""
     for name in TYPES:
         yield File("types", name, render(f"types/{name}.st.j2"))
-    for name in LINE_TYPES:
-        yield File("types", name, render(f"line/{name}.st.j2"))
-    for name in ("MB_Slots", "MB_Tracks"):
-        yield from _sized("types", name)
+    yield from _line_types()
     for name in (*FUNCTIONS, *BLOCKS):
         yield File("modbus", name, render(f"modbus/{name}.st.j2"))
     for box, most in BOXES:
@@ -56,6 +53,19 @@ def generic(languages: list[Language]) -> Iterator[File]:
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered)
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
+    yield from _line_blocks()
+
+
+def _line_types() -> Iterator[File]:
+    """What a line, its slots and its port are made of."""
+    for name in LINE_TYPES:
+        yield File("types", name, render(f"line/{name}.st.j2"))
+    for name in ("MB_Slots", "MB_Tracks"):
+        yield from _sized("types", name)
+
+
+def _line_blocks() -> Iterator[File]:
+    """The functions and blocks of a line."""
     for name in LINE_BLOCKS:
         yield File("line", name, render(f"line/{name}.st.j2"))
     for name in ("MB_Line", "MB_ByteLine"):
