@@ -12,8 +12,11 @@ from driveblocks.cli import app
 
 ROOT = Path(__file__).parents[2]
 PAGES = [
-    ROOT / name for name in ("README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/testing.md", "vendor_maps/README.md")
-]
+    ROOT / name
+    for name in (
+        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/line.md", "docs/testing.md", "vendor_maps/README.md"
+    )
+]  # fmt: skip
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 
 

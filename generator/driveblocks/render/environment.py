@@ -104,7 +104,8 @@ def condition(one: Condition) -> str:
     return f"{form.address_text(one.register)}{bits} = {one.equals}"
 
 
-def crc_table() -> str:
-    """The 256 words of the CRC table, eight to a row."""
-    words = [writing.word(entry) for entry in MODBUS]
+def crc_table(octets: int = 1) -> str:
+    """The 256 words of the CRC table, eight to a row: the change by one byte, or by it and a zero behind it."""
+    entries = [entry if octets == 1 else entry >> 8 ^ MODBUS[entry & 0xFF] for entry in MODBUS]
+    words = [writing.word(entry) for entry in entries]
     return ",\n".join("    " + ", ".join(words[at : at + 8]) for at in range(0, len(words), 8))

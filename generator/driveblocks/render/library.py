@@ -15,6 +15,13 @@ BLOCKS = (
     "MB_Crc16", "MB_Crc16Compact", "MB_Lrc", "MB_RtuSeal", "MB_RtuOpen", "MB_AsciiEncode", "MB_AsciiDecode",
     "MB_BuildRead", "MB_BuildWriteSingle", "MB_BuildWriteMultiple", "MB_BuildDiagnostics", "MB_ParseReply",
 )  # fmt: skip
+LINE_TYPES = (
+    "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
+    "MB_Slot", "MB_Track",
+)  # fmt: skip
+LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
+LINE_SIZES = (8, 32)
+"""How many slots a line can have."""
 BOXES = (("Adu", 256), ("Chars", 513))
 PACKERS = {"Pack": "Outgoing", "Unpack": "Incoming"}
 """Blocks, and the buffer of their example: what goes out and what comes in never share one."""
@@ -38,6 +45,7 @@ def generic(languages: list[Language]) -> Iterator[File]:
     """Types and blocks that every drive shares."""
     for name in TYPES:
         yield File("types", name, render(f"types/{name}.st.j2"))
+    yield from _line_types(languages)
     for name in (*FUNCTIONS, *BLOCKS):
         yield File("modbus", name, render(f"modbus/{name}.st.j2", **_texts_of(languages)))
     for box, most in BOXES:
@@ -48,6 +56,29 @@ def generic(languages: list[Language]) -> Iterator[File]:
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered)
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
+    yield from _line_blocks(languages)
+
+
+def _line_types(languages: list[Language]) -> Iterator[File]:
+    """What a line, its slots and its port are made of."""
+    for name in LINE_TYPES:
+        yield File("types", name, render(f"line/{name}.st.j2", **_texts_of(languages)))
+    for name in ("MB_Slots", "MB_Tracks"):
+        yield from _sized("types", name, languages)
+
+
+def _line_blocks(languages: list[Language]) -> Iterator[File]:
+    """The functions and blocks of a line."""
+    for name in LINE_BLOCKS:
+        yield File("line", name, render(f"line/{name}.st.j2", **_texts_of(languages)))
+    for name in ("MB_Line", "MB_ByteLine"):
+        yield from _sized("line", name, languages)
+
+
+def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
+    """One type or block for each number of slots."""
+    for slots in LINE_SIZES:
+        yield File(folder, f"{name}{slots}", render(f"line/{name}.st.j2", slots=slots, **_texts_of(languages)))
 
 
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:

@@ -55,6 +55,19 @@ RESULTS = (
     Result(37, "OTHER_QUANTITY", "reply for another number of registers", "寄存器个数不符"),
     Result(38, "OTHER_SUB_FUNCTION", "reply to another sub-function", "子功能码不符"),
     Result(40, "REFUSED", "refused by the drive", "变频器拒绝"),
+    # the line
+    Result(50, "RESTARTED", "given up by a restart", "因重新启动而放弃"),
+    Result(51, "OFFLINE", "the drive does not answer", "变频器离线"),
+    Result(52, "TAKEN_BACK", "taken back by a stop", "被停机命令取消"),
+    Result(53, "STOP_ALL", "all drives are being stopped", "全部停机中"),
+    Result(54, "FOREIGN", "another master is on the line", "总线上有其他主站"),
+    Result(55, "DOUBLED", "two slots have one unit address", "从机地址重复"),
+    Result(56, "SHARED", "two drive blocks use one slot", "同一槽位被两个功能块使用"),
+    Result(57, "PORT", "the serial port does not work", "串口故障"),
+    Result(58, "TIME_STANDS", "ElapsedMs stays 0", "ElapsedMs一直为0"),
+    Result(59, "UNATTENDED", "the drive block is no longer called", "驱动功能块未被调用"),
+    Result(60, "REQUEST", "the line cannot send such a request", "无法发送此请求"),
+    Result(61, "OVERDUE", "a stop is overdue", "停机超时"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 

@@ -8,6 +8,8 @@ NUMBERS = {
     "NOT_HEX": 27, "NO_REQUEST": 30, "BROADCAST": 31,
     "OTHER_UNIT": 32, "OTHER_FUNCTION": 33, "BYTE_COUNT": 34, "OTHER_ADDRESS": 35, "OTHER_VALUE": 36,
     "OTHER_QUANTITY": 37, "OTHER_SUB_FUNCTION": 38, "REFUSED": 40,
+    "RESTARTED": 50, "OFFLINE": 51, "TAKEN_BACK": 52, "STOP_ALL": 53, "FOREIGN": 54, "DOUBLED": 55, "SHARED": 56,
+    "PORT": 57, "TIME_STANDS": 58, "UNATTENDED": 59, "REQUEST": 60, "OVERDUE": 61,
 }  # fmt: skip
 
 WORDS = {
@@ -48,5 +50,17 @@ WORDS = {
     "OTHER_QUANTITY": "another number of registers",
     "OTHER_SUB_FUNCTION": "another sub-function",
     "REFUSED": "refused by the drive",
+    "RESTARTED": "given up by a restart",
+    "OFFLINE": "the drive is dead",
+    "TAKEN_BACK": "a stop has taken it back",
+    "STOP_ALL": "StopAll is TRUE",
+    "FOREIGN": "another master speaks",
+    "DOUBLED": "one unit address twice",
+    "SHARED": "one slot for two blocks",
+    "PORT": "the port is in trouble",
+    "TIME_STANDS": "no time passes",
+    "UNATTENDED": "nobody calls the drive block",
+    "REQUEST": "no line can send this",
+    "OVERDUE": "a stop is overdue",
 }
 """What a result means, in the comments of the test programs."""

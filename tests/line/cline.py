@@ -1,0 +1,74 @@
+"""The virtual line in C around the matiec build: translate, compile, run, read what it prints."""
+
+import subprocess
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from tests.blocks.library import BLOCKS
+from tests.blocks.toolchains import COMPILER, FOUND, translate
+from tests.line.drives import header
+
+from driveblocks.host.matiec.installation import Installation
+
+HERE = Path(__file__).parent
+WHY_NOT = "" if FOUND and COMPILER else "the line in C needs iec2c and a C compiler; `driveblocks doctor` tells more"
+
+
+@dataclass(frozen=True)
+class Ran:
+    """What a run has printed: figures by name, and a line for each failure."""
+
+    figures: Mapping[str, float]
+    failures: tuple[str, ...]
+
+    def __getitem__(self, name: str) -> float:
+        """One figure."""
+        return self.figures[name]
+
+    def told(self, words: str) -> str:
+        """Words with figures in them, as in `{refresh_ms:.0f} ms`."""
+        return words.format_map(self.figures)
+
+
+@dataclass(frozen=True)
+class CLine:
+    """A compiled virtual line."""
+
+    program: Path
+
+    def run(self, mode: str, *words: str, **keys: int) -> Ran:
+        """Run it. Raises ValueError for what it does not understand."""
+        command = [str(self.program), mode, *words, *(f"{key}={value}" for key, value in keys.items())]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        lines = done.stdout.splitlines()
+        if done.returncode not in (0, 1):
+            raise ValueError(done.stderr + done.stdout)
+        failures = tuple(line for line in lines if line.startswith("failure seed"))
+        rows = (line.split() for line in lines if line not in failures)
+        return Ran({name: float(value) for name, value in rows}, failures)
+
+    def random(self, first: int, count: int, kind: str) -> Ran:
+        """So many random lines of a kind, by seeds that follow each other."""
+        return self.run("random", str(first), str(count), kind)
+
+
+def texts(slots: int = 8) -> list[str]:
+    """The files of the library that a line of so many slots needs."""
+    names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
+    own = [name for name in names if name.startswith(("types/", "modbus/MB_Hex", "line/")) and "ByteLine" not in name]
+    wanted = [name for name in own if not name.endswith({8: "32.st", 32: "s8.st"}[slots])]
+    return [(BLOCKS / name).read_text(encoding="utf-8") for name in wanted if name != f"line/MB_Line{40 - slots}.st"]
+
+
+def build(folder: Path, slots: int = 8, edit: Callable[[str], str] = str, tool: Installation | None = None) -> CLine:
+    """Compile a line of so many slots in a folder; `edit` may plant a fault in the ST. Raises AssertionError."""
+    tool = tool or FOUND[0]
+    translate(tool, [edit(text) for text in texts(slots)], folder)
+    (folder / "drives.h").write_text(header(), encoding="utf-8")
+    program = folder / f"vline{slots}"
+    headers = ["-isystem", str(tool.library / "C"), "-I", "."]
+    command = [str(COMPILER), "-O2", "-w", f"-DSLOT_COUNT={slots}", *headers, str(HERE / "vline.c"), "-o", str(program)]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[:4000]
+    return CLine(program)

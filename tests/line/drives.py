@@ -1,0 +1,36 @@
+"""The drives of the virtual line: one table for the line in Python and the line in C."""
+
+from dataclasses import astuple, dataclass, fields
+
+
+@dataclass(frozen=True)
+class Kind:
+    """How drives of a kind are asked: where they read, write and stop, and how they refuse."""
+
+    read_function: int
+    read_address: int
+    write_function: int
+    write_address: int
+    stop_function: int
+    stop_address: int
+    stop_words: int
+    stop_word: int
+    exception_add: int
+    error_function: int
+    error_address: int
+
+
+KINDS = (
+    Kind(3, 0x2000, 6, 0x1001, 6, 0x1000, 1, 5, 0x80, 0, 0),
+    Kind(3, 0x0020, 16, 0x0002, 16, 0x0001, 2, 0, 0x80, 0, 0),
+    Kind(3, 0x3000, 6, 0x2001, 6, 0x2000, 1, 3, 0, 6, 0x5001),
+)
+"""Stop by function 06 or by two words of function 10H; refusals as function + 80H or as a write reply."""
+
+
+def header() -> str:
+    """The same table in C."""
+    names = "".join(f"int {field.name}; " for field in fields(Kind))
+    rows = ",\n".join("  {" + ", ".join(map(str, astuple(kind))) + "}" for kind in KINDS)
+    table = f"static const Kind KINDS[] = {{\n{rows}}};\n"
+    return f"typedef struct {{ {names}}} Kind;\n#define KIND_COUNT {len(KINDS)}\n{table}"

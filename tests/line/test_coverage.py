@@ -1,0 +1,141 @@
+"""Random walks keep every rule, reach all of the line's text, and stay within the loops that it states."""
+
+import re
+from functools import cache
+
+from tests.blocks.library import sources
+from tests.line.vline import Bench, Config, line_sources
+from tests.line.walk import walk
+
+from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.embedded.library import EmbeddedLibrary
+
+SEEDS = range(16)
+
+
+def long_dead(bench: Bench) -> None:
+    """A drive that is dead for long, the last of eight."""
+    bench.drives[7].alive = False
+    bench.run(20_000)
+
+
+def idle(bench: Bench) -> Bench:
+    """Wait until nothing is open or near."""
+    while bench["Phase"] or bench["QuietMs"] < 100:
+        bench.scan()
+    return bench
+
+
+def strangers(bench: Bench) -> None:
+    """One frame too many of another master; a late reply behind a stop that did not wait for it."""
+    bench.set(ForeignMost=1)
+    bench.put(0, PollEveryMs=400)
+    idle(bench.ready()).foreign(bytes([99, 6, 0, 1, 0, 2]))
+    bench.run(300)
+    bench.command(0)
+    bench.run(100)
+    bench.drives[0].turn_us = 80_000
+    while bench["Timeouts"] == 0:
+        bench.scan()
+    bench.drives[0].turn_us = None
+    bench.stop(0)
+    bench.run(100)
+    bench.foreign(bytes([99, 3, 4, 1, 2, 3, 4]))
+    idle(bench).set(Restart=True, BitRate=0)
+    bench.scan()
+    bench.foreign(bytes([99, 3, 4, 1, 2, 3, 4]))
+    bench.run(200)
+
+
+def odd_replies(bench: Bench) -> None:
+    """A write reply to a read; an ASCII reply that does not end."""
+    bench.ready().drives[0].answer = lambda _: bytes([1, 6, 0, 0, 0, 0])
+    bench.run(100)
+    bench.drives[0].answer = lambda _: bytes([1, 3, 12]) + bytes(60)
+    bench.run(300)
+
+
+def full_counts(bench: Bench) -> None:
+    """Counts of attempts and failures at their ends; StopAll on a port that takes nothing."""
+    bench.ready().drives[0].alive = False
+    bench.stop(0)
+    bench.run(50)
+    bench.block["Slots[0].Answer[0].Tries"] = bench.block["Track[0].Failures"] = 255
+    bench.run(200)
+    bench.port_takes = False
+    bench.set(StopAll=True)
+    bench.run(3000)
+
+
+def echo_ends(bench: Bench) -> None:
+    """A port that no longer hears itself, without an error."""
+    bench.ready().echoes = False
+    bench.run(300)
+
+
+TOURS = (
+    (long_dead, Config(drives=8)),
+    (strangers, Config(drives=1, longest_ms=300)),
+    (echo_ends, Config(drives=1, echo=True)),
+    (odd_replies, Config(drives=1, kind=2)),
+    (odd_replies, Config(drives=1, kind=2, ascii=True)),
+    (full_counts, Config(drives=1)),
+)
+"""What chance seldom finds."""
+
+
+@cache
+def walked() -> EmbeddedLibrary:
+    """A line of eight slots with counters, behind its walks."""
+    library = EmbeddedEngine(coverage=True).build(line_sources())
+    for tour, config in TOURS:
+        tour(Bench(config, block=library.instance("MB_Line8")))
+    for seed in SEEDS:
+        walk(seed, 1000, block=library.instance("MB_Line8"))
+    for function, argument in (("MB_Plus", "More"), ("MB_Minus", "Less"), ("MB_Sixteen", "")):
+        for number in (0, 1, 65534, 65535):
+            library.call(function, {"Number": number, argument: 1} if argument else {"Number": number + 1})
+    return library
+
+
+def test_walks_keep_the_rules_and_reach_everything() -> None:
+    texts = {each.path: each.text.splitlines() for each in line_sources()}
+    library = walked()
+    lines = {(path, line) for path, hits in library.coverage().items() for line in hits if not hits[line]}
+    for path, outcomes in library.branches().items():
+        lines |= {(path, one.line) for one, hits in outcomes.items() if not hits and one.text != "WHILE without a turn"}
+    mine = {each for each in lines if each[0].startswith("line/") and not re.search("Line32|ByteLine", each[0])}
+    never = [f"{path}:{line}: {texts[path][line - 1].strip()}" for path, line in sorted(mine)]
+    assert never == []  # but for loops that always have something to do
+
+
+def test_both_sizes_are_one_text() -> None:
+    texts = {each.path: each.text for each in sources()}
+    for block in ("Line", "ByteLine"):
+        small, large = texts[f"line/MB_{block}8.st"], texts[f"line/MB_{block}32.st"]
+        bodies = [re.sub(" +", " ", text.partition("END_VAR")[2].replace("32", "8")) for text in (small, large)]
+        assert bodies[0] == bodies[1]
+
+
+def test_no_call_exceeds_the_loops_that_its_head_states() -> None:
+    """As many characters as a ring can hold beside those that come, and a request to make."""
+    library = EmbeddedEngine(coverage=True).build(line_sources())
+    bench = Bench(block=library.instance("MB_Line8")).ready()
+    before = turns(library)
+    bench.block["Port.RxIn"] = (bench["Port.RxOut"] + 200) % 256
+    bench.scan()
+    rounds = turns(library) - before
+    text = next(each.text for each in line_sources() if each.path == "line/MB_Line8.st")
+    stated = re.search(r"Loops .*?(\d+)\n {3}Made", text, re.DOTALL)
+    assert stated is not None
+    assert 200 < rounds <= int(stated[1])
+
+
+def turns(library: EmbeddedLibrary) -> int:
+    """How often the first statement in a loop has run."""
+    total = 0
+    for source in line_sources():
+        hits = library.coverage().get(source.path, {})
+        starts = [n for n, text in enumerate(source.text.splitlines(), start=1) if text.endswith(" DO")]
+        total += sum(hits[min(line for line in hits if line > start)] for start in starts if hits)
+    return total

@@ -1,0 +1,70 @@
+"""Dead drives are probed rarely, one at a time; they come back when they have answered several times."""
+
+from itertools import pairwise
+
+from tests.line.vline import COMMAND, Bench, Config
+
+
+def test_a_drive_is_dead_behind_a_time_and_a_count() -> None:
+    bench = Bench().ready()
+    bench.drives[1].alive = False
+    bench.run(500)
+    assert bench.slot(1, "Online")
+    bench.run(1500)
+    assert not bench.slot(1, "Online")
+    bench.command(1)
+    bench.scan()
+    assert bench.answer(1, COMMAND) == "OFFLINE"
+
+
+def test_probes_come_with_growing_pauses() -> None:
+    bench = Bench()
+    bench.drives[1].alive = False
+    bench.run(40_000)
+    times = [each.ms for each in bench.sent if each.unit == 2]
+    pauses = [round((later - before) / 1000) for before, later in pairwise(times)]
+    assert pauses[:3] == [1, 2, 4]
+    assert set(pauses[3:]) == {8}
+
+
+def test_a_drive_comes_back_behind_several_good_replies() -> None:
+    bench = Bench()
+    bench.drives[1].alive = False
+    bench.run(3000)
+    bench.drives[1].alive = True
+    bench.drives[1].reads = 0
+    while not bench.slot(1, "Online"):
+        bench.scan()
+    assert bench.drives[1].reads in (3, 4), "the fourth is on its way"
+
+
+def test_the_others_lose_less_than_two_percent() -> None:
+    def refresh(dead: int) -> float:
+        bench = Bench(Config(drives=7))
+        for drive in bench.drives[:dead]:
+            drive.alive = False
+        bench.run(20_000)
+        before = bench.slot(6, "Fresh")
+        bench.run(20_000)
+        return 20_000 / (bench.slot(6, "Fresh") - before)
+
+    assert refresh(1) < refresh(0) * 6 / 7 * 1.02
+
+
+def test_one_probe_in_vain_per_round() -> None:
+    bench = Bench(Config(drives=8))
+    for drive in bench.drives[:5]:
+        drive.alive = False
+    bench.run(5000)
+    dead = [each.unit <= 5 for each in bench.sent[20:]]
+    assert not any(one and other for one, other in pairwise(dead))
+
+
+def test_a_new_address_is_a_new_drive() -> None:
+    bench = Bench().ready()
+    bench.drives[1].unit = 20
+    bench.put(1, UnitAddress=20)
+    bench.scan()
+    assert not bench.slot(1, "Online")
+    bench.run(500)
+    assert bench.slot(1, "Online")

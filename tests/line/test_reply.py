@@ -1,0 +1,254 @@
+"""What is believed: whole replies that fit, no echo, nothing late, nothing that a foreign master has asked for."""
+
+import pytest
+from tests.line.drives import KINDS
+from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config
+
+
+@pytest.mark.parametrize("ascii_", [False, True])
+@pytest.mark.parametrize("kind", range(len(KINDS)))
+def test_both_modes_and_every_kind_of_drive(ascii_: bool, kind: int) -> None:
+    bench = Bench(Config(ascii=ascii_, kind=kind)).ready()
+    bench.command(1)
+    bench.run(150)
+    bench.stop(0)
+    bench.run(150)
+    assert (bench.answer(1, COMMAND), bench.answer(0, STOP)) == ("OK", "OK")
+    assert bench.slot(2, "PollWords[5]") >= bench.drives[2].reads - 1
+    assert bench["Timeouts"] == bench["Bad"] == bench["ForeignFrames"] == 0
+
+
+@pytest.mark.parametrize("kind", range(len(KINDS)))
+def test_a_refusal_is_a_result_and_not_repeated(kind: int) -> None:
+    bench = Bench(Config(kind=kind)).ready()
+    form = KINDS[kind]
+
+    def refuse(request: bytes) -> bytes:
+        if request[1] != 6:
+            return request[:2] + bytes(13)
+        if form.error_function:
+            return bytes([request[0], form.error_function]) + form.error_address.to_bytes(2, "big") + b"\x00\x04"
+        return bytes([request[0], request[1] + form.exception_add, 4])
+
+    bench.drives[1].answer = refuse
+    bench.ask(1, PARAMETER, 6, 0x0123)
+    sent = bench.run(60)
+    bench.drives[1].answer = None
+    assert bench.answer(1, PARAMETER) == "REFUSED"
+    assert (bench.slot(1, "RefusedAddress"), bench.slot(1, "RefusedReason"), bench["Retries"]) == (0x0123, 4, 0)
+    assert len([each for each in sent if each.pdu[1] == 6]) == 1
+
+
+def test_busy_waits_and_tries_again() -> None:
+    bench = Bench().ready()
+    bench.put(1, BusyReason=6)
+    bench.drives[1].answer = lambda request: bytes([request[0], request[1] + 0x80, 6])
+    bench.command(1)
+    bench.run(250)
+    assert bench.answer(1, COMMAND) == ""
+    bench.drives[1].answer = None
+    bench.run(150)
+    assert bench.answer(1, COMMAND) == "OK"
+
+
+def test_retries_by_class() -> None:
+    bench = Bench().ready()
+    bench.drives[1].alive = False
+    bench.command(1)
+    commands = [each for each in bench.run(600) if each.unit == 2 and not each.read]
+    assert (len(commands), bench.answer(1, COMMAND)) == (4, "SILENCE")
+    bench.drives[1].alive = True
+    bench.run(200)
+    bench.drives[1].alive = False
+    bench.ask(1, PARAMETER, 6, 0x100)
+    parameters = [each for each in bench.run(600) if each.unit == 2 and not each.read]
+    assert (len(parameters), bench.answer(1, PARAMETER)) == (2, "SILENCE")
+
+
+# ---------------------------------------------------------------- echo
+
+
+def test_an_echo_is_found_by_reads_and_never_believed() -> None:
+    bench = Bench(Config(echo=True)).ready()
+    assert bench["Echo"] == 2
+    bench.command(1)
+    bench.run(100)
+    assert bench.answer(1, COMMAND) == "OK"
+    bench.drives[1].alive = False
+    bench.stop(1)
+    bench.run(200)
+    assert bench.answer(1, STOP) == "", "only the echo has answered"
+    assert bench["ForeignFrames"] == 0
+
+
+def test_until_the_echo_is_known_only_reads_and_stops_leave_and_no_stop_is_believed() -> None:
+    bench = Bench(Config(drives=1, echo=True))
+    bench.drives[0].alive = False
+    bench.fill(0, 3, 6, 0x2000)
+    bench.stop(0)
+    bench.command(0)
+    assert {each.stop for each in bench.run(1000)} == {True}, "a poll that is no read decides nothing, and never leaves"
+    assert bench["Echo"] == 0
+    assert bench.answer(0, STOP) == ""
+
+
+def test_the_echo_is_decided_anew_behind_an_error_of_the_port() -> None:
+    bench = Bench().ready()
+    assert bench["Echo"] == 1
+    bench.block["Port.ErrorID"] = 7
+    bench.scan()
+    assert (bench["Echo"], bench["ErrorID"]) == (0, 57)
+    bench.block["Port.ErrorID"] = 0
+    bench.run(200)
+    assert bench["Echo"] == 1
+
+
+def test_an_adapter_that_begins_to_echo_is_noticed_at_the_next_read() -> None:
+    bench = Bench().ready()
+    bench.echoes = True
+    bench.run(100)
+    assert bench["Echo"] == 2
+    bench.echoes = False
+    bench.run(300)
+    assert bench["Echo"] == 1
+
+
+def test_a_read_whose_reply_can_equal_its_request_decides_nothing() -> None:
+    bench = Bench(Config(words=1))
+    for slot in range(3):
+        bench.put(slot, TwoByteCount=True, OtherQuantity=0)
+        bench.fill(slot, 3, 3, 0x0002)
+        bench.drives[slot].answer = lambda request: request[:2] + b"\x00\x02\x00\x01"
+    bench.run(1000)
+    assert bench["Echo"] == 0
+
+
+# ---------------------------------------------------------------- late replies
+
+
+def test_a_late_reply_is_waited_out_dropped_and_followed_by_another_quantity() -> None:
+    bench = Bench(Config(drives=1, longest_ms=100)).ready()
+    bench.drives[0].turn_us = 60_000
+    before = len(bench.sent)
+    while bench["Timeouts"] == 0:
+        bench.scan()
+    bench.drives[0].turn_us = None
+    fresh = bench.slot(0, "Fresh")
+    bench.run(60)
+    assert bench.slot(0, "Fresh") == fresh
+    assert bench.slot(0, "Late") == 1
+    sent = bench.sent[before:]
+    assert sent[-1].pdu[5] == 7
+    bench.run(30)
+    assert bench.slot(0, "PollWords[0]") >= bench.drives[0].reads - 1
+
+
+def test_the_wait_ends_with_the_only_reply_that_can_come() -> None:
+    bench = Bench(Config(drives=2, longest_ms=500)).ready()
+    bench.drives[0].turn_us = 60_000
+    while bench["Timeouts"] == 0:
+        bench.scan()
+    bench.drives[0].turn_us = None
+    assert bench.run(100), "not half a second of silence"
+
+
+def test_stops_do_not_wait_for_late_replies_but_reads_do() -> None:
+    bench = Bench(Config(longest_ms=400)).ready()
+    bench.drives[0].alive = False
+    while bench["Timeouts"] == 0:
+        bench.scan()
+    bench.stop(1)
+    assert [each.stop for each in bench.run(300)] == [True]
+    assert bench.run(200)
+
+
+def test_a_dead_drive_makes_nobody_wait() -> None:
+    bench = Bench(Config(longest_ms=1000)).ready()
+    bench.drives[0].alive = False
+    bench.run(12000)
+    assert not bench.slot(0, "Online")
+    assert len(bench.run(10000)) > 440
+
+
+def test_a_late_scan_gives_the_reply_one_more_call() -> None:
+    bench = Bench(Config(drives=1)).ready()
+    for _ in range(50):
+        bench.run(30)
+        bench.scan(took=200_000)
+    assert bench["Timeouts"] == 0
+    assert bench["LateScans"] == 50
+    assert bench["LongestScanMs"] == 200
+
+
+# ---------------------------------------------------------------- strangers
+
+
+def test_a_foreign_master_stops_every_start_until_it_is_acknowledged() -> None:
+    bench = Bench(Config(drives=1))
+    bench.put(0, PollEveryMs=200)
+    bench.ready()
+    for _ in range(12):
+        bench.run(200)
+        bench.foreign(bytes([9, 3, 0x20, 0, 0, 2]))
+    bench.run(100)
+    assert bench["ForeignFrames"] >= 10
+    assert bench["ErrorID"] == 54
+    bench.command(0)
+    bench.run(200)
+    assert bench.answer(0, COMMAND) == "FOREIGN"
+    bench.stop(0)
+    bench.run(200)
+    assert bench.answer(0, STOP) == "OK"
+    bench.set(Acknowledge=True)
+    bench.command(0)
+    bench.run(200)
+    assert bench.answer(0, COMMAND) == "OK"
+
+
+@pytest.mark.parametrize(
+    ("frame", "counted"),
+    [
+        (bytes([9, 6, 0x20, 0, 0, 2]), 1),
+        (bytes([9, 3, 4, 1, 2, 3, 4]), 1),
+        (bytes([9, 16, 0x20, 0, 0, 2, 4, 1, 2, 3, 4]), 1),
+        (bytes([9, 0x83, 2]), 1),
+        (bytes([9, 0x41, 2, 1]), 0),
+    ],
+)
+@pytest.mark.parametrize("ascii_", [False, True])
+def test_frames_that_nobody_asked_for_are_counted(frame: bytes, counted: int, ascii_: bool) -> None:
+    bench = Bench(Config(drives=1, ascii=ascii_))
+    bench.put(0, PollEveryMs=500)
+    bench.ready().run(300)
+    before = bench["ForeignFrames"]
+    while bench["Phase"] or bench["QuietMs"] < 100 or bench["Track[0].PauseMs"] < 200:
+        bench.scan()
+    bench.now += bench.chance.randrange(9000)  # so that it may be split between two scans
+    bench.foreign(frame)
+    bench.run(100)
+    assert bench["ForeignFrames"] == before + counted
+
+
+def test_the_inside_of_a_good_reply_is_no_foreign_frame() -> None:
+    """Six bytes of a reply and the two behind them that happen to be their checksum."""
+    bench = Bench(Config(drives=1))
+    head = bytes([1, 3, 12, 1, 2, 3])
+    from driveblocks.reference.checksum import crc16
+
+    inner = head + crc16(head).to_bytes(2, "little")
+    bench.drives[0].answer = lambda request: inner + bytes(15 - len(inner)) if request[5] == 6 else None
+    bench.run(2000)
+    assert bench.slot(0, "Fresh") > 50
+    assert bench["ForeignFrames"] == 0
+
+
+@pytest.mark.parametrize(("fault", "counter"), [("garble", "Bad"), ("truncate", "Timeouts"), ("loss", "Timeouts")])
+def test_damage_is_counted_and_never_believed(fault: str, counter: str) -> None:
+    bench = Bench(Config(**{fault: 20_000}), seed=3)  # type: ignore[arg-type]
+    for _ in range(600):
+        fresh = bench.slot(0, "Fresh")
+        bench.scan()
+        if bench.slot(0, "Fresh") != fresh:
+            assert bench.slot(0, "PollWords[0]") == bench.drives[0].reads
+    assert bench[counter] > 10
+    assert bench["LastErrorID"] in (20, 23)

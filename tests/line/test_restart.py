@@ -1,0 +1,107 @@
+"""A restart gives up what waits, but no stop; time that stands lets only stops out."""
+
+import pytest
+from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config
+
+
+def restart(bench: Bench, how: str) -> None:
+    """Restart in one of three ways."""
+    if how == "pin":
+        bench.set(Restart=True)
+        bench.scan()
+        bench.set(Restart=False)
+    elif how == "late":
+        bench.scan(took=1_500_000)
+    else:
+        bench.block["Started"] = False
+        bench.scan()
+
+
+@pytest.mark.parametrize("how", ["pin", "late", "first"])
+def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
+    bench = Bench().ready()
+    bench.port_takes = False
+    bench.command(0)
+    bench.run(30)
+    bench.ask(1, PARAMETER, 6, 0x100)
+    bench.stop(2)
+    restart(bench, how)
+    bench.port_takes = True
+    assert (bench.answer(0, COMMAND), bench.answer(1, PARAMETER)) == ("RESTARTED", "RESTARTED")
+    sent = bench.run(600)
+    assert [each.stop for each in sent if not each.read] == [True] * len([each for each in sent if not each.read])
+    assert bench.answer(2, STOP) == "OK"
+
+
+def test_what_may_still_be_answered_is_waited_out() -> None:
+    bench = Bench(Config(longest_ms=300)).ready()
+    restart(bench, "pin")
+    assert bench.run(290) == []
+    assert bench.run(100)
+
+
+def test_a_stop_of_before_is_new_again() -> None:
+    bench = Bench().ready()
+    bench.drives[1].alive = False
+    bench.stop(1)
+    bench.run(100)
+    before = len(bench.sent)
+    restart(bench, "late")
+    assert [each.stop for each in bench.sent[before:]] == [True]
+
+
+def test_a_restart_that_stays_lets_only_stops_out() -> None:
+    bench = Bench().ready()
+    bench.set(Restart=True)
+    bench.run(100)
+    bench.stop(1)
+    assert {each.stop for each in bench.run(300)} == {True}
+
+
+def test_time_that_stands_lets_only_stops_out() -> None:
+    bench = Bench().ready()
+    for _ in range(101):
+        bench.scan(elapsed=0)
+    bench.command(0)
+    bench.stop(1)
+    before = len(bench.sent)
+    for _ in range(20):
+        bench.scan(elapsed=0)
+    assert [each.stop for each in bench.sent[before:]] == [True]
+    assert bench["ErrorID"] == 58
+    bench.run(300)
+    assert bench["ErrorID"] == 0
+
+
+def test_nothing_but_stops_leaves_before_time_has_moved() -> None:
+    bench = Bench()
+    for _ in range(50):
+        bench.scan(elapsed=0)
+    assert bench.sent == []
+    bench.stop(1)
+    bench.scan(elapsed=0)
+    assert [each.stop for each in bench.sent] == [True]
+
+
+def test_the_clock_of_the_slots_goes_on_behind_its_end() -> None:
+    bench = Bench()
+    bench.block["Clock"] = 59_990
+    bench.scan()
+    bench.scan()
+    assert bench.slot(0, "TimeMs") < 20
+    assert bench.slot(0, "Served") == 2
+
+
+def test_an_unused_slot_costs_nothing_and_is_left_alone() -> None:
+    bench = Bench()
+    bench.run(100)
+    assert bench.slot(5, "Served") == 0
+
+
+def test_counters_of_the_line_are_the_sums_of_its_drives() -> None:
+    bench = Bench(Config(loss=5000, garble=5000), seed=1)
+    bench.run(5000)
+    for name in ("Timeouts", "Bad", "Retries", "Requests", "Good"):
+        assert bench[name] == sum(bench.slot(slot, name) for slot in range(3)) > 0
+    assert 50 < bench["LoadPercent"] <= 100
+    assert 0 < bench["CycleMs"] <= bench["WorstCycleMs"]

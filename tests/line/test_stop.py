@@ -1,0 +1,225 @@
+"""A stop is a compartment of its own: never merged, never behind anything, never given up, and somebody says so."""
+
+from itertools import pairwise
+
+import pytest
+from tests.line.vline import COMMAND, POLL, STOP, Bench, Config
+
+
+def test_new_stops_go_first_and_each_once() -> None:
+    bench = Bench().ready()
+    for slot in range(3):
+        bench.command(slot)
+        bench.ask(slot, 2, 3, 0x100)
+    bench.stop(2)
+    bench.stop(0)
+    sent = bench.run(70)
+    assert [each.stop for each in sent[:3]] == [True, True, False]
+    assert {each.unit for each in sent[:2]} == {1, 3}
+
+
+def test_a_stop_takes_back_the_command_that_waits() -> None:
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.command(0)
+    bench.command(1)
+    bench.run(100)
+    assert bench.answer(1, COMMAND) == "TAKEN_BACK"
+    assert bench.answer(0, COMMAND) == "OK"
+    assert not [frame for frame in bench.drives[1].heard if frame[2:4] == b"\x10\x01"]
+
+
+def test_an_answer_of_before_stays_as_it_was() -> None:
+    bench = Bench().ready()
+    bench.command(1)
+    bench.run(100)
+    bench.stop(1)
+    bench.run(100)
+    assert (bench.answer(1, COMMAND), bench.answer(1, STOP)) == ("OK", "OK")
+
+
+def test_no_retry_of_a_command_goes_before_a_stop() -> None:
+    bench = Bench().ready()
+    bench.drives[0].alive = False
+    bench.command(0)
+    bench.run(30)
+    bench.stop(1)
+    assert next(each.stop for each in bench.run(80))
+
+
+def test_a_stop_that_nobody_acknowledges_is_repeated_and_overdue() -> None:
+    bench = Bench().ready()
+    bench.drives[1].alive = False
+    bench.stop(1)
+    sent = bench.run(3000)
+    stops = [each.ms for each in sent if each.stop]
+    assert len(stops) > 5
+    assert max(later - before for before, later in pairwise(stops)) < 1150
+    assert bench["StopOverdue"]
+    assert not bench.slot(1, "Online")
+    bench.drives[1].alive = True
+    bench.run(1500)
+    assert bench.answer(1, STOP) == "OK"
+    assert not bench["StopOverdue"]
+
+
+def test_a_new_stop_of_a_dead_drive_leaves_at_once() -> None:
+    bench = Bench()
+    bench.drives[1].alive = False
+    bench.ready().run(5000)
+    for _ in range(3):
+        bench.stop(1)
+        assert next(each for each in bench.run(60) if each.stop)
+
+
+def test_stops_of_dead_drives_take_turns_within_a_quarter_of_the_wire() -> None:
+    bench = Bench(Config(drives=4))
+    for drive in bench.drives[:3]:
+        drive.alive = False
+    bench.ready()
+    for slot in range(3):
+        bench.stop(slot)
+    sent = bench.run(6000)
+    assert {each.unit for each in sent if each.stop} == {1, 2, 3}
+    assert bench.slot(3, "Fresh") > 6000 / 28
+
+
+def test_a_repeated_stop_leaves_every_half_second_and_lets_a_reset_through() -> None:
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(60)
+    bench.put(1, StopAgain=True, ResetAsked=True)
+    bench.stop(1)
+    bench.command(1)
+    assert not any(each.stop for each in bench.run(400))
+    assert bench.answer(1, COMMAND) == "OK"
+    assert any(each.stop for each in bench.run(150))
+
+
+def test_a_repeated_stop_does_not_take_a_reset_back() -> None:
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(560)
+    bench.put(1, StopAgain=True, ResetAsked=True)
+    bench.stop(1)
+    bench.command(1)
+    assert [each.stop for each in bench.run(200) if each.unit == 2 and not each.read] == [True, False]
+    assert bench.answer(1, COMMAND) == "OK"
+
+
+def test_no_run_passes_behind_a_repeated_stop() -> None:
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(60)
+    bench.put(1, StopAgain=True)
+    bench.stop(1)
+    bench.command(1)
+    bench.run(800)
+    assert bench.answer(1, COMMAND) == "TAKEN_BACK"
+
+
+def test_a_stop_takes_the_place_of_what_the_port_has_not_taken() -> None:
+    bench = Bench().ready()
+    bench.command(0)
+    bench.port_takes = False
+    bench.run(100)
+    bench.stop(0)
+    bench.scan()
+    bench.port_takes = True
+    assert next(each.stop for each in bench.run(40))
+    assert bench.answer(0, COMMAND) == "TAKEN_BACK"
+
+
+def test_stop_all_stops_every_drive_and_starts_none() -> None:
+    bench = Bench().ready()
+    bench.set(StopAll=True)
+    sent = bench.run(200)
+    assert sorted(each.unit for each in sent if each.stop) == [1, 2, 3]
+    assert bench.slot(0, "StopAll")
+    bench.command(0)
+    bench.run(100)
+    assert bench.answer(0, COMMAND) == "STOP_ALL"
+    bench.set(StopAll=False)
+    bench.command(0)
+    bench.run(100)
+    assert bench.answer(0, COMMAND) == "OK"
+    assert not any(each.pdu[0] == 0 for each in bench.sent), "no broadcast"
+
+
+def test_a_drive_whose_block_is_no_longer_called_is_stopped_and_no_longer_polled() -> None:
+    bench = Bench().ready()
+    bench.attended.discard(1)
+    sent = bench.run(1500)
+    assert len([each for each in sent if each.stop]) == 1
+    assert bench.slot(1, "Unattended")
+    assert not any(each.unit == 2 for each in bench.run(500))
+    bench.attended.add(1)
+    assert any(each.unit == 2 for each in bench.run(500))
+    assert not bench.slot(1, "Unattended")
+
+
+@pytest.mark.parametrize("confirms", [False, True])
+def test_a_stop_that_is_not_confirmed_in_time_is_overdue(confirms: bool) -> None:
+    bench = Bench().ready()
+    bench.put(1, StopWithinMs=800)
+    bench.stop(1)
+    bench.run(400)
+    assert bench.answer(1, STOP) == "OK"
+    bench.put(1, StopConfirmed=confirms)
+    bench.run(500)
+    assert bool(bench["StopOverdue"]) is not confirms
+
+
+def test_a_stop_that_the_port_does_not_take_is_overdue_in_time() -> None:
+    bench = Bench().ready()
+    bench.port_takes = False
+    bench.stop(1)
+    bench.run(bench["WorstStopMs"] + 20)
+    assert bench["StopOverdue"]
+    bench.run(5000)
+    assert bench["StopOverdue"]
+    bench.port_takes = True
+    bench.run(200)
+    assert bench.answer(1, STOP) == "OK"
+    assert not bench["StopOverdue"]
+
+
+def test_a_stop_that_no_line_can_send_is_overdue() -> None:
+    bench = Bench().ready()
+    bench.fill(1, STOP, 5, 0)
+    bench.stop(1)
+    bench.run(60)
+    assert bench.slot(1, "StopOverdue")
+    assert bench["ErrorID"] == 61
+
+
+def test_silence_of_a_drive_without_power_is_no_alarm() -> None:
+    bench = Bench().ready()
+    bench.put(1, SupplyOff=True)
+    bench.drives[1].alive = False
+    bench.stop(1)
+    bench.run(5000)
+    assert not bench["StopOverdue"]
+    assert bench.slot(1, "Timeouts") == 0
+    bench.put(1, SupplyOff=False)
+    bench.run(20)
+    assert bench["StopOverdue"]
+
+
+def test_two_figures_for_how_late_a_stop_leaves() -> None:
+    """19200 8N1, 12 ms scans at most, port keeps 2 ms of silence: by hand from the formula on the line's page."""
+    bench = Bench(Config(drives=7)).ready()
+    bench.run(100)
+    longest, stop, on_top = 20 + 5, 10 + 5, 12 + 2 + 2
+    assert bench["StopAloneMs"] == longest + on_top + 2
+    assert bench["WorstStopMs"] == bench["StopAloneMs"] + 6 * (stop + on_top)
+    assert bench.slot(6, "WorstStopMs") == bench["WorstStopMs"]
+
+
+def test_a_standing_poll_does_not_outlive_a_stop_in_numbers() -> None:
+    """An answer names the request that it answers, polls too."""
+    bench = Bench().ready()
+    number = bench.ask(1, POLL, 3, 0x2100, quantity=2)
+    bench.run(100)
+    assert bench.slot(1, "Answer[3].Number") == number
+    assert bench.slot(1, "PollCount") == 2

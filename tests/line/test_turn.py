@@ -1,0 +1,128 @@
+"""Who speaks when: ranks, round robin, and nobody starves."""
+
+from itertools import pairwise
+
+from tests.line.vline import COMMAND, PARAMETER, Bench, Config
+
+
+def test_a_write_behind_polls_leaves_within_one_transaction() -> None:
+    bench = Bench(Config(drives=7)).ready()
+    bench.command(3)
+    sent = bench.run(45)
+    assert not sent[0].read or not sent[1].read
+
+
+def test_run_before_reset_before_parameter() -> None:
+    bench = Bench().ready()
+    bench.set(PollAfter=10)
+    bench.ask(0, PARAMETER, 6, 0x100)
+    bench.put(1, ResetAsked=True)
+    bench.command(1)
+    bench.command(2)
+    assert [each.unit for each in bench.run(90) if not each.read] == [3, 2, 1]
+
+
+def test_polls_and_commands_take_turns_under_a_stream_of_commands() -> None:
+    bench = Bench().ready()
+    for _ in range(100):
+        for slot in range(3):
+            if bench.answer(slot, COMMAND):
+                bench.command(slot)
+        bench.scan()
+    reads = "".join("R" if each.read else "w" for each in bench.sent[-30:])
+    assert "ww" not in reads
+    assert "RR" not in reads
+
+
+def test_k_commands_pass_between_two_polls() -> None:
+    bench = Bench().ready()
+    bench.set(PollAfter=2)
+    for _ in range(200):
+        for slot in range(3):
+            if bench.answer(slot, COMMAND):
+                bench.command(slot)
+        bench.scan()
+    reads = "".join("R" if each.read else "w" for each in bench.sent[-30:])
+    assert "www" not in reads
+    assert "wwR" in reads
+
+
+def test_constant_commands_of_one_drive_starve_nobody() -> None:
+    bench = Bench().ready()
+    before = [bench.slot(slot, "Fresh") for slot in range(3)]
+    for _ in range(240):
+        if bench.answer(0, COMMAND):
+            bench.command(0)
+        bench.scan()
+    gained = [bench.slot(slot, "Fresh") - old for slot, old in enumerate(before)]
+    assert max(gained) - min(gained) <= 1
+    assert min(gained) >= 15
+
+
+def test_polls_go_round_and_as_often_as_asked() -> None:
+    bench = Bench().ready()
+    assert [each.unit for each in bench.run(120)] in ([1, 2, 3, 1, 2, 3], [2, 3, 1, 2, 3, 1], [3, 1, 2, 3, 1, 2])
+    bench.put(1, PollEveryMs=500)
+    times = [each.ms for each in bench.run(2200) if each.unit == 2]
+    assert all(500 <= later - before <= 580 for before, later in pairwise(times))
+
+
+def test_the_next_request_leaves_in_the_scan_of_the_reply() -> None:
+    """Seven drives, six words, 19200 8N1, 10 ms: two scans per transaction where the port keeps the silence."""
+    bench = Bench(Config(drives=7)).ready()
+    assert len(bench.run(7 * 20 * 10)) >= 68
+    keeps = Bench(Config(drives=7, keeps=False)).ready()
+    assert len(keeps.run(7 * 30 * 10)) >= 68
+    assert keeps.short == []
+
+
+def test_the_largest_silence_on_the_line_counts_even_where_the_port_keeps_some() -> None:
+    bench = Bench(Config(drives=2))
+    bench.put(1, SilenceMs=25)
+    bench.ready().run(200)
+    starts = [each.ms for each in bench.run(500)]
+    assert min(later - before for before, later in pairwise(starts)) >= 16 + 25
+
+
+def test_a_request_that_no_line_can_send_is_answered() -> None:
+    bench = Bench().ready()
+    bench.ask(1, PARAMETER, 3, 0x100, quantity=5)
+    bench.run(50)
+    assert bench.answer(1, PARAMETER) == "REQUEST"
+    bench.ask(1, PARAMETER, 5, 0x100)
+    bench.run(50)
+    assert bench.answer(1, PARAMETER) == "REQUEST"
+
+
+def test_parameters_are_read_and_written() -> None:
+    bench = Bench().ready()
+    bench.ask(1, PARAMETER, 3, 0x100, quantity=4)
+    bench.run(80)
+    assert bench.answer(1, PARAMETER) == "OK"
+    assert bench.slot(1, "ParWords[3]") == bench.drives[1].reads or bench.slot(1, "ParWords[3]") > 0
+    bench.ask(1, PARAMETER, 16, 0x100, quantity=2, word=0x1234)
+    bench.run(80)
+    assert bench.answer(1, PARAMETER) == "OK"
+    assert any(frame[1] == 16 and frame[4:9] == b"\x00\x02\x04\x12\x34" for frame in bench.drives[1].heard)
+
+
+def test_one_address_twice_lets_only_stops_out() -> None:
+    bench = Bench().ready()
+    bench.put(2, UnitAddress=2)
+    bench.run(100)
+    assert (bench["ErrorID"], bench["ErrorSlot"]) in ((55, 1), (55, 2))
+    bench.command(0)
+    bench.stop(0)
+    assert [each.stop for each in bench.run(300)] == [True]
+    bench.put(2, UnitAddress=3)
+    bench.run(600)
+    assert bench["ErrorID"] == 0
+
+
+def test_one_slot_for_two_drive_blocks_lets_only_stops_out() -> None:
+    bench = Bench().ready()
+    bench.put(1, Shared=True)
+    bench.run(60)
+    bench.stop(1)
+    assert [each.stop for each in bench.run(300)] == [True]
+    assert (bench["ErrorID"], bench["ErrorSlot"]) == (56, 1)

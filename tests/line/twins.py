@@ -1,0 +1,55 @@
+"""One line on several engines at once: what is set is set on all, and their states must be equal after every scan."""
+
+from collections.abc import Sequence
+
+from driveblocks.host.engine import Instance, Value
+
+COPIES = ("LISTEN.REPLY",)
+"""Copies of in-outs inside inner instances, which only C keeps."""
+
+
+class DifferentError(AssertionError):
+    """Two engines have come to different states."""
+
+
+class Twins:
+    """Instances of one block that look like one."""
+
+    def __init__(self, instances: Sequence[Instance], every: int = 1) -> None:
+        """Compare the states behind `every` so many scans."""
+        self.instances = instances
+        self.every = every
+        self.scans = 0
+
+    def __getitem__(self, path: str) -> Value:
+        """Read from the first."""
+        return self.instances[0][path]
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write to all."""
+        for each in self.instances:
+            each[path] = value
+
+    def scan(self, now_ns: int | None = None) -> None:
+        """Scan all. Raises DifferentError."""
+        for each in self.instances:
+            each.scan(now_ns)
+        self.scans += 1
+        if self.scans % self.every == 0:
+            first, *others = map(_state, self.instances)
+            for other in others:
+                if other != first:
+                    unlike = [
+                        f"{path}: {first[path]!r}, {other.get(path)!r}"
+                        for path in first
+                        if first[path] != other.get(path)
+                    ]
+                    raise DifferentError(f"scan {self.scans}: {unlike[:10]}")
+
+    def state(self) -> dict[str, Value]:
+        """The state of the first."""
+        return self.instances[0].state()
+
+
+def _state(instance: Instance) -> dict[str, Value]:
+    return {path: value for path, value in instance.state().items() if not path.startswith(COPIES)}
