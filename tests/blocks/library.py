@@ -1,6 +1,7 @@
 """The compiled blocks: one build per engine and process, and a short way to call a block or a function."""
 
 import functools
+import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -8,6 +9,7 @@ from driveblocks.host.engine import Engine, Instance, Library, Source, Value
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
+from driveblocks.render.library import LINE_TYPES
 from driveblocks.render.results import RESULTS
 
 BLOCKS = Path(__file__).parents[2] / "blocks" / "iec61131"
@@ -44,6 +46,12 @@ def sources(folder: Path = BLOCKS) -> list[Source]:
     """The files of a library in the order that it states."""
     names = (folder / "order.txt").read_text(encoding="utf-8").split()
     return [Source(name, (folder / name).read_text(encoding="utf-8")) for name in names]
+
+
+def alone(folder: Path = BLOCKS) -> list[Source]:
+    """The files of what can be called by itself: all but the line, which tests/line runs against drives."""
+    line = re.compile(rf"line/.*|types/(?:{'|'.join(LINE_TYPES)}|MB_(?:Slots|Tracks)\d+)\.st")
+    return [each for each in sources(folder) if not line.fullmatch(each.path)]
 
 
 _BUILT: dict[tuple[str, str], Blocks] = {}

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 
 from driveblocks.host.discovery import MATIEC_NAMES, survey
 from driveblocks.host.engine import EngineError, Source
@@ -43,7 +43,7 @@ class Driver:
         Gives the path of the program. Raises BuildError if the ST does not compile, EngineError with what the C
         compiler says if the C does not.
         """
-        translated = engine.build(list(texts) or sources()).folder
+        translated = engine.build(list(texts) or alone()).folder
         how = [self._command(engine), version(self.compiler)]
         key = json.dumps([self.text, PRELUDE.read_text("utf-8"), translated.name, *how])
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from tests.blocks.compare.landmark import Arm, arms, callees, literals
 from tests.blocks.compare.leaf import Leaf, leaves
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 
 from driveblocks.host.engine import Source
 from driveblocks.st import tree
@@ -21,9 +21,6 @@ from driveblocks.st.lexer import tokenize
 from driveblocks.st.parser import parse
 from driveblocks.st.tree import Array, Block, Checked, Direction, Parameter, Struct
 from driveblocks.st.types import Elementary, Kind, Type
-
-IN_TIME = "line/"
-"""The folder of what means nothing without drives that answer: tests/line/test_engines.py compares it."""
 
 AROUND = "around.st"
 """The source that holds the blocks around functions."""
@@ -102,7 +99,7 @@ class Text:
 @functools.cache
 def shipped() -> Text:
     """The library as it is shipped."""
-    return read(sources())
+    return read(alone())
 
 
 def read(texts: Sequence[Source]) -> Text:
@@ -111,7 +108,7 @@ def read(texts: Sequence[Source]) -> Text:
     around = Source(AROUND, "".join(_around(each) for each in functions.values()))
     whole = (*texts, around)
     checked = check([parse(each.text, each.path) for each in whole])
-    found = [each for each in checked.callees_first if _path(each) != AROUND and not _path(each).startswith(IN_TIME)]
+    found = [each for each in checked.callees_first if _path(each) != AROUND]
     return Text(whole, {each.name: _pou(checked, each) for each in found})
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import Blocks, shipped, sources
+from tests.blocks.library import Blocks, alone, shipped
 from tests.native.driver import lines
 from tests.native.exhaustive import __main__ as long
 from tests.native.exhaustive import program
@@ -70,7 +70,7 @@ def mistaken() -> list[Bench]:
 
 def altered(names: Iterable[str] = PLANTED) -> list[Source]:
     """The library with the mistakes for some checks. Raises AssertionError where a text to change is not there."""
-    texts = {source.path: source for source in sources()}
+    texts = {source.path: source for source in alone()}
     for block, old, new in dict.fromkeys(PLANTED[name] for name in names):
         path = next(path for path in texts if path.endswith(f"/{block}.st"))
         assert old in texts[path].text, (block, old)
@@ -131,5 +131,5 @@ def test_every_block_but_the_commands_is_in_a_check() -> None:
     by_name = {scan.name for scan in program.SCANS} | {*ALLOWED}
     by_hand = {"MB_Crc16", "MB_Crc16Compact", "MB_Lrc"}
     by_hand |= {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Reference", "Standstill")}
-    blocks = {Path(source.path).stem for source in sources() if not source.path.startswith("types/")}
+    blocks = {Path(source.path).stem for source in alone() if not source.path.startswith("types/")}
     assert blocks - by_name - by_hand == {f"{prefix}_Command" for prefix in shipped()}

@@ -14,7 +14,7 @@ import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 from tests.native.driver import told_lines
 from tests.native.sanitize.campaign import Outcome, Program, build, campaign
 from tests.native.sanitize.sanitizers import compilers, found_lines
@@ -41,7 +41,7 @@ def programs(given: argparse.Namespace) -> Iterator[Program]:
 
 def names(text: str) -> list[str]:
     """Blocks and functions in upper case. Raises ArgumentTypeError for one that the library has not."""
-    known = {Path(each.path).stem.upper() for each in sources() if not each.path.startswith("types/")}
+    known = {Path(each.path).stem.upper() for each in alone() if not each.path.startswith("types/")}
     asked = [name.strip().upper() for name in text.split(",") if name.strip()]
     if unknown := [name for name in asked if name not in known]:
         raise argparse.ArgumentTypeError(f"the library has no {', '.join(unknown)}")

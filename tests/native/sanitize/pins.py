@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 
 from driveblocks.host.engine import Source
 from driveblocks.host.matiec import MatiecEngine
@@ -60,7 +60,7 @@ class Pou:
 
 def pous(engine: MatiecEngine, texts: list[Source] | None = None) -> list[Pou]:
     """Every block and function of the library (or of other ST), in its order. Raises what building it raises."""
-    texts = texts or sources()
+    texts = texts or alone()
     header = read_header((Path(engine.build(texts).folder) / "POUS.h").read_text(encoding="utf-8"))
     return list(_Reader(header, "\n".join(each.text for each in texts)).read())
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tests.blocks.library import BLOCKS, sources
+from tests.blocks.library import BLOCKS, alone
 from tests.native.driver import Driver
 from tests.native.sanitize.sanitizers import Checked
 
@@ -115,7 +115,7 @@ FAULTS = {
 def spoilt() -> list[Source]:
     """The library with all faults at once, each in a block of its own."""
     texts = []
-    for each in sources():
+    for each in alone():
         good, bad, _ = FAULTS.get(Path(each.path).stem, ("", "", ""))
         assert good in each.text, each.path
         texts.append(Source(each.path, each.text.replace(good, bad) if good else each.text))

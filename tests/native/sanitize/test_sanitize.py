@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 from tests.native.driver import Driver
 from tests.native.sanitize import __main__ as long
 from tests.native.sanitize.campaign import Program, Share, at_once, build, execute, inputs
@@ -40,7 +40,7 @@ def test_no_block_goes_wrong(matiec: MatiecEngine) -> None:
 
 def test_parsers_get_ten_times_as_much_in_the_long_form(matiec: MatiecEngine) -> None:
     counts = {pou.name: inputs(pou) for pou in pous(matiec)}
-    assert len(counts) == len(sources()) - 5, "every file but the five types"
+    assert len(counts) == len(alone()) - 5, "every file but the five types"
     assert {name for name, count in counts.items() if count == 10_000_000} == PARSED
     assert set(counts.values()) == {1_000_000, 10_000_000}
 
