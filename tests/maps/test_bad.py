@@ -1,21 +1,20 @@
-"""Every broken map in `bad/` gives exactly the messages of its `# expect:` lines, and every message has such a map."""
+"""Every broken map of `bad/` gives exactly its messages, and every message has such a map."""
 
 import ast
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import FrameType
 
 import pytest
+from tests.maps import bad
 
 from driveblocks.maps import load, nodes, syntax, trap
 from driveblocks.maps.problem import MapError, Place, Report
 
-FOLDER = Path(__file__).parent / "bad"
-FILES = sorted(FOLDER.glob("*.yaml"))
 SOURCE = Path(load.__file__).parent
-MARK = "# expect: "
 YAML_TROUBLE = re.compile(r"trap_|anchor|alias|tag_|directive|text_starts|.*_closed|list_|key_|escape|indented|colon")
 """Maps whose message comes from the YAML parser, which is the same with libyaml and without."""
 
@@ -23,14 +22,16 @@ Site = tuple[str, int]
 """File and line of a call."""
 
 
-def expected(path: Path) -> list[str]:
-    """The messages that a broken map states of itself, without the name of the file."""
-    lines = path.read_text(encoding="utf-8").split("\n")
-    return [line.removeprefix(MARK) for line in lines if line.startswith(MARK)]
+def messages(text: str) -> list[str]:
+    """The messages that the loader gives for a map, without the name of the file."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "map.yaml"
+        path.write_bytes(text.encode("utf-8"))
+        return found(path)
 
 
 def found(path: Path) -> list[str]:
-    """The messages that the loader gives for a map, without the name of the file."""
+    """The messages that the loader gives for a file, without its name."""
     try:
         load.load(path)
     except MapError as error:
@@ -38,41 +39,57 @@ def found(path: Path) -> list[str]:
     return []
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_a_bad_map_gets_its_messages(path: Path) -> None:
-    assert found(path) == expected(path)
+def wrong(names: Iterable[str]) -> dict[str, tuple[list[str], list[str]]]:
+    """The broken maps that get other messages than theirs: what they get, and what they should."""
+    cases = bad.cases()
+    said = {name: messages(cases[name].text) for name in names}
+    return {name: (each, cases[name].messages) for name, each in said.items() if each != cases[name].messages}
 
 
-@pytest.mark.parametrize("path", [p for p in FILES if YAML_TROUBLE.match(p.stem)], ids=lambda path: path.stem)
-def test_the_messages_are_the_same_without_libyaml(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_bad_map_gets_its_messages_and_every_message_has_a_bad_map(monkeypatch: pytest.MonkeyPatch) -> None:
+    hit = _watched(monkeypatch)
+    assert wrong(bad.cases()) == {}
+    _what_no_small_map_shows(monkeypatch)
+    assert [site for site in _sites() if not any(_within(site, one) for one in hit)] == []
+
+
+def test_the_messages_are_the_same_without_libyaml(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(nodes, "_LIBYAML", None)
-    assert found(path) == expected(path)
+    assert wrong(filter(YAML_TROUBLE.match, bad.cases())) == {}
 
 
-def test_there_are_enough() -> None:
-    assert len(FILES) >= 200
-    assert all(expected(path) for path in FILES)
+def test_every_case_has_a_name_of_its_own_and_a_message() -> None:
+    assert len(bad.cases()) == sum(map(len, bad.topics().values())) >= 600
+    assert all(case.messages for case in bad.cases().values())
 
 
-def test_every_message_has_a_bad_map(monkeypatch: pytest.MonkeyPatch) -> None:
-    hit = _traced(monkeypatch)
-    missed = [site for site in _sites() if not any(_within(site, one) for one in hit)]
-    assert missed == []
+def test_a_case_is_written_out_as_a_whole_map(capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    bad.main(["bit_twice"])
+    text = capfdbinary.readouterr().out.decode("utf-8")
+    good = (bad.FOLDER / "small.yaml").read_text(encoding="utf-8")
+    assert text == good.replace("运行中}]", "运行中}, {bit: 0, name: Ready, zh: 准备}]")
+    bad.main([])
+    assert capfdbinary.readouterr().out.decode("utf-8").split() == list(bad.cases())
+
+
+def test_a_text_too_long() -> None:
+    text = (bad.FOLDER / "small.yaml").read_text(encoding="utf-8").replace("both say so", "x" * 4001)
+    assert messages(text) == ["56:113: a value of 4001 characters; one value has at most 4000"]
 
 
 def test_every_trap_has_a_bad_map() -> None:
-    said = "\n".join(message for path in FILES for message in expected(path))
+    said = "\n".join(message for case in bad.cases().values() for message in case.messages)
     assert [reading for _, reading, _ in trap._TRAPS if reading not in said] == []
 
 
 def test_every_complaint_of_the_parser_has_a_bad_map() -> None:
-    said = "\n".join(message for path in FILES for message in expected(path))
+    said = "\n".join(message for case in bad.cases().values() for message in case.messages)
     patterns = (re.escape(words.wrong.format("@", "@")).replace("@", ".+") for words in syntax._WORDS)
     assert [pattern for pattern in patterns if not re.search(pattern, said)] == []
 
 
-def _traced(monkeypatch: pytest.MonkeyPatch) -> set[Site]:
-    """Load every bad map; return each line of the maps package that stood on the stack when a mistake was noted."""
+def _watched(monkeypatch: pytest.MonkeyPatch) -> set[Site]:
+    """Where mistakes are noted from now on."""
     hit: set[Site] = set()
     add = Report.add
 
@@ -81,16 +98,15 @@ def _traced(monkeypatch: pytest.MonkeyPatch) -> set[Site]:
         add(self, place, wrong, right)
 
     monkeypatch.setattr(Report, "add", record)
-    for path in FILES:
-        found(path)
-    _what_no_small_file_shows(monkeypatch)
     return hit
 
 
-def _what_no_small_file_shows(monkeypatch: pytest.MonkeyPatch) -> None:
+def _what_no_small_map_shows(monkeypatch: pytest.MonkeyPatch) -> None:
     found(Path("...yaml"))
+    monkeypatch.setattr(nodes, "MAX_TEXT", 10)
+    found(bad.FOLDER / "small.yaml")
     monkeypatch.setattr(nodes, "MAX_NODES", 10)
-    found(FILES[0])
+    found(bad.FOLDER / "small.yaml")
     with pytest.raises(MapError):
         load.loads('a: "\\UFFFFFFFF"', "escape.yaml")
 
