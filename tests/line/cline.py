@@ -1,6 +1,11 @@
-"""The virtual line in C around the matiec build: translate, compile, run, read what it prints."""
+"""The virtual line in C around the matiec build: translate, compile, run, read what it prints.
+
+`python -m tests.line.cline random SEED 1 KIND` runs one random line again; `run KEY=VALUE ...` any line.
+"""
 
 import subprocess
+import sys
+import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -87,3 +92,8 @@ def build(
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr[:4000]
     return CLine(program)
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as temporary:
+        sys.exit(subprocess.run([build(Path(temporary)).program, *sys.argv[1:]], check=False).returncode)
