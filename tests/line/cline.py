@@ -1,6 +1,11 @@
-"""The virtual line in C around the matiec build: translate, compile, run, read what it prints."""
+"""The virtual line in C around the matiec build: translate, compile, run, read what it prints.
+
+`python -m tests.line.cline random SEED 1 KIND` runs one random line again; `run KEY=VALUE ...` any line.
+"""
 
 import subprocess
+import sys
+import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -61,14 +66,34 @@ def texts(slots: int = 8) -> list[str]:
     return [(BLOCKS / name).read_text(encoding="utf-8") for name in wanted if name != f"line/MB_Line{40 - slots}.st"]
 
 
-def build(folder: Path, slots: int = 8, edit: Callable[[str], str] = str, tool: Installation | None = None) -> CLine:
+def build(
+    folder: Path,
+    slots: int = 8,
+    edit: Callable[[str], str] = str,
+    tool: Installation | None = None,
+    flags: tuple[str, ...] = ("-O2",),
+) -> CLine:
     """Compile a line of so many slots in a folder; `edit` may plant a fault in the ST. Raises AssertionError."""
     tool = tool or FOUND[0]
     translate(tool, [edit(text) for text in texts(slots)], folder)
     (folder / "drives.h").write_text(header(), encoding="utf-8")
     program = folder / f"vline{slots}"
     headers = ["-isystem", str(tool.library / "C"), "-I", "."]
-    command = [str(COMPILER), "-O2", "-w", f"-DSLOT_COUNT={slots}", *headers, str(HERE / "vline.c"), "-o", str(program)]
+    command = [
+        str(COMPILER),
+        *flags,
+        "-w",
+        f"-DSLOT_COUNT={slots}",
+        *headers,
+        str(HERE / "vline.c"),
+        "-o",
+        str(program),
+    ]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr[:4000]
     return CLine(program)
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as temporary:
+        sys.exit(subprocess.run([build(Path(temporary)).program, *sys.argv[1:]], check=False).returncode)

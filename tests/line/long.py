@@ -90,7 +90,7 @@ def main() -> int:
 
 
 def _all(job: Job) -> Iterator[Row]:
-    for part in (refresh, bus, cost, randoms, planted, engines):
+    for part in (refresh, bus, cost, randoms, planted, sanitized, engines):
         yield from part(job)
 
 
@@ -218,6 +218,18 @@ def planted(job: Job) -> Iterator[Row]:
 def _growing(line: CLine, one: Planted) -> Iterator[Ran]:
     for count in (1000, 10_000, 100_000):
         yield line.random(0, count, one.kind)
+
+
+def sanitized(job: Job) -> Iterator[Row]:
+    """Every kind under AddressSanitizer and UndefinedBehaviorSanitizer, which end the program at what they find."""
+    for tool in FOUND:
+        place = job.folder / f"sanitized {tool.iec2c.parent.name}"
+        place.mkdir()
+        flags = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+        line = build(place, tool=tool, flags=flags)
+        ran = [line.random(job.first, max(10, job.runs // 100), kind) for kind in KINDS]
+        scans = sum(each["scans"] for each in ran)
+        yield Row(f"{scans:.0f} scans under the sanitizers, {tool.iec2c.parent.name}", "nothing found")
 
 
 def engines(_: Job) -> Iterator[Row]:

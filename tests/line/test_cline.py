@@ -15,7 +15,7 @@ def line(tmp_path_factory: pytest.TempPathFactory) -> CLine:
 @NEEDS
 @pytest.mark.parametrize("kind", ["timing", "stops", "late", "broken", "faults"])
 def test_random_lines(line: CLine, kind: str) -> None:
-    """A failure names its seed; `vline random SEED 1 KIND` runs that line again."""
+    """A failure names its seed; `python -m tests.line.cline random SEED 1 KIND` runs that line again."""
     assert line.random(0, 1000, kind).failures == ()
 
 

@@ -97,7 +97,7 @@ def _words(rows: Rows) -> Iterator[str]:
         refuses it); and a system that evaluates the constants of a function on each call writes 256 words for each
         frame.
 
-        So the library keeps a block with its table in the instance. The least of all rounds is shown; over 256 bytes
+        So the library keeps a block with its tables in the instance. The least of all rounds is shown; over 256 bytes
         the median of the calmest process lies within {spread(rows)} % of it.
         """)
 
