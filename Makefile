@@ -16,11 +16,12 @@ counts:               ## the tables of drives in the READMEs, from the maps
 schema:               ## vendor_maps/schema.json and keys.md from the model, and the smallest map in the guide
 	$(DB) schema vendor_maps
 
-fuzz:                 ## by chance: maps, texts for both YAML parsers, every property of the suite, damaged replies
+fuzz:                 ## by chance: maps, texts for both YAML parsers, every property of the suite, damaged replies; hostile files
 	@echo "again: make fuzz SEED=$(strip $(SEED))"
 	$(PY) tests/maps/fuzz.py --seed $(SEED)
 	$(PY) -m tests.maps.agreement --seed $(SEED)
 	$(PY) -m pytest -n auto -m hypothesis --hypothesis-profile search --hypothesis-seed $(SEED)
+	$(PY) -m pytest -n auto -m long
 	$(PY) -m tests.blocks.fuzz --seed $(SEED)
 
 mutation:             ## change every fact of the maps that reaches a block, and see a test turn red

@@ -3,6 +3,7 @@
 What holds for the shipped drives holds for them without any code: check, build, lint, compile, behave.
 """
 
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,7 +12,6 @@ from tests.blocks import asking, driving, meanings, vectors, wire
 from tests.blocks.library import Blocks, built, scan
 from tests.blocks.test_reply import check_by_chance
 
-from driveblocks.building import build
 from driveblocks.host.engine import Engine, Instance, Source, Value
 from driveblocks.maps import collection
 from driveblocks.maps.load import loads
@@ -28,23 +28,23 @@ DRIVES = {source.drive.prefix: source.drive for source in SOURCES}
 EVERY = pytest.mark.parametrize("drive", DRIVES.values(), ids=list(DRIVES))
 
 
+@functools.cache
 def library() -> list[Source]:
     """The files of the library that these maps become, in order."""
-    made = build.files(SOURCES, texts.languages(["en", "zh"], "utf-8"))
-    names = made[f"{build.PLATFORM}/order.txt"].split()
-    return [Source(name, made[f"{build.PLATFORM}/{name}"]) for name in names]
-
-
-LIBRARY = library()
+    both = texts.languages(["en", "zh"], "utf-8")
+    made = [*library_of.generic(both)]
+    for source in SOURCES:
+        made += library_of.drive(source.path.stem, texts.told(source.drive, both), both)
+    return [Source(file.path, file.text) for file in made]
 
 
 def fourth(engine: Engine) -> Blocks:
     """The library on an engine."""
-    return built(engine, "fourth", LIBRARY)
+    return built(engine, "fourth", library())
 
 
 def test_blocks_pass_the_linter() -> None:
-    assert [str(problem) for problem in lint_sources([(source.path, source.text) for source in LIBRARY])] == []
+    assert [str(problem) for problem in lint_sources([(source.path, source.text) for source in library()])] == []
 
 
 @EVERY

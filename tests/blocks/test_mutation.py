@@ -8,11 +8,10 @@ from tests.maps.mutate import Change
 from driveblocks.maps.model import Drive
 
 
-@pytest.mark.parametrize("seed", [11, 12, 13])
-def test_changes_of_maps_are_noticed(seed: int) -> None:
-    tally = mutation.run(rounds=1, seed=seed, sample=20)
+def test_changes_of_maps_are_noticed() -> None:
+    tally = mutation.run(rounds=1, seed=11, sample=30)
     assert mutation.unexplained(tally) == []
-    assert sum(number for name, number in tally.seen.items() if name.endswith("blocks")) >= 2
+    assert sum(number for name, number in tally.seen.items() if name.endswith("blocks")) >= 3
 
 
 def test_every_explanation_is_of_a_shipped_drive() -> None:

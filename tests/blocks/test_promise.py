@@ -8,7 +8,7 @@ import pytest
 from tests.blocks import promise
 from tests.maps import mutate
 
-from driveblocks.maps import check
+from driveblocks.maps import check, page
 from driveblocks.maps.load import loads
 from driveblocks.maps.rules import identifier
 from driveblocks.render import expression
@@ -95,6 +95,11 @@ def test_a_good_map_builds_lints_clean_and_passes(name: str, change: Callable[[P
     changed = document(name)
     change(changed)
     assert judged(changed) == []
+
+
+def test_the_smallest_map_keeps_the_promise() -> None:
+    loads(page.skeleton(), "acme.yaml")
+    assert list(promise.broken(page.skeleton())) == []
 
 
 def test_what_stands_in_several_statements_means_the_same(monkeypatch: pytest.MonkeyPatch) -> None:

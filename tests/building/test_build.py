@@ -20,11 +20,7 @@ def wanted() -> dict[str, str]:
     return build.files(collection.read([EXAMPLE]), BOTH)
 
 
-def test_two_builds_are_equal(wanted: dict[str, str]) -> None:
-    assert build.files(collection.read([EXAMPLE]), BOTH) == wanted
-
-
-def test_nothing_in_the_output_depends_on_the_machine(wanted: dict[str, str], tmp_path: Path) -> None:
+def test_two_builds_are_equal_wherever_the_map_is(wanted: dict[str, str], tmp_path: Path) -> None:
     elsewhere = tmp_path / "example.yaml"
     elsewhere.write_bytes(EXAMPLE.read_bytes())
     assert build.files(collection.read([elsewhere]), BOTH) == wanted

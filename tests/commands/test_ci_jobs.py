@@ -118,8 +118,8 @@ def test_a_mistake_in_the_map_fails_at_check_and_nothing_follows(runner: Runner)
 def test_a_failed_check_fails_the_job_and_is_in_the_report(runner: Runner) -> None:
     template = runner.clone / SCALE
     text = template.read_text(encoding="utf-8")
-    assert "UINT_TO_REAL(Count) {{ operation }};" in text
-    template.write_text(text.replace("{{ operation }};", "{{ operation }} + 1.0;"), encoding="utf-8")
+    assert "_TO_REAL(Count) {{ scale.factor | times }};" in text
+    template.write_text(text.replace("| times }};", "| times }} + 1.0;"), encoding="utf-8")
     runner.map()
     done = runner.run()
     assert done.returncode == 1, done.stdout + done.stderr

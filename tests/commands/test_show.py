@@ -52,23 +52,17 @@ def test_the_column_of_the_manuals_own_words_is_there_where_it_has_some(tmp_path
     assert f"Overcurrent {own.partition(': ')[2]}".strip() in shown
 
 
-@pytest.mark.parametrize("columns", [80, 120])
 @pytest.mark.parametrize("topic", ["", *TOPICS])
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: Path(path).stem)
-def test_no_line_is_wider_than_the_terminal(path: str, topic: str, columns: int) -> None:
-    result = show(path, *filter(None, [topic]), columns=columns)
-    assert result.exit_code == 0, result.output
-    assert max(map(cell_len, result.stdout.splitlines())) <= columns
-    assert "\x1b" not in result.stdout
-    assert not re.search(r"[ \t]$", result.stdout, re.MULTILINE)
-
-
-@pytest.mark.parametrize("topic", ["", *TOPICS])
-@pytest.mark.parametrize("path", MAPS, ids=lambda path: Path(path).stem)
-def test_folding_loses_no_character(path: str, topic: str) -> None:
-    words = [path, *filter(None, [topic])]
-    wide, narrow = (show(*words, columns=columns).stdout for columns in (1000, 80))
-    assert Counter(re.sub(r"[\s─]", "", wide)) == Counter(re.sub(r"[\s─]", "", narrow))
+def test_a_page_fits_any_terminal_and_folding_loses_no_character(path: str, topic: str) -> None:
+    pages = {columns: show(path, *filter(None, [topic]), columns=columns) for columns in (80, 120, 1000)}
+    for columns, result in pages.items():
+        assert result.exit_code == 0, result.output
+        assert max(map(cell_len, result.stdout.splitlines())) <= columns
+        assert "\x1b" not in result.stdout
+        assert not re.search(r"[ \t]$", result.stdout, re.MULTILINE)
+    wide, *folded = (Counter(re.sub(r"[\s─]", "", pages[columns].stdout)) for columns in (1000, 120, 80))
+    assert folded == [wide, wide]
 
 
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: Path(path).stem)

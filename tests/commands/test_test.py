@@ -1,19 +1,21 @@
 """`driveblocks test`: what is printed and written, and the exit status."""
 
+import functools
 import re
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from tests.testing.conftest import BOTH, changed, only
 from typer.testing import CliRunner, Result
 
+from driveblocks.building import build
 from driveblocks.cli import app
 from driveblocks.host import discovery
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Source
-from driveblocks.render import library
+from driveblocks.maps import collection
+from driveblocks.testing.unit import Unit
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
@@ -26,12 +28,31 @@ def my_drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return "my_drive.yaml"
 
 
+@functools.cache
+def whole() -> Unit:
+    """All programs of the map, under the name that it has there."""
+    (source,) = collection.read([EXAMPLE])
+    return build.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
+
+
+def give(monkeypatch: pytest.MonkeyPatch, made: Unit) -> None:
+    """Let the command find this unit instead of what the map makes."""
+    monkeypatch.setattr(build, "units", lambda *_: [made])
+
+
+@pytest.fixture
+def brief(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> str:
+    """The map, of which two programs alone are made."""
+    give(monkeypatch, only(whole(), "Frames", "Scales"))
+    return my_drive
+
+
 def invoke(*arguments: str) -> Result:
     return CliRunner().invoke(app, ["test", *arguments])
 
 
-def test_a_good_map_passes_and_nothing_is_written_but_the_xml(my_drive: str) -> None:
-    result = invoke(my_drive, "--junit", "junit.xml")
+def test_a_good_map_passes_and_nothing_is_written_but_the_xml(brief: str) -> None:
+    result = invoke(brief, "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     assert sorted(path.name for path in Path.cwd().iterdir()) == ["junit.xml", "my_drive.yaml"]
     last = result.stdout.splitlines()[-1]
@@ -42,8 +63,8 @@ def test_a_good_map_passes_and_nothing_is_written_but_the_xml(my_drive: str) -> 
     assert "my_drive.EX100_TestFrames" in {case.attrib["classname"] for case in root.iter("testcase")}
 
 
-def test_the_table_has_a_row_per_program_and_a_column_per_engine_and_no_file_is_written(my_drive: str) -> None:
-    lines = invoke(my_drive).stdout.splitlines()
+def test_the_table_has_a_row_per_program_and_a_column_per_engine_and_no_file_is_written(brief: str) -> None:
+    lines = invoke(brief).stdout.splitlines()
     assert [path.name for path in Path.cwd().iterdir()] == ["my_drive.yaml"]
     assert re.search(r": all passed in [\d.]+ s$", lines[-1])
     assert lines[0] == "engine embedded: runs, part of DriveBlocks"
@@ -56,13 +77,8 @@ def test_the_table_has_a_row_per_program_and_a_column_per_engine_and_no_file_is_
 def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
     my_drive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    rendered = library.drive
-
-    def wrong(*arguments: Any) -> Iterator[library.File]:
-        for file in rendered(*arguments):
-            yield library.File(file.folder, file.name, file.text.replace("/ 10.0", "/ 100.0"))
-
-    monkeypatch.setattr(library, "drive", wrong)
+    wrong = changed(whole(), "EX100_DCBusVoltageV", "/ 10.0", "/ 100.0")
+    give(monkeypatch, only(wrong, "Frames", "Scales"))
     result = invoke(my_drive, "--junit", "results.xml")
     assert result.exit_code == 1
     place = r"tests/iec61131/my_drive/EX100_TestFrames\.st:\d+: my_drive\.EX100_TestFrames on embedded"
@@ -116,14 +132,14 @@ def test_an_engine_that_is_not_there_gives_status_2_and_the_reason(
     assert "engine matiec-openplc cannot be used: no iec2c found" in result.stderr
 
 
-def test_all_engines_are_those_that_are_there(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_engines_are_those_that_are_there(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
     without_matiec(monkeypatch)
-    result = invoke(my_drive, "--engine", "all")
+    result = invoke(brief, "--engine", "all")
     assert result.exit_code == 0
     assert result.stdout.splitlines()[1].startswith("engine matiec-beremiz: does not run, no iec2c found")
 
 
-def test_several_engines_stand_side_by_side(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
     class Second(EmbeddedEngine):
         name = "matiec-openplc"
 
@@ -134,7 +150,7 @@ def test_several_engines_stand_side_by_side(my_drive: str, monkeypatch: pytest.M
             return [found.embedded, discovery.Candidate("matiec-openplc", Second(), "here")]
 
     monkeypatch.setattr(discovery, "survey", lambda: Both(found.embedded, None, found.cache))
-    result = invoke(my_drive, "--engine", "all", "--junit", "junit.xml")
+    result = invoke(brief, "--engine", "all", "--junit", "junit.xml")
     assert result.exit_code == 0
     assert "drive     program" in result.stdout
     assert re.search(r"^drive +program +checks +embedded +openplc$", result.stdout, re.MULTILINE)
@@ -143,21 +159,22 @@ def test_several_engines_stand_side_by_side(my_drive: str, monkeypatch: pytest.M
     assert {name.rpartition(" on ")[2] for name in suites} == {"embedded", "matiec-openplc"}
 
 
-def test_an_xml_that_cannot_be_written_gives_status_2(my_drive: str) -> None:
-    result = invoke(my_drive, "--junit", "no/such/folder/junit.xml")
+def test_an_xml_that_cannot_be_written_gives_status_2(brief: str) -> None:
+    result = invoke(brief, "--junit", "no/such/folder/junit.xml")
     assert result.exit_code == 2
     assert "no/such/folder/junit.xml: cannot be written" in result.stderr
 
 
-def test_loops_beyond_the_limit_fail_and_the_run_goes_on(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def slow(engine: object, sources: list[Source]) -> object:
-        return build(EmbeddedEngine(loop_limit=100), sources)
+        return built(EmbeddedEngine(loop_limit=3), sources)
 
-    build = EmbeddedEngine.build
+    built = EmbeddedEngine.build
     monkeypatch.setattr(EmbeddedEngine, "build", slow)
-    result = invoke(my_drive, "--time-limit", "600")
+    result = invoke(brief, "--time-limit", "600")
     assert result.exit_code == 1
     assert "loop" in result.stdout
+    assert re.search(r"^my_drive +EX100_TestScales +\d+ +[\d.]+ ms$", result.stdout, re.MULTILINE)
 
 
 # ---------------------------------------------------------------- coverage
@@ -180,24 +197,14 @@ def test_coverage_is_told_with_what_is_explained_which_fails_nothing(my_drive: s
     assert properties == {"engine": "embedded", "lines": f"{match[1]}/{match[2]}", "branches": f"{match[3]}/{match[4]}"}
 
 
-def test_coverage_is_not_measured_unless_asked(my_drive: str) -> None:
-    assert "coverage" not in invoke(my_drive).stdout
+def test_coverage_is_not_measured_unless_asked(brief: str) -> None:
+    assert "coverage" not in invoke(brief).stdout
 
 
 def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    rendered = library.drive
-
-    def longer(*arguments: Any) -> Iterator[library.File]:
-        for file in rendered(*arguments):
-            text = file.text
-            if file.name == "EX100_Standstill":
-                more = (
-                    "  IF StandstillProven AND NOT StandstillProven THEN\n    StandstillProven := FALSE;\n  END_IF;\n"
-                )
-                text = text.replace("END_FUNCTION_BLOCK", f"{more}END_FUNCTION_BLOCK")
-            yield library.File(file.folder, file.name, text)
-
-    monkeypatch.setattr(library, "drive", longer)
+    never = "  IF StandstillProven AND NOT StandstillProven THEN\n    StandstillProven := FALSE;\n  END_IF;\n"
+    longer = changed(whole(), "EX100_Standstill", "END_FUNCTION_BLOCK", f"{never}END_FUNCTION_BLOCK")
+    give(monkeypatch, only(longer, "Standstill"))
     assert invoke(my_drive, "--coverage").exit_code == 0
     result = invoke(my_drive, "--require-coverage", "100")
     assert result.exit_code == 1

@@ -191,6 +191,6 @@ BINARIES: dict[str, bytes] = {
 }
 
 
-def contents() -> dict[str, bytes]:
-    """Every file by its name, in full size."""
-    return {**{name: text.encode() for name, text in texts().items()}, **BINARIES}
+def contents(share: int) -> dict[str, bytes]:
+    """Every file by its name; of whatever is repeated in characters, so small a part."""
+    return {**{name: text.encode() for name, text in texts(share).items()}, **BINARIES}

@@ -1,7 +1,7 @@
 """Load files, each in a process of its own with little memory, and print what became of each.
 
-Arguments: paths. Prints one line of JSON for each path: its name, the messages, and the traceback of what should not
-have happened. A loader that wants more than MOST_BYTES beyond what the process has ends in a MemoryError.
+Arguments: bytes, paths. Prints one line of JSON for each path: its name, the messages, and the traceback of what
+should not have happened. A loader that wants more than so many bytes beyond what the process has ends in a MemoryError.
 """
 
 import json
@@ -13,8 +13,6 @@ from pathlib import Path
 
 from driveblocks.maps import load
 from driveblocks.maps.problem import MapError
-
-MOST_BYTES = 100 << 20
 
 
 def probe(path: Path) -> dict[str, object]:
@@ -30,24 +28,24 @@ def probe(path: Path) -> dict[str, object]:
     return {"name": path.name, "messages": messages, "trace": trace}
 
 
-def _limit() -> None:
+def _limit(most: int) -> None:
     """Bound the address space, where the system says how much is in use."""
     usage = Path("/proc/self/statm")
     if usage.exists():
-        most = int(usage.read_text().split()[0]) * resource.getpagesize() + MOST_BYTES
+        most += int(usage.read_text().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def main(paths: list[str]) -> None:
+def main(most: int, paths: list[str]) -> None:
     """Probe each path in a child, so that none can spend what another saved."""
     for path in paths:
         child = os.fork()
         if child == 0:
-            _limit()
+            _limit(most)
             print(json.dumps(probe(Path(path))), flush=True)
             os._exit(0)
         os.waitpid(child, 0)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(int(sys.argv[1]), sys.argv[2:])

@@ -189,18 +189,16 @@ def _variants(value: Any, name: str) -> Iterator[tuple[str, Any]]:
         yield name, _changed(value)
 
 
-@pytest.mark.parametrize("path", [EXAMPLE, *catalog.shipped()], ids=lambda path: path.stem)
-def test_whatever_changes_in_a_map_changes_its_json(path: Path) -> None:
-    """One change for each key that the map uses, wherever it first stands."""
-    drive = load(path)
-    original = view.of_drive(drive, path.stem)
+def test_whatever_changes_in_a_map_changes_its_json() -> None:
+    """One change for each key that a map uses, wherever it first stands; the smallest map comes first."""
     tried: set[str] = set()
-    lost: set[str] = set()
-    for place, changed in _variants(drive, "Drive"):
-        if place not in tried:
-            tried.add(place)
-            if view.of_drive(changed, path.stem) == original:
-                lost.add(place)
-    assert len(tried) > 90
-    # `readable` is about addresses with a RAM bit; without such addresses it says nothing
-    assert lost == (set() if drive.storage.add is not None else {"Storage.readable"})
+    for path in sorted([EXAMPLE, *catalog.shipped()], key=lambda path: path.stat().st_size):
+        drive = load(path)
+        original = view.of_drive(drive, path.stem)
+        for place, changed in _variants(drive, "Drive"):
+            if place not in tried:
+                # of addresses with a RAM bit; without such addresses it says nothing
+                lost = place == "Storage.readable" and drive.storage.add is None
+                assert (view.of_drive(changed, path.stem) == original) is lost, place
+                tried |= set() if lost else {place}
+    assert len(tried) > 120

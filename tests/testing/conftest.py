@@ -1,5 +1,6 @@
 """The units of the example map, and ways to change a library and to run some of its programs."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.engine import Source
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
-from driveblocks.testing import runner
+from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit
 
@@ -42,10 +43,20 @@ def shared(made: dict[str, Unit]) -> Unit:
 
 
 def only(unit: Unit, *programs: str) -> Unit:
-    """The unit with some of its programs, by the beginning of what stands behind `_Test`."""
+    """The unit with some of its programs, by the beginning of what stands behind `_Test`, and the blocks they need."""
     chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
     assert chosen, programs
-    return replace(unit, suite=replace(unit.suite, programs=tuple(chosen)))
+    needed = _needed(unit, [one.text for one in chosen])
+    return replace(unit, blocks=needed, suite=replace(unit.suite, programs=tuple(chosen)))
+
+
+def _needed(unit: Unit, texts: list[str]) -> tuple[Source, ...]:
+    """The blocks and types that are named in the texts and the harness, or in what is named there."""
+    rest = {Path(source.path).stem: source for source in unit.blocks}
+    texts = [*texts, *harness.texts().values()]
+    for text in texts:
+        texts += [rest.pop(name).text for name in set(re.findall(r"\w+", text)) if name in rest]
+    return tuple(source for source in unit.blocks if Path(source.path).stem not in rest)
 
 
 def changed(unit: Unit, block: str, old: str, new: str) -> Unit:

@@ -19,7 +19,6 @@ from driveblocks.testing.unit import Unit
 from .conftest import BOTH, EXAMPLE, only, run
 
 FAR_REPLY = "FA 03 02 13 88 50 C6"
-FOURTH = sorted((Path(__file__).parents[1] / "blocks/fourth_drive").glob("*.yaml"))
 
 
 def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
@@ -28,13 +27,6 @@ def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
     assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
     assert done.passed
     assert {result.unit for result in done.results} == {"modbus", *(path.stem for path in catalog.shipped())}
-
-
-@pytest.mark.parametrize("path", FOURTH, ids=lambda path: path.stem)
-def test_a_drive_that_only_a_map_describes_is_green(path: Path) -> None:
-    done = run(*units(collection.read([path]), BOTH))
-    assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
-    assert done.passed
 
 
 def test_the_example_is_green_on_every_engine(engine: Engine, example: Unit) -> None:
