@@ -1,4 +1,4 @@
-"""Measurement of the CRC: the blocks through matiec beside forms in C, frames of 8 and of 256 bytes."""
+"""Measurement of the CRC: the blocks through matiec beside forms in C, frames of 8, 64 and 256 bytes."""
 
 from collections.abc import Iterable
 

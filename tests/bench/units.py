@@ -4,7 +4,7 @@ import functools
 
 from tests.bench.forms import driver
 from tests.bench.inputs import Pin, pins
-from tests.blocks.library import sources
+from tests.blocks.library import alone, sources
 from tests.native.driver import Driver
 
 from driveblocks.st.checker import check
@@ -65,12 +65,12 @@ def library() -> Checked:
 
 
 def units() -> list[Function | FunctionBlock]:
-    """Every block and function in the order of the library."""
+    """Every block and function that is called by itself, in the order of the library."""
     checked = library()
     found: dict[str, Function | FunctionBlock] = {}
     found.update(checked.functions)
     found.update(checked.blocks)
-    names = [source.path.rpartition("/")[2].removesuffix(".st").upper() for source in sources()]
+    names = [source.path.rpartition("/")[2].removesuffix(".st").upper() for source in alone()]
     return [found[name] for name in names if name in found]
 
 

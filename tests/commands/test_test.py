@@ -167,9 +167,9 @@ def test_an_xml_that_cannot_be_written_gives_status_2(brief: str) -> None:
 
 def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def slow(engine: object, sources: list[Source]) -> object:
-        return built(EmbeddedEngine(loop_limit=3), sources)
+        return compiled(EmbeddedEngine(loop_limit=3), sources)
 
-    built = EmbeddedEngine.build
+    compiled = EmbeddedEngine.build
     monkeypatch.setattr(EmbeddedEngine, "build", slow)
     result = invoke(brief, "--time-limit", "600")
     assert result.exit_code == 1

@@ -23,7 +23,7 @@ PLANTED = (
     Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(MaxScanMs) + ", "OnTop := "),
     Planted(
         "the port's delay is forgotten",
-        "UINT_TO_UDINT(SilenceMs) + UINT_TO_UDINT(Port.LateMs) + UINT_TO_UDINT(Port.LateMs) + 2",
+        "UINT_TO_UDINT(SilenceMs) + UINT_TO_UDINT(Port.LateMs)\n        + UINT_TO_UDINT(Port.LateMs) + 2",
         "UINT_TO_UDINT(SilenceMs) + 2",
     ),
     Planted(
