@@ -4,9 +4,10 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.blocks.library import shipped
 
 from driveblocks.maps import catalog
-from driveblocks.maps.load import load, loads
+from driveblocks.maps.load import loads
 from driveblocks.render import build, text
 from driveblocks.render import library as library_of
 from driveblocks.st.checker import check
@@ -17,7 +18,7 @@ from driveblocks.st.tree import Pou, TypeDecl, Unit
 ROOT = Path(__file__).parents[2]
 MAPS = [*catalog.shipped(), ROOT / "tests/maps/example.yaml"]
 NAMES = sorted(
-    {word for path in catalog.shipped() for word in (load(path).prefix, *path.stem.split("_")) if len(word) > 2}
+    {word for path in catalog.shipped() for word in path.stem.split("_") if len(word) > 2} | shipped().keys()
 )
 CODE = sorted((ROOT / "generator").rglob("*.py"))
 TEMPLATES = sorted((ROOT / "generator").rglob("*.j2"))
