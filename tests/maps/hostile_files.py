@@ -49,7 +49,6 @@ def texts(share: int = 1) -> dict[str, str]:
         + "]",
         "bomb_of_merge_keys": "a: &a {b: 1}\n" + "".join(f"c{n}: {{<<: *a}}\n" for n in range(20_000 // share)),
         "alias_of_itself": "a: &a [*a]",
-        "ten_megabytes_of_brackets": "[" * (10_000_000 // share),
         "brackets": "[" * full,
         "brackets_closed": "[" * (full // 2) + "]" * (full // 2),
         "brackets_in_rows": _filled("[[[[[[[[[[]]]]]]]]]],\n", full),
@@ -187,6 +186,7 @@ BINARIES: dict[str, bytes] = {
     "cut_in_a_character": EXAMPLE.encode()[: EXAMPLE.encode().index("示".encode()) + 2],
     "null_byte": b"prefix: T1\0\n",
     "larger_than_allowed": b"# " + b"x" * MAX_BYTES,
+    "ten_megabytes_of_brackets": b"[" * 10_000_000,
     "fifty_megabytes": b"#" * 50_000_000,
 }
 

@@ -4,10 +4,11 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.blocks.library import shipped
 
 from driveblocks.building import build
 from driveblocks.maps import catalog, collection
-from driveblocks.maps.load import load, loads
+from driveblocks.maps.load import loads
 from driveblocks.render import library as library_of
 from driveblocks.render import text
 from driveblocks.st.checker import check
@@ -18,7 +19,7 @@ from driveblocks.st.tree import Pou, TypeDecl, Unit
 ROOT = Path(__file__).parents[2]
 MAPS = [*catalog.shipped(), ROOT / "tests/maps/example.yaml"]
 NAMES = sorted(
-    {word for path in catalog.shipped() for word in (load(path).prefix, *path.stem.split("_")) if len(word) > 2}
+    {word for path in catalog.shipped() for word in path.stem.split("_") if len(word) > 2} | shipped().keys()
 )
 CODE = sorted((ROOT / "generator").rglob("*.py"))
 TEMPLATES = sorted((ROOT / "generator").rglob("*.j2"))

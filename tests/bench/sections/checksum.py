@@ -20,7 +20,6 @@ FORMS = {
     "function": "FUNCTION with a table",
 }
 OURS = ("block", "called", "compact")
-UNFORCED = "block"
 LEGEND = {"c": "C by hand", "ours": "the library through matiec", "other": "not in the library"}
 
 
