@@ -11,7 +11,7 @@ from driveblocks.maps.model import Drive
 def test_changes_of_maps_are_noticed() -> None:
     tally = mutation.run(rounds=1, seed=11, sample=30)
     assert mutation.unexplained(tally) == []
-    assert sum(number for name, number in tally.seen.items() if name.endswith("blocks")) >= 3
+    assert sum(number for name, number in tally.seen.items() if name.endswith("blocks")) >= 5
 
 
 def test_every_explanation_is_of_a_shipped_drive() -> None:
