@@ -34,7 +34,7 @@ TEST = (
     ("lint", "ruff", "check", "."),
     ("format", "ruff", "format", "--check", "."),
     ("types", "mypy"),
-    ("tests", "pytest", "-n", "auto", "--cov", "--cov-report=term", "--cov-fail-under=90"),
+    ("tests", "pytest", "-n", "auto", "--dist", "worksteal", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
 LAST_LINE = ("driveblocks", "test")
 """A step that says all in its last line when nothing is wrong."""
