@@ -244,7 +244,7 @@ def test_the_inside_of_a_good_reply_is_no_foreign_frame() -> None:
 
 @pytest.mark.parametrize(("fault", "counter"), [("garble", "Bad"), ("truncate", "Timeouts"), ("loss", "Timeouts")])
 def test_damage_is_counted_and_never_believed(fault: str, counter: str) -> None:
-    bench = Bench(Config(**{fault: 20_000}), seed=3)  # type: ignore[arg-type]
+    bench = Bench(Config(**{fault: 20_000}), seed=3)  # type: ignore[arg-type]  # each fault is a rate, an int
     for _ in range(600):
         fresh = bench.slot(0, "Fresh")
         bench.scan()

@@ -305,7 +305,7 @@ class Bench:
         self.block["Port.TxTaken"] = number
         value = self.block["Port.Tx"]
         assert isinstance(value, list)
-        self._leave(bytes(value[: self["Port.TxCount"]]))  # type: ignore[arg-type]
+        self._leave(bytes(value[: self["Port.TxCount"]]))  # type: ignore[arg-type]  # an array of BYTE
 
     def _leave(self, text: bytes) -> None:
         """A request goes onto the wire."""
