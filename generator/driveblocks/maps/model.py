@@ -33,6 +33,10 @@ Access = Literal["r", "w", "rw"]
 Language = Literal["en", "zh", "cs", "da", "de", "es", "fi", "fr", "it", "ja", "ko", "nl", "pl", "pt", "ru", "sv", "tr"]
 """A language of manuals, by ISO 639-1."""
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
+Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warning", "fault"]
+"""What a status word can show on a pin of the drive block."""
+Measure = Literal["output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power"]
+"""What a register can show on a pin of the drive block."""
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
     "fault_reset",
@@ -145,6 +149,12 @@ class Manual(Entry):
     edition: Str | None = fact("edition or date as printed; left out when none is printed", "V20160418", optional=True)
     covers: English = fact(
         "which part of the drive's documentation this is", "chapter 11 of the user manual", optional=True
+    )
+    second_hand: bool = fact(
+        "the map rests on what others wrote down: the drive block runs only when its user has checked the manual",
+        "true",
+        optional=True,
+        default=False,
     )
 
     @property
@@ -385,6 +395,9 @@ class Condition(Entry):
 
     register: Address = fact("the register", "000FH")
     bit: Bits | None = fact("the bit or bits; left out for the whole word", "0", optional=True)
+    mask: Number | None = fact(
+        "bits that count, where they do not lie side by side; the value stands in their place", "006FH", optional=True
+    )
     equals: Number = fact("the value", "0")
 
 
@@ -563,6 +576,18 @@ class Storage(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Step(Entry):
+    """One write on the way to a command's own, and what the next one waits for."""
+
+    register: Address = fact("register that is written", "2000H")
+    value: Number | None = fact("the whole word", "0006H", optional=True)
+    set: tuple[Bits, ...] = fact("bits to set, others kept", "[3]", optional=True, default=())
+    clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[4]", optional=True, default=())
+    until: Word | None = fact("state that the drive must show before the next write", "switched_on", optional=True)
+    for_ms: Count | None = fact("how long the word stays before the next write, for a pulse, ms", "100", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Command(Entry):
     """What one command is on the wire: a value of the command register, or bits set and cleared in it.
 
@@ -574,6 +599,12 @@ class Command(Entry):
     value: Number | None = fact("the whole word", "1", optional=True)
     set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
+    first: tuple[Step, ...] = fact(
+        "writes that go first, in this order: a path of states, an edge, a pulse, another register; a stop has none",
+        "[{register: 2000H, value: 0006H, until: ready_to_switch_on}]",
+        optional=True,
+        default=(),
+    )
     because: English | None = fact(
         "the manual's reason, where the register's table does not call it so; excuses no motion and no direction",
         "section 3 says that writing 0 stops the motor by its ramp",
@@ -612,14 +643,61 @@ class Standstill(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class State(Entry):
+    """A named state of the drive: a masked value of a status word."""
+
+    name: Word = fact("its name, by which steps wait for it", "switched_on")
+    register: Address = fact("the status word", "2100H")
+    mask: Number | None = fact("bits that count; left out for the whole word", "006FH", optional=True)
+    equals: Number = fact("their value, in their place", "0023H")
+    source: English = fact("where the manual says so", "section 5, table of states")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Status(Entry):
+    """What a pin of the drive block shows: TRUE while one of these holds."""
+
+    shows: Shows = fact("the pin", "running")
+    any: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 1}]")
+    source: English = fact("where the manual says so", "section (I), 0010H")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured(Entry):
+    """A register whose value a pin of the drive block shows."""
+
+    shows: Measure = fact("the pin", "output_current")
+    register: Address = fact("the register; without a scale the pin needs a setting", "0022H")
+    source: English = fact("where the manual says so", "section (II), U1-03")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Operation(Entry):
-    """Commands, reference, and what proves standstill."""
+    """Commands, reference, what proves standstill, and what the drive shows."""
 
     commands: tuple[Command, ...] = fact(
         "what the drive can be told", "[{does: stop, register: 1000H, value: 3, source: ...}]"
     )
     reference: Reference = fact("how speed is given", "{register: 0001H, means: frequency, source: ...}")
     standstill: Standstill = fact("what proves standstill", "{all: [...], source: ..., why: ...}")
+    status: tuple[Status, ...] = fact(
+        "what the pins of the drive block show; `running` is a must",
+        "[{shows: running, any: [{register: 0010H, bit: 0, equals: 1}], source: ...}]",
+        optional=True,
+        default=(),
+    )
+    measures: tuple[Measured, ...] = fact(
+        "registers whose values pins show",
+        "[{shows: output_frequency, register: 0021H, source: ...}]",
+        optional=True,
+        default=(),
+    )
+    states: tuple[State, ...] = fact(
+        "named states that steps wait for",
+        "[{name: switched_on, register: 2100H, mask: 006FH, equals: 0023H, ...}]",
+        optional=True,
+        default=(),
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -647,6 +725,9 @@ class Faults(Entry):
 
     source: English = fact("where the table stands", "section (IV), table of fault numbers")
     registers: tuple[Addresses, ...] = fact("registers that hold a fault code", "[0080H, 0090H-0093H]")
+    present: Address | None = fact(
+        "the one that holds the fault that is present, where `bits` do not tell it", "3000H", optional=True
+    )
     codes: tuple[Fault, ...] = fact(
         "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", optional=True, default=()
     )
