@@ -188,6 +188,12 @@ def cost(job: Job) -> Iterator[Row]:
         yield Row(f"line of {slots} slots and drives", measured, fine)
 
 
+def _name(tool: Installation) -> str:
+    """The line of matiec that an installation belongs to."""
+    engines = (each.engine for each in survey().examined if each.iec2c == tool.iec2c)
+    return next((each.name for each in engines if each is not None), str(tool.iec2c))
+
+
 # ---------------------------------------------------------------- random lines, planted mistakes, engines
 
 SUMS = (
@@ -209,7 +215,7 @@ def randoms(job: Job) -> Iterator[Row]:
             count = max(1, int(job.runs * share * (OTHERS if number else 1)))
             ran = line.random(job.first, count, kind)
             print("\n".join(ran.failures), end="", flush=True)
-            what = f"{count} random lines of kind {kind}, {slots} slots, {tool.iec2c.parent.name}"
+            what = f"{count} random lines of kind {kind}, {slots} slots, {_name(tool)}"
             yield Row(what, ran.told("; ".join(SUMS)), not ran.failures)
 
 
@@ -236,7 +242,7 @@ def sanitized(job: Job) -> Iterator[Row]:
         line = build(place, tool=tool, flags=flags)
         ran = [line.random(job.first, max(10, job.runs // 500), kind) for kind in KINDS]
         scans = sum(each["scans"] for each in ran)
-        yield Row(f"{scans:.0f} scans under the sanitizers, {tool.iec2c.parent.name}", "nothing found")
+        yield Row(f"{scans:.0f} scans under the sanitizers, {_name(tool)}", "nothing found")
 
 
 def engines(_: Job) -> Iterator[Row]:
