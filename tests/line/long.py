@@ -190,7 +190,7 @@ def cost(job: Job) -> Iterator[Row]:
 
 def _name(tool: Installation) -> str:
     """The line of matiec that an installation belongs to."""
-    engines = (each.engine for each in survey().examined if each.iec2c == tool.iec2c)
+    engines = (each.engine for each in survey().examined if each.iec2c == str(tool.iec2c))
     return next((each.name for each in engines if each is not None), str(tool.iec2c))
 
 
