@@ -7,7 +7,7 @@ from decimal import Decimal
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Area, Bit, Drive, Register, Value
+from driveblocks.maps.model import Area, Bit, Condition, Drive, Register, Value
 from driveblocks.tables.register import condition
 
 WORD = Span(0, 15)
@@ -183,8 +183,14 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
         yield f"stores all parameters{most}"
     proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
     if not writing and proofs:
-        met = all(_bits(word, one.bit or WORD) == one.equals for one in proofs)
+        met = all(_met(one, word) for one in proofs)
         yield "as at standstill" if met else "no standstill"
+
+
+def _met(condition: Condition, word: int) -> bool:
+    if condition.mask is not None:
+        return word & condition.mask == condition.equals
+    return _bits(word, condition.bit or WORD) == condition.equals
 
 
 def _masks(row: Register, word: int) -> Iterator[str]:

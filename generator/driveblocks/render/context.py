@@ -7,7 +7,7 @@ from typing import Any
 
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.model import Command, Condition, Drive, Register, Section, State, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
 from driveblocks.render.expression import Test, is_real
@@ -307,9 +307,10 @@ def _input(drive: Drive, address: int) -> Context:
     }
 
 
-def _test(pin: str, condition: Condition) -> Test:
-    if condition.bit is None:
-        return Test(pin, 0, condition.equals)
+def _test(pin: str, condition: Condition | State) -> Test:
+    """A condition, or a state, as a test of the word at a pin; the value of a bit or field is moved to its place."""
+    if isinstance(condition, State) or condition.bit is None:
+        return Test(pin, condition.mask or 0, condition.equals)
     return Test(pin, _bits([condition.bit]), condition.equals << condition.bit.first)
 
 

@@ -100,6 +100,8 @@ def assign(name: str) -> str:
 
 def condition(one: Condition) -> str:
     """`000FH bit 0 = 0`."""
+    if one.mask is not None:
+        return form.masked_text(one.register, one.mask, one.equals)
     bits = f" bit{'s' * (len(one.bit) > 1)} {form.bits_text(one.bit)}" if one.bit else ""
     return f"{form.address_text(one.register)}{bits} = {one.equals}"
 

@@ -6,7 +6,7 @@ from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.form import address_text, bits_text, masked_text, span_text
 from driveblocks.maps.model import Area, Condition, Drive, Register, Section, Value
 from driveblocks.tables.errata import corroborated
 from driveblocks.tables.faults import recorded
@@ -77,6 +77,8 @@ def _scale(row: Register) -> str | None:
 
 def condition(one: Condition) -> str:
     """A condition in words: `000FH bit 0 = 0`."""
+    if one.mask is not None:
+        return masked_text(one.register, one.mask, one.equals)
     bit = f" bit {bits_text(one.bit)}" if one.bit is not None else ""
     return f"{address_text(one.register)}{bit} = {one.equals}"
 
