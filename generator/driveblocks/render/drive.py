@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 
 from driveblocks.maps import names
-from driveblocks.maps.model import Command, Drive, Measured, Register, Step
+from driveblocks.maps.model import Command, Condition, Drive, Measured
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import MOST_WORDS, Poll, polls, schedule
+from driveblocks.maps.polls import MOST_WORDS, Poll, fast_words, polls, schedule, slow_words
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.context import Context, word_input
-from driveblocks.render.expression import Test
+from driveblocks.render.expression import Test, times
 
 STOPS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
 """Command -> its number as StopKind of DB_Control."""
@@ -23,58 +23,75 @@ MEASURES = {
     "output_power": ("OutputPower", "KW", "PowerScale"),
 }
 """What a register can show -> the pin, its unit, and the setting that stands in for a scale."""
-STATUS = ("running", "reverse", "at_speed", "zero_speed", "ready", "warning", "fault")
+STATUS = {
+    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
+    "ready": "ReadyShown", "warning": "Warning", "fault": "Fault",
+}  # fmt: skip
+"""What a drive can show -> the pin or variable."""
 
 
 def drive_block(drive: Drive) -> Context:
     """For Drive."""
     reads = polls(drive)
+    places = list(_places(drive, reads))
     commands = {one.does: one for one in drive.operation.commands}
-    written = _Written(drive)
+    written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
+    number = {each["address"]: each["number"] for each in places}
+    turns = [index + 1 for index in schedule(reads)]
+    reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
+    orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
     return {
         "source": context.source_of(drive, commands["stop"].source),
+        "prefix": drive.prefix,
         "unit": drive.serial.unit,
-        "reads": [_read(drive, number, read) for number, read in enumerate(reads, 1)],
-        "turns": [number + 1 for number in schedule(reads)],
-        "status": {one.shows: [_condition(drive, each) for each in one.any] for one in drive.operation.status},
+        "reads": [_read(drive, index, read, places) for index, read in enumerate(reads, 1)],
+        "number": number,
+        "turns": turns,
+        "places": {index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
+        "shown": STATUS,
+        "status": {one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
         "proof": [word_input(drive, each) for each in _proof(drive)],
+        "proof_reads": sorted({number[each] for each in _proof(drive)}),
         "fault": _fault(drive),
-        "verify": [_condition(drive, each) for each in drive.operation.reference.verify],
-        "measures": {one.shows: _measure(drive, one) for one in drive.operation.measures},
+        "fault_reads": _fault_reads(drive, number),
+        "verify": [_condition(drive, each) for each in operation.reference.verify],
+        "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
+        "measures": {one.shows: _measure(drive, one) for one in operation.measures},
         "pins": MEASURES,
-        "stops": {STOPS[does]: written.last(one) for does, one in commands.items() if does in STOPS},
-        "orders": {ORDERS[does]: list(written.all(one)) for does, one in commands.items() if does in ORDERS},
+        "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
+        "orders": orders,
+        "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
+        "longest": max(map(len, orders.values())),
         "waits": list(_waits(drive)),
-        "reference": drive.operation.reference.register,
-        "scaled": context.reference(drive)["scale"] is not None,
+        "reference": operation.reference.register,
+        "scaled": reference["scale"] is not None,
+        "percent": reference["percent"],
         "can": commands,
+        "keeps": context.kept(drive),
         "write": 6 if 6 in plan(drive).functions else 16,
-        "manners": context.reply(drive)["form"],
-        "two_byte_count": context.reply(drive)["two_byte_count"],
+        "manners": manners["form"],
+        "two_byte_count": manners["two_byte_count"],
         "busy": next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
         "silence": _silence(drive),
         "second_hand": drive.manual.second_hand,
-        "age": {each["address"]: each["number"] for each in _places(drive, reads)},
     }
 
 
-class _Written:
-    """What commands write: the register, the bits, and the mask of the bits that pass through."""
+def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
+    """All writes of a command in order: register, bits, and the mask of the bits that pass through.
 
-    def __init__(self, drive: Drive) -> None:
-        self.drive = drive
-
-    def last(self, one: Command | Step) -> Context:
-        """A write of a value, or of bits in the place of those that no command uses."""
-        if one.value is not None:
-            return {"register": one.register, "bits": one.value, "keep": 0}
-        keep = context.kept(self.drive).get(one.register, 0)
-        return {"register": one.register, "bits": context.bits_of(one.set), "keep": keep}
-
-    def all(self, one: Command) -> Iterator[Context]:
-        """All writes of a command, in order."""
-        yield from map(self.last, one.first)
-        yield self.last(one)
+    Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
+    """
+    kept = context.kept(drive)
+    image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
+    for write in (*one.first, one):
+        if write.value is not None:
+            image[write.register] = write.value
+        else:
+            before = image.get(write.register, 0) & ~context.bits_of(write.clear)
+            image[write.register] = before | context.bits_of(write.set)
+        keep = 0 if write.value is not None else kept.get(write.register, 0)
+        yield {"register": write.register, "bits": image[write.register], "keep": keep}
 
 
 def _waits(drive: Drive) -> Iterator[Context]:
@@ -87,23 +104,21 @@ def _waits(drive: Drive) -> Iterator[Context]:
                 "key": ORDERS[command.does] * 16 + number,
                 "does": command.does,
                 "state": state,
-                "test": _test(drive, state.register, state.mask or 0, state.equals) if state else None,
+                "test": context.tested(word_input(drive, state.register)["name"], state) if state else None,
                 "hold": step.for_ms or 0,
             }
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
     """Each word that the block keeps, and the number of the read that brings it."""
-    from driveblocks.maps.polls import fast_words, slow_words
-
     for address in sorted(fast_words(drive) | slow_words(drive)):
         for number, read in enumerate(reads, 1):
             if read.address <= address < read.address + read.words:
                 yield {**word_input(drive, address), "number": number, "index": address - read.address}
 
 
-def _read(drive: Drive, number: int, read: Poll) -> Context:
-    words = [place for place in _places(drive, polls(drive)) if place["number"] == number]
+def _read(drive: Drive, number: int, read: Poll, places: list[Context]) -> Context:
+    words = [place for place in places if place["number"] == number]
     beyond = read.address + read.words
     others = plan(drive).readable
     varied = any(read.address in span and beyond in span for span in others) and read.words < MOST_WORDS
@@ -114,12 +129,8 @@ def _proof(drive: Drive) -> list[int]:
     return list(dict.fromkeys(one.register for one in drive.operation.standstill.all))
 
 
-def _condition(drive: Drive, one: context.Condition) -> Test:
+def _condition(drive: Drive, one: Condition) -> Test:
     return context.tested(word_input(drive, one.register)["name"], one)
-
-
-def _test(drive: Drive, register: int, mask: int, value: int) -> Test:
-    return Test(word_input(drive, register)["name"], mask, value)
 
 
 def _fault(drive: Drive) -> Context:
@@ -130,19 +141,27 @@ def _fault(drive: Drive) -> Context:
     return {"word": None, "words": numbers["words"] if numbers else []}
 
 
+def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
+    """The reads that tell whether there is a fault, and which."""
+    shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
+    fault = _fault(drive)
+    words = [fault["word"]] if fault["word"] else fault["words"]
+    return sorted({number[each] for each in (*shown, *(word["address"] for word in words))})
+
+
 def _measure(drive: Drive, one: Measured) -> Context:
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
+    scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
+    constant = f"{one.shows.upper()}_FACTOR"
     return {
         "word": word_input(drive, one.register),
-        "scale": row.scale if _same_unit(row, one) else None,
-        "when": _condition(drive, row.scale.when) if row.scale and row.scale.when else None,
+        "scale": scale,
+        "times": times(scale.factor).replace("FACTOR", constant) if scale else "",
+        "constant": constant if scale and times(scale.factor).endswith("FACTOR") else "",
+        "when": _condition(drive, scale.when) if scale and scale.when else None,
         "signed": row.signed,
     }
-
-
-def _same_unit(row: Register, one: Measured) -> bool:
-    return row.scale is not None and names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1]
 
 
 def _silence(drive: Drive) -> int:

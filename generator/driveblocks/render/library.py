@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.render import context, text
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
 
@@ -20,6 +21,7 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
+CONTROL_BLOCKS = ("DB_Link", "DB_Control")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -57,6 +59,10 @@ def generic(languages: list[Language]) -> Iterator[File]:
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
     yield from _line_blocks(languages)
+    for name in CONTROL_BLOCKS:
+        yield File("drive", name, render(f"control/{name}.st.j2", **_texts_of(languages)))
+    for language in languages:
+        yield _file("drive", "CodeText", text.reason_texts(language))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
@@ -105,6 +111,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
         yield "Decoder", one
     for one in context.scales(drive):
         yield "Scale", one
+    yield "Drive", drive_block(drive)
 
 
 def _texts_of(languages: list[Language]) -> context.Context:
