@@ -54,6 +54,7 @@ def environment() -> jinja2.Environment:
         passed=passed,
         since=since,
         young=young,
+        turn=turn,
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
@@ -116,6 +117,11 @@ def passed(name: str) -> str:
 def since(read: int) -> str:
     """The flag of a drive block that a read has come since it was asked for."""
     return f"Since{read}"
+
+
+def turn(number: int) -> str:
+    """Whether a drive block's polls have come to a turn of their round."""
+    return f"(Link.Turn = {number})"
 
 
 def young(read: int) -> str:
