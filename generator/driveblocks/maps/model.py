@@ -697,6 +697,11 @@ class Operation(Entry):
         default=(),
     )
 
+    @property
+    def in_one_word(self) -> bool:
+        """Whether each command is one write."""
+        return not any(command.first for command in self.commands)
+
 
 @dataclass(frozen=True, kw_only=True)
 class BitRelation(Entry):
