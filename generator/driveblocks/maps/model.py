@@ -683,8 +683,6 @@ class Operation(Entry):
     status: tuple[Status, ...] = fact(
         "what the pins of the drive block show; `running` is a must",
         "[{shows: running, any: [{register: 0010H, bit: 0, equals: 1}], source: ...}]",
-        optional=True,
-        default=(),
     )
     measures: tuple[Measured, ...] = fact(
         "registers whose values pins show",
@@ -698,6 +696,11 @@ class Operation(Entry):
         optional=True,
         default=(),
     )
+
+    @property
+    def in_one_word(self) -> bool:
+        """Whether each command is one write."""
+        return not any(command.first for command in self.commands)
 
 
 @dataclass(frozen=True, kw_only=True)

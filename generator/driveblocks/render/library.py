@@ -101,7 +101,8 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     yield "CanAccess", context.access(drive, "w", allowed.writable)
     yield "Request", context.request(drive, allowed)
     yield "Reply", context.reply(drive)
-    yield "Command", context.command(drive)
+    if drive.operation.in_one_word:
+        yield "Command", context.command(drive)
     yield "Reference", context.reference(drive)
     yield "Standstill", context.standstill(drive)
     numbers = context.fault_number(drive)
