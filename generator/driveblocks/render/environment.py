@@ -47,6 +47,9 @@ def environment() -> jinja2.Environment:
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
+        string=string,
+        within=expression.within,
+        more=expression.more,
         each=expression.each,
         none_of=expression.none_of,
         times=expression.times,
@@ -96,6 +99,11 @@ def _part(label: str, text: str) -> str:
 def assign(name: str) -> str:
     """A formal parameter in the example call of a head comment."""
     return f"{name} := ..."
+
+
+def string(text: str) -> str:
+    """A STRING literal."""
+    return writing.string(text.encode())
 
 
 def condition(one: Condition) -> str:
