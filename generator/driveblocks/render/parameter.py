@@ -174,6 +174,6 @@ def passing(drive: Drive, allowed: Plan) -> Context:
         "most_read": min(MOST, *(some.read for some in words)),
         "single": 6 in allowed.functions,
         "multiple": 16 in allowed.functions,
-        "most_written": max(min(MOST - 1, written), 6 in allowed.functions),
+        "most_written": max(min(MOST - 1, written), int(6 in allowed.functions)),
         "store": store,
     }
