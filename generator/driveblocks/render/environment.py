@@ -58,6 +58,9 @@ def environment() -> jinja2.Environment:
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
+        string=string,
+        within=expression.within,
+        more=expression.more,
         each=expression.each,
         none_of=expression.none_of,
         times=expression.times,
@@ -127,6 +130,11 @@ def turn(number: int) -> str:
 def young(read: int) -> str:
     """Whether the words of a read of a drive block have come since the fault."""
     return f"(Age{read} <= FaultMs)"
+
+
+def string(text: str) -> str:
+    """A STRING literal."""
+    return writing.string(text.encode())
 
 
 def condition(one: Condition) -> str:
