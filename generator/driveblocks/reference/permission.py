@@ -98,7 +98,8 @@ class Judge:
 def parameters(drive: Drive) -> dict[tuple[str, int], int]:
     """Group and number of each parameter that the manual numbers -> its register; the group of an area has no name.
 
-    An id is a group, perhaps a sign, and digits at its end: H5-02 is number 2 of H5.
+    An id is a group, perhaps a sign, and digits at its end: H5-02 is number 2 of H5. A group that is the beginning of
+    another has none: not every compiler tells the two apart.
     """
     found: dict[tuple[str, int], set[int]] = {}
     for id_, address in _identified(drive):
@@ -107,7 +108,9 @@ def parameters(drive: Drive) -> dict[tuple[str, int], int]:
         if digits and group:
             found.setdefault((group, int(digits[0])), set()).add(address)
     if found or len(drive.areas) != 1:
-        return {key: min(some) for key, some in found.items() if len(some) == 1}
+        names = {group for group, _ in found}
+        sure = [one for one in names if not any(other.startswith(one) for other in names - {one})]
+        return {key: min(some) for key, some in found.items() if len(some) == 1 and key[0] in sure}
     return {("", number): address for number, address in enumerate(drive.areas[0].addresses)}
 
 

@@ -11,6 +11,12 @@ from driveblocks.render.context import Context, source_of
 
 MOST = 4
 """Registers of a compartment; the last word of a write holds the mark of its block."""
+_REFUSED = {
+    "LINE_SETTING": "what the connection rests on",
+    "OWNED": "what moves the motor",
+    "STORE_REGISTER": "what stores in the memory",
+}
+"""Name of a result -> what the registers are that it refuses, from the weakest reason to the strongest."""
 
 
 # ---------------------------------------------------------------- which registers may be written
@@ -30,7 +36,7 @@ def may_write(drive: Drive, allowed: Plan) -> Context:
         "name": f"{drive.prefix}_MayWrite",
         "can_write": f"{drive.prefix}_CanWrite",
         "fixed": fixed,
-        "refused": {name: _spans(some) for name, some in kept.items() if some},
+        "refused": {name: (_REFUSED[name], _spans(some)) for name, some in kept.items() if some},
         "ranges": list(_ranges(drive, writable - taken)),
     }
 
@@ -126,7 +132,10 @@ class _Run:
 
 
 def _numbered(drive: Drive) -> dict[tuple[str, int], int]:
-    """Group and number of each id -> its address; without those that two rows claim."""
+    """Group and number of each id -> its address; without those that two rows claim.
+
+    Nor a group that is the beginning of another: OpenPLC's compiler takes one for the other.
+    """
     found: dict[tuple[str, int], set[int]] = {}
     for id_, first, count in _ids(drive):
         start = id_.partition("..")[0]
@@ -134,7 +143,9 @@ def _numbered(drive: Drive) -> dict[tuple[str, int], int]:
         group = prefix.rstrip("-.")
         for index in range(count if group and prefix != start else 0):
             found.setdefault((group, number + index), set()).add(first + index)
-    return {key: min(places) for key, places in found.items() if len(places) == 1}
+    groups = {group for group, _ in found}
+    short = {one for one in groups if any(other.startswith(one) for other in groups - {one})}
+    return {key: min(places) for key, places in found.items() if len(places) == 1 and key[0] not in short}
 
 
 def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
