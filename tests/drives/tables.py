@@ -79,7 +79,7 @@ def _table(name: str, drive: SimulatedDrive) -> str:
         for (situation, state), words in table.faces.items()
     ]
     gauges = [[one.register, MEASURES.index(one.shows), one.milli, one.signed] for one in table.gauges]
-    arrays = {
+    arrays: dict[str, tuple[str, Sequence[Sequence[int]]]] = {
         "readable": ("VSpan", [astuple(span) for span in table.readable]),
         "writable": ("VSpan", [astuple(span) for span in table.writable]),
         "parameters": ("VSpan", [astuple(span) for span in table.storage.areas]),

@@ -17,13 +17,14 @@ from driveblocks.simulator.habits import Habits
 
 HERE = Path(__file__).parent
 COMPILER = shutil.which("cc") or shutil.which("gcc")
-EVENTS = 20_000
+BURSTS = 700
+FLAGS = ("local", "follows", "keeps_running", "warning", "inhibit", "power")
 HABITS = (
     Habits(),
     Habits(auto_restart=True, resumes=True, coast_shows_zero=False, settle_ms=30, busy_refuses_all=True),
     Habits(runs_while_stopping=False, stop_ends_jog=False, keeps_fault_code=True, watchdog_ms=700, watchdog="stop"),
     Habits(watchdog_ms=900, watchdog_code=33, scale=MAPS["JSCC"].sections[1].registers[0].scale.factor),  # type: ignore[union-attr]  # JSCC 2000H has one
-    Habits(watchdog_ms=900, watchdog="coast", store_ms=2000),
+    Habits(watchdog_ms=900, watchdog="coast", store_ms=2000, auto_restart=True),
 )
 SHAPES = ("states", "edge", "active low", "pulse", "two registers")
 
@@ -42,39 +43,44 @@ class Event(NamedTuple):
 
 
 def drives() -> list[SimulatedDrive]:
-    """Every family and shape, with habits of all kinds."""
-    maps = [*MAPS.values(), *map(shape, SHAPES)]
-    made = [(drive, habits) for drive in maps for habits in HABITS]
+    """Every family with habits of all kinds, and every shape with two."""
+    made = [(drive, habits) for drive in MAPS.values() for habits in HABITS]
+    made += [(shape(name), habits) for name in SHAPES for habits in HABITS[:2]]
     return [SimulatedDrive(drive, 1 + index % 3, habits) for index, (drive, habits) in enumerate(made)]
 
 
 def script(made: list[SimulatedDrive], chance: random.Random) -> Iterator[Event]:
-    """Events by chance, most of them a command, a reading or a little time."""
-    flags = ("local", "follows", "keeps_running", "warning", "inhibit", "power")
-    for _ in range(EVENTS):
+    """Events by chance, a drive for some while: most of them a command, a reading or a little time."""
+    for _ in range(BURSTS):
         number = chance.randrange(len(made))
-        kind = chance.random()
-        if kind < 0.6:
-            yield Event("ask", number, request=request(made[number], chance))
-        elif kind < 0.85:
-            yield Event("step", number, chance.choice([1, 10, 10, 100, 1000]))
-        elif kind < 0.93:
-            # mostly as a drive should be
-            what = chance.choice(flags)
-            good = what in {"follows", "power"}
-            yield Event(what, number, good if chance.random() < 0.7 else not good)
-        else:
-            yield chance.choice(
-                [
-                    Event("trip", number, chance.choice([1, 17, 18, 33, 60])),
-                    Event("clear_cause", number),
-                    Event("reset", number),
-                    Event("keypad_run", number, chance.choice([-1, 10, 40]), chance.randrange(2)),
-                    Event("keypad_stop", number),
-                    Event("load", number, chance.randrange(150)),
-                    Event("set", number, *chance.choice([(0x0203, 7), (0x0010, 0xFFFF), (0x0007, 9), (0x000F, 1)])),
-                ]
-            )
+        yield from (Event(what, number, what in {"follows", "power"}) for what in FLAGS)
+        yield Event("clear_cause", number)
+        for _ in range(30):
+            yield event(made[number], number, chance)
+        yield Event("step", number, chance.choice([1, 20_000]))
+
+
+def event(one: SimulatedDrive, number: int, chance: random.Random) -> Event:
+    """Something that happens to a drive."""
+    kind = chance.random()
+    if kind < 0.6:
+        return Event("ask", number, request=request(one, chance))
+    if kind < 0.88:
+        return Event("step", number, chance.choice([1, 10, 100, 100, 1000]))
+    return chance.choice(
+        [
+            Event(chance.choice(FLAGS), number, chance.randrange(2)),
+            Event("trip", number, chance.choice([1, 17, 18, 33, 60])),
+            Event("clear_cause", number),
+            Event("step", number, 20_000),
+            Event("reset", number),
+            Event("power", number, chance.randrange(2)),
+            Event("keypad_run", number, chance.choice([-1, 10, 40]), chance.randrange(2)),
+            Event("keypad_stop", number),
+            Event("load", number, chance.randrange(150)),
+            Event("set", number, *chance.choice([(0x0203, 7), (0x0010, 0xFFFF), (0x0007, 9), (0x000F, 1)])),
+        ]
+    )
 
 
 def request(one: SimulatedDrive, chance: random.Random) -> bytes:
@@ -88,6 +94,8 @@ def request(one: SimulatedDrive, chance: random.Random) -> bytes:
         patterns = [move.pattern for move in table.moves] + [n.pattern for move in table.moves for n in move.needs]
         pattern = chance.choice(patterns)
         address, word = pattern.register, one.memory[pattern.register] & ~pattern.mask | pattern.value
+        if chance.random() < 0.1:
+            word |= 6  # bits that no command of a made-up drive sets, and whose absence stops it
         if chance.random() < 0.2:
             address, word = table.reference.register, chance.choice([0, 100, 3000, 0xF448, 0xFFFF])
         elif chance.random() < 0.1:

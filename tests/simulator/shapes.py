@@ -15,7 +15,7 @@ STATUS = """\
       - {address: 0010H, name: Status word, zh: 状态, bits: [
           {bit: 0, name: Ready, zh: 准备}, {bit: 1, name: Switched on, zh: 接通}, {bit: 2, name: Running, zh: 运行中},
           {bit: 3, name: Fault, zh: 故障}, {bit: 6, name: Reverse, zh: 反转}]}
-      - {address: 0020H, name: Output frequency, zh: 输出频率, unit: Hz}
+      - {address: 0020H, name: Output frequency, zh: 输出频率, unit: Hz, signed: true}
       - {address: 0030H, name: Present fault, zh: 当前故障}
 """
 COMMANDS = """\
@@ -71,11 +71,11 @@ WORDS = {
 """,
     "active low": """\
   commands:
-    - {does: run_forward, register: 0000H, set: [0-3], clear: [B], source: table 2}
-    - {does: run_reverse, register: 0000H, set: [0-3, B], source: table 2}
-    - {does: stop, register: 0000H, clear: [0, B], source: table 2}
-    - {does: coast_stop, register: 0000H, clear: [0-1, B], source: table 2}
-    - {does: quick_stop, register: 0000H, clear: [0, 2, B], source: table 2}
+    - {does: run_forward, register: 0000H, set: [0], source: table 2}
+    - {does: run_reverse, register: 0000H, set: [0, B], source: table 2}
+    - {does: stop, register: 0000H, clear: [0], source: table 2}
+    - {does: coast_stop, register: 0000H, clear: [1], source: table 2}
+    - {does: quick_stop, register: 0000H, clear: [2], source: table 2}
 """,
 }
 BUTTONS = """\

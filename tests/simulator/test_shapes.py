@@ -112,19 +112,20 @@ def test_active_low_bits_stop_though_a_run_bit_is_set() -> None:
     one = talk(shape("active low"))
     one.hertz(20)
     assert write(one, 0x01) == 0
-    assert write(one, 0x0F) == RUNNING
+    assert write(one, 0x07) == RUNNING
     one.drive.step(2000)
-    assert write(one, 0x0E) == RUNNING
+    assert write(one, 0x06) == RUNNING
     one.drive.step(1000)
     assert one.drive.hertz == 10
-    assert write(one, 0x80F) == RUNNING
+    # both directions' words are in it; that which names more is meant
+    assert write(one, 0x807) == RUNNING
     one.drive.step(4000)
     assert one.drive.hertz == -20
-    one.command("quick_stop")
+    assert write(one, 0x803) == REVERSE
     one.drive.step(400)
     assert one.read(STATUS) == 0
-    write(one, 0x0F)
-    assert write(one, 0x00) == 0
+    write(one, 0x07)
+    assert write(one, 0x05) == 0
     assert one.drive.mode == "standing"
 
 
@@ -154,6 +155,7 @@ def test_a_direction_beside_the_start_acts_at_once() -> None:
     one.write(0x0004, 1)
     assert one.read(STATUS) == REVERSE
     one.drive.step(1000)
+    assert one.read(0x0020) == 0x10000 - 1000
     one.write(0x0003, 0)
     one.drive.step(2000)
     assert one.drive.hertz == 10
