@@ -145,7 +145,7 @@ def test_both_models_do_the_same(tmp_path: Path) -> None:
     made = drives()
     for name in ("vdrive.h", "vdrive.c", "vscript.c"):
         shutil.copy(HERE / name, tmp_path)
-    (tmp_path / "drives.h").write_text(header(made), encoding="utf-8")
+    (tmp_path / "vdrives.h").write_text(header(made), encoding="utf-8")
     quiet = ["-Wno-missing-field-initializers", "-Wno-missing-braces"]
     command = [str(COMPILER), "-O1", "-Wall", "-Wextra", "-Werror", *quiet, "vscript.c", "-o", "vscript"]
     built = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)

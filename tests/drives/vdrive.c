@@ -100,7 +100,7 @@ static void vd_stop(VDrive *d, int effect, int after) {
   if (effect == E_STOP && d->jog && has_own && !d->t->habits->stop_ends_jog) return;
   d->after = after;
   if (effect == E_COAST_STOP) vd_let_go(d);
-  else { d->stopping = 1; d->quick = effect == E_QUICK_STOP; }
+  else { d->stopping = 1; d->quick |= effect == E_QUICK_STOP; }
 }
 static void vd_settle(VDrive *d) { if (d->waits && d->now >= d->next_at) { d->state = d->next; d->waits = 0; } }
 static int vd_fires(const VDrive *d, const VMove *m, const VBefore *b) {

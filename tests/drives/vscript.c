@@ -1,6 +1,6 @@
-/* Plays a script to the drives of drives.h: an event per line, with the number of a drive; prints what each leads to. */
+/* Plays a script to the drives of vdrives.h: an event per line, with the number of a drive; prints what each leads to. */
 #include <stdio.h>
-#include "drives.h"
+#include "vdrives.h"
 #include "vdrive.c"
 #define COUNT (sizeof DRIVES / sizeof *DRIVES)
 static VDrive drive[COUNT];

@@ -320,7 +320,7 @@ class Machine:
             self._let_go()
         else:
             self._stopping = True
-            self._quick = effect == "quick_stop"
+            self._quick |= effect == "quick_stop"
 
     def _let_go(self) -> None:
         """No output: the motor coasts."""
