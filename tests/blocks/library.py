@@ -49,7 +49,7 @@ def sources(folder: Path = BLOCKS) -> list[Source]:
 
 
 def alone(folder: Path = BLOCKS) -> list[Source]:
-    """The files of what can be called by itself: all but the line, and what asks it, which tests/line runs against drives."""
+    """The files of what can be called by itself: all but the line and what asks it, see tests/line."""
     line = re.compile(rf"(?:line|drive)/.*|types/(?:{'|'.join(LINE_TYPES)}|MB_(?:Slots|Tracks)\d+)\.st")
     return [each for each in sources(folder) if not line.fullmatch(each.path)]
 

@@ -229,7 +229,9 @@ def test_a_family_without_function_10h_writes_one_register() -> None:
     assert scene.done("Put1", Address=0x8007, Quantity=2) == "QUANTITY"
 
 
-@pytest.mark.parametrize(("value", "why"), [(727, "RANGE"), (726, "OK"), (0x10000 - 726, "OK"), (0x10000 - 727, "RANGE")])
+@pytest.mark.parametrize(
+    ("value", "why"), [(727, "RANGE"), (726, "OK"), (0x10000 - 726, "OK"), (0x10000 - 727, "RANGE")]
+)
 def test_a_value_stays_in_its_range(value: int, why: str) -> None:
     scene = Scene("SN300G5")
     assert scene.done("Put1", Address=0x0007, Value=value) == why

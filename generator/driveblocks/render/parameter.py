@@ -17,20 +17,24 @@ MOST = 4
 
 
 def may_write(drive: Drive, allowed: Plan) -> Context:
-    """For MayWrite: spans that are refused, each with the name of its result, from the weakest to the strongest."""
-    kept = {
-        "LINE_SETTING": _with_aliases(drive, (one.register for one in drive.settings)),
-        "OWNED": _with_aliases(drive, _commanded(drive)),
-        "STORE_REGISTER": _with_aliases(drive, [drive.storage.register]),
-    }
-    taken = set().union(*kept.values())
+    """For MayWrite: spans that are refused with the name of the result and why, from the weakest to the strongest."""
+    kept = [
+        (
+            "LINE_SETTING",
+            "what the connection rests on",
+            _with_aliases(drive, (one.register for one in drive.settings)),
+        ),
+        ("OWNED", "what moves the motor", _with_aliases(drive, _commanded(drive))),
+        ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
+    ]
+    taken = {one for _, _, some in kept for one in some}
     writable = {address for span in allowed.writable for address in span}
     fixed = _spans(_with_aliases(drive, _listed(drive)) - writable - taken)
     return {
         "name": f"{drive.prefix}_MayWrite",
         "can_write": f"{drive.prefix}_CanWrite",
         "fixed": fixed,
-        "refused": {name: _spans(some) for name, some in kept.items() if some},
+        "refused": [(name, why, _spans(some)) for name, why, some in kept if some],
         "ranges": list(_ranges(drive, writable - taken)),
     }
 
@@ -78,27 +82,22 @@ def _ranges(drive: Drive, writable: set[int]) -> Iterator[Context]:
 # ---------------------------------------------------------------- the manual's numbers
 
 
-def addresses(drive: Drive) -> Context | None:
-    """For ParameterAddress: the manual's numbers as runs by group; None where they prove no address.
+def addresses(drive: Drive) -> tuple[str, Context] | None:
+    """The template for the manual's numbers and what it prints; None where they prove no address.
 
     Ids that end in a number come from the rows of the tables; the only area gives them where no row has one.
     """
-    groups = _groups(_numbered(drive))
-    what, source = "an id of the manual", ""
-    if not groups:
-        if len(drive.areas) != 1:
-            return None
-        area = drive.areas[0]
-        groups = {"": [_Run(0, len(area.addresses) - 1, area.addresses.first)]}
-        what, source = f"a {area.numbered_by.replace('_', ' ')}", source_of(drive, area.source)
-    first = next(iter(groups))
-    return {
-        "name": f"{drive.prefix}_ParameterAddress",
-        "groups": groups,
-        "what": what,
-        "source": source,
-        "example": (first, groups[first][0].last),
-    }
+    name = f"{drive.prefix}_ParameterAddress"
+    groups = [*_groups(_numbered(drive)).items()]
+    if groups:
+        example = (groups[0][0], groups[0][1][0].last)
+        return "ParameterAddress", {"name": name, "groups": groups, "example": example}
+    if len(drive.areas) != 1:
+        return None
+    area = drive.areas[0]
+    run = _Run(0, len(area.addresses) - 1, area.addresses.first)
+    what = area.numbered_by.replace("_", " ")
+    return "NumberAddress", {"name": name, "run": run, "what": what, "source": source_of(drive, area.source)}
 
 
 @dataclass(frozen=True)
