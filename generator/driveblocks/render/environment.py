@@ -47,7 +47,6 @@ def environment() -> jinja2.Environment:
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
-        string=string,
         within=expression.within,
         more=expression.more,
         each=expression.each,
@@ -99,11 +98,6 @@ def _part(label: str, text: str) -> str:
 def assign(name: str) -> str:
     """A formal parameter in the example call of a head comment."""
     return f"{name} := ..."
-
-
-def string(text: str) -> str:
-    """A STRING literal."""
-    return writing.string(text.encode())
 
 
 def condition(one: Condition) -> str:

@@ -1,17 +1,21 @@
 """Map -> values ready to print, of what a ladder user reads and writes beside the pins: single parameters."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import Plan
-from driveblocks.maps.rules.parameter import numbered
 from driveblocks.render.context import Context, source_of
 
 MOST = 4
 """Registers of a compartment; the last word of a write holds the mark of its block."""
 
+_ID = re.compile(r"([A-Za-z]?)(?:([0-9]{1,3})?[.-]+)?([0-9]{1,4})")
+"""An id of a manual: letter, group, number."""
+
+_MOST_GROUP = 255
 
 # ---------------------------------------------------------------- which registers may be written
 
@@ -85,12 +89,15 @@ def _ranges(drive: Drive, writable: set[int]) -> Iterator[Context]:
 def addresses(drive: Drive) -> tuple[str, Context] | None:
     """The template for the manual's numbers and what it prints; None where they prove no address.
 
-    Ids that end in a number come from the rows of the tables; the only area gives them where no row has one.
+    Ids such as H5-02, F0.04, A40 or 20.01 come from the rows of the tables; the only area gives numbers where no row
+    has an id.
     """
     name = f"{drive.prefix}_ParameterAddress"
-    groups = [*_groups(_numbered(drive)).items()]
-    if groups:
-        example = (groups[0][0], groups[0][1][0].last)
+    known = _numbered(drive)
+    if known:
+        groups = [(code, _group(code), runs) for code, runs in _groups(known).items()]
+        code, number = next(iter(sorted(known)))
+        example = {"letter": code >> 8, "group": code & 0xFF, "number": number, "id": f"{_group(code)}-{number:02d}"}
         return "ParameterAddress", {"name": name, "groups": groups, "example": example}
     if len(drive.areas) != 1:
         return None
@@ -124,16 +131,22 @@ class _Run:
         return self.base - self.first
 
 
-def _numbered(drive: Drive) -> dict[tuple[str, int], int]:
-    """Group and number of each id -> its address; without those that two rows claim."""
-    found: dict[tuple[str, int], set[int]] = {}
+def _numbered(drive: Drive) -> dict[tuple[int, int], int]:
+    """Code of the group and number of each id -> its address; without those that two rows claim."""
+    found: dict[tuple[int, int], set[int]] = {}
     for id_, first, count in _ids(drive):
-        start = id_.partition("..")[0]
-        prefix, number = numbered(start)
-        group = prefix.rstrip("-.")
-        for index in range(count if group and prefix != start else 0):
-            found.setdefault((group, number + index), set()).add(first + index)
+        parts = _ID.fullmatch(id_.partition("..")[0])
+        if parts is None or int(parts[2] or 0) > _MOST_GROUP:
+            continue
+        code = ord(parts[1] or "\0") << 8 | int(parts[2] or 0)
+        for index in range(count):
+            found.setdefault((code, int(parts[3]) + index), set()).add(first + index)
     return {key: min(places) for key, places in found.items() if len(places) == 1}
+
+
+def _group(code: int) -> str:
+    """A group as its ids begin, such as H5."""
+    return (chr(code >> 8) if code >> 8 else "") + (str(code & 0xFF) if code & 0xFF else "")
 
 
 def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
@@ -146,9 +159,9 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
             yield setting.id, setting.register, 1
 
 
-def _groups(known: dict[tuple[str, int], int]) -> dict[str, list[_Run]]:
+def _groups(known: dict[tuple[int, int], int]) -> dict[int, list[_Run]]:
     """Runs of numbers whose addresses follow each other, by group."""
-    groups: dict[str, list[_Run]] = {}
+    groups: dict[int, list[_Run]] = {}
     for (group, number), address in sorted(known.items()):
         runs = groups.setdefault(group, [])
         if runs and number == runs[-1].last + 1 and address == runs[-1].away + number:
