@@ -2,6 +2,7 @@
 
 import re
 from functools import cache
+from pathlib import Path
 
 import pytest
 from tests.blocks.library import shipped, sources
@@ -453,3 +454,15 @@ def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
     scene.block["Drive.StopConfirmed"] = stands
     assert scene.done("Keep") == why
     assert (scene.written(), scene["Stores"]) == ([], 0)
+
+
+def test_the_example_of_the_page_compiles() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
+    wanted = re.compile(r"types/.*|drive/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
+    texts = [each for each in sources() if wanted.fullmatch(each.path)]
+    example = EmbeddedEngine().build([*texts, Source("example.st", program)]).instance("Parameters")
+    example["SetRamp"] = True
+    for _ in range(4):
+        example.scan()
+    assert example["Slots[0].Ask[2].Address"] == 0x0200
