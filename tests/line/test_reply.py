@@ -65,6 +65,19 @@ def test_retries_by_class() -> None:
     assert (len(parameters), bench.answer(1, PARAMETER)) == (2, "SILENCE")
 
 
+@pytest.mark.parametrize("busy", [False, True])
+def test_a_fault_reset_goes_once(busy: bool) -> None:
+    bench = Bench().ready()
+    bench.put(1, ResetAsked=True, BusyReason=6)
+    if busy:
+        bench.drives[1].answer = lambda request: bytes([request[0], request[1] + 0x80, 6])
+    else:
+        bench.drives[1].alive = False
+    bench.command(1)
+    resets = [each for each in bench.run(600) if each.unit == 2 and not each.read]
+    assert (len(resets), bench.answer(1, COMMAND)) == (1, "REFUSED" if busy else "SILENCE")
+
+
 # ---------------------------------------------------------------- echo
 
 

@@ -40,6 +40,29 @@ def test_what_may_still_be_answered_is_waited_out() -> None:
     assert bench.run(100)
 
 
+@pytest.mark.parametrize("how", ["pin", "late", "first"])
+def test_every_slot_is_told_of_a_restart_once(how: str) -> None:
+    bench = Bench().ready()
+    before = bench.slot(1, "Restarts")
+    restart(bench, how)
+    bench.run(200)
+    assert (bench.slot(1, "Restarts"), bench.slot(5, "Restarts")) == (before + 1, before + 1)
+
+
+def test_every_slot_is_told_of_late_calls_and_errors() -> None:
+    bench = Bench().ready()
+    assert not bench.slot(0, "ScanLate")
+    bench.scan(took=13_000)
+    assert bench.slot(1, "ScanLate")
+    bench.block["Port.ErrorID"] = 3
+    bench.run(20)
+    assert bench.slot(1, "LineErrorID") == 57
+    bench.run(9900)
+    assert bench.slot(1, "ScanLate")
+    bench.run(100)
+    assert not bench.slot(1, "ScanLate")
+
+
 def test_a_stop_of_before_is_new_again() -> None:
     bench = Bench().ready()
     bench.drives[1].alive = False

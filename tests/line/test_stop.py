@@ -130,6 +130,16 @@ def test_a_stop_takes_the_place_of_what_the_port_has_not_taken() -> None:
     assert bench.answer(0, COMMAND) == "TAKEN_BACK"
 
 
+def test_the_retry_of_a_new_stop_waits_for_no_pause() -> None:
+    """An acknowledged stop is repeated every 500 ms; that is no pause for the next one, even if it comes meanwhile."""
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(60)
+    bench.stop(1)
+    bench.drives[1].alive = False
+    assert len([each for each in bench.run(300) if each.stop]) > 3
+
+
 def test_stop_all_stops_every_drive_and_starts_none() -> None:
     bench = Bench().ready()
     bench.set(StopAll=True)

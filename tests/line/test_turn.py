@@ -106,6 +106,36 @@ def test_parameters_are_read_and_written() -> None:
     assert any(frame[1] == 16 and frame[4:9] == b"\x00\x02\x04\x12\x34" for frame in bench.drives[1].heard)
 
 
+def test_a_parameter_leaves_only_while_its_drive_block_lets_it_pass() -> None:
+    bench = Bench().ready()
+    number = bench.ask(1, PARAMETER, 6, 0x100)
+    bench.put(1, ParameterCleared=0)
+    assert all(each.read for each in bench.run(300))
+    assert bench.answer(1, PARAMETER) == ""
+    bench.drives[1].alive = False
+    bench.put(1, ParameterCleared=number)
+    while all(each.read for each in bench.sent):
+        bench.scan()
+    bench.put(1, ParameterCleared=0)
+    assert all(each.read for each in bench.run(500)), "looked at again for every attempt"
+    assert bench.answer(1, PARAMETER) == ""
+    bench.run(1000)
+    assert bench.answer(1, PARAMETER) == "OFFLINE"
+
+
+def test_a_parameter_that_may_no_longer_pass_is_withdrawn_from_the_port() -> None:
+    bench = Bench().ready()
+    bench.port_takes = False
+    bench.run(30)
+    bench.ask(1, PARAMETER, 6, 0x100)
+    while (bench["Phase"], bench["Box"]) != (1, PARAMETER):
+        bench.scan()
+    bench.put(1, ParameterCleared=0)
+    bench.scan()
+    bench.port_takes = True
+    assert all(each.read for each in bench.run(300))
+
+
 def test_one_address_twice_lets_only_stops_out() -> None:
     bench = Bench().ready()
     bench.put(2, UnitAddress=2)

@@ -222,6 +222,8 @@ class Bench:
         """Ask again what the compartment holds; the Number."""
         number = self.slot(slot, f"Ask[{box}].Number") % 65535 + 1
         self.block[f"Slots[{slot}].Ask[{box}].Number"] = number
+        if box == PARAMETER:
+            self.put(slot, ParameterCleared=number)
         return number
 
     def stop(self, slot: int) -> int:

@@ -89,6 +89,9 @@ class Walk:
             told = self.clean and bench.slot(slot, "Fresh") != fresh[slot][0] and bench.now > self.odd[slot]
             if told and shown != reads:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} shows an old reading")
+            passes = not bench.answer(slot, PARAMETER) and bench.slot(slot, "ParameterCleared") == 0
+            if passes and bench["Phase"] == 1 and (bench["Slot"], bench["Box"]) == (slot, PARAMETER):
+                raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} sends a parameter unasked")
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
@@ -128,6 +131,8 @@ class Walk:
         function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4)])
         address, word = self.chance.choice([0, 0x0123, 0xFFFF]), self.chance.randrange(65536)
         self.bench.ask(slot, PARAMETER, function, address, quantity=quantity, word=word)
+        if word < 20_000:
+            self.bench.put(slot, ParameterCleared=0)
 
     def invalid(self, slot: int) -> None:
         box, function, quantity = self.chance.choice(

@@ -764,6 +764,9 @@ class ErrorCode(Returned):
     code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)
     meaning: Text | None = fact("the manual's explanation", "{en: ..., zh: ...}", optional=True)
     causes: tuple[Text, ...] = fact("the manual's list of causes", "[{en: ..., zh: ...}]", optional=True, default=())
+    busy: bool = fact(
+        "the drive cannot do it now; the same request may be sent again", "true", optional=True, default=False
+    )
     note: English | None = fact("what else a person must know", "...", optional=True)
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ..., value: 1}]", optional=True, default=()

@@ -17,8 +17,8 @@ from driveblocks.testing.outcome import FAILED, PASSED, Outcome, Result
 
 _Key = TypeVar("_Key")
 
-IN_TIME = "/line/"
-"""The folder of what only runs in time, against drives that answer: the programs call each block by itself, so a line
+IN_TIME = ("/line/", "/drive/")
+"""The folders of what only runs in time, against drives that answer: the programs call each block by itself, so a line
 is not counted here. The virtual line of the generator's own tests reaches all of it."""
 
 
@@ -88,7 +88,7 @@ class Coverage:
 
     def add(self, blocks: Iterable[Source], library: Counted) -> None:
         """Count what has run of some blocks of a library. Raises EngineError."""
-        own = {block.path: block.text for block in blocks if IN_TIME not in block.path}
+        own = {block.path: block.text for block in blocks if not any(folder in block.path for folder in IN_TIME)}
         self.texts |= {path: text.split("\n") for path, text in own.items()}
         _sum(self.lines, library.coverage(), own)
         _sum(self.branches, library.branches(), own)

@@ -1,0 +1,120 @@
+"""The reads that keep the pins of a drive block fresh: which words, in which transactions, in which order."""
+
+from dataclasses import dataclass
+
+from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import most, plan
+
+MOST_POLLS = 12
+MOST_WORDS = 16
+"""What an answer of the line holds."""
+
+REQUEST, REPLY, WORD = 8, 5, 2
+"""Characters in RTU of a read request, of its reply without words, and of a word (MODBUS Application Protocol, 6.3)."""
+
+PAUSES = 10
+"""What turn-round and silence are worth, in characters: a transaction costs them, a longer one does not cost more."""
+
+
+@dataclass(frozen=True)
+class Poll:
+    """One read that is sent again and again."""
+
+    function: int
+    address: int
+    words: int
+    fast: bool
+    """Whether it is sent every round; the slow ones take turns, one in a round."""
+
+    def characters(self, *, ascii_mode: bool = False) -> int:
+        """Characters on the wire, request and reply together."""
+        rtu = REQUEST + REPLY + WORD * self.words
+        # ASCII: two for a byte, ':' CR LF around each frame, and an LRC of one byte where RTU has two
+        return 2 * (rtu - 2) + 6 if ascii_mode else rtu
+
+    @property
+    def cost(self) -> int:
+        """What it costs beside other plans, in characters."""
+        return self.characters() + PAUSES
+
+
+def fast_words(drive: Drive) -> frozenset[int]:
+    """What must be fresh: registers of status, standstill and states, and the output frequency."""
+    operation = drive.operation
+    conditions = [*operation.standstill.all, *(each for status in operation.status for each in status.any)]
+    measured = (each.register for each in operation.measures if each.shows == "output_frequency")
+    return frozenset(
+        [*(each.register for each in conditions), *(state.register for state in operation.states), *measured]
+    )
+
+
+def slow_words(drive: Drive) -> frozenset[int]:
+    """What may be older: other measures, the present fault, and what gives the reference and the measures meaning."""
+    operation, faults = drive.operation, drive.faults
+    rows = [drive.register_at(each.register) for each in operation.measures]
+    meaning = [row.scale.when for row in rows if row and row.scale and row.scale.when]
+    words = {each.register for each in operation.measures}
+    words |= {each.register for each in (*operation.reference.verify, *meaning)}
+    if faults.present is not None:
+        words.add(faults.present)
+    elif faults.bits is not None:
+        words.update(range(faults.bits.first, faults.bits.last + 1))
+    return frozenset(words - fast_words(drive))
+
+
+def polls(drive: Drive) -> tuple[Poll, ...]:
+    """The cheapest reads of all words, the fast ones first, each class by address.
+
+    Raises ValueError for a word that cannot be read, and where more than `MOST_POLLS` reads are needed.
+    """
+    found = sorted(_cheapest(drive, sorted(fast_words(drive) | slow_words(drive))), key=lambda poll: not poll.fast)
+    if len(found) > MOST_POLLS:
+        raise ValueError(f"what its pins show takes {len(found)} reads; {MOST_POLLS} fit into the drive block's plan")
+    return tuple(found)
+
+
+def _cheapest(drive: Drive, words: list[int]) -> tuple[Poll, ...]:
+    """The cheapest way to read the words, by address; of ways that cost the same, the one with fewest fast words."""
+    allowed = plan(drive)
+    least = min([MOST_WORDS, *(most(drive, mode).read for mode in drive.serial.mode.modes)])
+    function = 3 if 3 in allowed.functions else 4
+    fast = fast_words(drive)
+    best: list[tuple[int, int, tuple[Poll, ...]]] = [(0, 0, ())]
+    for end, word in enumerate(words, 1):
+        if not any(word in span for span in allowed.readable):
+            raise ValueError(f"the drive block needs {address_text(word)}, which the map does not let it read")
+        ways = []
+        for start, first in enumerate(words[:end]):
+            if word - first < least and _together(drive, allowed.readable, Span(first, word)):
+                poll = Poll(function, first, word - first + 1, not fast.isdisjoint(words[start:end]))
+                cost, hurried, before = best[start]
+                ways.append((cost + poll.cost, hurried + poll.words * poll.fast, (*before, poll)))
+        best.append(min(ways, key=lambda way: way[:2]))
+    return best[-1][2]
+
+
+def _together(drive: Drive, readable: tuple[Span, ...], span: Span) -> bool:
+    """Whether one read may run from the first to the last of these: an area's rule does not say that all are there."""
+    listed = all(drive.register_at(address) for address in range(span.first + 1, span.last))
+    return listed and any(span.first in other and span.last in other for other in readable)
+
+
+def schedule(polls: tuple[Poll, ...]) -> tuple[int, ...]:
+    """The order in which a standing poll goes through the reads, as indices: all fast ones, then the next slow one."""
+    fast = tuple(index for index, poll in enumerate(polls) if poll.fast)
+    slow = [index for index, poll in enumerate(polls) if not poll.fast]
+    return tuple(index for last in slow for index in (*fast, last)) or fast
+
+
+def wire_ms(poll: Poll, bit_rate: int, bits: int, turn_round_ms: float, silence_ms: float | None = 0.0) -> float:
+    """How long a read holds the line, with its turn-round and, in RTU, the silence behind each of both frames.
+
+    `bits` are those of a character, 10 or 11. The silence is that of MODBUS over Serial Line V1.02, 2.5.1.1, or the
+    drive's own `silence_ms` where that is longer; None stands for ASCII, which needs none.
+    """
+    character = 1000 * bits / bit_rate
+    if silence_ms is None:
+        return poll.characters(ascii_mode=True) * character + turn_round_ms
+    silence = max(3.5 * character if bit_rate <= 19200 else 1.75, silence_ms)
+    return poll.characters() * character + turn_round_ms + 2 * silence

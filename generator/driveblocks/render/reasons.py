@@ -1,0 +1,167 @@
+"""Why a drive does not run, as a number: the pin `Reason` of every drive block."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Reason:
+    """A reason with its name in templates, its texts, and what to do about it."""
+
+    code: int
+    name: str
+    en: str
+    zh: str
+    remedy: str
+
+
+REASONS = (
+    Reason(0, "RUNS", "runs as asked", "按要求运行", "nothing"),
+    Reason(1, "READY", "stopped; a rising run or jog pin starts it", "已停机，等待启动信号", "nothing"),
+    Reason(2, "RAMPING", "on its way to the reference", "加减速中", "wait"),
+    Reason(3, "STARTING", "the start is on its way to the drive", "正在启动", "wait"),
+    Reason(4, "STOPPING", "waits until the drive proves that it stands", "正在停机", "wait; see `StopOverdue`"),
+    Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
+    # the line
+    Reason(10, "RESTARTED", "Restart is TRUE", "Restart为真", "wire `Restart` to the first-scan bit, not to TRUE"),
+    Reason(
+        11,
+        "NO_LINE",
+        "no line block serves the slot",
+        "槽位无总线服务",
+        "call the line in every scan, with this `Slots`",
+    ),
+    Reason(12, "NO_SUPPLY", "the drive has no supply", "变频器未上电", "close the supply"),
+    Reason(
+        13, "NO_REPLY", "no reply yet", "尚无应答", "cable, A/B, bit rate, format, unit address, the drive's settings"
+    ),
+    Reason(
+        14,
+        "OFFLINE",
+        "the drive has stopped answering",
+        "变频器离线",
+        "cable, supply; the counters of the slot say more",
+    ),
+    Reason(15, "LINE", "the line reports an error", "总线故障", "see `LineErrorID` of the slot"),
+    Reason(16, "FOREIGN", "another master is on the line", "总线上有其他主站", "find it, then acknowledge at the line"),
+    Reason(17, "SHARED", "two drive blocks use this slot", "同一槽位被两个功能块使用", "give one of them another slot"),
+    Reason(
+        18,
+        "LATE_SCAN",
+        "the scan takes longer than promised",
+        "扫描周期过长",
+        "raise `MaxScanMs` of the line, or shorten the task",
+    ),
+    Reason(
+        19,
+        "HEARTBEAT",
+        "the refresh is slower than the drive's watchdog allows",
+        "刷新慢于通讯超时",
+        "fewer drives, a higher bit rate, or a longer watchdog",
+    ),
+    # what the user asks
+    Reason(20, "DISABLED", "Enable is FALSE", "未使能", "set `Enable`"),
+    Reason(21, "STOP_PIN", "QuickStop or CoastStop is TRUE", "急停或自由停机信号有效", "release it"),
+    Reason(22, "STOP_ALL", "all drives of the line are being stopped", "全部停机中", "release `StopAll` of the line"),
+    Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start anew"),
+    Reason(
+        24,
+        "HELD",
+        "a run or jog pin is held since before",
+        "运行信号一直保持",
+        "release all run and jog pins, then set one",
+    ),
+    Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see the capability outputs"),
+    Reason(26, "MONITOR", "reads only", "仅监视", "release `MonitorOnly`"),
+    Reason(
+        27,
+        "SPEED_ONLY",
+        "run comes by the drive's terminals",
+        "由端子控制启停",
+        "start and stop by the drive's own terminals",
+    ),
+    # what is missing
+    Reason(
+        30,
+        "MISSING",
+        "a required setting is missing",
+        "缺少必要参数",
+        "`MaximumHz`, `TurnRoundMs`, `StopWithinMs`, or a scale: see the page",
+    ),
+    Reason(
+        31,
+        "UNCHECKED",
+        "nobody has checked the map with the manual",
+        "映射未与手册核对",
+        "check it, then set `ManualChecked`",
+    ),
+    Reason(32, "REFERENCE", "the reference is no number, negative, or without scale", "给定值无效", "see `ErrorID`"),
+    Reason(
+        33,
+        "SETTING",
+        "a setting of the drive gives the reference another meaning",
+        "变频器参数设置不符",
+        "correct the setting that the page names",
+    ),
+    Reason(34, "UNREAD", "the drive's settings are not read yet", "参数尚未读取", "wait"),
+    Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start anew"),
+    # the drive
+    Reason(40, "FAULT", "fault: see FaultCode", "故障，见FaultCode", "remove the cause, then a rising `FaultReset`"),
+    Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
+    Reason(
+        42,
+        "NO_REFERENCE",
+        "the drive did not acknowledge the reference",
+        "给定值未确认",
+        "the counters of the slot say why",
+    ),
+    Reason(
+        43,
+        "NO_RUN",
+        "the drive did not acknowledge the run command",
+        "运行命令未确认",
+        "the counters of the slot say why",
+    ),
+    Reason(
+        44,
+        "REFUSED",
+        "the drive refused the command",
+        "变频器拒绝命令",
+        "`RefusedAddress` and `RefusedReason` of the slot",
+    ),
+    Reason(
+        45,
+        "NOT_FOLLOWED",
+        "the drive acknowledged the command and does not run",
+        "变频器未执行命令",
+        "is it set to obey the bus?",
+    ),
+    Reason(
+        46,
+        "BY_ITSELF",
+        "the drive ran or stopped without being told by this block",
+        "变频器自行启停",
+        "keypad, terminals, STO, automatic restart",
+    ),
+    Reason(
+        47, "NOT_STOPPED", "a start came before StopConfirmed", "停机确认前给出启动信号", "wait for `StopConfirmed`"
+    ),
+    Reason(
+        48,
+        "NO_RESET",
+        "the reset was refused or has not helped",
+        "复位被拒绝或无效",
+        "release the run pins, remove the cause, then a rising `FaultReset`",
+    ),
+)
+_BY_NAME = {reason.name: reason for reason in REASONS}
+
+
+def code(name: str) -> int:
+    """The number of a reason by its name. Raises KeyError."""
+    return _BY_NAME[name].code
+
+
+def given(name: str) -> str:
+    """The statement that gives a reason, with its text beside the number. Raises KeyError."""
+    reason = _BY_NAME[name]
+    return f"Reason := {reason.code}; (* {reason.en} *)"
