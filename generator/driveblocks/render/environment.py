@@ -58,7 +58,6 @@ def environment() -> jinja2.Environment:
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
-        string=string,
         within=expression.within,
         more=expression.more,
         each=expression.each,
@@ -130,11 +129,6 @@ def turn(number: int) -> str:
 def young(read: int) -> str:
     """Whether the words of a read of a drive block have come since the fault."""
     return f"(Age{read} <= FaultMs)"
-
-
-def string(text: str) -> str:
-    """A STRING literal."""
-    return writing.string(text.encode())
 
 
 def condition(one: Condition) -> str:

@@ -35,11 +35,11 @@ def _called(pou: tree.Function | tree.FunctionBlock) -> Iterator[tree.Function |
                 yield target.declaration
 
 
-def literals(pou: tree.Function | tree.FunctionBlock) -> list[int | float | bytes]:
-    """The numbers, bit strings and texts in the statements of a POU and of all that it calls."""
+def literals(pou: tree.Function | tree.FunctionBlock) -> list[int | float]:
+    """The numbers and bit strings in the statements of a POU and of all that it calls."""
     nodes = (node for each in callees(pou) for statement in each.body for node in walk(statement))
     values = (node.value for node in nodes if isinstance(node, tree.Literal))
-    return [value for value in values if isinstance(value, int | float | bytes) and not isinstance(value, bool)]
+    return [value for value in values if isinstance(value, int | float) and not isinstance(value, bool)]
 
 
 def arms(body: Sequence[tree.Statement], outer: Arm = ()) -> Iterator[Arm]:

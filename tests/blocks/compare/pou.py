@@ -64,7 +64,7 @@ class Pou:
     """A block or function of the library.
 
     `block` is what is instantiated: itself, or the block around a function. `folder`: where its file stands.
-    `leaves`: the state of `block`. `whole`, `real` and `texts`: the literals of its statements and of all that it calls.
+    `leaves`: the state of `block`. `whole` and `real`: the literals of its statements and of all that it calls.
     `arms`: see there. `digest`: of its text and of all that it uses, without comments.
     """
 
@@ -75,7 +75,6 @@ class Pou:
     leaves: tuple[Leaf, ...]
     whole: tuple[int, ...]
     real: tuple[float, ...]
-    texts: tuple[bytes, ...]
     arms: tuple[Arm, ...]
     digest: str
 
@@ -125,7 +124,6 @@ def _pou(checked: Checked, found: tree.Function | tree.FunctionBlock) -> Pou:
         leaves=tuple(leaves(kind)),
         whole=tuple(sorted({one for one in numbers if isinstance(one, int)})),
         real=tuple(sorted({one for one in numbers if isinstance(one, float)})),
-        texts=tuple(sorted({one for one in numbers if isinstance(one, bytes)})),
         arms=tuple(arms(found.body)),
         digest=_digest(checked, found),
     )

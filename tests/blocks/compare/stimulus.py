@@ -20,10 +20,6 @@ SCENARIO = 0.75
 LANDMARK = 0.2
 HANGING_TOGETHER, ON_ITS_OWN = 1500, 200
 CHANGE = 0.8
-NO_NAME = b"?"
-"""A text that is no beginning of another, nor has one: OpenPLC's compiler takes those for equal."""
-SMALL = 100
-"""Below it are the numbers that go with a text."""
 CHANGE_OF_ARRAY = 0.3
 
 
@@ -32,7 +28,7 @@ def stimuli(pou: Pou, seed: int) -> Iterator[Inputs]:
     draws = Draws(pou.name, seed)
     values = Values(pou, draws, seed)
     known = [*_landmarks(pou, draws)]
-    yield {pin.path: NO_NAME for pin in pou.of_kind(Kind.STRING)}
+    yield {}
     yield from known
     pins = [(pin.path, values.of(pin), CHANGE_OF_ARRAY if pin.length else CHANGE) for pin in pou.pins]
     special = scenario(pou, values, seed)
@@ -62,10 +58,6 @@ def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
     if pou.arms:
         for arm in pou.arms:
             yield {**dict(arm)}
-    elif texts := pou.of_kind(Kind.STRING):
-        for pin, text in ((pin, text) for pin in texts for text in pou.texts):
-            for value in (one for one in pou.whole if 0 <= one < SMALL):
-                yield {pin.path: text, **{each.path: value for each in wholes}}
     elif len(wholes) <= 3:
         for pin, value in ((pin, value) for pin in wholes for value in pou.whole):
             if pin.span[0] <= value <= pin.span[1]:

@@ -19,7 +19,7 @@ from tests.host.compare.scenarios import Inputs
 
 from driveblocks.host.embedded.library import EmbeddedInstance, EmbeddedLibrary
 from driveblocks.host.engine import Value
-from driveblocks.host.matiec.layout import ArrayNode, Memory, Scalar, Text
+from driveblocks.host.matiec.layout import ArrayNode, Memory, Scalar
 from driveblocks.host.matiec.library import MatiecInstance, MatiecLibrary
 from driveblocks.st.tree import Array
 from driveblocks.st.types import Kind
@@ -152,8 +152,6 @@ class MatiecSubject(_Stepping):
             assert isinstance(node.element, Scalar)
             return _array_setter(memory, offset, node.element.code)
         assert isinstance(node, Scalar)
-        if isinstance(node, Text):
-            return lambda value: place.write(memory, value)
         pack = struct.Struct("=" + node.code).pack_into
         return lambda value: pack(memory, offset, value)
 

@@ -51,7 +51,6 @@ class Values:
         self.noise = Noise(draws, pou.name, seed)
         self.whole = sorted({near for one in pou.whole for near in (one - 1, one, one + 1)}) or [0]
         self.real = [*map(single, REALS), *(near for one in pou.real for near in beside(one))]
-        self.texts = pou.texts
         self.longest = max((pin.length for pin in pou.arrays), default=0)
 
     def of(self, pin: Pin) -> Draw:
@@ -62,8 +61,6 @@ class Values:
             return lambda: self.draws.chance(0.5)
         if pin.kind.kind is Kind.REAL:
             return self.number
-        if pin.kind.kind is Kind.STRING:
-            return lambda: self.draws.one_of(self.texts)
         low, high = pin.span
         return lambda: self.integer(low, high)
 
