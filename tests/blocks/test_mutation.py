@@ -42,7 +42,8 @@ def test_a_changed_fact_turns_the_judges_of_blocks_red(prefix: str, old: str, ne
 def test_a_map_as_it_is_passes_every_judge(drive: Drive) -> None:
     original = next(one for one in mutation.originals() if one.drive.prefix == drive.prefix)
     assert not mutation.by_facts(drive)
-    assert not mutation.by_blocks(original, drive, original.blocks, list(original.blocks))
+    alone = [name for name in original.blocks if not name.endswith("_Drive")]
+    assert not mutation.by_blocks(original, drive, original.blocks, alone)
 
 
 def test_facts_are_asked_for_every_drive() -> None:
