@@ -106,7 +106,7 @@ def parameters(drive: Drive) -> dict[Numbered, int]:
         letter = id_[:1] if id_[:1].isalpha() and id_.isascii() else ""
         group, _, number = id_[len(letter) :].replace(".", "-").rpartition("-")
         group = group.rstrip("-") or "0"
-        if number.isdecimal() and group.isdecimal() and int(group) < 256:
+        if number.isdecimal() and group.isdecimal() and len(number) < 5 and len(group) < 4:
             found.setdefault((letter, int(group), int(number)), set()).add(address)
     if found or len(drive.areas) != 1:
         return {key: min(some) for key, some in found.items() if len(some) == 1}

@@ -59,6 +59,7 @@ def environment() -> jinja2.Environment:
         holds=expression.holds,
         statements=expression.statements,
         within=expression.within,
+        label=expression.label,
         more=expression.more,
         each=expression.each,
         none_of=expression.none_of,
