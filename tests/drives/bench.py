@@ -108,7 +108,7 @@ class Bench:
         self.watch: list[Callable[[Bench], None]] = []
         self._wire: list[Heard] = []
         self._free = 0
-        self._elapsed = 0
+        self.elapsed = 0
         self._tx = 0
         self.line(BitRate=self.rate, Ascii=ascii_, MaxScanMs=25)
         self.block["Port.KeepsSilence"] = True
@@ -182,8 +182,8 @@ class Bench:
         for drive in self.drives:
             drive.step(ms)
         self._receive()
-        if ms != self._elapsed:
-            self.block["ElapsedMs"] = self._elapsed = ms
+        if ms != self.elapsed:
+            self.block["ElapsedMs"] = self.elapsed = ms
         self.block.scan()
         seen = self.block["Seen"]
         assert isinstance(seen, int)
