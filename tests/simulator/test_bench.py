@@ -1,6 +1,6 @@
 """Drives of three families on one virtual line: polled, started, stopped, refused."""
 
-from tests.drives.bench import DriveBench
+from tests.simulator.bench import DriveBench
 from tests.line.vline import COMMAND, PARAMETER, POLL, STOP
 from tests.simulator.talk import MAPS
 
