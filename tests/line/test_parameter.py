@@ -94,9 +94,10 @@ def library(prefix: str) -> Library:
 class Scene(Bench):
     """A line with one drive, whose registers hold their own address, and the blocks of parameters."""
 
-    def __init__(self, prefix: str = "JSCC", drives: int = 1) -> None:
-        """Begin with a motor that stands."""
-        super().__init__(Config(drives=drives), block=library(prefix).instance("T_Scene"))
+    def __init__(self, prefix: str = "JSCC", clock: int = 0) -> None:
+        """Begin with a motor that stands; `clock` is what the line says to begin with."""
+        super().__init__(Config(drives=1), block=library(prefix).instance("T_Scene"))
+        self.block["Slots[0].TimeMs"] = clock
         self.set(Called=True, Lined=True)
         self.block["Drive.StopConfirmed"] = True
         self.drives[0].answer = self.reply
@@ -351,7 +352,7 @@ def test_who_sleeps_through_its_answer_says_so(block: str) -> None:
     scene.execute(block, **ASKING[block])
     scene.run(40)
     scene.set(Asleep=True)
-    assert scene.done("Get2", Address=0x0201) == scene.done("Put2", Address=0x0202) == "OK"
+    assert scene.done("Get2", Address=0x0201) == scene.done("Put2", Address=0x0202, Quantity=3, Value2=7) == "OK"
     scene.set(Asleep=False)
     scene.scan()
     assert scene.result(block) == "LOST"
@@ -401,7 +402,7 @@ def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
 def test_an_edge_while_busy_begins_nothing() -> None:
     scene = Scene()
     scene.execute("Put1", Address=0x0012)
-    scene.scan()
+    scene.run(40)
     scene.drop("Put1")
     scene.execute("Put1")
     scene.run(300)
@@ -471,7 +472,7 @@ def test_a_store_goes_by_its_own_block_alone() -> None:
 
 
 def test_stores_are_apart_and_counted() -> None:
-    scene = Scene("SN300G5")
+    scene = Scene("SN300G5", clock=59_000)
     assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon behind power-up"
     scene.drop("Keep")
     scene.rested().silent = True
