@@ -13,6 +13,7 @@ from driveblocks.host.engine import Library, Source
 from driveblocks.maps.plan import plan
 from driveblocks.render.environment import environment, needed
 from driveblocks.render.parameter import passing
+from driveblocks.st.lint import lint_sources
 
 SCENE = """
 FUNCTION_BLOCK T_Drive
@@ -497,12 +498,14 @@ def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
     assert (scene.written(), scene["Stores"]) == ([], 0)
 
 
-def test_the_example_of_the_page_compiles() -> None:
+def test_the_example_of_the_page_runs_and_lints_clean() -> None:
     page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
     wanted = re.compile(r"types/.*|drive/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
-    example = EmbeddedEngine().build([*texts, Source("example.st", program)]).instance("Parameters")
+    texts.append(Source("example.st", program + "\n"))
+    assert list(lint_sources([(each.path, each.text) for each in texts])) == []
+    example = EmbeddedEngine().build(texts).instance("Parameters")
     example["SetRamp"] = True
     for _ in range(4):
         example.scan()
