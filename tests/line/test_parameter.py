@@ -84,7 +84,9 @@ ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 @cache
 def library(prefix: str) -> Library:
     """The line, the blocks of parameters, and what a drive block of the family does for them."""
-    wanted = re.compile(rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite)\.st")
+    wanted = re.compile(
+        rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
+    )
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     drive = shipped()[prefix]
     parameter = passing(drive, plan(drive))
@@ -510,3 +512,33 @@ def test_the_example_of_the_page_runs_and_lints_clean() -> None:
     for _ in range(4):
         example.scan()
     assert example["Slots[0].Ask[2].Address"] == 0x0200
+
+
+@pytest.mark.parametrize(
+    ("letter", "group", "number", "address"),
+    [
+        ("H", 5, 2, 0x041D),
+        ("A", 1, 0, 0x0100),
+        ("A", 2, 32, 0x0125),
+        ("C", 3, 5, 0x0242),
+        ("C", 5, 8, 0x0241),
+        ("U", 1, 23, 0x0036),
+        ("U", 1, 24, -1),
+        ("U", 1, 26, 0x0039),
+        ("A", 1, 6, -1),
+        ("A", 3, 1, -1),
+        ("G", 1, 1, -1),
+    ],
+)
+def test_the_manuals_ids_of_sn300g5(letter: str, group: int, number: int, address: int) -> None:
+    """Typed from the manual; C3-05 and C5-08 stand apart from their groups, U1-24 has no row."""
+    pins = {"Letter": ord(letter), "Group": group, "Number": number}
+    assert library("SN300G5").call("SN300G5_ParameterAddress", pins) == address
+
+
+@pytest.mark.parametrize(("prefix", "last"), [("JSCC", 0xFF), ("CHF", 0x1FF)])
+def test_the_numbers_of_an_area(prefix: str, last: int) -> None:
+    found = [
+        library(prefix).call(f"{prefix}_ParameterAddress", {"Number": number}) for number in (0, 18, last, last + 1)
+    ]
+    assert found == [0, 18, last, -1]
