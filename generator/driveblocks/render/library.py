@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
 
@@ -20,7 +21,7 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
-CONTROL_BLOCKS = ("DB_ReadParameter", "DB_WriteParameter", "DB_Store")
+CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
 LEAST_S = 60
@@ -62,6 +63,8 @@ def generic(languages: list[Language]) -> Iterator[File]:
     yield from _line_blocks(languages)
     for name in CONTROL_BLOCKS:
         yield File("drive", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
+    for language in languages:
+        yield _file("drive", "CodeText", text.reason_texts(language))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
@@ -104,7 +107,8 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
         yield numbers
     yield "Request", context.request(drive, allowed)
     yield "Reply", context.reply(drive)
-    yield "Command", context.command(drive)
+    if drive.operation.in_one_word:
+        yield "Command", context.command(drive)
     yield "Reference", context.reference(drive)
     yield "Standstill", context.standstill(drive)
     bits = context.fault_number(drive)
@@ -114,6 +118,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
         yield "Decoder", one
     for one in context.scales(drive):
         yield "Scale", one
+    yield "Drive", {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
 
 
 def _texts_of(languages: list[Language]) -> context.Context:

@@ -12,14 +12,16 @@ _LIBRARY = ("MB", "DB")
 
 OWN_NAMES = (
     "CanRead", "CanWrite", "Request", "Reply", "Command", "Reference", "Standstill", "FaultNumber", "FaultTextEn",
-    "ErrorTextEn", "BitTextEn", "ValueTextEn", "MayWrite",
+    "ErrorTextEn", "BitTextEn", "ValueTextEn", "Drive", "MayWrite", "ParameterAddress", "Store",
 )  # fmt: skip
 """The blocks that every drive has; texts in other languages end in two other letters."""
 
 OWN = re.compile(
-    r"CanRead|CanWrite|MayWrite|ParameterAddress|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
-    r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|MayWrite|ParameterAddress|Command|FaultNumber|FaultReset|Frames|JogForward|JogReverse|KeepWord|"
-    r"Reference|Request|ResetStop|Scales|Sequence|Standstill|Tables|Write|(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
+    r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
+    r"Drive|MayWrite|ParameterAddress|Store|"
+    r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|FaultReset|Frames|JogForward|JogReverse|KeepWord|"
+    r"Reference|Request|ResetStop|Scales|Sequence|Standstill|Tables|Write|Drive|MayWrite|ParameterAddress|Store|"
+    r"(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
     re.IGNORECASE,
 )
 """What a register's block cannot be called: the other blocks of a drive, and its test programs."""

@@ -22,7 +22,7 @@ _TERMS: dict[str, tuple[str, ...]] = {
 }
 _NEGATIONS = re.compile(
     r"\b(no|not|never|without|don't)\b(?!\.)|(disabl|prohibit|inhibit|forbid|prevent|block|ignor|cancel|invalid)"
-    r"|[不非未]|禁止|无效|取消|解除"
+    r"|\b(active|true|on) low\b|\blow[ -]active\b|\binverted\b|[不非未]|禁止|无效|取消|解除|低电平有效|低有效"
 )
 """A name that holds one of these says the contrary of its terms."""
 
