@@ -61,10 +61,11 @@ class Judge:
     def __init__(self, drive: Drive) -> None:
         """Look up once what the map has at each address."""
         operation = drive.operation
-        steps = {step.register for command in operation.commands for step in command.first}
-        self._known = {
+        steps = (step.register for command in operation.commands for step in command.first)
+        commands = (command.register for command in operation.commands)
+        self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
-            "OWNED": {operation.reference.register, *(command.register for command in operation.commands)} | steps,
+            "OWNED": {operation.reference.register, *commands, *steps},
             "LINE_SETTING": {setting.register for setting in drive.settings},
         }
         self._writable = writable(drive)
@@ -74,7 +75,7 @@ class Judge:
 
     def result(self, wish: Write) -> str:
         """The name of the result; `OK` where it may be written."""
-        meant = {wish.address, wish.address & ~self._bit}
+        meant: set[int | None] = {wish.address, wish.address & ~self._bit}
         for name, registers in self._known.items():
             if meant & registers:
                 return name

@@ -26,7 +26,7 @@ def _writes(drive: Drive, stem: str) -> Script:
     program = bench.script(drive, stem, "MayWrite", "what a ladder user may write, each side of every limit")
     judge = Judge(drive)
     for address in _turns(drive, judge):
-        wishes = (Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4))
+        wishes = [Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4)]
         program.stage(address_text(address), *(_wish(drive, judge, wish) for wish in wishes))
     for _, row in drive.registers():
         if row.range is not None:
