@@ -72,7 +72,7 @@ class Observer:
     resets: bool = False
     """A reset was asked for, and is still of use."""
     parameters: bool = False
-    """A parameter may be written."""
+    """A parameter block was busy before this scan, or is."""
     stopping_us: int = 0
     turning_us: int = 0
     stood: bool = True
@@ -85,7 +85,7 @@ class Observer:
         self.meaning = Meaning(self.bench.maps[self.drive])
         self.bench.watch.append(lambda _: self.scan())
         self.frames, self.acknowledged = len(self.bench.frames), len(self.bench.acknowledged)
-        self.was_confirmed = self.idle = False
+        self.was_confirmed = self.was_busy = self.idle = False
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
@@ -117,6 +117,8 @@ class Observer:
         asked = [MOTIONS[name] for name in RUNS if pins.get(name)]
         self._permit(asked, stops=self._stops(pins, asked, shows), shows=shows)
         self._reset(pins, asked, shows)
+        busy = bench.block["Writer.Busy"] or bench.block["Storer.Busy"]
+        self.parameters, self.was_busy = bool(busy or self.was_busy), bool(busy)
         for frame in bench.frames[self.frames :]:
             if frame.unit == self.drive + 1 and not frame.read:
                 self._frame(frame, shows)
@@ -128,7 +130,8 @@ class Observer:
         anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
         self.idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
         self._time(pins)
-        self.only_reads = pins.get("MonitorOnly") and self.bench.out("Control.State", self.drive) == ONLY_READS
+        state = self.bench.out("Control.State", self.drive) if pins.get("MonitorOnly") else 0
+        self.only_reads = state == ONLY_READS and bench.elapsed <= 1000
         self.asked_before, self.was_confirmed = bool(asked), shows["StopConfirmed"]
 
     # ------------------------------------------------------------ who may start
@@ -193,8 +196,10 @@ class Observer:
             if self.wish is None and not pins.get("SpeedOnly"):
                 self.fail(f"{frame}: a reference without an edge")
         elif not does:
-            if not self.parameters:
+            if not self.parameters or self.drive:
                 self.fail(f"{frame}: a write to a register that is neither command nor reference")
+            if not self.was_confirmed:
+                self.fail(f"{frame}: a parameter while the motor is not known to stand")
         elif "fault_reset" in does and self.wish not in does:
             if not self.resets:
                 self.fail(f"{frame}: a reset that nobody has asked for")
@@ -232,3 +237,14 @@ def watched(*types: str, **options: object) -> Bench:
     for drive in range(len(bench.types)):
         Observer(bench, drive)
     return bench.restart()
+
+
+def sent(bench: Bench, frames: list[Frame], *does: str) -> list[Frame]:
+    """Those of these frames that do one of these things; `reference` is one of them."""
+    meaning = Meaning(bench.maps[0])
+    written = [each for each in frames if not each.read]
+    return [
+        each
+        for each in written
+        if meaning.does(each) & set(does) or ("reference" in does and each.address == meaning.reference)
+    ]
