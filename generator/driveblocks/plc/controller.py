@@ -31,7 +31,7 @@ class Controller:
         self._drives = drives
         self._scan_us = scan_us
         self._mailbox = Mailbox(self.instance, wiring)
-        self._port: Port | None = None
+        self._port: Port
         self._free: frozenset[tuple[int, str]] | None = None
         self._guard: Guard | None = None
         self._judged: set[tuple[int, str]] = set()
@@ -47,7 +47,6 @@ class Controller:
 
     def scan(self, now_us: int) -> None:
         """Scan once. Raises ScanError."""
-        assert self._port is not None
         self._mailbox.give(self._port.receive())
         self._set("PORTERRORID", PORT_FAILS if self._port.error else 0)
         self._time(now_us)
@@ -59,10 +58,10 @@ class Controller:
     def _time(self, now_us: int) -> None:
         first = self._called_ms is None
         if first:
-            self._begun_us, self._called_ms = now_us, (now_us - self._scan_us) // 1000
-        assert self._called_ms is not None
-        self._set("ELAPSEDMS", min(now_us // 1000 - self._called_ms, MOST_MS))
+            self._begun_us = now_us
+        before = (now_us - self._scan_us) // 1000 if self._called_ms is None else self._called_ms
         self._called_ms = now_us // 1000
+        self._set("ELAPSEDMS", min(self._called_ms - before, MOST_MS))
         for path in self.wiring.restart:
             self.instance[path] = first
 

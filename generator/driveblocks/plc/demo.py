@@ -8,12 +8,10 @@ import driveblocks
 from driveblocks.host.engine import Value
 from driveblocks.plc.session import Session
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 PROGRAM = "three_makes.st"
-UNITS = {"SN300G5": 1, "JSCC": 2, "CHF": 3}
-HABITS = {name: Habits(maximum_hz=60 if name == "CHF" else 50, ramp=30, coast_ramp=60) for name in UNITS}
-"""Short ramps, since nobody waits for a motor that does not turn; the fan's drive has a maximum of 60 Hz."""
+RAMP, COAST = 40, 60
+"""Hz/s: short, since nobody waits for a motor that does not turn."""
 FAULT = 4
 DRIVES = ("Pump1", "Pump2", "Fan")
 HOLD_US = 700_000

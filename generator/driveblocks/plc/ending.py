@@ -54,9 +54,13 @@ class Stopper:
         end = self._clock.now_us() + within_us
         told = dict.fromkeys(drives, "no reply to the stop")
         while (waiting := {unit: drives[unit] for unit, why in told.items() if why}) and self._goes_on(end):
-            acknowledged = [unit for unit, drive in waiting.items() if self._goes_on(end) and self._stopped(unit, drive)]
+            acknowledged = [
+                unit for unit, drive in waiting.items() if self._goes_on(end) and self._stopped(unit, drive)
+            ]
             for unit in acknowledged:
-                told[unit] = self._moves(unit, drives[unit]) if self._goes_on(end) else "stop acknowledged, not read since"
+                told[unit] = (
+                    self._moves(unit, drives[unit]) if self._goes_on(end) else "stop acknowledged, not read since"
+                )
         return told
 
     def _goes_on(self, end: int) -> bool:
@@ -74,7 +78,11 @@ class Stopper:
         words = {register: self._read(unit, function, register) for register in {each.register for each in patterns}}
         if None in words.values():
             return "stop acknowledged, its status is not answered"
-        return "" if all(_holds(each, words) for each in patterns) else "stop acknowledged, its status does not prove that it stands"
+        return (
+            ""
+            if all(_holds(each, words) for each in patterns)
+            else "stop acknowledged, its status does not prove that it stands"
+        )
 
     def _read(self, unit: int, function: int, register: int) -> int | None:
         reply = self._ask(bytes([unit, function, *register.to_bytes(2, "big"), 0, 1]), 5)

@@ -15,22 +15,24 @@ from driveblocks.plc.session import Result, Session
 
 SIGNALS = {"SIGINT": "Ctrl-C", "SIGTERM": "SIGTERM", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
 """What ends a run, where the platform has it."""
-LOOK_S = 0.1
+LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
 GRACE_S = 5
 
 
-def run(session: Session, screen: Screen, keyboard: Keyboard | None, for_us: int | None, *, end_of_input: bool) -> Result:
+def run(
+    session: Session, screen: Screen, keyboard: Keyboard | None, for_us: int | None, *, end_of_input: bool
+) -> Result:
     """Run until the end, whatever brings it; `end_of_input`: so does the end of the keyboard's lines."""
-    with listening(session.ending), _undisturbed():
+    with _undisturbed():
         scans = threading.Thread(target=session.run, args=(for_us,))
         scans.start()
         try:
             if keyboard is not None:
                 _listen_to(keyboard, session, screen, end_of_input=end_of_input)
             _watch(session, screen, scans)
-        except BaseException as error:  # noqa: BLE001 - a lost terminal must not leave drives running
+        except BaseException as error:  # a lost terminal must not leave drives running
             session.ending.ask(f"the screen has failed: {error or type(error).__name__}")
         finally:
             scans.join(WITHIN_US / 1e6 + GRACE_S)

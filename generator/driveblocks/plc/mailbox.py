@@ -3,6 +3,7 @@
 from collections import deque
 
 from driveblocks.host.embedded import EmbeddedInstance
+from driveblocks.host.embedded.certainty import known
 from driveblocks.plc.wiring import Wiring
 
 MOST_BYTES = 255
@@ -52,11 +53,7 @@ class Mailbox:
         return MOST_BYTES - used % 256
 
     def _number(self, path: str) -> int:
-        value = self._instance[path]
-        assert isinstance(value, int)
-        return value
+        return known(self._instance[path], int)
 
     def _bytes(self, path: str, count: int) -> bytes:
-        value = self._instance[path]
-        assert isinstance(value, list)
-        return bytes(value[:count])  # type: ignore[arg-type]  # an array of BYTE
+        return bytes(known(self._instance[path], list)[:count])

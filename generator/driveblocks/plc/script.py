@@ -11,6 +11,8 @@ _UNITS = {"ms": 1_000, "s": 1_000_000, "min": 60_000_000}
 _TIME = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)")
 _LINE = re.compile(r"at\s+(?P<time>[^:]*?)\s*:(?P<rest>.*)", re.IGNORECASE)
 _SETTING = re.compile(r"\s*(?P<name>[A-Za-z_][\w.\[\],]*)\s*:=\s*(?P<value>.*?)\s*")
+_COMMENT = re.compile(r"(?<!\S)#")
+"""A number sign that begins a word; in 16#FF it does not."""
 _WHOLE = re.compile(r"[-+]?\d+|(?P<base>16|8|2)#(?P<digits>[0-9A-Fa-f_]+)")
 
 
@@ -55,7 +57,7 @@ def read(path: str, text: str, program: Variables) -> list[Setting]:
     settings: list[Setting] = []
     wrong: list[Message] = []
     for number, line in enumerate(text.splitlines(), 1):
-        bare = line.split("#")[0] if "#" not in (line.split(":=") + [""])[1] else line
+        bare = _COMMENT.split(line)[0]
         if not bare.strip():
             continue
         try:

@@ -14,7 +14,7 @@ from driveblocks.plc.record import Timing, Trace
 from driveblocks.plc.script import Setting
 from driveblocks.plc.view import View, look
 
-LOOK_US = 100_000
+LOOK_US = 200_000
 """Between two looks for the screen."""
 
 Step = Callable[[int], None]
@@ -35,10 +35,9 @@ class Result:
 class Session:
     """One run of a program at a port."""
 
-    def __init__(self, controller: Controller, port: Port, clock: Clock, ending: Ending, scan_us: int) -> None:
-        """Prepare; `run` runs."""
+    def __init__(self, controller: Controller, clock: Clock, ending: Ending, scan_us: int) -> None:
+        """Prepare; `connect` gives it a port, `run` runs."""
         self.controller = controller
-        self.port = port
         self.ending = ending
         self.pace = Pace(scan_us)
         self.settings: queue.SimpleQueue[Setting] = queue.SimpleQueue()
@@ -53,11 +52,17 @@ class Session:
         """What is to be said, each in a line."""
         self.result: Result | None = None
         self._clock = clock
+        self._port: Port
         self._done = 0
         self._begun_us = 0
         self._looked_us = -LOOK_US
         self._seen_drops: set[str] = set()
         self._port_error = ""
+
+    def connect(self, port: Port, free: frozenset[tuple[int, str]] | None) -> None:
+        """Take a port; see `Controller.connect`."""
+        self._port = port
+        self.controller.connect(port, free)
 
     def run(self, for_us: int | None = None) -> Result:
         """Scan until the end, then stop every drive. No exception of the program comes out of here."""
@@ -67,7 +72,7 @@ class Session:
             self._loop(for_us)
         except ScanError as error:
             crash = str(error)
-        except Exception as error:  # noqa: BLE001 - whatever happens, the drives are stopped
+        except Exception as error:  # whatever happens, the drives are stopped
             crash = f"{type(error).__name__}: {error}"
         if crash:
             self.ending.reason = self.ending.reason or f"the program has failed: {crash}"
@@ -103,7 +108,7 @@ class Session:
         self._record(since)
         if since - self._looked_us >= LOOK_US:
             self._looked_us = since
-            self.view = look(self.controller, self.shown, since, self.port.error)
+            self.view = look(self.controller, self.shown, since, self._port.error)
             self._tell()
 
     def _record(self, since: int) -> None:
@@ -116,8 +121,8 @@ class Session:
         for what in self.controller.dropped.keys() - self._seen_drops:
             self._seen_drops.add(what)
             self.told.put(f"not sent: {what}; only reads and stops leave without --allow-run")
-        if self.port.error != self._port_error:
-            self._port_error = self.port.error
+        if self._port.error != self._port_error:
+            self._port_error = self._port.error
             self.told.put(f"the port does not work: {self._port_error}" if self._port_error else "the port works again")
 
     def _end(self, *, crashed: bool) -> Result:
@@ -128,8 +133,10 @@ class Session:
         units = controller.units()
         ascii_mode = bool(controller.number(f"{controller.wiring.line}.Ascii"))
         self.told.put(f"{self.ending.reason}: stopping every drive")
-        told = Stopper(self.port, self._clock, self.ending, ascii_mode=ascii_mode).stop(units)
-        told |= dict.fromkeys(names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known")
+        told = Stopper(self._port, self._clock, self.ending, ascii_mode=ascii_mode).stop(units)
+        told |= dict.fromkeys(
+            names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
+        )
         unconfirmed = {f"{', '.join(names[unit])} (unit {unit})": why for unit, why in told.items() if why}
         stopped = tuple(", ".join(names[unit]) for unit, why in told.items() if not why)
         return Result(self.ending.reason, crashed, unconfirmed, stopped)

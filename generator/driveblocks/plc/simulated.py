@@ -14,34 +14,15 @@ import subprocess
 import sys
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
-from decimal import Decimal
 from pathlib import Path
 
-from driveblocks.maps.load import load
+from driveblocks.host.embedded.certainty import present
 from driveblocks.plc.clock import RealClock
+from driveblocks.plc.wanted import Wanted
 from driveblocks.plc.wire import Wire
-from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.simulator.habits import Habits
 
 HOST = "127.0.0.1"
 LOOK_S = 0.001
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """A drive to be simulated: its map, its unit address, and what no manual says of it."""
-
-    path: Path
-    unit: int
-    maximum_hz: int = 50
-    scales: tuple[tuple[int, str], ...] = ()
-
-    def made(self, *, ascii_mode: bool) -> SimulatedDrive:
-        """The drive. Raises MapError."""
-        scales = {register: Decimal(factor) for register, factor in self.scales}
-        habits = Habits(maximum_hz=self.maximum_hz, scales=scales)
-        return SimulatedDrive(load(self.path), self.unit, habits, ascii_mode=ascii_mode)
 
 
 class Simulation:
@@ -57,8 +38,7 @@ class Simulation:
             stdout=subprocess.PIPE,
             text=True,
         )
-        assert self._process.stdout is not None
-        line = self._process.stdout.readline()
+        line = present(self._process.stdout).readline()
         if not line.strip().isdigit():
             raise OSError("the simulated drives did not start")
         self.port = int(line)

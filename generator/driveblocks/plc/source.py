@@ -3,13 +3,14 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
 from driveblocks.host.engine import BuildError, Message, Source
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.model import Drive
 from driveblocks.render import library
-from driveblocks.render.text import languages
+from driveblocks.render.text import Language, languages
 from driveblocks.st.parser import ParseError, parse
 from driveblocks.st.tree import Program, Unit
 
@@ -40,10 +41,9 @@ def _needed(path: str, text: str, maps: Sequence[Map]) -> list[Source]:
         own = {getattr(each, "name", "").upper() for each in parse(text, path).elements}
     except ParseError as error:
         raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
-    english = languages(["en"], "utf-8")
-    files = [*library.generic(english)]
+    files = [*_shared()]
     for each in maps:
-        files.extend(library.drive(each.path.stem, each.drive, english))
+        files.extend(library.drive(each.path.stem, each.drive, _english()))
     known = {file.name.upper(): file for file in files if file.name.upper() not in own}
     wanted: set[str] = set()
     waiting = [text]
@@ -53,6 +53,16 @@ def _needed(path: str, text: str, maps: Sequence[Map]) -> list[Source]:
         wanted |= new
         waiting += [known[word].text for word in sorted(new)]
     return [Source(f"{file.folder}/{file.name}.st", file.text) for file in files if file.name.upper() in wanted]
+
+
+def _english() -> list[Language]:
+    return languages(["en"], "utf-8")
+
+
+@cache
+def _shared() -> tuple[library.File, ...]:
+    """What all drives share, rendered once."""
+    return tuple(library.generic(_english()))
 
 
 def _chosen(unit: Unit, name: str | None) -> Program:

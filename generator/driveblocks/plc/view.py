@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from driveblocks.host.embedded.certainty import known
 from driveblocks.host.engine import Value
 from driveblocks.plc.controller import Controller
 from driveblocks.render.reasons import REASONS
@@ -44,12 +45,9 @@ def look(controller: Controller, names: tuple[str, ...], at_us: int, port_error:
 
 def _seen(controller: Controller, path: str) -> Seen:
     pin = {name: controller.instance[f"{path}.{name}"] for name in _PINS}
-    hertz = pin["OutputFrequencyHz"]
-    asked = pin["SpeedReferenceHz"]
-    assert isinstance(hertz, float)
-    assert isinstance(asked, float)
-    reason = pin["Reason"]
-    assert isinstance(reason, int)
+    hertz = known(pin["OutputFrequencyHz"], float)
+    asked = known(pin["SpeedReferenceHz"], float)
+    reason = known(pin["Reason"], int)
     return Seen(
         name=path,
         unit=controller.number(f"{path}.Unit"),
@@ -89,5 +87,5 @@ def spelled(value: Value) -> str:
     if isinstance(value, float):
         return f"{value:.2f}"
     if isinstance(value, bytes):
-        return repr(value.decode("latin-1"))
-    return str(value)
+        return value.decode("latin-1")
+    return f"{value:d}" if isinstance(value, int) else "..."

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+from driveblocks.host.embedded.certainty import present
 from driveblocks.host.engine import BuildError, Message
 from driveblocks.st import tree
 from driveblocks.st.tree import Binding, Block, Direction, Expression, FunctionBlock, Pou, Program, VarDecl, VarKind
@@ -35,7 +36,7 @@ class Wiring:
     rx_chars: str
     tx_chars: str
     pins: dict[str, str | None]
-    """Inputs of the line that the port fills, each with where: a variable, or the pin where the call leaves it alone."""
+    """Inputs of the line that the port fills: a variable, or the pin itself where the call leaves it alone."""
     restart: tuple[str, ...]
     drives: tuple[DriveBlock, ...]
     inputs: tuple[str, ...]
@@ -106,7 +107,9 @@ def _port(line: _Call, written: set[str]) -> Wiring:
     pins = {name: _pin(line, name, written) for name in ("ELAPSEDMS", "PORTLATEMS", "PORTERRORID")}
     notes = []
     if pins["ELAPSEDMS"] is None and not isinstance(_source(line, "ELAPSEDMS"), str):
-        notes.append(_told(line, "ElapsedMs is no variable: a late scan is not seen; wire a UINT that is set from here"))
+        notes.append(
+            _told(line, "ElapsedMs is no variable: a late scan is not seen; wire a UINT that is set from here")
+        )
     if line.block.name.upper() in LINES:
         port = _needed(line, "PORT", set())
         pins |= {"PORTLATEMS": f"{port}.LateMs", "PORTERRORID": f"{port}.ErrorID"}
@@ -127,17 +130,17 @@ def _port(line: _Call, written: set[str]) -> Wiring:
 
 def _no_port(program: Program, lines: list[_Call]) -> Message:
     if not lines:
-        unit = program.unit
-        assert unit is not None
-        wrong = f"{program.name} calls no line, so it has no port; call an MB_ByteLine8, as README.md of the blocks shows"
+        unit = present(program.unit)
+        wrong = (
+            f"{program.name} calls no line, so it has no port; call an MB_ByteLine8, as README.md of the blocks shows"
+        )
         return Message(unit.path, *unit.place(program.name_at), wrong)
     names = ", ".join(each.path for each in lines)
     return _told(lines[1], f"{len(lines)} ports ({names}): one port can be served; keep one line in this program")
 
 
 def _told(call: _Call, text: str) -> Message:
-    unit = call.frame.pou.unit
-    assert unit is not None
+    unit = present(call.frame.pou.unit)
     return Message(unit.path, *unit.place(call.call.at), text)
 
 
