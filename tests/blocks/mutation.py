@@ -38,6 +38,8 @@ from driveblocks.render import library, text
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+LEFT = re.compile(r"_(Drive|MayWrite|ParameterAddress)$")
+"""Blocks that are judged by tests of their own, with a line and a drive around them: facts have to notice a change."""
 
 
 @dataclass(frozen=True)
@@ -100,10 +102,10 @@ def verdict(original: Original, change: mutate.Change) -> str:
     notice = ["rules"] * refused + ["facts"] * (not refused and by_facts(drive))
     if not code:
         return f"alters comments, noticed by {' and '.join(notice) or 'nothing'}"
-    alone = [name for name in code if name != f"{original.drive.prefix}_Drive"]
-    if not alone:
-        return f"alters the drive block alone, noticed by {' and '.join(notice) or 'nothing'}"
-    notice += ["blocks"] * by_blocks(original, drive, made, alone)
+    judged = [name for name in code if not LEFT.search(name)]
+    if not judged:
+        return f"alters what simulated drives judge, noticed by {' and '.join(notice) or 'nothing'}"
+    notice += ["blocks"] * by_blocks(original, drive, made, judged)
     return f"noticed by {' and '.join(notice) or 'nothing'}"
 
 

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from tests.blocks.library import Blocks
 
+from driveblocks.host.engine import Value
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Write, parameters
 from driveblocks.testing.code import NUMBERS
@@ -36,8 +37,9 @@ def check_numbers(blocks: Blocks, drive: Drive) -> None:
     """Every number of every group, and those beside them."""
     known = parameters(drive)
     named = any(letter or group for letter, group, _ in known)
-    for letter, group, number in sorted({(*group, number + step) for *group, number in known for step in NEAR}):
-        if number >= 0:
-            pins = {"Number": number} | ({"Letter": ord(letter or "\0"), "Group": group} if named else {})
-            found = blocks.call(f"{drive.prefix}_ParameterAddress", pins)
-            assert found == known.get((letter, group, number), -1), (letter, group, number)
+    for letter, group, number in sorted((one, two, last + step) for one, two, last in known for step in NEAR):
+        pins: dict[str, Value] = {"Number": max(number, 0)}
+        if named:
+            pins |= {"Letter": ord(letter or "\0"), "Group": group}
+        found = blocks.call(f"{drive.prefix}_ParameterAddress", pins)
+        assert found == known.get((letter, group, max(number, 0)), -1), (letter, group, number)

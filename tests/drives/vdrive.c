@@ -48,7 +48,7 @@ static long long vd_goal(const VDrive *d) {
   milli = milli > most ? most : milli < -most ? -most : milli;
   return d->reverse ? -milli : milli;
 }
-static long long vd_shown(const VDrive *d) { return d->driven || d->t->habits->coast_shows_zero ? d->output : d->shaft; }
+static long long vd_shown(const VDrive *d) { return d->t->habits->coast_shows_zero ? d->output : d->shaft; }
 static int vd_measure(const VDrive *d, const VGauge *g) {
   const VHabits *h = d->t->habits;
   long long shown = vd_shown(d), output = shown < 0 ? -shown : shown, share = output * 100 / (1000LL * h->maximum_hz), milli = 0;
@@ -66,9 +66,8 @@ static int vd_face(const VDrive *d, int place) {
   long long shown = vd_shown(d), goal = vd_goal(d);
   int key = (d->fault != 0) | running << 1 | (running && (shown < 0 || (shown == 0 && goal < 0))) << 2
     | (running && shown == goal && goal != 0) << 3 | (shown == 0) << 4 | (!d->fault && !d->inhibited) << 5 | d->warning << 6;
-  int state = d->fault || running ? -1 : d->state;
   for (int i = 0; i < d->t->faces_count; i++)
-    if (d->t->faces[i].key == key && d->t->faces[i].state == state) return d->t->faces[i].words[place];
+    if (d->t->faces[i].key == key && d->t->faces[i].state == d->state) return d->t->faces[i].words[place];
   abort();
 }
 static int vd_word(const VDrive *d, int address) {
@@ -94,10 +93,8 @@ static void vd_run(VDrive *d, int reverse, int jog, int own, int milli) {
   d->state = -1; d->waits = 0;
 }
 static void vd_stop(VDrive *d, int effect, int after) {
-  int has_own = 0;
-  for (int i = 0; i < d->t->moves_count; i++) has_own |= d->t->moves[i].effect == E_JOG_STOP;
   if (effect == E_JOG_STOP && !d->jog) return;
-  if (effect == E_STOP && d->jog && has_own && !d->t->habits->stop_ends_jog) return;
+  if (effect == E_STOP && d->jog && !d->t->habits->stop_ends_jog) return;
   d->after = after;
   if (effect == E_COAST_STOP) vd_let_go(d);
   else { d->stopping = 1; d->quick |= effect == E_QUICK_STOP; }
@@ -186,8 +183,7 @@ static void vd_step(VDrive *d, int ms) {
   else d->shaft = vd_towards(d->shaft, 0, (long long)h->coast_ramp * ms);
   if (d->stopping && d->output == 0) vd_let_go(d);
   vd_settle(d);
-  if (h->watchdog_ms >= 0 && d->powered && d->driven && d->now - d->heard_at > h->watchdog_ms) {
-    d->heard_at = d->now;
+  if (h->watchdog_ms >= 0 && d->driven && d->now - d->heard_at > h->watchdog_ms) {
     if (h->watchdog == 0) { vd_trip(d, h->watchdog_code); d->cause = 0; }
     else vd_stop(d, h->watchdog == 2 ? E_COAST_STOP : E_STOP, -1);
   }
@@ -284,7 +280,7 @@ static int vd_reply(VDrive *d, const unsigned char *ask, int length, unsigned ch
   if (!(called || everyone)) return -1;
   if (known && (ask[1] == 16 ? length < 7 || length != 7 + ask[6] : length != 6)) return -1;
   out[0] = ask[0]; out[1] = ask[1];
-  int made = vd_granted(d, ask, everyone && !called, out + 2, &reason);
+  int made = vd_granted(d, ask, everyone, out + 2, &reason);
   if (!called) return -1;
   if (made >= 0) { d->heard_at = d->now; return made + 2; }
   int code = t->codes[reason];

@@ -13,6 +13,7 @@ from driveblocks.host.engine import Library, Source
 from driveblocks.maps.plan import plan
 from driveblocks.render.environment import environment, needed
 from driveblocks.render.parameter import passing
+from driveblocks.st.lint import lint_sources
 
 SCENE = """
 FUNCTION_BLOCK T_Drive
@@ -83,7 +84,9 @@ ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 @cache
 def library(prefix: str) -> Library:
     """The line, the blocks of parameters, and what a drive block of the family does for them."""
-    wanted = re.compile(rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite)\.st")
+    wanted = re.compile(
+        rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
+    )
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     drive = shipped()[prefix]
     parameter = passing(drive, plan(drive))
@@ -94,9 +97,10 @@ def library(prefix: str) -> Library:
 class Scene(Bench):
     """A line with one drive, whose registers hold their own address, and the blocks of parameters."""
 
-    def __init__(self, prefix: str = "JSCC", drives: int = 1) -> None:
-        """Begin with a motor that stands."""
-        super().__init__(Config(drives=drives), block=library(prefix).instance("T_Scene"))
+    def __init__(self, prefix: str = "JSCC", clock: int = 0) -> None:
+        """Begin with a motor that stands; `clock` is what the line says to begin with."""
+        super().__init__(Config(drives=1), block=library(prefix).instance("T_Scene"))
+        self.block["Slots[0].TimeMs"] = clock
         self.set(Called=True, Lined=True)
         self.block["Drive.StopConfirmed"] = True
         self.drives[0].answer = self.reply
@@ -351,7 +355,7 @@ def test_who_sleeps_through_its_answer_says_so(block: str) -> None:
     scene.execute(block, **ASKING[block])
     scene.run(40)
     scene.set(Asleep=True)
-    assert scene.done("Get2", Address=0x0201) == scene.done("Put2", Address=0x0202) == "OK"
+    assert scene.done("Get2", Address=0x0201) == scene.done("Put2", Address=0x0202, Quantity=3, Value2=7) == "OK"
     scene.set(Asleep=False)
     scene.scan()
     assert scene.result(block) == "LOST"
@@ -401,7 +405,7 @@ def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
 def test_an_edge_while_busy_begins_nothing() -> None:
     scene = Scene()
     scene.execute("Put1", Address=0x0012)
-    scene.scan()
+    scene.run(40)
     scene.drop("Put1")
     scene.execute("Put1")
     scene.run(300)
@@ -471,7 +475,7 @@ def test_a_store_goes_by_its_own_block_alone() -> None:
 
 
 def test_stores_are_apart_and_counted() -> None:
-    scene = Scene("SN300G5")
+    scene = Scene("SN300G5", clock=59_000)
     assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon behind power-up"
     scene.drop("Keep")
     scene.rested().silent = True
@@ -496,13 +500,45 @@ def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
     assert (scene.written(), scene["Stores"]) == ([], 0)
 
 
-def test_the_example_of_the_page_compiles() -> None:
+def test_the_example_of_the_page_runs_and_lints_clean() -> None:
     page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
     wanted = re.compile(r"types/.*|drive/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
-    example = EmbeddedEngine().build([*texts, Source("example.st", program)]).instance("Parameters")
+    texts.append(Source("example.st", program + "\n"))
+    assert list(lint_sources([(each.path, each.text) for each in texts])) == []
+    example = EmbeddedEngine().build(texts).instance("Parameters")
     example["SetRamp"] = True
     for _ in range(4):
         example.scan()
     assert example["Slots[0].Ask[2].Address"] == 0x0200
+
+
+@pytest.mark.parametrize(
+    ("letter", "group", "number", "address"),
+    [
+        ("H", 5, 2, 0x041D),
+        ("A", 1, 0, 0x0100),
+        ("A", 2, 32, 0x0125),
+        ("C", 3, 5, 0x0242),
+        ("C", 5, 8, 0x0241),
+        ("U", 1, 23, 0x0036),
+        ("U", 1, 24, -1),
+        ("U", 1, 26, 0x0039),
+        ("A", 1, 6, -1),
+        ("A", 3, 1, -1),
+        ("G", 1, 1, -1),
+    ],
+)
+def test_the_manuals_ids_of_sn300g5(letter: str, group: int, number: int, address: int) -> None:
+    """Typed from the manual; C3-05 and C5-08 stand apart from their groups, U1-24 has no row."""
+    pins = {"Letter": ord(letter), "Group": group, "Number": number}
+    assert library("SN300G5").call("SN300G5_ParameterAddress", pins) == address
+
+
+@pytest.mark.parametrize(("prefix", "last"), [("JSCC", 0xFF), ("CHF", 0x1FF)])
+def test_the_numbers_of_an_area(prefix: str, last: int) -> None:
+    found = [
+        library(prefix).call(f"{prefix}_ParameterAddress", {"Number": number}) for number in (0, 18, last, last + 1)
+    ]
+    assert found == [0, 18, last, -1]

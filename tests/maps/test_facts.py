@@ -112,12 +112,12 @@ def test_what_the_manual_asks_for_is_a_notice(drive: str, about: str, chinese: s
 SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS}
 
 
-@pytest.mark.parametrize("name", DRIVES)
-def test_the_pins_show_what_the_manual_says(name: str) -> None:
-    assert list(shown(DRIVES[name])) == SHOWS[name].strip().splitlines()
-    assert not DRIVES[name].manual.second_hand
-    assert DRIVES[name].operation.in_one_word
-    assert not DRIVES[name].operation.states
+@pytest.mark.parametrize("drive", DRIVES)
+def test_the_pins_show_what_the_manual_says(drive: str) -> None:
+    assert list(shown(DRIVES[drive])) == SHOWS[drive].strip().splitlines()
+    assert not DRIVES[drive].manual.second_hand
+    assert DRIVES[drive].operation.in_one_word
+    assert not DRIVES[drive].operation.states
 
 
 def shown(drive: Drive) -> Iterator[str]:

@@ -147,13 +147,14 @@ def test_what_needs_an_edge_or_a_state_or_was_stopped_does_not_act_again() -> No
 def test_the_frequency_may_be_that_of_the_coasting_shaft() -> None:
     one = talk("CHF", Habits(coast_shows_zero=False)).at(20)
     one.command("coast_stop")
-    assert one.read(0x3000) == 2000
+    assert (one.read(0x3000), one.read(0x1001)) == (2000, 3)
     one.drive.step(4000)
     assert one.read(0x3000) == 0
 
 
 def test_the_status_may_say_stopped_while_the_motor_ramps_down() -> None:
     one = talk("JSCC", Habits(runs_while_stopping=False)).at(20)
+    assert one.read(0x2001) == 1
     one.command("stop")
     one.drive.step(1000)
     assert one.read(0x2001) == 4
@@ -182,6 +183,12 @@ def test_a_watchdog_acts_without_a_good_request_to_its_own_address(action: str, 
         one.drive.step(20_000)
         one.command("fault_reset")
         assert one.drive.mode == "standing"
+
+
+def test_a_watchdog_leaves_a_standing_drive_alone() -> None:
+    one = talk("CHF", Habits(watchdog_ms=2000))
+    one.drive.step(10_000)
+    assert one.drive.mode == "standing"
 
 
 def test_without_a_watchdog_it_runs_on() -> None:

@@ -1,5 +1,7 @@
 """Commands of every shape: a path of states, an edge, a pulse, two registers, active-low bits."""
 
+from decimal import Decimal
+
 import pytest
 from tests.simulator.shapes import shape
 from tests.simulator.talk import Talk, talk
@@ -144,6 +146,16 @@ def test_a_pulse_acts_when_it_ends_and_only_if_it_was_long_enough() -> None:
     write(one, 2)
     one.drive.step(100)
     assert write(one, 0) == REVERSE
+
+
+def test_a_signed_frequency_is_cut_towards_zero() -> None:
+    """0.03 Hz in reverse, in counts of 0.007 Hz."""
+    one = talk(shape("two registers"), Habits(scale=Decimal("0.007")))
+    one.hertz(10)
+    one.write(0x0003, 1)
+    one.write(0x0004, 1)
+    one.drive.step(3)
+    assert one.read(0x0020) == 0x10000 - 4
 
 
 def test_a_direction_beside_the_start_acts_at_once() -> None:

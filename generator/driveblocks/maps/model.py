@@ -205,6 +205,12 @@ class Needed(Entry):
     value: Number | None = fact(
         "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
     )
+    by_terminals: Number | None = fact(
+        "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
+        "command",
+        "1",
+        optional=True,
+    )
     why: English = fact("what it is for", "run commands come from the bus")
 
 

@@ -61,10 +61,11 @@ class Judge:
     def __init__(self, drive: Drive) -> None:
         """Look up once what the map has at each address."""
         operation = drive.operation
-        steps = {step.register for command in operation.commands for step in command.first}
-        self._known = {
+        steps = (step.register for command in operation.commands for step in command.first)
+        commands = (command.register for command in operation.commands)
+        self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
-            "OWNED": {operation.reference.register, *(command.register for command in operation.commands)} | steps,
+            "OWNED": {operation.reference.register, *commands, *steps},
             "LINE_SETTING": {setting.register for setting in drive.settings},
         }
         self._writable = writable(drive)
@@ -74,7 +75,7 @@ class Judge:
 
     def result(self, wish: Write) -> str:
         """The name of the result; `OK` where it may be written."""
-        meant = {wish.address, wish.address & ~self._bit}
+        meant: set[int | None] = {wish.address, wish.address & ~self._bit}
         for name, registers in self._known.items():
             if meant & registers:
                 return name
@@ -106,7 +107,7 @@ def parameters(drive: Drive) -> dict[Numbered, int]:
         letter = id_[:1] if id_[:1].isalpha() and id_.isascii() else ""
         group, _, number = id_[len(letter) :].replace(".", "-").rpartition("-")
         group = group.rstrip("-") or "0"
-        if number.isdecimal() and group.isdecimal() and int(group) < 256:
+        if number.isdecimal() and group.isdecimal() and len(number) < 5 and len(group) < 4:
             found.setdefault((letter, int(group), int(number)), set()).add(address)
     if found or len(drive.areas) != 1:
         return {key: min(some) for key, some in found.items() if len(some) == 1}

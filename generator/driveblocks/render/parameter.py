@@ -15,7 +15,8 @@ MOST = 4
 _ID = re.compile(r"([A-Za-z]?)(?:([0-9]{1,3})?[.-]+)?([0-9]{1,4})")
 """An id of a manual: letter, group, number."""
 
-_MOST_GROUP = 255
+_Key = tuple[int, int, int]
+"""A parameter: its letter by its ASCII code, its group, its number; 0 for what its id does not have."""
 
 # ---------------------------------------------------------------- which registers may be written
 
@@ -95,10 +96,9 @@ def addresses(drive: Drive) -> tuple[str, Context] | None:
     name = f"{drive.prefix}_ParameterAddress"
     known = _numbered(drive)
     if known:
-        groups = [(code, _group(code), runs) for code, runs in _groups(known).items()]
-        code, number = next(iter(sorted(known)))
-        example = {"letter": code >> 8, "group": code & 0xFF, "number": number, "id": f"{_group(code)}-{number:02d}"}
-        return "ParameterAddress", {"name": name, "groups": groups, "example": example}
+        letter, group, number = min(known)
+        example = {"letter": letter, "group": group, "number": number, "id": f"{_group(letter, group)}-{number:02d}"}
+        return "ParameterAddress", {"name": name, "letters": _letters(known), "example": example}
     if len(drive.areas) != 1:
         return None
     area = drive.areas[0]
@@ -131,22 +131,21 @@ class _Run:
         return self.base - self.first
 
 
-def _numbered(drive: Drive) -> dict[tuple[int, int], int]:
-    """Code of the group and number of each id -> its address; without those that two rows claim."""
-    found: dict[tuple[int, int], set[int]] = {}
+def _numbered(drive: Drive) -> dict[_Key, int]:
+    """The parameters that have an id -> their registers; without those that two rows claim."""
+    found: dict[_Key, set[int]] = {}
     for id_, first, count in _ids(drive):
         parts = _ID.fullmatch(id_.partition("..")[0])
-        if parts is None or int(parts[2] or 0) > _MOST_GROUP:
-            continue
-        code = ord(parts[1] or "\0") << 8 | int(parts[2] or 0)
-        for index in range(count):
-            found.setdefault((code, int(parts[3]) + index), set()).add(first + index)
+        if parts is not None:
+            letter, group = ord(parts[1] or "\0"), int(parts[2] or 0)
+            for index in range(count):
+                found.setdefault((letter, group, int(parts[3]) + index), set()).add(first + index)
     return {key: min(places) for key, places in found.items() if len(places) == 1}
 
 
-def _group(code: int) -> str:
+def _group(letter: int, group: int) -> str:
     """A group as its ids begin, such as H5."""
-    return (chr(code >> 8) if code >> 8 else "") + (str(code & 0xFF) if code & 0xFF else "")
+    return (chr(letter) if letter else "") + (str(group) if group else "")
 
 
 def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
@@ -159,16 +158,17 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
             yield setting.id, setting.register, 1
 
 
-def _groups(known: dict[tuple[int, int], int]) -> dict[int, list[_Run]]:
-    """Runs of numbers whose addresses follow each other, by group."""
-    groups: dict[int, list[_Run]] = {}
-    for (group, number), address in sorted(known.items()):
-        runs = groups.setdefault(group, [])
+def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Context]]:
+    """Runs of numbers whose registers follow each other, by letter and group."""
+    letters: dict[int, dict[int, Context]] = {}
+    for (letter, group, number), address in sorted(known.items()):
+        empty: Context = {"name": _group(letter, group), "runs": []}
+        runs = letters.setdefault(letter, {}).setdefault(group, empty)["runs"]
         if runs and number == runs[-1].last + 1 and address == runs[-1].away + number:
             runs[-1] = replace(runs[-1], last=number)
         else:
             runs.append(_Run(number, number, address))
-    return groups
+    return letters
 
 
 # ---------------------------------------------------------------- the part of the drive block

@@ -51,7 +51,7 @@ class Machine:
         self.load = 50
         """Of the motor, in %."""
         self.state: str | None = None
-        """The map's named state that it is in; None: in none, as after power-up."""
+        """The map's named state that it is in; None: in none, as after power-up and while it runs."""
         self._next: tuple[str | None, int] | None = None
         self._after: str | None = None
         self._stopping = False
@@ -60,7 +60,6 @@ class Machine:
         self._jog = False
         self._own_milli: int | None = None
         self._restart = False
-        self._has_jog_stop = any(move.effect == "jog_stop" for move in self.table.moves)
 
     # ------------------------------------------------------------ what is to be seen
 
@@ -73,7 +72,7 @@ class Machine:
             return "coasting" if self.motor.shaft else "standing"
         if self.motor.output == self._goal():
             return "running"
-        return "ramping down" if self._stopping or abs(self.motor.output) > abs(self._goal()) else "ramping up"
+        return "ramping down" if abs(self.motor.output) > abs(self._goal()) else "ramping up"
 
     @property
     def hertz(self) -> float:
@@ -116,10 +115,10 @@ class Machine:
             ready=not self.fault and not self.inhibited,
             warning=self.warning,
         )
-        return self.table.faces[situation, None if self.fault or running else self.state]
+        return self.table.faces[situation, self.state]
 
     def _shown_output(self) -> int:
-        return self.motor.output if self.motor.driven or self.habits.coast_shows_zero else self.motor.shaft
+        return self.motor.output if self.habits.coast_shows_zero else self.motor.shaft
 
     def _measure(self, gauge: Gauge) -> int:
         habits, output = self.habits, abs(self._shown_output())
@@ -146,7 +145,7 @@ class Machine:
             self._let_go()
         self._settle()
         limit = habits.watchdog_ms
-        if limit is not None and self.powered and self.motor.driven and self.now - self.heard_at > limit:
+        if limit is not None and self.motor.driven and self.now - self.heard_at > limit:
             self._lost()
 
     def _goal(self) -> int:
@@ -174,7 +173,6 @@ class Machine:
 
     def _lost(self) -> None:
         """The watchdog."""
-        self.heard_at = self.now
         if self.habits.watchdog == "trip":
             self.trip(self.habits.watchdog_code)
             self.cause = False
@@ -313,7 +311,7 @@ class Machine:
     def _stop(self, effect: str, after: str | None = None) -> None:
         if effect == "jog_stop" and not self._jog:
             return
-        if effect == "stop" and self._jog and self._has_jog_stop and not self.habits.stop_ends_jog:
+        if effect == "stop" and self._jog and not self.habits.stop_ends_jog:
             return
         self._after = after
         if effect == "coast_stop":

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Numbered, Write, parameters
-from driveblocks.st.writing import byte, flag, word
+from driveblocks.st.writing import flag, word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
@@ -26,7 +26,7 @@ def _writes(drive: Drive, stem: str) -> Script:
     program = bench.script(drive, stem, "MayWrite", "what a ladder user may write, each side of every limit")
     judge = Judge(drive)
     for address in _turns(drive, judge):
-        wishes = (Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4))
+        wishes = [Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4)]
         program.stage(address_text(address), *(_wish(drive, judge, wish) for wish in wishes))
     for _, row in drive.registers():
         if row.range is not None:
@@ -68,8 +68,9 @@ def _numbers(drive: Drive, stem: str, known: dict[Numbered, int]) -> Script:
         probes = (_number(drive, known, each) for each in asked if _turn(known, each))
         program.stage(f"{letter}{group}", *probes)
     if _grouped(known):
-        others = [("?", 1, 1), ("", 0, 1), *((letter, group + 256, number) for letter, group, number in [*known][:1])]
-        program.stage("no such group", *(_number(drive, known, each) for each in others))
+        letters = dict.fromkeys(letter for letter, _, _ in known)
+        behind = ((one, 1 + max(group for letter, group, _ in known if letter == one), 1) for one in letters)
+        program.stage("no such group", *(_number(drive, known, each) for each in [("?", 1, 1), *behind]))
     return program
 
 
@@ -88,7 +89,7 @@ def _turn(known: dict[Numbered, int], asked: Numbered) -> bool:
 def _number(drive: Drive, known: dict[Numbered, int], asked: Numbered) -> Probe:
     letter, group, number = asked
     register = known.get(asked)
-    pins = f"Letter := {byte(ord(letter or chr(0)))}, Group := {group}, " if _grouped(known) else ""
+    pins = f"Letter := {ord(letter or chr(0))}, Group := {group}, " if _grouped(known) else ""
     call = f"{drive.prefix}_ParameterAddress({pins}Number := {number})"
     says = "none" if register is None else address_text(register)
     return bench.is_flag(f"{call} = {-1 if register is None else register}", True, f"{letter}{group}, {number}: {says}")

@@ -1,7 +1,7 @@
 """Drives of three families on one virtual line: polled, started, stopped, refused."""
 
-from tests.drives.bench import DriveBench
 from tests.line.vline import COMMAND, PARAMETER, POLL, STOP
+from tests.simulator.bench import DriveBench
 from tests.simulator.talk import MAPS
 
 from driveblocks.maps.polls import polls
