@@ -74,6 +74,7 @@ class Observer:
     parameters: bool = False
     """A parameter block was busy before this scan, or is."""
     stopping_us: int = 0
+    skipped_us: int = 0
     turning_us: int = 0
     stood: bool = True
     """The motor has stood since the drive last acknowledged a stop."""
@@ -106,11 +107,15 @@ class Observer:
             self._time(pins)
             return
         if bench.block[f"Skip{self.drive}"]:
-            self.wish, self.free, self.was_confirmed = None, False, False
+            self.skipped_us += 1000 * bench.ms
+            if self.skipped_us > 1_050_000:  # the line has stopped the drive
+                self.wish = None
+            self.free = self.was_confirmed = False
             self.turning_us = self.stopping_us = 0
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
             return
+        self.skipped_us = 0
         shows = {name: bench.shows(name, self.drive) for name in PINS}
         if not shows["CommOk"] and any(shows[name] for name in FRESH):
             self.fail(f"shows {[name for name in FRESH if shows[name]]} without CommOk")
@@ -231,12 +236,12 @@ class Observer:
             self.fail(f"neither StopConfirmed nor StopOverdue for {self.stopping_us // 1000} ms")
 
 
-def watched(*types: str, **options: object) -> Bench:
+def watched(*types: str, start: bool = True, **options: object) -> Bench:
     """A bench whose blocks are all watched."""
     bench = Bench(*types, start=False, **options)  # type: ignore[arg-type]  # passed on
     for drive in range(len(bench.types)):
         Observer(bench, drive)
-    return bench.restart()
+    return bench.restart() if start else bench
 
 
 def sent(bench: Bench, frames: list[Frame], *does: str) -> list[Frame]:
