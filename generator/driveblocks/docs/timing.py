@@ -85,7 +85,12 @@ def picture(drive: Drive, name: str) -> str:
     canvas = Canvas(f"{name}: start, stop and reset", WIDTH, TOP + len(parts) * (TALL + GAP) - 10)
     for number, (title, columns) in enumerate(parts):
         _panel(canvas, TOP + number * (TALL + GAP), title, columns)
-    canvas.text(16, canvas.height - 14, "Not to scale: a column lasts until something changes, or until a read shows it.", "small")
+    canvas.text(
+        16,
+        canvas.height - 14,
+        "Not to scale: a column lasts until something changes, or until a read shows it.",
+        "small",
+    )
     return canvas.svg()
 
 
