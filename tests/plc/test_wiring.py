@@ -17,7 +17,13 @@ def told(text: str) -> str:
 
 def test_the_bytes_of_a_line_are_program_variables() -> None:
     found = wired(ONE)
-    assert (found.line, found.port, found.rx_count, found.rx_chars, found.tx_chars) == ("Bus", None, "Received", "Rx", "Tx")
+    assert (found.line, found.port, found.rx_count, found.rx_chars, found.tx_chars) == (
+        "Bus",
+        None,
+        "Received",
+        "Rx",
+        "Tx",
+    )
     assert found.pins == {"ELAPSEDMS": "Elapsed", "PORTLATEMS": "Bus.PORTLATEMS", "PORTERRORID": "Bus.PORTERRORID"}
     assert found.restart == ("First",)
     assert found.drives == (DriveBlock("Motor", "JSCC"),)

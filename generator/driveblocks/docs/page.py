@@ -90,6 +90,7 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         port=_port(drive),
         has_reset=can(drive, "fault_reset"),
         unscaled=drive_block(drive)["scaled"] is False,
+        derived=_guessed(drive),
         verify=drive.operation.reference.verify,
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
@@ -123,14 +124,19 @@ def _yes(one: bool) -> str:
 
 
 def _shows(drive: Drive, shows: str) -> str:
-    measured = next((one for one in drive.operation.measures if one.shows == shows), None)
-    row = drive.register_at(measured.register) if measured else None
-    return _yes(row is not None) if row is None or row.scale else "with a scale that you find out"
+    measure = drive_block(drive)["measures"].get(shows)
+    return _yes(measure is not None) if measure is None or measure["scale"] else "with a scale that you find out"
 
 
 def _cannot(drive: Drive, outputs: list[Pin]) -> list[str]:
     done = [words for does, words in ABILITIES.items() if not can(drive, does)]
     return [*done, *(f"show `{pin.name}`" for pin in outputs if pin.idle and not pin.name.endswith("Valid"))]
+
+
+def _guessed(drive: Drive) -> bool:
+    """Whether AtSpeed rests on an output frequency without a scale."""
+    shown = any(one.shows == "at_speed" for one in drive.operation.status)
+    return not shown and _shows(drive, "output_frequency") not in ("yes", "no")
 
 
 # ---------------------------------------------------------------- what a person sets, and has to find out

@@ -45,8 +45,9 @@ STARTING = (
 
 def start_and_stop() -> tuple[Column, ...]:
     """From power-up to a turning motor, and back to StopConfirmed."""
-    ramp = Column(0, ("stop",), running=True, speed=(1.0, 0.0), event="stop")
-    return (Column(0, ("stop",), event="power-up"), STOPPED, *STARTING, ramp, Column(0, ("stop",)), STOPPED)
+    seen = Column(0, ("stop",), running=True, at_speed=True, speed=(1.0, 0.8), event="stop")
+    ramp = Column(0, ("stop",), running=True, speed=(0.8, 0.0))
+    return (Column(0, ("stop",), event="power-up"), STOPPED, *STARTING, seen, ramp, STOPPED)
 
 
 def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
@@ -57,8 +58,7 @@ def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
     released = replace(STOPPED, fault=True) if proved else Column(0, ("stop",), fault=True)
     begin = (STARTING[-1], tripped, *stands, replace(released, event="release"))
     if not any(one.does == "fault_reset" for one in drive.operation.commands):
-        wait = () if proved else (Column(0, ("stop",), event="reset by hand"),)
-        return (*begin, *wait, replace(STOPPED, event="reset by hand" if proved else ""))
+        return (*begin, replace(STOPPED, event="reset by hand"))
     asked = Column(0, ("stop", "reset"), fault=True, reset=True, event="reset")
     return (*begin, asked, Column(0, ("stop",), reset=True), replace(STOPPED, reset=True))
 
@@ -85,7 +85,12 @@ def picture(drive: Drive, name: str) -> str:
     canvas = Canvas(f"{name}: start, stop and reset", WIDTH, TOP + len(parts) * (TALL + GAP) - 10)
     for number, (title, columns) in enumerate(parts):
         _panel(canvas, TOP + number * (TALL + GAP), title, columns)
-    canvas.text(16, canvas.height - 14, "Not to scale: a column lasts until something changes.", "small")
+    canvas.text(
+        16,
+        canvas.height - 14,
+        "Not to scale: a column lasts until something changes, or until a read shows it.",
+        "small",
+    )
     return canvas.svg()
 
 
