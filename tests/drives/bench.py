@@ -92,7 +92,9 @@ class Bench:
         self.maps = [maps()[kind] for kind in self.types]
         habits = habits or Habits()
         self.drives = [
-            SimulatedDrive(drive, index + 1, habits, words={0x3002: 540 + index, 0x0026: 540 + index}, ascii_mode=ascii_)
+            SimulatedDrive(
+                drive, index + 1, habits, words={0x3002: 540 + index, 0x0026: 540 + index}, ascii_mode=ascii_
+            )
             for index, drive in enumerate(self.maps)
         ]
         self.now, self.ms, self.rate, self.ascii = 0, ms, 19200, ascii_
@@ -199,7 +201,9 @@ class Bench:
         drives = range(len(self.types))
         pins = [" ".join([pin for pin in PINS if self.shows(pin, i)] + [self.reason(i)]) for i in drives]
         states = [f"State {self.out('Control.State', i)}, drive {self.drives[i].mode}" for i in drives]
-        return f"{self.now // 1000} ms: " + "; ".join(f"{pin}, {state}" for pin, state in zip(pins, states, strict=True))
+        return f"{self.now // 1000} ms: " + "; ".join(
+            f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)
+        )
 
     # ------------------------------------------------------------ wire
 
