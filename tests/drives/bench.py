@@ -106,7 +106,7 @@ class Bench:
         self.acknowledged: list[Frame] = []
         self.pins: list[dict[str, Value]] = [{} for _ in self.types]
         self.line_pins: dict[str, Value] = {}
-        self.seen = 0
+        self.seen = self.changes = 0
         self.watch: list[Callable[[Bench], None]] = []
         self._wire: list[Heard] = []
         self._free = 0
@@ -126,6 +126,7 @@ class Bench:
         for name, value in pins.items():
             self.block[f"Drive{drive}.{name}"] = value
             self.pins[drive][name] = value
+        self.changes += 1
         return self
 
     def line(self, **pins: Value) -> "Bench":
@@ -133,6 +134,7 @@ class Bench:
         for name, value in pins.items():
             self.block[f"TheLine.{name}"] = value
             self.line_pins[name] = value
+        self.changes += 1
         return self
 
     def out(self, name: str, drive: int = 0) -> Value:
@@ -183,7 +185,8 @@ class Bench:
         self.now += 1000 * ms
         for drive in self.drives:
             drive.step(ms)
-        self._receive()
+        if self._wire and self._wire[0].at <= self.now:
+            self._receive()
         if ms != self.elapsed:
             self.block["ElapsedMs"] = self.elapsed = ms
         self.block.scan()

@@ -6,6 +6,7 @@ What a frame asks is read from the map alone, as conditions on words. A broken r
 from dataclasses import dataclass
 
 from tests.drives.bench import RUNS, Bench, Frame
+from tests.drives.station import PINS
 
 from driveblocks.host.engine import Value
 from driveblocks.maps.model import Command, Drive
@@ -15,6 +16,8 @@ STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))
 FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
+SEEN_US = 5_500_000
+"""How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
 ONLY_READS = 5
 """The state in which a block has stopped its drive and only reads."""
 
@@ -69,7 +72,7 @@ class Observer:
     resets: bool = False
     """A reset was asked for, and is still of use."""
     parameters: bool = False
-    """A parameter may be written."""
+    """A parameter block was busy before this scan, or is."""
     stopping_us: int = 0
     turning_us: int = 0
     stood: bool = True
@@ -82,7 +85,10 @@ class Observer:
         self.meaning = Meaning(self.bench.maps[self.drive])
         self.bench.watch.append(lambda _: self.scan())
         self.frames, self.acknowledged = len(self.bench.frames), len(self.bench.acknowledged)
-        self.was_confirmed = False
+        self.was_confirmed = self.was_busy = self.idle = False
+        self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
+        self.calm = 0
+        self.now: tuple[int, ...] = ()
         self.only_reads: Value = False
         self.asked_before = self.reset_before = True
 
@@ -93,26 +99,39 @@ class Observer:
     def scan(self) -> None:
         """Behind each scan. Raises BrokenRuleError."""
         bench, pins = self.bench, self.bench.pins[self.drive]
+        now = (bench.seen, bench.changes, len(bench.frames), len(bench.acknowledged), bench.elapsed)
+        self.calm = self.calm + 1 if now == self.now else 0
+        self.now = now
+        if self.calm > 1:  # nothing to be seen but time
+            self._time(pins)
+            return
         if bench.block[f"Skip{self.drive}"]:
             self.wish, self.free, self.was_confirmed = None, False, False
             self.turning_us = self.stopping_us = 0
+            self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
             return
-        shows = {name: bench.shows(name, self.drive) for name in (*FRESH, "CommOk", "Fault", "StopOverdue")}
+        shows = {name: bench.shows(name, self.drive) for name in PINS}
         if not shows["CommOk"] and any(shows[name] for name in FRESH):
             self.fail(f"shows {[name for name in FRESH if shows[name]]} without CommOk")
         asked = [MOTIONS[name] for name in RUNS if pins.get(name)]
         self._permit(asked, stops=self._stops(pins, asked, shows), shows=shows)
         self._reset(pins, asked, shows)
+        busy = bench.block["Writer.Busy"] or bench.block["Storer.Busy"]
+        self.parameters, self.was_busy = bool(busy or self.was_busy), bool(busy)
         for frame in bench.frames[self.frames :]:
             if frame.unit == self.drive + 1 and not frame.read:
                 self._frame(frame, shows)
             if not 0 < frame.unit <= len(bench.types):
                 self.fail(f"asks unit {frame.unit}")
         self.frames = len(bench.frames)
-        self._proof(shows)
-        self._stop_in_time(pins, shows)
-        self.only_reads = pins.get("MonitorOnly") and self.bench.out("Control.State", self.drive) == ONLY_READS
+        self.shows = shows
+        others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
+        anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
+        self.idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
+        self._time(pins)
+        state = self.bench.out("Control.State", self.drive) if pins.get("MonitorOnly") else 0
+        self.only_reads = state == ONLY_READS and bench.elapsed <= 1000
         self.asked_before, self.was_confirmed = bool(asked), shows["StopConfirmed"]
 
     # ------------------------------------------------------------ who may start
@@ -162,7 +181,8 @@ class Observer:
     def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
         """By the line, by a restart, or because the drive is not only to be watched any more."""
         line = self.bench.line_pins
-        return bool(line.get("StopAll") or line.get("Restart") or pins.get("Restart") or pins.get("SpeedOnly"))
+        restarted = line.get("Restart") or pins.get("Restart") or self.bench.elapsed > 1000
+        return bool(restarted or line.get("StopAll") or pins.get("SpeedOnly"))
 
     def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:
         pins, does = self.bench.pins[self.drive], self.meaning.does(frame)
@@ -176,8 +196,10 @@ class Observer:
             if self.wish is None and not pins.get("SpeedOnly"):
                 self.fail(f"{frame}: a reference without an edge")
         elif not does:
-            if not self.parameters:
+            if not self.parameters or self.drive:
                 self.fail(f"{frame}: a write to a register that is neither command nor reference")
+            if not self.was_confirmed:
+                self.fail(f"{frame}: a parameter while the motor is not known to stand")
         elif "fault_reset" in does and self.wish not in does:
             if not self.resets:
                 self.fail(f"{frame}: a reset that nobody has asked for")
@@ -191,24 +213,18 @@ class Observer:
 
     # ------------------------------------------------------------ stops
 
-    def _proof(self, shows: dict[str, bool]) -> None:
-        """StopConfirmed, against the true motor."""
-        drive = self.bench.drives[self.drive]
-        turns = drive.motor.output != 0 or (drive.motor.driven and not drive._stopping)  # noqa: SLF001  (the truth)
+    def _time(self, pins: dict[str, Value]) -> None:
+        """StopConfirmed against the true motor, and the time that a stop takes."""
+        motor, shows = self.bench.drives[self.drive].motor, self.shows
+        turns = motor.output != 0
         self.stood = self.stood or not turns
         self.turning_us = self.turning_us + 1000 * self.bench.ms if turns else 0
-        if self.lies or not shows["StopConfirmed"]:
-            return
-        if not self.was_confirmed and not self.stood:
-            self.fail("StopConfirmed, and the motor has not stood since the stop")
-        if self.turning_us > 5_500_000:
-            self.fail("StopConfirmed, and the motor turns")
-
-    def _stop_in_time(self, pins: dict[str, Value], shows: dict[str, bool]) -> None:
-        others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
-        anew = pins.get("Restart") or self.bench.block["SkipLine"] or self.bench.elapsed > 1000
-        idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
-        self.stopping_us = self.stopping_us + 1000 * self.bench.ms if idle else 0
+        if shows["StopConfirmed"] and not self.lies:
+            if not self.was_confirmed and not self.stood:
+                self.fail("StopConfirmed, and the motor has not stood since the stop")
+            if self.turning_us > SEEN_US:
+                self.fail("StopConfirmed, and the motor turns")
+        self.stopping_us = self.stopping_us + 1000 * self.bench.ms if self.idle else 0
         within = pins["StopWithinMs"]
         assert isinstance(within, int)
         if self.stopping_us > 1000 * within + 1_500_000 and not shows["StopOverdue"]:
@@ -221,3 +237,14 @@ def watched(*types: str, **options: object) -> Bench:
     for drive in range(len(bench.types)):
         Observer(bench, drive)
     return bench.restart()
+
+
+def sent(bench: Bench, frames: list[Frame], *does: str) -> list[Frame]:
+    """Those of these frames that do one of these things; `reference` is one of them."""
+    meaning = Meaning(bench.maps[0])
+    written = [each for each in frames if not each.read]
+    return [
+        each
+        for each in written
+        if meaning.does(each) & set(does) or ("reference" in does and each.address == meaning.reference)
+    ]

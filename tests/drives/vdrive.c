@@ -280,7 +280,7 @@ static int vd_reply(VDrive *d, const unsigned char *ask, int length, unsigned ch
   if (!(called || everyone)) return -1;
   if (known && (ask[1] == 16 ? length < 7 || length != 7 + ask[6] : length != 6)) return -1;
   out[0] = ask[0]; out[1] = ask[1];
-  int made = vd_granted(d, ask, everyone && !called, out + 2, &reason);
+  int made = vd_granted(d, ask, everyone, out + 2, &reason);
   if (!called) return -1;
   if (made >= 0) { d->heard_at = d->now; return made + 2; }
   int code = t->codes[reason];

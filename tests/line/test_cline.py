@@ -3,6 +3,7 @@
 import pytest
 from tests.line.cline import WHY_NOT, CLine, build, texts
 from tests.line.planted import PLANTED, Planted
+from tests.line.refresh import SLACK, Setup
 
 NEEDS = pytest.mark.skipif(bool(WHY_NOT), reason=WHY_NOT)
 
@@ -39,11 +40,29 @@ def test_the_silence_of_a_drive_behind_a_request_that_nobody_answers(line: CLine
     assert line.run("run", silence_ms=17, keeps=0, loss=36_000, **pins)["short_silences"] == 0
 
 
+def test_the_formula_of_a_round() -> None:
+    """By hand, 19200 8N1, 6 words, 10 ms: 13.0 + 5 ms of wire and 1.8 ms of silence; 9600 8E1: 33.6 and 4.01 ms."""
+    assert [Setup(keeps=keeps).formula() for keeps in (True, False)] == [7 * 20, 7 * 30]
+    slow = Setup(rate=9600, bits=11, scan=5, received=2, keeps=False)
+    assert (slow.formula(), slow.formula(whole=True), slow.coarse) == (7 * 50, 7 * 55, True)
+    assert round(Setup().limit) == 139
+
+
+@NEEDS
+@pytest.mark.parametrize("late", [{"sent": 2}, {"received": 2}])
+@pytest.mark.parametrize("keeps", [False, True])
+def test_a_late_adapter_costs_its_scans_and_no_more(line: CLine, late: dict[str, int], keeps: bool) -> None:
+    each = Setup(keeps=keeps, **late)
+    assert each.run(lambda _: line) <= SLACK * each.formula()
+
+
 @NEEDS
 def test_sizes(line: CLine) -> None:
     sizes = line.run("cost")
     assert sizes["slot_bytes"] <= 224
     assert sizes["line_bytes"] <= 8 * 200 + 1200
+    track = 18  # bytes of MB_Track; a line of 32 slots is not compiled for this
+    assert sizes["line_bytes"] + 24 * (sizes["slot_bytes"] + track) <= 32 * 200 + 1200
 
 
 @NEEDS

@@ -75,7 +75,7 @@ def test_their_blocks_are_clean_and_the_programs_of_their_commands_and_words_pas
 @every
 def test_the_command_block_is_left_out_where_a_command_takes_several_writes(name: str) -> None:
     unit, prefix = units()[name], shapes()[name].prefix
-    paths = [each.path for each in (*unit.blocks, *unit.suite.programs)]
+    paths = [*(each.path for each in unit.blocks), *(each.path for each in unit.suite.programs)]
     for block in (f"{prefix}_Command.st", f"{prefix}_TestCommand.st"):
         assert any(path.endswith(block) for path in paths) == (name == "active_low")
 

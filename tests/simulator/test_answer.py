@@ -87,6 +87,10 @@ def test_all_are_told_where_the_map_lets_them_and_nobody_answers() -> None:
     # 000FH is no start address of a broadcast, and JSCC's manual has none
     assert one.ask("00 10 00 0F 00 01 02 00 01") == ""
     assert one.read(0x000F) == 0
+    # CHF's manual names no start addresses
+    chf = talk("CHF")
+    assert chf.ask("00 06 20 00 03 E8") == ""
+    assert chf.read(0x2000) == 1000
     jscc = talk("JSCC")
     jscc.hertz(10)
     assert jscc.ask("00 06 10 00 00 01") == ""
@@ -185,3 +189,5 @@ def test_all_maps_can_be_simulated() -> None:
     example = load(catalog.folder().parent / "tests" / "maps" / "example.yaml")
     drive = SimulatedDrive(example, 1)
     assert drive.reply(bytes.fromhex("01 06 00 10 00 00")) == bytes.fromhex("01 86 05")
+    # it lists function 17H, which no simulated drive has
+    assert drive.reply(bytes.fromhex("01 17 00 00 00 00")) == bytes.fromhex("01 97 01")

@@ -66,9 +66,9 @@ def _words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:
     begins as a stop.
     """
     commands = drive.operation.commands
-    by_bits = meaning.image(one for each in commands for one in meaning.writes(each) if one.value is None)
+    by_bits = meaning.image(one for each in commands for one in each.writes if one.value is None)
     own = meaning.image(one for one in commands if one.does == "stop" and command.does == "fault_reset")
-    for one in meaning.writes(command):
+    for one in command.writes:
         own |= meaning.image([one])
         word = {place: own.get(place, False) for place in by_bits if place[0] == one.register}
         yield one, word | {place: on for place, on in own.items() if place[0] == one.register}
