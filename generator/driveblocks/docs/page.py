@@ -72,7 +72,8 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         name=block.name,
         family=context.identity(drive).family,
         manual=context.title(drive),
-        cannot=_cannot(drive, values["outputs"]),
+        cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
+        hides=[pin.name for pin in values["outputs"] if pin.idle and not pin.name.endswith("Valid")],
         settings=drive.settings,
         run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
         stay=[each for each in drive.settings if _stays(each)],
@@ -127,11 +128,6 @@ def _yes(one: bool) -> str:
 def _shows(drive: Drive, shows: str) -> str:
     measure = drive_block(drive)["measures"].get(shows)
     return _yes(measure is not None) if measure is None or measure["scale"] else "with a scale that you find out"
-
-
-def _cannot(drive: Drive, outputs: list[Pin]) -> list[str]:
-    done = [words for does, words in ABILITIES.items() if not can(drive, does)]
-    return [*done, *(f"show `{pin.name}`" for pin in outputs if pin.idle and not pin.name.endswith("Valid"))]
 
 
 def _guessed(drive: Drive) -> bool:
