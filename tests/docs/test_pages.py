@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -128,7 +129,7 @@ class Story:
             self._note()
 
     def _note(self) -> None:
-        says = {name: bool(self.program[f"Motor.{pin}"]) for pin, name in timing.SIGNALS.items()}
+        says: dict[str, Any] = {name: bool(self.program[f"Motor.{pin}"]) for pin, name in timing.SIGNALS.items()}
         state = self.program["Motor.Control.State"]
         assert isinstance(state, int)
         now = timing.Column(state, **says)
