@@ -6,7 +6,7 @@ character is there.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from random import Random
 
@@ -92,7 +92,7 @@ class Bench:
         self.maps = [maps()[kind] for kind in self.types]
         habits = habits or Habits()
         self.drives = [
-            SimulatedDrive(drive, index + 1, habits, words={0x3002: 540 + index, 0x0026: 540 + index}, ascii_mode=ascii_)
+            SimulatedDrive(drive, index + 1, replace(habits, bus_volts=540 + index), ascii_mode=ascii_)
             for index, drive in enumerate(self.maps)
         ]
         self.now, self.ms, self.rate, self.ascii = 0, ms, 19200, ascii_

@@ -87,6 +87,7 @@ class Observer:
         self.bench.watch.append(lambda _: self.scan())
         self.frames, self.acknowledged = len(self.bench.frames), len(self.bench.acknowledged)
         self.was_confirmed = self.was_busy = self.idle = False
+        self.volts = 0.0
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
@@ -130,6 +131,11 @@ class Observer:
             if not 0 < frame.unit <= len(bench.types):
                 self.fail(f"asks unit {frame.unit}")
         self.frames = len(bench.frames)
+        volts = bench.out("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
+        if volts not in (0.0, self.volts):
+            self.volts = float(str(volts))
+            if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
+                self.fail(f"shows {volts} V, which is not its own")
         self.shows = shows
         others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
         anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
