@@ -7,7 +7,7 @@ import pytest
 from tests.drives.bench import SETTINGS, Bench
 from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, maps
-from tests.drives.test_start import edge, motions
+from tests.drives.test_start import edge, meet, motions
 from tests.drives.test_stop import stops
 
 from driveblocks.host.engine import Value
@@ -101,7 +101,9 @@ def test_two_drives_of_one_address_are_stopped() -> None:
 
 def test_two_blocks_on_one_slot_are_stopped() -> None:
     bench = watched("CHF").running()
-    bench.watch.append(lambda each: each.block.__setitem__("Slots[0].Alive", int(str(each.block["Slots[0].Alive"])) ^ 7))
+    bench.watch.append(
+        lambda each: each.block.__setitem__("Slots[0].Alive", int(str(each.block["Slots[0].Alive"])) ^ 7)
+    )
     bench.run(100)
     assert bench.reason() == "SHARED"
     assert bench.out("Error")
@@ -112,9 +114,7 @@ def test_two_blocks_on_one_slot_are_stopped() -> None:
 
 def test_a_foreign_master_keeps_one_from_starting_until_somebody_says_so() -> None:
     bench = watched("CHF").running()
-    for _ in range(12):
-        bench.foreign(bytes([9, 6, 0x10, 0, 0, 1]))
-        bench.run(150)
+    meet(bench)
     bench.put(RunForward=False).run(5000)
     edge(bench)
     assert not motions(bench, bench.run(2000))
@@ -150,7 +150,7 @@ def test_stale_memory_starts_nothing(seed: int) -> None:
         if path.startswith(("DRIVE0.", "SLOTS[0].")) and not path.startswith("DRIVE0.SLOT."):
             _fill(bench, chance, path, value)
     bench.put(**SETTINGS, Address=1, SupplyOn=True, RunForward=True)
-    bench.put(**{pin: False for pin in ("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "Restart")})
+    bench.put(**dict.fromkeys(("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "Restart"), False))
     bench.put(**dict.fromkeys(("JogForward", "JogReverse", "RunReverse"), False))
     bench.put(RefreshMs=1000, FollowWithinMs=5000, StaleMs=5000, WatchdogMs=0, KeepWord=0, ManualChecked=True)
     bench.put(FrequencyScale=0.01, ReferenceScale=100.0, LongestMs=60)

@@ -194,7 +194,7 @@ def test_nothing_stale_is_shown_as_good() -> None:
 def test_a_line_that_is_no_longer_called_is_told() -> None:
     bench = watched("CHF").running()
     bench.block["SkipLine"] = True
-    bench.run(1500)
+    bench.run(2500)
     assert bench.reason() == "NO_LINE"
     assert bench.shows("StopOverdue")
     assert not bench.shows("CommOk")
