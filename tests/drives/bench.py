@@ -202,9 +202,8 @@ class Bench:
         drives = range(len(self.types))
         pins = [" ".join([pin for pin in PINS if self.shows(pin, i)] + [self.reason(i)]) for i in drives]
         states = [f"State {self.out('Control.State', i)}, drive {self.drives[i].mode}" for i in drives]
-        return f"{self.now // 1000} ms: " + "; ".join(
-            f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)
-        )
+        shown = [f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)]
+        return f"{self.now // 1000} ms: {'; '.join(shown)}"
 
     # ------------------------------------------------------------ wire
 

@@ -207,20 +207,26 @@ class Observer:
             if self.wish is None and not pins.get("SpeedOnly"):
                 self.fail(f"{frame}: a reference without an edge")
         elif not does:
-            if not self.parameters or self.drive:
-                self.fail(f"{frame}: a write to a register that is neither command nor reference")
-            if not self.was_confirmed:
-                self.fail(f"{frame}: a parameter while the motor is not known to stand")
+            self._parameter(frame)
         elif "fault_reset" in does and self.wish not in does:
             if not self.resets:
                 self.fail(f"{frame}: a reset that nobody has asked for")
         else:
-            if self.wish not in does:
-                self.fail(f"{frame} ({', '.join(sorted(does))}): no edge has asked for it")
-            if not self.referred:
-                self.fail(f"{frame}: no reference is acknowledged")
-            if self.commanded and self.ran and not shows["Running"]:
-                self.fail(f"{frame}: refreshed though the drive does not run")
+            self._motion(frame, does, runs=shows["Running"])
+
+    def _parameter(self, frame: Frame) -> None:
+        if not self.parameters or self.drive:
+            self.fail(f"{frame}: a write to a register that is neither command nor reference")
+        if not self.was_confirmed:
+            self.fail(f"{frame}: a parameter while the motor is not known to stand")
+
+    def _motion(self, frame: Frame, does: set[str], *, runs: bool) -> None:
+        if self.wish not in does:
+            self.fail(f"{frame} ({', '.join(sorted(does))}): no edge has asked for it")
+        if not self.referred:
+            self.fail(f"{frame}: no reference is acknowledged")
+        if self.ran and not runs:
+            self.fail(f"{frame}: refreshed though the drive does not run")
 
     # ------------------------------------------------------------ stops
 

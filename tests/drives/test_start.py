@@ -1,6 +1,7 @@
 """A motor starts by a new edge alone, and by nothing else."""
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import pytest
 from tests.drives.bench import Bench, Frame
@@ -208,16 +209,15 @@ def test_no_run_before_its_reference_is_acknowledged() -> None:
     assert bench.reason() == "NO_REFERENCE"
 
 
-def test_what_a_refused_reference_and_run_say() -> None:
-    for does in ("reference", "run_forward"):
-        bench = watched("SN300G5").stopped()
-        refused = bytes([1, 0x90, 0x21])
-        bench.spoil = lambda frame, reply, does=does: refused if sent(bench, [frame], does) else reply  # type: ignore[misc]  # a default
-        edge(bench)
-        frames = bench.run(3000)
-        assert not motions(bench, frames) or does == "run_forward"
-        assert bench.reason() == "REFUSED"
-        assert bench.shows("StopConfirmed")
+@pytest.mark.parametrize("does", ["reference", "run_forward"])
+def test_what_a_refused_reference_and_run_say(does: str) -> None:
+    bench = watched("SN300G5").stopped()
+    bench.spoil = lambda frame, reply: bytes([1, 0x90, 0x21]) if sent(bench, [frame], does) else reply
+    edge(bench)
+    frames = bench.run(3000)
+    assert not motions(bench, frames) or does == "run_forward"
+    assert bench.reason() == "REFUSED"
+    assert bench.shows("StopConfirmed")
 
 
 def test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed() -> None:
@@ -322,7 +322,7 @@ def test_run_and_reference_are_refreshed_while_it_runs() -> None:
     bench.put(WatchdogMs=900)
     frames = bench.run(5000)
     times = [each.ms for each in sent(bench, frames, "run_forward", "reference")]
-    assert max(b - a for a, b in zip(times, times[1:], strict=False)) < 450
+    assert max(b - a for a, b in pairwise(times)) < 450
 
 
 def test_a_reference_is_written_when_it_changes() -> None:
