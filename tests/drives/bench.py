@@ -6,7 +6,7 @@ character is there.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from random import Random
 
@@ -80,7 +80,7 @@ class Bench:
         self,
         *types: str,
         seed: int = 0,
-        ms: int = 10,
+        ms: int = 20,
         ascii_: bool = False,
         stations: Library | None = None,
         habits: Habits | None = None,
@@ -92,9 +92,7 @@ class Bench:
         self.maps = [maps()[kind] for kind in self.types]
         habits = habits or Habits()
         self.drives = [
-            SimulatedDrive(
-                drive, index + 1, habits, words={0x3002: 540 + index, 0x0026: 540 + index}, ascii_mode=ascii_
-            )
+            SimulatedDrive(drive, index + 1, replace(habits, bus_volts=540 + index), ascii_mode=ascii_)
             for index, drive in enumerate(self.maps)
         ]
         self.now, self.ms, self.rate, self.ascii = 0, ms, 19200, ascii_
@@ -204,9 +202,8 @@ class Bench:
         drives = range(len(self.types))
         pins = [" ".join([pin for pin in PINS if self.shows(pin, i)] + [self.reason(i)]) for i in drives]
         states = [f"State {self.out('Control.State', i)}, drive {self.drives[i].mode}" for i in drives]
-        return f"{self.now // 1000} ms: " + "; ".join(
-            f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)
-        )
+        shown = [f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)]
+        return f"{self.now // 1000} ms: {'; '.join(shown)}"
 
     # ------------------------------------------------------------ wire
 

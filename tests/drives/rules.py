@@ -87,6 +87,7 @@ class Observer:
         self.bench.watch.append(lambda _: self.scan())
         self.frames, self.acknowledged = len(self.bench.frames), len(self.bench.acknowledged)
         self.was_confirmed = self.was_busy = self.idle = False
+        self.volts = 0.0
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
@@ -130,6 +131,11 @@ class Observer:
             if not 0 < frame.unit <= len(bench.types):
                 self.fail(f"asks unit {frame.unit}")
         self.frames = len(bench.frames)
+        volts = bench.out("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
+        if volts not in (0.0, self.volts):
+            self.volts = float(str(volts))
+            if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
+                self.fail(f"shows {volts} V, which is not its own")
         self.shows = shows
         others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
         anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
@@ -201,20 +207,26 @@ class Observer:
             if self.wish is None and not pins.get("SpeedOnly"):
                 self.fail(f"{frame}: a reference without an edge")
         elif not does:
-            if not self.parameters or self.drive:
-                self.fail(f"{frame}: a write to a register that is neither command nor reference")
-            if not self.was_confirmed:
-                self.fail(f"{frame}: a parameter while the motor is not known to stand")
+            self._parameter(frame)
         elif "fault_reset" in does and self.wish not in does:
             if not self.resets:
                 self.fail(f"{frame}: a reset that nobody has asked for")
         else:
-            if self.wish not in does:
-                self.fail(f"{frame} ({', '.join(sorted(does))}): no edge has asked for it")
-            if not self.referred:
-                self.fail(f"{frame}: no reference is acknowledged")
-            if self.commanded and self.ran and not shows["Running"]:
-                self.fail(f"{frame}: refreshed though the drive does not run")
+            self._motion(frame, does, runs=shows["Running"])
+
+    def _parameter(self, frame: Frame) -> None:
+        if not self.parameters or self.drive:
+            self.fail(f"{frame}: a write to a register that is neither command nor reference")
+        if not self.was_confirmed:
+            self.fail(f"{frame}: a parameter while the motor is not known to stand")
+
+    def _motion(self, frame: Frame, does: set[str], *, runs: bool) -> None:
+        if self.wish not in does:
+            self.fail(f"{frame} ({', '.join(sorted(does))}): no edge has asked for it")
+        if not self.referred:
+            self.fail(f"{frame}: no reference is acknowledged")
+        if self.ran and not runs:
+            self.fail(f"{frame}: refreshed though the drive does not run")
 
     # ------------------------------------------------------------ stops
 

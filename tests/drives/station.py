@@ -19,7 +19,7 @@ FAMILIES = ("CHF", "JSCC", "SN300G5")
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")
 PINS = ("CommOk", "Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed", "StopOverdue", "Fault")
 """Outputs that `Seen` holds of each drive, the first one lowest."""
-STATIONS = tuple((each,) for each in (*FAMILIES, *MADE_UP)) + (("CHF", "CHF"), FAMILIES)
+STATIONS = (*((each,) for each in (*FAMILIES, *MADE_UP)), ("CHF", "CHF"), FAMILIES)
 _WANTED = re.compile(
     r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|drive/DB_(?!ReasonText).*"
     r"|.*_(Drive|Reference|Standstill|FaultNumber|CanRead|CanWrite|MayWrite)\.st"

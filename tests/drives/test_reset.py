@@ -1,4 +1,4 @@
-"""A fault reset: one attempt at a time, of the fault that was there when it was asked for, and never a start behind it."""
+"""A fault reset: of the fault that was there when it was asked for, so often and no more, and no start behind it."""
 
 import pytest
 from tests.drives.bench import RUNS, Bench

@@ -1,5 +1,7 @@
 """A stop leaves at once, goes out again until the drive proves that it stands, and says when it is late."""
 
+from itertools import pairwise
+
 import pytest
 from tests.drives.bench import Bench, Frame
 from tests.drives.rules import STOPS, sent, watched
@@ -24,7 +26,7 @@ def test_a_stop_leaves_at_once_and_again_until_the_motor_stands(kind: str) -> No
     bench.put(RunForward=False, StopWithinMs=3000)
     frames = stops(bench, bench.run(5000))
     assert frames[0].ms - begun <= int(str(bench.out("StopAloneMs")))
-    apart = [b.ms - a.ms for a, b in zip(frames, frames[1:], strict=False)]
+    apart = [b.ms - a.ms for a, b in pairwise(frames)]
     assert len(frames) >= 7
     assert min(apart) >= 500
     assert max(apart) <= 700
@@ -194,7 +196,7 @@ def test_nothing_stale_is_shown_as_good() -> None:
 def test_a_line_that_is_no_longer_called_is_told() -> None:
     bench = watched("CHF").running()
     bench.block["SkipLine"] = True
-    bench.run(1500)
+    bench.run(2500)
     assert bench.reason() == "NO_LINE"
     assert bench.shows("StopOverdue")
     assert not bench.shows("CommOk")

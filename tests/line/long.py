@@ -28,7 +28,7 @@ from driveblocks.host.discovery import MATIEC_NAMES, survey
 from driveblocks.host.matiec.installation import Installation
 
 PAGE = Path(__file__).parents[2] / "docs" / "line.md"
-KINDS = {"stops": 1.0, "timing": 0.1, "task": 0.1, "late": 0.1, "broken": 0.1, "faults": 0.1}
+KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1, "faults": 0.1}
 """Kinds of random lines, and how many of each for one of the first."""
 OTHERS = 0.2
 """How many lines run on another line of matiec, and with 32 slots, for one on the first."""
@@ -251,17 +251,15 @@ def sanitized(job: Job) -> Iterator[Row]:
 
 def engines(_: Job) -> Iterator[Row]:
     """10^5 scans of walks, the full state of both lines of matiec and of the embedded engine after each."""
-    for each in survey().candidates():
-        if each.engine is not None and each.name in MATIEC_NAMES:
-            for seed in range(WALKS):
-                walk(seed, SCANS, twins(with_double(each.engine)))
-            yield Row(f"{WALKS * SCANS} scans of walks on {each.name} and the embedded engine", "one state after each")
-            both = test_engines.twins(with_double(each.engine), every=1)
-            for seed in range(DRIVE_WALKS):
-                drive_walk(seed, both)
-            yield Row(
-                f"{DRIVE_WALKS} walks of drive blocks on {each.name} and the embedded engine", "one state after each"
-            )
+    found = {each.name: each.engine for each in survey().candidates() if each.name in MATIEC_NAMES and each.engine}
+    every = {**with_double(next(iter(found.values()))), **found}
+    for seed in range(WALKS):
+        walk(seed, SCANS, twins(every))
+    yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")
+    stations = test_engines.twins(every, every=1)
+    for seed in range(DRIVE_WALKS):
+        drive_walk(seed, stations)
+    yield Row(f"{DRIVE_WALKS} walks of drive blocks on {', '.join(every)}", "one state after each scan")
 
 
 if __name__ == "__main__":

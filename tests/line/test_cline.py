@@ -40,6 +40,22 @@ def test_the_silence_of_a_drive_behind_a_request_that_nobody_answers(line: CLine
     assert line.run("run", silence_ms=17, keeps=0, loss=36_000, **pins)["short_silences"] == 0
 
 
+@NEEDS
+def test_the_silence_of_a_drive_behind_an_adapter_in_its_own_rhythm(line: CLine) -> None:
+    """What it keeps a request back for is no silence behind that request."""
+    pins = {
+        "drives": 5,
+        "rate": 57600,
+        "scan": 40_000,
+        "jitter": 20_000,
+        "max_scan": 61,
+        "turn_low": 0,
+        "stop_every": 50,
+    }
+    ran = line.run("run", silence_ms=60, keeps=0, task=20_000, whole=1, loss=47_000, ms=200_000, **pins)
+    assert ran["short_silences"] == 0
+
+
 def test_the_formula_of_a_round() -> None:
     """By hand, 19200 8N1, 6 words, 10 ms: 13.0 + 5 ms of wire and 1.8 ms of silence; 9600 8E1: 33.6 and 4.01 ms."""
     assert [Setup(keeps=keeps).formula() for keeps in (True, False)] == [7 * 20, 7 * 30]

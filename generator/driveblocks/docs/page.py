@@ -72,7 +72,8 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         name=block.name,
         family=context.identity(drive).family,
         manual=context.title(drive),
-        cannot=_cannot(drive, values["outputs"]),
+        cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
+        hides=[pin.name for pin in values["outputs"] if pin.idle and not pin.name.endswith("Valid")],
         settings=drive.settings,
         run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
         stay=[each for each in drive.settings if _stays(each)],
@@ -96,6 +97,7 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         states=STATES,
         scan=SCAN_MS,
         turn_round=TURN_ROUND_MS,
+        ascii="rtu" not in drive.serial.mode.modes,
         **values,
     )
 
@@ -126,11 +128,6 @@ def _yes(one: bool) -> str:
 def _shows(drive: Drive, shows: str) -> str:
     measure = drive_block(drive)["measures"].get(shows)
     return _yes(measure is not None) if measure is None or measure["scale"] else "with a scale that you find out"
-
-
-def _cannot(drive: Drive, outputs: list[Pin]) -> list[str]:
-    done = [words for does, words in ABILITIES.items() if not can(drive, does)]
-    return [*done, *(f"show `{pin.name}`" for pin in outputs if pin.idle and not pin.name.endswith("Valid"))]
 
 
 def _guessed(drive: Drive) -> bool:
@@ -181,8 +178,15 @@ def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
             "poll": poll,
             "first": address_text(poll.address),
             "titles": [f"{word['address_text']} {word['title'].lower()}" for word in read["words"]],
-            "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, block['silence']):.0f}" for rate in RATES],
+            "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
         }
+
+
+def _silence(drive: Drive) -> float | None:
+    """The silence that a drive asks for, ms; None for one that speaks ASCII alone, which needs none."""
+    if "rtu" not in drive.serial.mode.modes:
+        return None
+    return float((drive.serial.silence and drive.serial.silence.milliseconds) or 0)
 
 
 def _refresh(drive: Drive) -> Iterator[dict[str, Any]]:
@@ -197,9 +201,9 @@ def _refresh(drive: Drive) -> Iterator[dict[str, Any]]:
 
 def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:
     character = 1000 * BITS / rate
-    own = drive.serial.silence.milliseconds if drive.serial.silence else None
-    silence = max(3.5 * character if rate <= 19200 else 1.75, float(own or 0))
-    wire = poll.characters() * character + TURN_ROUND_MS
+    own = _silence(drive)
+    silence = 0.0 if own is None else max(3.5 * character, own)
+    wire = poll.characters(ascii_mode=own is None) * character + TURN_ROUND_MS
     if keeps:
         return ceil((wire + silence) / SCAN_MS)
     return ceil(wire / SCAN_MS) + int((silence + 1) // SCAN_MS) + 1
