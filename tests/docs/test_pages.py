@@ -88,8 +88,8 @@ def test_figures_of_the_line_follow_its_formula() -> None:
         r"^\| 9600 8N1, (the \w+) keeps the silence \| (\d+) ms \| (\d+) ms \| (\d+) ms \|", page("JSCC"), re.M
     )
     # 13 + 2 characters a word, of 1.04 ms, and 5 ms: 22.7 ms for two words, 20.6 ms for one; S is JSCC's 10 ms.
-    # By the port 4 scans for each of both reads, by the line 3 + 1 + 1.
-    assert rows == [("the port", "80", "240", "560"), ("the line", "100", "300", "700")]
+    # By the port 4 scans for each of three reads, the status twice; by the line 3 + 1 + 1.
+    assert rows == [("the port", "120", "360", "840"), ("the line", "150", "450", "1050")]
 
 
 # ---------------------------------------------------------------- the example runs, and does what the picture shows

@@ -619,6 +619,11 @@ class Command(Entry):
     source: English = fact("where the manual says so", "section (I), 0000H")
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 
+    @property
+    def writes(self) -> tuple["Command | Step", ...]:
+        """All its writes in their order, its own word last."""
+        return (*self.first, self)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Reference(Entry):
