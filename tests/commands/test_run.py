@@ -1,5 +1,6 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
+import functools
 import os
 import subprocess
 import sys
@@ -11,16 +12,45 @@ from tests.plc.desk import EXAMPLE, ONE
 from typer.testing import CliRunner, Result
 
 from driveblocks.commands import run as command
-from driveblocks.plc import demo
+from driveblocks.maps import collection
+from driveblocks.plc import demo, source
 
 app = typer.Typer()
 app.command()(command.run)
+FAST = ("--fast", "--for", "8s", "--script", "run.txt")
+KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
+_read, _whole = collection.read, source.load
 HIDDEN = "import sys\nfor name in ('pty', 'termios', 'tty', 'fcntl'):\n    sys.modules[name] = None\n"
 
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
     return CliRunner().invoke(app, [str(each) for each in words])
+
+
+@pytest.fixture(autouse=True)
+def _compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many tests run a program: compiling has tests of its own."""
+    monkeypatch.setattr(source, "load", compiled)
+    monkeypatch.setattr(collection, "read", lambda paths: read(tuple(paths)))
+
+
+@functools.cache
+def read(paths: tuple[Path, ...]) -> list[collection.Source]:
+    """Maps, read once."""
+    return _read(paths)
+
+
+@functools.cache
+def _load(path: str, text: str, maps: tuple[int, ...], name: str | None) -> source.Loaded:
+    return _whole(path, text, KNOWN[maps], name)
+
+
+def compiled(path: str, text: str, maps: list[collection.Source], name: str | None = None) -> source.Loaded:
+    """A program, compiled once."""
+    key = tuple(map(id, maps))
+    KNOWN[key] = maps
+    return _load(path, text, key, name)
 
 
 @pytest.fixture
@@ -35,7 +65,7 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 REFUSED = [
     ("", "name a program, or write --demo"),
     ("my.st --demo", "--demo brings its own program; leave yours out"),
-    ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or they are real"),
+    ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or real"),
     ("my.st --simulate jscc --tcp 10.0.0.1:1", "--simulate and --tcp exclude each other"),
     ("--demo --port COM3", "--demo and --port exclude each other"),
     ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT"),
@@ -47,7 +77,7 @@ REFUSED = [
     ("my.st --scan 0ms", "--scan 0ms is out of range; write 0.001s to 60s"),
     ("my.st --for ever", "--for: `ever` is no time"),
     ("no.st", "no.st:1:1: cannot be read: No such file or directory"),
-    ("my.st --show Motor.Speeed", "--show: the program has no variable Motor.Speeed; did you mean MOTOR.SPEED"),
+    ("my.st --show Motor.Speeed", "--show: the program has no variable Motor.Speeed; did you mean MOTOR."),
     ("my.st --show Motor", "--show: Motor has parts; name one of them"),
     ("my.st --program Other", "my.st:1:1: there is no PROGRAM Other; choose by --program: One"),
     ("my.st --simulate acme", "there is no drive `acme`"),
@@ -80,8 +110,8 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
 
 def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
     Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
-    options = "--fast --for 8s --script run.txt --show Motor.Running,Hz --trace t.csv --picture t.svg --simulate chf jscc@7"
-    result = run(program, *options.replace("chf jscc@7", "chf,jscc@7").split())
+    files = ("--trace", "t.csv", "--picture", "t.svg")
+    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf,jscc@7")
     assert (result.exit_code, result.output[-1:]) == (0, "\n")
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
@@ -94,14 +124,14 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
 
 def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
     Path("run.txt").write_text("at 1s: Divisor := 0\n", encoding="utf-8")
-    result = run(program, *"--fast --for 8s --script run.txt".split())
+    result = run(program, *FAST)
     assert result.exit_code == 1
     assert "SIMULATED  the program has failed: my.st:16:15: division by zero: stopping every drive" in result.output
     assert "stopped, and standstill read: Motor" in result.output
 
 
 def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
-    result = run(program, *"--fast --for 1s --simulate jscc@8".split())
+    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8")
     assert result.exit_code == 1
     assert "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look" in result.output
 
@@ -135,8 +165,12 @@ from driveblocks.plc.wanted import Wanted
 from driveblocks.maps import catalog
 made = Simulation([Wanted(catalog.resolve("jscc"), 5)], 19200, 10, ascii_mode=False)
 with socket.create_connection(("127.0.0.1", made.port)) as line:
-    line.sendall(bytes.fromhex("05 03 20 01 00 01 DE 4E"))
-    print(line.recv(7, socket.MSG_WAITALL).hex(" "))
+    line.settimeout(600)
+    line.sendall(bytes.fromhex("05 03 20 01 00 01 DF 8E"))
+    reply = b""
+    while len(reply) < 7:
+        reply += line.recv(7)
+    print(reply.hex(" "))
 made.close()
 """
 

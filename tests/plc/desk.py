@@ -52,7 +52,10 @@ BOX = (
 @cache
 def maps() -> tuple[Source, ...]:
     """The shipped maps, read once."""
-    return tuple(Source(path, next(d for d in MAPS.values() if path.stem.endswith(d.prefix.lower()))) for path in catalog.shipped())
+    return tuple(
+        Source(path, next(d for d in MAPS.values() if path.stem.endswith(d.prefix.lower())))
+        for path in catalog.shipped()
+    )
 
 
 @cache
@@ -96,9 +99,7 @@ class Desk:
         """Wire it."""
         program = loaded(self.text)
         self.clock = VirtualClock()
-        self.controller = Controller(
-            program.library, program.program.name, wired(self.text), program.drives, SCAN_US
-        )
+        self.controller = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
         self.line = Line(Wire(self.drives, 19200, 10, ascii_mode="Ascii := TRUE" in self.text), self.clock)
         self.ending = Ending()
         self.session = Session(self.controller, self.clock, self.ending, SCAN_US)

@@ -23,7 +23,7 @@ class Noted:
     def say(self, text: str) -> None:
         self.lines.append(text)
 
-    def show(self, view: View) -> None:
+    def show(self, _: View) -> None:
         self.shown += 1
         if self._fails is not None:
             raise self._fails

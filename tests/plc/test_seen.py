@@ -1,13 +1,14 @@
 """What a person sees and keeps of a run: lines, a live table, a trace and a picture, each with whose port it was."""
 
 import io
-import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
+from xml.etree import ElementTree
 
 import pytest
 from rich.console import Console
 from tests.plc.desk import Desk
 
+from driveblocks import console
 from driveblocks.plc import record, screen
 from driveblocks.plc.record import Timing, Trace
 from driveblocks.plc.view import View, look
@@ -55,11 +56,12 @@ def test_lines_tell_what_has_changed_each_with_whose_port_it_is(capsys: pytest.C
 def test_a_table_fits_and_says_whose_port_it_is(width: int, real: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = io.StringIO()
     made = Console(file=drawn, width=width, height=30, force_terminal=True, color_system=None, legacy_windows=False)
-    monkeypatch.setattr(screen.console, "terminal", lambda: made)
+    monkeypatch.setattr(console, "terminal", lambda: made)
     label = "REAL PORT /dev/ttyUSB0" if real else "SIMULATED"
     table = screen.LiveTable(label, "my.st", real=real, keys=True)
     for view in views():
-        drawn.truncate(0)
+        drawn.seek(0)
+        drawn.truncate()
         table.show(view)
     table.say("Ctrl-C: stopping every drive")
     table.typed()
@@ -74,8 +76,8 @@ def test_a_table_fits_and_says_whose_port_it_is(width: int, real: bool, monkeypa
 def test_frames_that_were_not_sent_stand_in_the_table() -> None:
     view = View(0, (), {}, {}, dropped=7, port_error="No such device")
     made = screen.LiveTable.__new__(screen.LiveTable)
-    made._label, made._title, made._real, made._keys = "REAL PORT", "my.st", True, False  # noqa: SLF001
-    text = "\n".join(str(part) for part in made._parts(view))  # noqa: SLF001
+    made._label, made._title, made._real, made._keys = "REAL PORT", "my.st", True, False
+    text = "\n".join(str(part) for part in made._parts(view))
     assert "7 frames not sent: only reads and stops leave" in text
     assert "the port does not work: No such device" in text
 

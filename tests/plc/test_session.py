@@ -72,8 +72,8 @@ class Lagging(VirtualClock):
 
 def test_an_overrun_is_counted_and_the_scans_that_it_cost_are_left_out() -> None:
     desk = Desk()
-    desk.clock = desk.session._clock = Lagging()  # noqa: SLF001
-    desk.session._loop(SECOND)  # noqa: SLF001
+    desk.clock = desk.session._clock = Lagging()
+    desk.session._loop(SECOND)
     pace = desk.session.pace
     assert pace.missed > 0
     assert pace.late > 0
@@ -89,9 +89,7 @@ def test_the_figures_of_a_pace() -> None:
     assert (pace.scans, pace.late, pace.missed, pace.worst_us) == (100, 1, 2, 34_000)
     assert pace.share_us(50) == pytest.approx(1490, abs=20)
     assert pace.share_us(99) == pytest.approx(9000, abs=20)
-    assert str(pace) == (
-        "100 scans of 10 ms: 97.1 % kept, 2 missed; 1.50 ms median, 9.02 ms 99 %, 34.00 ms worst"
-    )
+    assert str(pace) == ("100 scans of 10 ms: 97.1 % kept, 2 missed; 1.50 ms median, 9.02 ms 99 %, 34.00 ms worst")
 
 
 # ------------------------------------------------------------ how it ends
@@ -118,7 +116,12 @@ def test_the_end_of_the_time_stops_every_drive() -> None:
     assert desk.drives[0].mode == "standing"
     result = desk.session.result
     assert result is not None
-    assert (result.reason, result.crashed, result.unconfirmed, result.stopped) == ("8 s are over", False, {}, ("Motor",))
+    assert (result.reason, result.crashed, result.unconfirmed, result.stopped) == (
+        "8 s are over",
+        False,
+        {},
+        ("Motor",),
+    )
     assert desk.told() == ["8 s are over: stopping every drive"]
 
 
@@ -185,7 +188,9 @@ def test_who_asks_again_does_not_wait() -> None:
 
 
 def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
-    drives = [SimulatedDrive(MAPS[name], unit, Habits(ramp=5)) for unit, name in enumerate(("SN300G5", "JSCC", "CHF"), 1)]
+    drives = [
+        SimulatedDrive(MAPS[name], unit, Habits(ramp=5)) for unit, name in enumerate(("SN300G5", "JSCC", "CHF"), 1)
+    ]
     desk = Desk(EXAMPLE.read_text(encoding="utf-8"), drives)
     desk.line.sent.clear()
     for drive in drives:
@@ -215,7 +220,7 @@ class Device:
             raise OSError(2, "No such device")
         return self
 
-    def write(self, data: bytes) -> None:
+    def write(self, _: bytes) -> None:
         """Send."""
         self.open()
 

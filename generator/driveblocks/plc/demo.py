@@ -53,7 +53,7 @@ ACTS = (
         then={"Fan.Fault": True, "Fan.Running": False, **_all("Running", "Pump1", "Pump2")},
     ),
     Act(
-        "reset: the fan's run pin falls, Reset rises; the fault goes, and nothing starts",
+        "reset: the run pin falls, Reset rises; the fault goes, nothing starts",
         {"FanOn": False, "Reset": True},
         happens=SimulatedDrive.clear_cause,
         then={"Fan.Fault": False, "Fan.Running": False, **_all("Ready", "Fan")},
