@@ -100,7 +100,7 @@ class Desk:
         program = loaded(self.text)
         self.clock = VirtualClock()
         self.controller = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
-        self.line = Line(Wire(self.drives, 19200, 10), self.clock)
+        self.line = Line(Wire(self.drives, 19200, 10, ascii_mode="Ascii := TRUE" in self.text), self.clock)
         self.ending = Ending()
         self.session = Session(self.controller, self.clock, self.ending, SCAN_US)
         self.session.connect(self.line, self.free)

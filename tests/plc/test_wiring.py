@@ -105,11 +105,11 @@ SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
 @pytest.mark.parametrize(
     ("text", "wrong"),
     [
-        ("PROGRAM P\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_PROGRAM\n", "my.st:1:9: P calls no line, so it has no port"),
+        ("PROGRAM P\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_PROGRAM\n", "my.st:1:9: P calls no line"),
         (SECOND, "my.st:21:3: 2 ports (Bus, Other): one port can be served"),
-        (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:19:3: RxCount of Bus has no variable of the program"),
-        (ONE.replace("  Quotient := 1", "  Received := 0;\n  Quotient := 1"), "the program writes Received, which the port has"),
-        ("FUNCTION_BLOCK B\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_FUNCTION_BLOCK\n", "my.st:1:1: there is no PROGRAM in here"),
+        (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:19:3: RxCount of Bus has no variable"),
+        (ONE.replace("  Quotient := 1", "  Received := 0;\n  Quotient := 1"), "the program writes Received"),
+        ("FUNCTION_BLOCK B\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_FUNCTION_BLOCK\n", "my.st:1:1: there is no PROGRAM"),
         (ONE + ONE.replace("One", "Two"), "my.st:22:1: there are 2 PROGRAMs; choose by --program: One, Two"),
         (ONE.replace("Hz : REAL", "Hz : REEL"), "my.st:4:8: "),
         (ONE.replace("JSCC_Drive", "ACME_Drive"), "my.st:10:11: "),
@@ -128,6 +128,7 @@ def test_one_program_of_several_is_chosen() -> None:
 
 
 def test_a_block_that_the_program_brings_takes_the_place_of_the_library_s() -> None:
-    own = "FUNCTION MB_Plus : UINT\nVAR_INPUT\n  Number : UINT;\n  More : UINT;\nEND_VAR\n  MB_Plus := Number + More;\nEND_FUNCTION\n"
+    pins = "VAR_INPUT\n  Number : UINT;\n  More : UINT;\nEND_VAR\n"
+    own = f"FUNCTION MB_Plus : UINT\n{pins}  MB_Plus := Number + More;\nEND_FUNCTION\n"
     found: Wiring = wiring.find(loaded(own + ONE).program, set(loaded(own + ONE).drives))
     assert found.line == "Bus"

@@ -12,6 +12,8 @@ from driveblocks.simulator.drive import SimulatedDrive
 PROGRAM = "three_makes.st"
 RAMP, COAST = 40, 60
 """Hz/s: short, since nobody waits for a motor that does not turn."""
+SCALES: dict[str, Value] = {"CountsPerHertz": 100.0, "Fan.FrequencyScale": 0.01}
+"""What a person finds out on the motor, since no manual says it: of simulated drives it is 0.01 Hz per count."""
 FAULT = 4
 DRIVES = ("Pump1", "Pump2", "Fan")
 HOLD_US = 700_000
@@ -41,7 +43,7 @@ def _all(pin: str, *names: str) -> dict[str, Value]:
 
 
 ACTS = (
-    Act("power-up: every drive is told to stop, then read", {"PumpHertz": 40.0, "FanHertz": 30.0}, then=_all("Ready")),
+    Act("power-up: every drive is told to stop, and then read", {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES}, then=_all("Ready")),
     Act(
         "start: all run pins rise, and the motors ramp up",
         dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True),
@@ -53,7 +55,7 @@ ACTS = (
         then={"Fan.Fault": True, "Fan.Running": False, **_all("Running", "Pump1", "Pump2")},
     ),
     Act(
-        "reset: the fan's run pin falls, Reset rises; the fault goes, and nothing starts",
+        "reset: the run pin falls, Reset rises; the fault goes, nothing starts",
         {"FanOn": False, "Reset": True},
         happens=SimulatedDrive.clear_cause,
         then={"Fan.Fault": False, "Fan.Running": False, **_all("Ready", "Fan")},

@@ -18,6 +18,7 @@ REPLY_US = 300_000
 SILENCE_US = 20_000
 """Before each request."""
 LOOK_US = 2_000
+SILENT = "no reply to the stop"
 
 
 @dataclass
@@ -52,15 +53,16 @@ class Stopper:
         A stop goes to every drive before any is asked whether it stands.
         """
         end = self._clock.now_us() + within_us
-        told = dict.fromkeys(drives, "no reply to the stop")
+        told = dict.fromkeys(drives, SILENT)
         while (waiting := {unit: drives[unit] for unit, why in told.items() if why}) and self._goes_on(end):
             acknowledged = [
                 unit for unit, drive in waiting.items() if self._goes_on(end) and self._stopped(unit, drive)
             ]
             for unit in acknowledged:
-                told[unit] = (
-                    self._moves(unit, drives[unit]) if self._goes_on(end) else "stop acknowledged, not read since"
-                )
+                if self._goes_on(end):
+                    told[unit] = self._moves(unit, drives[unit])
+                elif told[unit] == SILENT:
+                    told[unit] = "stop acknowledged, not read since"
         return told
 
     def _goes_on(self, end: int) -> bool:

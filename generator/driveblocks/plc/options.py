@@ -57,7 +57,7 @@ def wrong(options: Options) -> Iterator[str]:
     if options.demo:
         ways.insert(0, "--demo")
     if len(ways) > 1:
-        yield f"{' and '.join(ways)} exclude each other: drives are simulated, or they are real"
+        yield f"{' and '.join(ways)} exclude each other: drives are simulated, or real"
     if options.tcp is not None and not options.tcp.rpartition(":")[2].isdigit():
         yield f"--tcp {options.tcp} is no address; write HOST:PORT"
     if options.allow_run and not options.real:

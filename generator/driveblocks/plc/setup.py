@@ -255,7 +255,7 @@ class Setup:
         ]
         if not self._options.fast:
             lines.append(str(self._session.pace))
-        console.write(*lines)
+        sys.stdout.write("".join(f"{line}\n" for line in lines))
         return 1 if result.crashed or result.unconfirmed or wrong else 0
 
 

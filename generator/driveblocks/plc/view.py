@@ -69,7 +69,7 @@ def _state(pin: dict[str, Value]) -> str:
     if not pin["CommOk"]:
         return "STOP OVERDUE" if pin["StopOverdue"] else "no reply"
     if pin["Fault"]:
-        return f"fault {pin['FaultCode']}"
+        return f"fault {known(pin['FaultCode'], int)}"
     if pin["StopOverdue"]:
         return "STOP OVERDUE"
     if pin["Running"]:
