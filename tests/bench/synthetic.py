@@ -140,9 +140,11 @@ operation:
     all: [{register: 0010H, bit: 0, equals: 0}, {register: 0100H, equals: 0}]
     source: section 2
     why: the status and the frequency say so
+  status: [{shows: running, any: [{register: 0010H, bit: 0, equals: 1}], source: section 2}]
 faults:
   source: section 5
   registers: [0019H]
+  present: 0019H
   codes:
 """
         + "".join(

@@ -16,7 +16,7 @@ marks that line, again in the order of the messages.
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -34,7 +34,7 @@ class Case(NamedTuple):
 @cache
 def topics() -> dict[str, dict[str, Case]]:
     """Every case by the name of its file, then by its own."""
-    return {path.stem: dict(_cases(path)) for path in sorted(FOLDER.glob("*.diff"))}
+    return {path.stem: dict(edits(path)) for path in sorted(FOLDER.glob("*.diff"))}
 
 
 def cases() -> dict[str, Case]:
@@ -42,12 +42,13 @@ def cases() -> dict[str, Case]:
     return {name: case for topic in topics().values() for name, case in topic.items()}
 
 
-def _cases(path: Path) -> Iterator[tuple[str, Case]]:
+def edits(path: Path, base_of: Callable[[str], list[str]] | None = None) -> Iterator[tuple[str, Case]]:
+    """The maps of one file, by name. Good ones have no messages."""
     for part in ("\n" + path.read_bytes().decode("utf-8")).split("\n@@ ")[1:]:
         head, *lines = part.removesuffix("\n").split("\n")
         name, _, base = head.partition(" of ")
         edit = [(line[0], line[1:]) for line in lines]
-        marked = _edited(_base(base), [each for each in edit if each[0] != "!"])
+        marked = _edited((base_of or _base)(base), [each for each in edit if each[0] != "!"])
         yield name, _case(marked, [text[1:] for sign, text in edit if sign == "!"])
 
 

@@ -54,7 +54,10 @@ def test_no_template_decides_by_a_drive(path: Path) -> None:
 @pytest.mark.parametrize("path", [path for path in TEMPLATES if "drive" in path.parts], ids=lambda path: path.name)
 def test_a_template_looks_like_the_block_that_it_prints(path: Path) -> None:
     lines = path.read_text("utf-8").splitlines()
-    assert len([line for line in lines if "{%" in line]) <= max(6, len(lines) // 4)
+    choices = [
+        line for line in lines if "{%" in line and "{% include" not in line
+    ]  # a part in its place reads as itself
+    assert len(choices) <= max(6, len(lines) // 4)
     assert not [line for line in lines if re.search(r"\{%\s*(set|macro)\b", line)]
 
 

@@ -12,6 +12,7 @@ from driveblocks.maps.rules import (
     name,
     operation,
     parameter,
+    reading,
     record,
     register,
     setting,
@@ -21,7 +22,7 @@ from driveblocks.maps.rules import (
 
 _PARTS = (
     *(register, name, identifier, parameter, area, line, setting),
-    *(command, operation, standstill, condition, fault, vector, record),
+    *(command, operation, standstill, condition, fault, vector, record, reading),
 )
 
 

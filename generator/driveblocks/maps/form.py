@@ -65,6 +65,11 @@ def bits_text(span: Span) -> str:
     return f"{span.first:X}" if len(span) == 1 else f"{span.first:X}-{span.last:X}"
 
 
+def masked_text(register: int, mask: int, value: int) -> str:
+    """Print what the bits of a mask must be: 2100H AND 006FH = 0023H."""
+    return f"{address_text(register)} AND {mask:04X}H = {value:04X}H"
+
+
 def _number(text: str) -> int:
     return int(text[:-1], 16) if text.endswith("H") else int(text)
 

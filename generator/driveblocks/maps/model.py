@@ -205,6 +205,12 @@ class Needed(Entry):
     value: Number | None = fact(
         "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
     )
+    by_terminals: Number | None = fact(
+        "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
+        "command",
+        "1",
+        optional=True,
+    )
     why: English = fact("what it is for", "run commands come from the bus")
 
 
@@ -613,6 +619,11 @@ class Command(Entry):
     source: English = fact("where the manual says so", "section (I), 0000H")
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 
+    @property
+    def writes(self) -> tuple["Command | Step", ...]:
+        """All its writes in their order, its own word last."""
+        return (*self.first, self)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Reference(Entry):
@@ -683,8 +694,6 @@ class Operation(Entry):
     status: tuple[Status, ...] = fact(
         "what the pins of the drive block show; `running` is a must",
         "[{shows: running, any: [{register: 0010H, bit: 0, equals: 1}], source: ...}]",
-        optional=True,
-        default=(),
     )
     measures: tuple[Measured, ...] = fact(
         "registers whose values pins show",
@@ -698,6 +707,11 @@ class Operation(Entry):
         optional=True,
         default=(),
     )
+
+    @property
+    def in_one_word(self) -> bool:
+        """Whether each command is one write."""
+        return not any(command.first for command in self.commands)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -761,6 +775,9 @@ class ErrorCode(Returned):
     code: Number | None = fact("the code; left out where the manual prints none", "21H", optional=True)
     meaning: Text | None = fact("the manual's explanation", "{en: ..., zh: ...}", optional=True)
     causes: tuple[Text, ...] = fact("the manual's list of causes", "[{en: ..., zh: ...}]", optional=True, default=())
+    busy: bool = fact(
+        "the drive cannot do it now; the same request may be sent again", "true", optional=True, default=False
+    )
     note: English | None = fact("what else a person must know", "...", optional=True)
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ..., value: 1}]", optional=True, default=()

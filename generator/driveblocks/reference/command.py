@@ -60,10 +60,12 @@ class Commands:
     """The command block of one drive, with its memory; one `step` is one call."""
 
     def __init__(self, drive: Drive) -> None:
-        """Take the commands from the map. Raises ValueError if it has no stop."""
+        """Take the commands from the map. Raises ValueError if it has no stop, or a command of several writes."""
         self.known: dict[str, Command] = {one.does: one for one in drive.operation.commands}
         if "stop" not in self.known:
             raise ValueError("the map has no stop command")
+        if not drive.operation.in_one_word:
+            raise ValueError("a command of the map takes several writes")
         self.home = self.known["stop"].register
         self.kept = dict(_kept(drive))
         self.before: tuple[Pins, Told] | None = None

@@ -1,5 +1,6 @@
 """Which addresses of a drive may be read and written, and how many words a frame may carry."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -42,6 +43,91 @@ def ram_only(drive: Drive) -> Iterator[int]:
         if area.id == drive.storage.area and drive.storage.add is not None:
             for address in area.addresses:
                 yield address + drive.storage.add
+
+
+@dataclass(frozen=True)
+class Write:
+    """A ladder user's wish to write a register."""
+
+    address: int
+    value: int = 0
+    unknown: bool = False
+    stopped: bool = True
+
+
+class Judge:
+    """Says of every wish to write a register of a drive which result it has."""
+
+    def __init__(self, drive: Drive) -> None:
+        """Look up once what the map has at each address."""
+        operation = drive.operation
+        steps = (step.register for command in operation.commands for step in command.first)
+        commands = (command.register for command in operation.commands)
+        self._known: dict[str, set[int | None]] = {
+            "STORE_REGISTER": {drive.storage.register},
+            "OWNED": {operation.reference.register, *commands, *steps},
+            "LINE_SETTING": {setting.register for setting in drive.settings},
+        }
+        self._writable = writable(drive)
+        self._rows = {address: row for _, row in drive.registers() for address in row.address}
+        self._areas = frozenset(address for area in drive.areas for address in area.addresses)
+        self._bit = drive.storage.add or 0
+
+    def result(self, wish: Write) -> str:
+        """The name of the result; `OK` where it may be written."""
+        meant: set[int | None] = {wish.address, wish.address & ~self._bit}
+        for name, registers in self._known.items():
+            if meant & registers:
+                return name
+        if wish.address not in self._writable:
+            if meant & (self._rows.keys() | self._areas):
+                return "NOT_WRITABLE"
+            if not wish.unknown:
+                return "UNKNOWN_ADDRESS"
+        elif self._beyond(wish):
+            return "RANGE"
+        return "OK" if wish.stopped else "NOT_STOPPED"
+
+    def _beyond(self, wish: Write) -> bool:
+        row = self._rows.get(wish.address)
+        if row is None or row.range is None:
+            return False
+        number = wish.value - 0x10000 if row.signed and wish.value > 0x7FFF else wish.value
+        return not row.range.min <= number <= row.range.max
+
+
+Numbered = tuple[str, int, int]
+"""Letter, group and number of a parameter: H5-02 is ("H", 5, 2), A40 is ("A", 0, 40), 20.01 is ("", 20, 1)."""
+
+
+def parameters(drive: Drive) -> dict[Numbered, int]:
+    """Each parameter that the manual numbers -> its register; those of an area have a number alone."""
+    found: dict[Numbered, set[int]] = {}
+    for id_, address in _identified(drive):
+        letter = id_[:1] if id_[:1].isalpha() and id_.isascii() else ""
+        group, _, number = id_[len(letter) :].replace(".", "-").rpartition("-")
+        group = group.rstrip("-") or "0"
+        if number.isdecimal() and group.isdecimal() and len(number) < 5 and len(group) < 4:
+            found.setdefault((letter, int(group), int(number)), set()).add(address)
+    if found or len(drive.areas) != 1:
+        return {key: min(some) for key, some in found.items() if len(some) == 1}
+    return {("", 0, number): address for number, address in enumerate(drive.areas[0].addresses)}
+
+
+def _identified(drive: Drive) -> Iterator[tuple[str, int]]:
+    for _, row in drive.registers():
+        first = (row.id or "").partition("..")[0]
+        for index, address in enumerate(row.address):
+            if not row.unused:
+                yield _later(first, index), address
+    for setting in drive.settings:
+        if setting.register is not None:
+            yield setting.id, setting.register
+
+
+def _later(id_: str, steps: int) -> str:
+    """The id that comes some steps behind another: A2-01 -> A2-03."""
+    return re.sub(r"[0-9]+$", lambda digits: str(int(digits[0]) + steps), id_)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Command, Condition, Drive, Register, Section, Value
+from driveblocks.maps.model import Command, Condition, Drive, Register, Section, State, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
 from driveblocks.render.expression import Test, is_real
@@ -153,7 +153,7 @@ def _bit_parts(row: Register) -> Iterator[Context]:
         if bit.unused or not bit.name:
             continue
         where = f"bit{'s' * (len(bit.bit) > 1)} {bits_text(bit.bit)}{': ' * bool(bit.own)}{bit.own}"
-        mask = _bits([bit.bit])
+        mask = bits_of([bit.bit])
         if len(bit.bit) == 1:
             yield _flag(symbol(bit), Test("Value", mask, mask), f"{bit.name}; {where}")
             continue
@@ -228,19 +228,27 @@ def _branches(told: dict[str, Context]) -> Iterator[tuple[str, str, Context]]:
 
 def _keeps(drive: Drive, first: int) -> dict[int, Context]:
     """The pin and the mask of each command register with bits that are in use and belong to no command."""
-    by_bits = [one for one in drive.operation.commands if one.value is None]
     found = {}
-    for register in sorted({one.register for one in by_bits}, key=lambda register: (register != first, register)):
-        row = drive.register_at(register)
-        used = _bits(bit.bit for bit in (row.bits if row else ()) if not bit.unused)
-        mask = used & ~_bits(span for one in by_bits if one.register == register for span in (*one.set, *one.clear))
-        if mask:
-            name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
-            found[register] = {"name": name, "register": register, "mask": mask}
+    for register, mask in sorted(kept(drive).items(), key=lambda each: (each[0] != first, each[0])):
+        name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
+        found[register] = {"name": name, "register": register, "mask": mask}
     return found
 
 
-def _bits(spans: Iterable[Span]) -> int:
+def kept(drive: Drive) -> dict[int, int]:
+    """The bits of each command register that are in use and belong to no command, where there are such."""
+    writes = [write for one in drive.operation.commands for write in one.writes if write.value is None]
+    found = {}
+    for register in {one.register for one in writes}:
+        row = drive.register_at(register)
+        used = bits_of(bit.bit for bit in (row.bits if row else ()) if not bit.unused)
+        mask = used & ~bits_of(span for one in writes if one.register == register for span in (*one.set, *one.clear))
+        if mask:
+            found[register] = mask
+    return found
+
+
+def bits_of(spans: Iterable[Span]) -> int:
     """The word in which the bits of some spans are set."""
     return sum(1 << bit for bit in {bit for span in spans for bit in span})
 
@@ -252,9 +260,9 @@ def _told(one: Command, stop: Command, keeps: dict[int, Context]) -> Context:
     """
     if one.value is not None:
         return {"register": one.register, "bits": one.value, "keep": None}
-    bits = _bits(one.set)
+    bits = bits_of(one.set)
     if one.does == "fault_reset" and one.register == stop.register:
-        bits |= _bits(stop.set) & ~_bits(one.clear)
+        bits |= bits_of(stop.set) & ~bits_of(one.clear)
     return {"register": one.register, "bits": bits, "keep": keeps.get(one.register)}
 
 
@@ -285,18 +293,19 @@ def reference(drive: Drive) -> Context:
 def standstill(drive: Drive) -> Context:
     """For Standstill."""
     proof = drive.operation.standstill
-    words = [_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
+    words = [word_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
     pins = {word["address"]: word["name"] for word in words}
     return {
         "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
         "source": source_of(drive, proof.source),
         "words": words,
         "conditions": proof.all,
-        "tests": [_test(pins[one.register], one) for one in proof.all],
+        "tests": [tested(pins[one.register], one) for one in proof.all],
     }
 
 
-def _input(drive: Drive, address: int) -> Context:
+def word_input(drive: Drive, address: int) -> Context:
+    """The name of a register's word, and what to say of it."""
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
     return {
@@ -307,10 +316,11 @@ def _input(drive: Drive, address: int) -> Context:
     }
 
 
-def _test(pin: str, condition: Condition) -> Test:
-    if condition.bit is None:
-        return Test(pin, 0, condition.equals)
-    return Test(pin, _bits([condition.bit]), condition.equals << condition.bit.first)
+def tested(pin: str, condition: Condition | State) -> Test:
+    """A condition, or a state, as a test of the word at a pin; the value of a bit or field is moved to its place."""
+    if isinstance(condition, State) or condition.bit is None:
+        return Test(pin, condition.mask or 0, condition.equals)
+    return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first)
 
 
 def fault_number(drive: Drive) -> Context | None:
@@ -322,5 +332,5 @@ def fault_number(drive: Drive) -> Context | None:
     for index, address in enumerate(range(relation.first, relation.last + 1)):
         row = drive.register_at(address)
         mask = sum(1 << bit.bit.first for bit in (row.bits if row else ()) if bit.id is not None)
-        words.append({**_input(drive, address), "mask": mask, "base": 16 * index})
+        words.append({**word_input(drive, address), "mask": mask, "base": 16 * index})
     return {"source": source_of(drive, relation.source), "words": words}

@@ -9,7 +9,7 @@ import jinja2
 from driveblocks.maps import form
 from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
-from driveblocks.render import expression, results
+from driveblocks.render import expression, reasons, results
 from driveblocks.st import writing
 
 ABI = 1
@@ -35,7 +35,14 @@ def environment() -> jinja2.Environment:
         autoescape=False,  # noqa: S701  (the output is Structured Text, not HTML)
     )
     made.globals.update(
-        head=head, type_head=type_head, crc_table=crc_table, result=results.code, fail=results.fail, abi=ABI
+        head=head,
+        type_head=type_head,
+        crc_table=crc_table,
+        result=results.code,
+        fail=results.fail,
+        abi=ABI,
+        reason=reasons.code,
+        given=reasons.given,
     )
     made.filters.update(
         word=writing.word,
@@ -44,9 +51,16 @@ def environment() -> jinja2.Environment:
         span=form.span_text,
         address=form.address_text,
         assign=assign,
+        passed=passed,
+        since=since,
+        young=young,
+        turn=turn,
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
+        within=expression.within,
+        label=expression.label,
+        more=expression.more,
         each=expression.each,
         none_of=expression.none_of,
         times=expression.times,
@@ -98,8 +112,30 @@ def assign(name: str) -> str:
     return f"{name} := ..."
 
 
+def passed(name: str) -> str:
+    """A formal parameter that gets a variable of its own name."""
+    return f"{name} := {name}"
+
+
+def since(read: int) -> str:
+    """The flag of a drive block that a read has come since it was asked for."""
+    return f"Since{read}"
+
+
+def turn(number: int) -> str:
+    """Whether a drive block's polls have come to a turn of their round."""
+    return f"(Link.Turn = {number})"
+
+
+def young(read: int) -> str:
+    """Whether the words of a read of a drive block have come since the fault."""
+    return f"(Age{read} <= FaultMs)"
+
+
 def condition(one: Condition) -> str:
     """`000FH bit 0 = 0`."""
+    if one.mask is not None:
+        return form.masked_text(one.register, one.mask, one.equals)
     bits = f" bit{'s' * (len(one.bit) > 1)} {form.bits_text(one.bit)}" if one.bit else ""
     return f"{form.address_text(one.register)}{bits} = {one.equals}"
 

@@ -5,6 +5,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
+from driveblocks.maps.form import Span
 from driveblocks.st.writing import word
 
 T = TypeVar("T")
@@ -27,6 +28,25 @@ class Test(NamedTuple):
 def holds(test: Test) -> str:
     """An expression that is TRUE when a word passes its test."""
     return f"{f'({test.pin} AND {word(test.mask)})' if test.mask else test.pin} = {word(test.value)}"
+
+
+def within(span: Span, pin: str) -> str:
+    """An expression that is TRUE when a UINT lies in a span."""
+    if len(span) == 1:
+        return f"{pin} = {span.first}"
+    if span.first == 0:
+        return f"{pin} <= {span.last}"
+    return f"({pin} >= {span.first}) AND ({pin} <= {span.last})"
+
+
+def label(span: Span) -> str:
+    """The label of a branch for the numbers of a span."""
+    return str(span.first) if len(span) == 1 else f"{span.first}..{span.last}"
+
+
+def more(number: int) -> str:
+    """What adds a number to the expression before it."""
+    return f" {'+' if number > 0 else '-'} {abs(number)}" if number else ""
 
 
 def statements(items: Sequence[T]) -> list[Sequence[T]]:

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
-from driveblocks.render import context, text
+from driveblocks.render import context, parameter, text
+from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.text import Language
 
@@ -20,8 +21,11 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
+CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
+LEAST_S = 60
+"""Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
 PACKERS = {"Pack": "Outgoing", "Unpack": "Incoming"}
 """Blocks, and the buffer of their example: what goes out and what comes in never share one."""
@@ -57,6 +61,10 @@ def generic(languages: list[Language]) -> Iterator[File]:
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
     yield from _line_blocks(languages)
+    for name in CONTROL_BLOCKS:
+        yield File("drive", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
+    for language in languages:
+        yield _file("drive", "CodeText", text.reason_texts(language))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
@@ -93,18 +101,24 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     allowed = plan(drive)
     yield "CanAccess", context.access(drive, "r", allowed.readable)
     yield "CanAccess", context.access(drive, "w", allowed.writable)
+    yield "MayWrite", parameter.may_write(drive, allowed)
+    numbers = parameter.addresses(drive)
+    if numbers is not None:
+        yield numbers
     yield "Request", context.request(drive, allowed)
     yield "Reply", context.reply(drive)
-    yield "Command", context.command(drive)
+    if drive.operation.in_one_word:
+        yield "Command", context.command(drive)
     yield "Reference", context.reference(drive)
     yield "Standstill", context.standstill(drive)
-    numbers = context.fault_number(drive)
-    if numbers is not None:
-        yield "FaultNumber", numbers
+    bits = context.fault_number(drive)
+    if bits is not None:
+        yield "FaultNumber", bits
     for one in context.decoders(drive):
         yield "Decoder", one
     for one in context.scales(drive):
         yield "Scale", one
+    yield "Drive", {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
 
 
 def _texts_of(languages: list[Language]) -> context.Context:

@@ -68,6 +68,17 @@ RESULTS = (
     Result(59, "UNATTENDED", "the drive block is no longer called", "驱动功能块未被调用"),
     Result(60, "REQUEST", "the line cannot send such a request", "无法发送此请求"),
     Result(61, "OVERDUE", "a stop is overdue", "停机超时"),
+    # parameters
+    Result(62, "OWNED", "only the drive block writes this register", "此寄存器只由驱动功能块写入"),
+    Result(63, "LINE_SETTING", "the connection rests on this setting", "通讯所依赖的参数, 不可写入"),
+    Result(64, "STORE_REGISTER", "only DB_Store writes this register", "此寄存器只由DB_Store写入"),
+    Result(65, "UNKNOWN_ADDRESS", "not listed, and AllowUnknown is FALSE", "地址未列出, 且AllowUnknown为FALSE"),
+    Result(66, "NOT_STOPPED", "only while the motor is known to stand", "仅在确认停机后可写入"),
+    Result(67, "RANGE", "value out of range", "数值超出范围"),
+    Result(68, "NOT_SENT", "was not sent in time", "未能及时发送"),
+    Result(69, "NO_LINE", "the line is not called", "总线功能块未被调用"),
+    Result(70, "LOST", "the block was not called while it was busy", "功能块在忙时未被调用"),
+    Result(71, "TOO_SOON", "too soon behind the last store", "距上次保存时间太短"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 

@@ -7,7 +7,7 @@ from typing import Any
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
 from driveblocks.maps.view import error_number
-from driveblocks.render import results
+from driveblocks.render import reasons, results
 from driveblocks.render.context import Context, source_of
 from driveblocks.st.writing import string
 
@@ -92,6 +92,14 @@ def result_texts(language: Language) -> Context:
     rows = [_row(language, code, text, text) for code, text in texts]
     head = {"title": "what an ErrorID means", "source": "the result codes of DriveBlocks.", "code_comment": "ErrorID"}
     return {"name": f"MB_ResultText{language.suffix}", "rows": rows, **head, **_language(language)}
+
+
+def reason_texts(language: Language) -> Context:
+    """For CodeText: why a drive does not run."""
+    texts = [(reason.code, reason.en if language.suffix == "En" else reason.zh) for reason in reasons.REASONS]
+    rows = [_row(language, code, text, text) for code, text in texts]
+    head = {"title": "why a drive does not run", "source": "the reasons of DriveBlocks.", "code_comment": "Reason"}
+    return {"name": f"DB_ReasonText{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
 def fault_texts(drive: Drive, language: Language) -> Context:

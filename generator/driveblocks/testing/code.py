@@ -10,6 +10,8 @@ NUMBERS = {
     "OTHER_QUANTITY": 37, "OTHER_SUB_FUNCTION": 38, "REFUSED": 40,
     "RESTARTED": 50, "OFFLINE": 51, "TAKEN_BACK": 52, "STOP_ALL": 53, "FOREIGN": 54, "DOUBLED": 55, "SHARED": 56,
     "PORT": 57, "TIME_STANDS": 58, "UNATTENDED": 59, "REQUEST": 60, "OVERDUE": 61,
+    "OWNED": 62, "LINE_SETTING": 63, "STORE_REGISTER": 64, "UNKNOWN_ADDRESS": 65, "NOT_STOPPED": 66, "RANGE": 67,
+    "NOT_SENT": 68, "NO_LINE": 69, "LOST": 70, "TOO_SOON": 71,
 }  # fmt: skip
 
 WORDS = {
@@ -62,5 +64,15 @@ WORDS = {
     "UNATTENDED": "nobody calls the drive block",
     "REQUEST": "no line can send this",
     "OVERDUE": "a stop is overdue",
+    "OWNED": "the drive block's own",
+    "LINE_SETTING": "the connection rests on it",
+    "STORE_REGISTER": "it stores",
+    "UNKNOWN_ADDRESS": "not listed",
+    "NOT_STOPPED": "the motor may move",
+    "RANGE": "out of range",
+    "NOT_SENT": "too late to send",
+    "NO_LINE": "nobody calls the line",
+    "LOST": "the answer is lost",
+    "TOO_SOON": "too soon",
 }
 """What a result means, in the comments of the test programs."""

@@ -25,7 +25,12 @@ STOPS = ("enable", "stop", "quick_stop", "coast_stop")
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program of combinations and some of sequences; each has a command block of its own, which remembers."""
+    """One program of combinations and some of sequences; each has a command block of its own, which remembers.
+
+    None where a command takes several writes: such a drive has no command block.
+    """
+    if not drive.operation.in_one_word:
+        return
     for subject, title, steps in (
         ("Command", "what each combination of pins tells the drive", _combinations()),
         ("Sequence", "what the pins tell the drive one after the other", _sequences()),

@@ -8,6 +8,7 @@ from driveblocks.testing import (
     command,
     harness,
     page,
+    parameter,
     proof,
     register,
     reply,
@@ -37,7 +38,7 @@ def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
     scripts: list[Script] = []
-    for subject in (vector, access, request, reply, register, command, speed, proof):
+    for subject in (vector, access, parameter, request, reply, register, command, speed, proof):
         scripts += subject.scripts(drive, stem)
     scripts += text.scripts(drive, stem, languages)
     return Suite(stem, tuple(_finished(scripts)), len(drive.frames))

@@ -24,6 +24,30 @@ def known(drive: Drive, address: int, use: str, place: Place, report: Report) ->
     return None
 
 
+def cyclic(drive: Drive, address: int, place: Place, report: Report) -> Register | None:
+    """The row of an address that is written again and again; notes what stands against it, a store first of all."""
+    stored = _stored(drive, address)
+    if stored is None:
+        return known(drive, address, "w", place, report)
+    wrong = f"{address_text(address)} is written again and again, and {stored}"
+    report.add(place, wrong, "name a register whose writes stay in RAM")
+    return None
+
+
+def _stored(drive: Drive, address: int) -> str | None:
+    """Why a write to an address ends in EEPROM, or counts as if it did; None where it stays in RAM."""
+    storage, unexplained = drive.storage, drive.storage.method == "unexplained"
+    if address == storage.register:
+        return "a write there stores all parameters"
+    area = next((area for area in drive.areas if address in area.addresses), None)
+    if area is not None and (unexplained or area.id == storage.area):
+        return f"the area `{area.id}` is stored in EEPROM" + " for all that the manual says" * unexplained
+    row = drive.register_at(address)
+    if unexplained and row is not None and row.id is not None:
+        return f"the parameter {row.id} is stored in EEPROM for all that the manual says"
+    return None
+
+
 def ram_span(drive: Drive, area: Area) -> Span | None:
     """The RAM-only addresses of an area, or None where it has none."""
     storage = drive.storage

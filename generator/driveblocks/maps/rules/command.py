@@ -1,11 +1,12 @@
-"""Rules on commands: their register, and their value or bits."""
+"""Rules on commands: their registers, their values or bits, and what they leave set."""
 
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Command, Does, Drive, Range, Register
 from driveblocks.maps.problem import Report
-from driveblocks.maps.rules import meaning
-from driveblocks.maps.rules.access import known
+from driveblocks.maps.rules import meaning, path
+from driveblocks.maps.rules.access import cyclic
 from driveblocks.maps.rules.condition import bit_at
+from driveblocks.maps.rules.meaning import Write
 from driveblocks.maps.rules.unique import unique
 
 _ENDS: dict[Does, tuple[Does, ...]] = {
@@ -19,93 +20,102 @@ def check(drive: Drive, report: Report) -> None:
     """Note every rule that commands break."""
     commands = drive.operation.commands
     seen = unique(commands, "does", "command", report)
-    words: dict[tuple[int, int], Command] = {}
+    words: dict[frozenset[tuple[tuple[int, int], bool]], Command] = {}
     for command in commands:
         _command(drive, command, report)
-        if command.value is not None:
-            other = words.setdefault((command.register, command.value), command)
+        last = meaning.acting(command)[-1]
+        if last.value is not None:
+            other = words.setdefault(frozenset(meaning.image(meaning.acting(command)).items()), command)
             if other is not command:
-                wrong = f"`{command.does}` and `{other.does}` write the same value {command.value}"
-                report.add(command.place("value"), wrong, "each command has its own value")
+                wrong = f"`{command.does}` and `{other.does}` write the same value {last.value}"
+                report.add(last.place("value"), wrong, "each command has its own value")
     for command in commands:
         _releases(drive, command, report)
     for does in ("run_forward", "stop"):
         if does not in seen:
             wrong = f"there is no command `{does}`"
             report.miss(drive.operation.place("commands"), wrong, "a drive that cannot run or stop is of no use")
+    path.check(drive, report)
 
 
 def _releases(drive: Drive, command: Command, report: Report) -> None:
-    """Note a stop that leaves a run bit set, and a direction that leaves the other one set."""
-    row = drive.register_at(command.register)
-    if row is None or not (command.set or command.clear):
+    """Note a stop that leaves a run bit as it is, and a direction that leaves that of the other one."""
+    if not (command.set or command.clear) or drive.register_at(command.register) is None:
         return
-    written = meaning.written(command)
+    ours = meaning.image(command.writes)
+    registers = dict.fromkeys(one.register for one in command.writes)
     for other in drive.operation.commands:
-        if other is command or other.does not in _ENDS.get(command.does, ()) or other.register != command.register:
+        if other is command or other.does not in _ENDS.get(command.does, ()):
             continue
-        left = [number for number, one in meaning.written(other).items() if one and number not in written]
-        if left:
-            bits = ", ".join(f"{number:X}" for number in sorted(left))
-            wrong = f"`{command.does}` leaves bit {bits} as it is, which `{other.does}` sets"
-            report.add(command.place("clear"), wrong, "add it to `clear`, so that the two never act together")
+        made = meaning.sets_off(drive, other)
+        for register in registers:
+            left = [number for where, number in made if where == register and (where, number) not in ours]
+            if left:
+                bits = ", ".join(f"{number:X}" for number in sorted(left))
+                wrong = f"`{command.does}` leaves bit {bits} as it is, which `{other.does}` sets"
+                report.add(command.place("clear"), wrong, "add it to `clear`, so that the two never act together")
 
 
 def _command(drive: Drive, command: Command, report: Report) -> None:
-    if (command.value is None) == (not command.set and not command.clear):
-        wrong = f"command `{command.does}` needs a value, or bits to set and clear"
-        report.miss(command.at, wrong, "give one of the two")
-        return
-    row = known(drive, command.register, "w", command.place("register"), report)
-    if row is None:
-        return
     before = len(report.problems)
-    _command_value(command, row, report)
-    _command_bits(command, row, report)
-    if len(report.problems) == before:
-        meaning.check(drive, command, row, report)
+    rows = [_write(drive, one, command, report) for one in command.writes]
+    if all(rows) and len(report.problems) == before:
+        meaning.check(drive, command, report)
 
 
-def _command_value(command: Command, row: Register, report: Report) -> None:
-    if command.value is None:
+def _write(drive: Drive, one: Write, command: Command, report: Report) -> Register | None:
+    """The row of a register that a command writes, if it can be written so."""
+    what = f"command `{command.does}`" if one is command else f"a step of `{command.does}`"
+    if (one.value is None) == (not one.set and not one.clear):
+        report.miss(one.at, f"{what} needs a value, or bits to set and clear", "give one of the two")
+        return None
+    row = cyclic(drive, one.register, one.place("register"), report)
+    if row is not None:
+        _value(one, row, report)
+        _bits(one, command.does, row, report)
+    return row
+
+
+def _value(one: Write, row: Register, report: Report) -> None:
+    if one.value is None:
         return
     allowed = row.range or Range(min=0, max=0xFFFF)
-    if row.values and command.value not in {value.value for value in row.values}:
-        wrong = f"{command.value} is no value of {address_text(command.register)}"
-        report.miss(command.place("value"), wrong, "write one of the listed values")
-    elif not allowed.holds(command.value):
-        wrong = f"{command.value} is outside the range of {address_text(command.register)}"
-        report.add(command.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
+    if row.values and one.value not in {value.value for value in row.values}:
+        wrong = f"{one.value} is no value of {address_text(one.register)}"
+        report.miss(one.place("value"), wrong, "write one of the listed values")
+    elif not allowed.holds(one.value):
+        wrong = f"{one.value} is outside the range of {address_text(one.register)}"
+        report.add(one.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
 
 
-def _command_bits(command: Command, row: Register, report: Report) -> None:
-    both = {n for span in command.set for n in span} & {n for span in command.clear for n in span}
+def _bits(one: Write, does: Does, row: Register, report: Report) -> None:
+    both = {n for span in one.set for n in span} & {n for span in one.clear for n in span}
     if both:
         bits = ", ".join(f"{n:X}" for n in sorted(both))
-        report.add(command.at, f"`{command.does}` sets and clears bit {bits}", "decide for one")
+        report.add(one.at, f"`{does}` sets and clears bit {bits}", "decide for one")
     for key in ("set", "clear"):
-        for span in getattr(command, key):
+        for span in getattr(one, key):
             if not span:
-                report.add(command.place(key), f"bits {bits_text(span)} run backwards", "write the lower bit first")
-    for number, one in meaning.written(command).items():
+                report.add(one.place(key), f"bits {bits_text(span)} run backwards", "write the lower bit first")
+    for number, on in meaning.written(one).items():
         bit = bit_at(row, number)
-        if (command.value is None or (one and row.bits)) and (bit is None or bit.unused):
+        if (one.value is None or (on and row.bits)) and (bit is None or bit.unused):
             wrong = f"bit {number:X} of {address_text(row.address.first)} is not in use"
-            report.miss(command.place(meaning.key(command, one)), wrong, "name a bit that the register lists")
-    _command_fields(command, row, report)
+            report.miss(one.place(meaning.key(one, on)), wrong, "name a bit that the register lists")
+    _fields(one, does, row, report)
 
 
-def _command_fields(command: Command, row: Register, report: Report) -> None:
+def _fields(one: Write, does: Does, row: Register, report: Report) -> None:
     """Note a field of which a command writes a part, or a value that the field does not list."""
-    written = meaning.written(command)
+    written = meaning.written(one)
     for field in row.bits:
         ours = [number for number in field.bit if number in written]
         what = f"bits {bits_text(field.bit)} of {address_text(row.address.first)}"
-        place = command.place(meaning.key(command, any(written[number] for number in ours)))
+        place = one.place(meaning.key(one, any(written[number] for number in ours)))
         if not ours or not field.values:
             continue
         if len(ours) < len(field.bit):
-            report.add(place, f"`{command.does}` writes a part of {what}", "set or clear every bit of a field")
+            report.add(place, f"`{does}` writes a part of {what}", "set or clear every bit of a field")
         elif meaning.field_value(field, written) is None:
             number = meaning.number(field, written)
             report.miss(place, f"{number} is no value of {what}", "write one of the listed values")

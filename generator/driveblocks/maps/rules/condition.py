@@ -1,17 +1,25 @@
-"""Rules on conditions: a register, or a bit of it, that must have a value."""
+"""Rules on conditions and states: a register, or bits of it, that must have a value."""
+
+from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Bit, Condition, Drive, Register
+from driveblocks.maps.model import Bit, Condition, Drive, Register, State
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
 
+WORD = 0xFFFF
+
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the conditions of standstill, reference or scales break."""
-    conditions = [*drive.operation.standstill.all, *drive.operation.reference.verify]
+    """Note every rule that the conditions of standstill, reference, scales or status break, and that states do."""
+    operation = drive.operation
+    conditions = [*operation.standstill.all, *operation.reference.verify]
     conditions += [row.scale.when for _, row in drive.registers() if row.scale and row.scale.when]
+    conditions += [condition for status in operation.status for condition in status.any]
     for condition in conditions:
-        _condition(drive, condition, report)
+        _condition(drive, condition, condition.bit, report)
+    for state in operation.states:
+        _condition(drive, state, None, report)
 
 
 def bit_at(row: Register, number: int) -> Bit | None:
@@ -19,30 +27,78 @@ def bit_at(row: Register, number: int) -> Bit | None:
     return next((bit for bit in row.bits if number in bit.bit), None)
 
 
-def _condition(drive: Drive, condition: Condition, report: Report) -> None:
+def counted(condition: Condition | State) -> tuple[int, int]:
+    """The bits of the word that count, and what they must be, in their place."""
+    if isinstance(condition, State) or condition.bit is None:
+        return (WORD if condition.mask is None else condition.mask), condition.equals
+    return sum(1 << number for number in condition.bit), condition.equals << condition.bit.first
+
+
+def exclude(one: Condition | State, other: Condition | State) -> bool:
+    """Whether two conditions never hold at once: a bit of the same register that both ask for, and not alike."""
+    (mask, value), (mask_2, value_2) = counted(one), counted(other)
+    return one.register == other.register and bool(mask & mask_2 & (value ^ value_2))
+
+
+def _condition(drive: Drive, condition: Condition | State, bit: Span | None, report: Report) -> None:
     row = known(drive, condition.register, "r", condition.place("register"), report)
-    bits = condition.bit or Span(0, 15)
-    if condition.bit is not None and not condition.bit:
-        wrong = f"bits {bits_text(condition.bit)} run backwards"
-        report.add(condition.place("bit"), wrong, "write the lower bit first")
-        return
-    if not 0 <= condition.equals < 1 << len(bits):
+    bits = bit or Span(0, 15)
+    if bit is not None and not bit:
+        report.add(condition.place("bit"), f"bits {bits_text(bit)} run backwards", "write the lower bit first")
+    elif condition.mask is not None:
+        _mask(condition, condition.mask, bit, row, report)
+    elif not 0 <= condition.equals < 1 << len(bits):
         wrong = f"{condition.equals} does not fit {len(bits)} bit{'s' * (len(bits) > 1)}"
         report.add(condition.place("equals"), wrong, f"write 0 to {(1 << len(bits)) - 1}")
     elif row is not None:
-        _condition_value(condition, row, report)
+        _value(condition, bit, row, report)
 
 
-def _condition_value(condition: Condition, row: Register, report: Report) -> None:
+def _value(condition: Condition | State, bit: Span | None, row: Register, report: Report) -> None:
     what = address_text(condition.register)
     values = row.values
-    if condition.bit is not None:
-        what = f"bit {bits_text(condition.bit)} of {what}"
-        bit = bit_at(row, condition.bit.first)
-        if bit is None or bit.unused or bit.bit != condition.bit:
+    if bit is not None:
+        what = f"bit {bits_text(bit)} of {what}"
+        listed = bit_at(row, bit.first)
+        if listed is None or listed.unused or listed.bit != bit:
             wrong = f"{what} is not a listed bit or field"
             report.miss(condition.place("bit"), wrong, "name a bit that the register lists")
-        values = bit.values if bit is not None else ()
+        values = listed.values if listed is not None else ()
     if values and condition.equals not in {value.value for value in values}:
         wrong = f"{condition.equals} is no value of {what}"
         report.miss(condition.place("equals"), wrong, "write one of the listed values")
+
+
+def _mask(condition: Condition | State, mask: int, bit: Span | None, row: Register | None, report: Report) -> None:
+    place = condition.place("mask")
+    if bit is not None:
+        report.add(place, "a condition has both `bit` and `mask`", "keep one of them")
+    elif not 0 < mask < WORD:
+        wrong = f"mask {mask:04X}H is no part of a word"
+        report.add(place, wrong, "write 0001H to FFFEH, or leave it out for the whole word")
+    elif condition.equals & ~mask:
+        wrong = f"{condition.equals:04X}H has bits that the mask {mask:04X}H has not"
+        report.add(condition.place("equals"), wrong, "write the value in the place of its bits")
+    elif row is not None:
+        for what in _hidden(mask, condition.equals, row):
+            wrong = f"{address_text(condition.register)} lists no {what}"
+            report.miss(place, wrong, "ask for bits, fields and values that the register lists")
+
+
+def _hidden(mask: int, value: int, row: Register) -> Iterator[str]:
+    """What a mask asks for and the register does not list; of a field all bits are asked for, or none."""
+    if row.values and not row.masks:
+        yield "single bits, but values of the whole word"
+        return
+    listed = {one.value.bit_length() - 1 for one in row.values}
+    listed |= {number for bit in row.bits if not bit.unused for number in bit.bit}
+    for number in range(16):
+        if mask >> number & 1 and number not in listed:
+            yield f"bit {number:X}"
+    for bit in row.bits:
+        ours = sum(1 << number for number in bit.bit)
+        found = (value & ours) >> bit.bit.first
+        if bit.values and mask & ours == ours and found not in {one.value for one in bit.values}:
+            yield f"value {found} of bits {bits_text(bit.bit)}"
+        elif bit.values and 0 < mask & ours < ours:
+            yield f"part of bits {bits_text(bit.bit)}"

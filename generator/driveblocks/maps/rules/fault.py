@@ -21,6 +21,7 @@ def check(drive: Drive, report: Report) -> None:
         if not 1 <= code <= 0xFFFF:
             report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes lie within 1 to FFFFH")
     _fault_registers(drive, codes, report)
+    _present(drive, report)
     if drive.faults.bits is not None:
         _fault_bits(drive, drive.faults.bits, ids, report)
     _errors(drive, report)
@@ -39,6 +40,22 @@ def _fault_registers(drive: Drive, codes: dict[int, Fault], report: Report) -> N
             row = known(drive, address, "r", place, report)
             if row is not None and row.values and codes:
                 _fault_values(row.values, address, codes, report)
+
+
+def _present(drive: Drive, report: Report) -> None:
+    """Note what hides the code of the fault that is present, or gives it twice."""
+    faults = drive.faults
+    if faults.present is None:
+        if faults.bits is None and not any("faults" in one.about for one in drive.absent):
+            wrong = "nothing gives the code of the fault that is present"
+            right = "add `present` with its register, or say under `absent`, about `faults`, that there is none"
+            report.miss(faults.at, wrong, right)
+    elif faults.bits is not None:
+        wrong = "`bits` give the number of the present fault, and so does `present`"
+        report.add(faults.place("present"), wrong, "keep the one that the manual says more of")
+    elif not any(faults.present in span for span in faults.registers):
+        wrong = f"{address_text(faults.present)} is not among `registers`"
+        report.miss(faults.place("present"), wrong, "name one of them")
 
 
 def _fault_values(values: tuple[Value, ...], address: int, codes: dict[int, Fault], report: Report) -> None:

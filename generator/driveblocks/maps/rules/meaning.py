@@ -1,10 +1,11 @@
 """Rules on what commands mean: the register's own table must call what a command writes by what the command does."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 
-from driveblocks.maps.model import Bit, Command, Does, Drive, Register, Value
-from driveblocks.maps.problem import Report
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Bit, Command, Does, Drive, Register, Step, Value
+from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules import term
 from driveblocks.maps.rules.term import COAST, FORWARD, JOG, QUICK, RESET, REVERSE, RUN, STOP, Meaning
 
@@ -57,7 +58,8 @@ _DUE: dict[Does, _Due] = {
 class _Said:
     """What the register calls one part of what a command writes."""
 
-    key: str
+    place: Place
+    register: int
     name: str
     zh: str
     on: bool
@@ -81,17 +83,37 @@ class _Said:
         return f"`{self.name}` {self.zh}".rstrip()
 
 
-def written(command: Command) -> dict[int, bool]:
-    """The bits that a command writes, and what it writes there."""
-    if command.value is not None:
-        return {number: bool(command.value >> number & 1) for number in range(16)}
-    ones = {number: True for span in command.set for number in span}
-    return {number: False for span in command.clear for number in span} | ones
+Write = Command | Step
+Image = dict[tuple[int, int], bool]
+"""What stands in bits of registers: register and bit -> set or not."""
 
 
-def key(command: Command, one: bool) -> str:
-    """The key under which a command writes a bit."""
-    return "value" if command.value is not None else "set" if one else "clear"
+def written(one: Write) -> dict[int, bool]:
+    """The bits that a write gives a value, and which."""
+    if one.value is not None:
+        return {number: bool(one.value >> number & 1) for number in range(16)}
+    ones = {number: True for span in one.set for number in span}
+    return {number: False for span in one.clear for number in span} | ones
+
+
+def image(writes: Iterable[Write]) -> Image:
+    """What stands in the registers after these writes."""
+    return {(one.register, number): on for one in writes for number, on in written(one).items()}
+
+
+def acting(command: Command) -> tuple[Write, ...]:
+    """The writes of a command up to the one that does it: of a pulse the step that sets what is taken back later."""
+    end = image(command.writes)
+    for count in range(len(command.first), 0, -1):
+        step = command.first[count - 1]
+        if step.for_ms and any(on and not end[step.register, number] for number, on in written(step).items()):
+            return command.first[:count]
+    return command.writes
+
+
+def key(one: Write, on: bool) -> str:
+    """The key under which a bit is written."""
+    return "value" if one.value is not None else "set" if on else "clear"
 
 
 def number(field: Bit, bits: dict[int, bool]) -> int:
@@ -100,20 +122,22 @@ def number(field: Bit, bits: dict[int, bool]) -> int:
 
 
 def field_value(field: Bit, bits: dict[int, bool]) -> Value | None:
-    """The listed value of a field of which every bit is written."""
+    """The listed value of a field, where every bit of it is written."""
+    if any(place not in bits for place in field.bit):
+        return None
     return next((value for value in field.values if value.value == number(field, bits)), None)
 
 
-def check(drive: Drive, command: Command, row: Register, report: Report) -> None:
+def check(drive: Drive, command: Command, report: Report) -> None:
     """Note a command that the register calls something else, and one that it does not call so without a reason."""
-    due, said = _DUE[command.does], list(_said(drive, command, row))
-    contrary = [one for one in said if _contrary(due, one)]
+    due, said = _DUE[command.does], [part for one in _merged(acting(command)) for part in _said(drive, one)]
+    contrary = [one for one in said if _contrary(due, one, said)]
     taken = [one for one in said if _taken(due, one, said)]
     for one in contrary or taken:
         calls = "but the register calls it" if contrary else "but it clears what the register calls"
         wrong = f"`{command.does}`, {calls} {one}"
-        report.add(command.place(one.key), wrong, "correct the value or bit, or the register's table")
-    if contrary or taken:
+        report.add(one.place, wrong, "correct the value or bit, or the register's table")
+    if contrary or taken or _passed(drive, command, due, report):
         return
     doubt = _doubt(due, said, _ended(drive, command, said))
     if command.because is not None and doubt is None:
@@ -124,36 +148,68 @@ def check(drive: Drive, command: Command, row: Register, report: Report) -> None
         report.miss(place, f"`{command.does}` writes {doubt}, which is not called {due.called}", due.right)
 
 
-def _said(drive: Drive, command: Command, row: Register) -> Iterator[_Said]:
-    """What the register calls the parts of what a command writes: a value, values of fields, single bits."""
-    for one in row.values:
-        if one.value == command.value:
-            yield _Said("value", one.name, one.text_zh or "", on=True)
+def _merged(some: tuple[Write, ...]) -> Iterator[Write]:
+    """One write for each register: the last, with what earlier ones left there."""
+    for register in dict.fromkeys(one.register for one in some):
+        there = [one for one in some if one.register == register]
+        bits = {number: on for (_, number), on in image(there).items()}
+        if len(there) == 1:
+            yield there[0]
+        elif any(one.value is not None for one in there):
+            yield replace(there[-1], value=sum(on << number for number, on in bits.items()), set=(), clear=())
+        else:
+            ones, zeros = (tuple(Span(n, n) for n, on in bits.items() if on is want) for want in (True, False))
+            yield replace(there[-1], set=ones, clear=zeros)
+
+
+def _passed(drive: Drive, command: Command, due: _Due, report: Report) -> bool:
+    """Note what writes on the way are called and must not be; whether there was such."""
+    found = False
+    for one in command.writes if command.first else ():
+        for said in _said(drive, one):
+            if said.holds and said.alone and said.meaning & due.never & _MOTION:
+                wrong = f"on its way `{command.does}` writes what the register calls {said}"
+                report.add(said.place, wrong, "correct the value or bit, or the register's table")
+                found = True
+    return found
+
+
+def _said(drive: Drive, one: Write) -> Iterator[_Said]:
+    """What the register calls the parts of a write: a value, values of fields, single bits."""
+    row = drive.register_at(one.register)
+    if row is None:
+        return
+    where = one.place("value"), one.register
+    for each in row.values:
+        if each.value == one.value:
+            yield _Said(*where, each.name, each.text_zh or "", on=True)
     if not row.values and not row.bits:
-        writers = [one for one in drive.operation.commands if one.register == command.register]
-        yield _Said("value", row.name or "", row.text_zh or "", on=True, alone=len(writers) == 1)
-    bits = written(command)
+        writers = [each for each in drive.operation.commands if one.register in {w.register for w in each.writes}]
+        yield _Said(*where, row.name or "", row.text_zh or "", on=True, alone=len(writers) == 1)
+    yield from _said_bits(one, row)
+
+
+def _said_bits(one: Write, row: Register) -> Iterator[_Said]:
+    bits = written(one)
     for bit in row.bits:
         ours = tuple(place for place in bit.bit if place in bits)
         on = any(bits[place] for place in ours)
+        where = one.place(key(one, on)), one.register
         value = field_value(bit, bits) if ours and bit.values else None
         if value is not None:
-            yield _Said(key(command, on), value.name, value.text_zh or "", on=on, bits=ours)
+            yield _Said(*where, value.name, value.text_zh or "", on=on, bits=ours)
         elif ours and not bit.unused:
-            yield _Said(
-                key(command, on),
-                bit.name or "",
-                bit.text_zh or "",
-                on=on,
-                value=False,
-                bits=ours,
-                alone=not on or len(bit.bit) == 1,
-            )
+            alone = not on or len(bit.bit) == 1
+            name = bit.name or ""
+            yield _Said(*where, name, bit.text_zh or "", on=on, value=False, bits=ours, alone=alone)
 
 
-def _contrary(due: _Due, one: _Said) -> bool:
-    """Whether the register calls it something else."""
-    return one.holds and one.alone and bool(one.meaning & due.never or (one.meaning and not one.meaning & due.only))
+def _contrary(due: _Due, one: _Said, said: list[_Said]) -> bool:
+    """Whether the register calls it something else; a stop in the word of a reset is a doubt, if it says reset, too."""
+    if not one.holds or not one.alone or not one.meaning:
+        return False
+    beside = one.meaning <= due.doubts and any(need <= _all(said) for need in due.needs)
+    return bool(one.meaning & due.never) or not (one.meaning & due.only or beside)
 
 
 def _taken(due: _Due, one: _Said, said: list[_Said]) -> bool:
@@ -180,11 +236,22 @@ def _doubt(due: _Due, said: list[_Said], ended: Meaning) -> str | None:
 
 
 def _ended(drive: Drive, command: Command, said: list[_Said]) -> Meaning:
-    """What clearing means: a stop of the motion, or of the jog, that sets these bits of the register."""
-    cleared = {place for one in said if not one.holds and not one.value for place in one.bits}
+    """What undoing means: a stop of the motion, or of the jog, that writes the contrary to these bits."""
+    now = image(acting(command))
+    undone = {(one.register, place) for one in said if not one.holds and not one.value for place in one.bits}
     ended: set[str] = set()
     for other in drive.operation.commands:
-        moves = other.does in MOVES and other.register == command.register
-        if moves and any(on and place in cleared for place, on in written(other).items()):
+        moved = image(acting(other)) if other.does in MOVES else {}
+        if any(moved.get(place, now[place]) != now[place] for place in undone):
             ended |= {STOP, JOG} if other.does in JOGS else {STOP}
     return frozenset(ended)
+
+
+def sets_off(drive: Drive, motion: Command) -> frozenset[tuple[int, int]]:
+    """The bits that make a motion: those that it sets, and those that it clears where the table calls just that so."""
+    found = {place for one in motion.writes for place, on in image([one]).items() if on}
+    for one in _merged(acting(motion)):
+        for said in _said(drive, one):
+            if said.holds and said.alone and not said.on and said.meaning & _MOTION:
+                found |= {(said.register, bit) for bit in said.bits}
+    return frozenset(found)

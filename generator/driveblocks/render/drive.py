@@ -1,0 +1,169 @@
+"""Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
+
+from collections.abc import Iterator
+
+from driveblocks.maps import names
+from driveblocks.maps.model import Command, Condition, Drive, Measured
+from driveblocks.maps.plan import plan
+from driveblocks.maps.polls import MOST_WORDS, Poll, fast_words, polls, schedule, slow_words
+from driveblocks.maps.view import error_number
+from driveblocks.render import context
+from driveblocks.render.context import Context, word_input
+from driveblocks.render.expression import Test, times
+
+STOPS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
+"""Command -> its number as StopKind of DB_Control."""
+ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8, "fault_reset": 9}
+"""Command -> its number as Order or Sent of DB_Control."""
+MEASURES = {
+    "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
+    "output_current": ("OutputCurrent", "A", "CurrentScale"),
+    "output_voltage": ("OutputVoltage", "V", "VoltageScale"),
+    "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
+    "output_power": ("OutputPower", "KW", "PowerScale"),
+}
+"""What a register can show -> the pin, its unit, and the setting that stands in for a scale."""
+STATUS = {
+    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
+    "ready": "ReadyShown", "warning": "Warning", "fault": "Fault",
+}  # fmt: skip
+"""What a drive can show -> the pin or variable."""
+
+
+def drive_block(drive: Drive) -> Context:
+    """For Drive."""
+    reads = polls(drive)
+    places = list(_places(drive, reads))
+    commands = {one.does: one for one in drive.operation.commands}
+    written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
+    number = {each["address"]: each["number"] for each in places}
+    turns = [index + 1 for index in schedule(reads)]
+    reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
+    orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
+    return {
+        "source": context.source_of(drive, commands["stop"].source),
+        "prefix": drive.prefix,
+        "unit": drive.serial.unit,
+        "reads": [_read(drive, index, read, places) for index, read in enumerate(reads, 1)],
+        "number": number,
+        "turns": turns,
+        "places": {index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
+        "shown": STATUS,
+        "status": {one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
+        "proof": [word_input(drive, each) for each in _proof(drive)],
+        "proof_reads": sorted({number[each] for each in _proof(drive)}),
+        "fault": _fault(drive),
+        "fault_reads": _fault_reads(drive, number),
+        "verify": [_condition(drive, each) for each in operation.reference.verify],
+        "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
+        "measures": {one.shows: _measure(drive, one) for one in operation.measures},
+        "pins": MEASURES,
+        "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
+        "orders": orders,
+        "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
+        "longest": max(map(len, orders.values())),
+        "waits": list(_waits(drive)),
+        "reference": operation.reference.register,
+        "scaled": reference["scale"] is not None,
+        "percent": reference["percent"],
+        "can": commands,
+        "keeps": context.kept(drive),
+        "write": 6 if 6 in plan(drive).functions else 16,
+        "manners": manners["form"],
+        "two_byte_count": manners["two_byte_count"],
+        "busy": next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
+        "silence": _silence(drive),
+        "second_hand": drive.manual.second_hand,
+    }
+
+
+def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
+    """All writes of a command in order: register, bits, and the mask of the bits that pass through.
+
+    Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
+    """
+    kept = context.kept(drive)
+    image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
+    for write in one.writes:
+        if write.value is not None:
+            image[write.register] = write.value
+        else:
+            before = image.get(write.register, 0) & ~context.bits_of(write.clear)
+            image[write.register] = before | context.bits_of(write.set)
+        keep = 0 if write.value is not None else kept.get(write.register, 0)
+        yield {"register": write.register, "bits": image[write.register], "keep": keep}
+
+
+def _waits(drive: Drive) -> Iterator[Context]:
+    """What each write but the last of a command waits for: a state, a time."""
+    states = {one.name: one for one in drive.operation.states}
+    for command in drive.operation.commands:
+        for number, step in enumerate(command.first):
+            state = states[step.until] if step.until else None
+            yield {
+                "key": ORDERS[command.does] * 16 + number,
+                "does": command.does,
+                "state": state,
+                "test": context.tested(word_input(drive, state.register)["name"], state) if state else None,
+                "hold": step.for_ms or 0,
+            }
+
+
+def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
+    """Each word that the block keeps, and the number of the read that brings it."""
+    for address in sorted(fast_words(drive) | slow_words(drive)):
+        for number, read in enumerate(reads, 1):
+            if read.address <= address < read.address + read.words:
+                yield {**word_input(drive, address), "number": number, "index": address - read.address}
+
+
+def _read(drive: Drive, number: int, read: Poll, places: list[Context]) -> Context:
+    words = [place for place in places if place["number"] == number]
+    beyond = read.address + read.words
+    others = plan(drive).readable
+    varied = any(read.address in span and beyond in span for span in others) and read.words < MOST_WORDS
+    return {"number": number, "read": read, "words": words, "other": read.words + 1 if varied else 0}
+
+
+def _proof(drive: Drive) -> list[int]:
+    return list(dict.fromkeys(one.register for one in drive.operation.standstill.all))
+
+
+def _condition(drive: Drive, one: Condition) -> Test:
+    return context.tested(word_input(drive, one.register)["name"], one)
+
+
+def _fault(drive: Drive) -> Context:
+    """Where the code of the present fault comes from."""
+    if drive.faults.present is not None:
+        return {"word": word_input(drive, drive.faults.present), "words": []}
+    numbers = context.fault_number(drive)
+    return {"word": None, "words": numbers["words"] if numbers else []}
+
+
+def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
+    """The reads that tell whether there is a fault, and which."""
+    shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
+    fault = _fault(drive)
+    words = [fault["word"]] if fault["word"] else fault["words"]
+    return sorted({number[each] for each in (*shown, *(word["address"] for word in words))})
+
+
+def _measure(drive: Drive, one: Measured) -> Context:
+    row = drive.register_at(one.register)
+    assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
+    scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
+    constant = f"{one.shows.upper()}_FACTOR"
+    return {
+        "word": word_input(drive, one.register),
+        "scale": scale,
+        "times": times(scale.factor).replace("FACTOR", constant) if scale else "",
+        "constant": constant if scale and times(scale.factor).endswith("FACTOR") else "",
+        "when": _condition(drive, scale.when) if scale and scale.when else None,
+        "signed": row.signed,
+    }
+
+
+def _silence(drive: Drive) -> int:
+    silence = drive.serial.silence
+    return int(silence.milliseconds or 0) if silence else 0

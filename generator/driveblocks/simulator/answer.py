@@ -1,0 +1,116 @@
+"""What a simulated drive replies, by MODBUS Application Protocol V1.1b3 and its map's limits and refusals."""
+
+from driveblocks.modbus.request import READS
+from driveblocks.simulator.machine import Machine
+from driveblocks.simulator.memory import inside
+from driveblocks.simulator.table import Limit
+
+SHORT = 6
+"""Bytes of every request but 10H: unit, function and two words."""
+
+
+class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of the program)
+    """Why a request is refused: one of `refusal.REASONS`."""
+
+    def __init__(self, reason: str) -> None:
+        """Keep the reason."""
+        self.reason = reason
+        super().__init__(reason)
+
+
+def answer(machine: Machine, request: bytes) -> bytes | None:
+    """The reply; None where nobody listens, the request is cut short, or all are told."""
+    called = request[:1] == bytes([machine.unit])
+    everyone = machine.table.broadcast is not None and request[:1] == bytes([machine.table.broadcast])
+    if not machine.powered or not (called or everyone) or not _whole(machine, request):
+        return None
+    try:
+        data = _granted(machine, request, everyone=everyone)
+    except Refused as refused:
+        return _refusal(machine, request, refused.reason) if called else None
+    if not called:
+        return None
+    machine.heard_at = machine.now
+    return request[:2] + data
+
+
+def _whole(machine: Machine, request: bytes) -> bool:
+    """Whether the request is as long as its function says; of other functions nobody knows."""
+    if len(request) < 2 or request[1] not in machine.table.functions:
+        return len(request) >= 2
+    if request[1] == 16:
+        return len(request) >= 7 and len(request) == 7 + request[6]
+    return len(request) == SHORT
+
+
+def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:
+    """The data of the reply. Raises Refused."""
+    table, function = machine.table, request[1]
+    if function not in table.functions or function not in (*READS, 6, 8, 16):
+        raise Refused("function")
+    first, number = int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
+    if function == 8:
+        if first not in table.sub_functions:
+            raise Refused("function")
+        return request[2:]
+    if function in READS:
+        words = _read(machine, first, number)
+        return bytes([2 * number]) + b"".join(word.to_bytes(2, "big") for word in words)
+    if everyone and table.broadcasts and first not in table.broadcasts:
+        raise Refused("address")
+    if function == 6:
+        _write(machine, first, [number])
+    else:
+        if not 1 <= number <= table.most.write or request[6] != 2 * number:
+            raise Refused("quantity")
+        _write(machine, first, [int.from_bytes(request[at : at + 2], "big") for at in range(7, len(request), 2)])
+    return request[2:SHORT]
+
+
+def _read(machine: Machine, first: int, number: int) -> list[int]:
+    table = machine.table
+    if not 1 <= number <= table.most.read:
+        raise Refused("quantity")
+    addresses = range(first, first + number)
+    if not all(inside(table.readable, address) for address in addresses):
+        raise Refused("address")
+    return [machine.word(address) for address in addresses]
+
+
+def _write(machine: Machine, first: int, words: list[int]) -> None:
+    table, memory = machine.table, machine.memory
+    addresses = range(first, first + len(words))
+    for address in addresses:
+        if not inside(table.writable, address):
+            raise Refused("read_only" if inside(table.readable, address) else "address")
+    for limit in table.limits:
+        if limit.register in addresses and not _fits(words[limit.register - first], limit):
+            raise Refused("value")
+    parameters = any(memory.parameter(address) for address in addresses)
+    if (parameters or machine.habits.busy_refuses_all) and machine.now < machine.busy_until:
+        _refuse(machine, "busy")
+    if parameters and machine.motor.driven:
+        _refuse(machine, "running")
+    before = {memory.home(each): (memory[each], memory.changed.get(memory.home(each), 0)) for each in addresses}
+    stored = [memory.write(address, word, machine.now) for address, word in zip(addresses, words, strict=True)]
+    if any(stored):
+        machine.busy_until = machine.now + machine.habits.store_ms
+    machine.written(before)
+
+
+def _fits(word: int, limit: Limit) -> bool:
+    return limit.low <= (word - 0x10000 if limit.signed and word & 0x8000 else word) <= limit.high
+
+
+def _refuse(machine: Machine, reason: str) -> None:
+    """Refuse for a reason for which not every drive does."""
+    if machine.table.codes[reason] is not None:
+        raise Refused(reason)
+
+
+def _refusal(machine: Machine, request: bytes, reason: str) -> bytes:
+    manners, code = machine.table.manners, machine.table.codes[reason] or 0
+    if manners.address is None or manners.function is None:
+        return bytes([request[0], (request[1] + manners.added) & 0xFF, code])
+    machine.memory.words[manners.address] = code
+    return bytes([request[0], manners.function]) + manners.address.to_bytes(2, "big") + code.to_bytes(2, "big")

@@ -1,0 +1,129 @@
+"""What the status words show: for each situation of the drive, words in which just the map's right conditions hold."""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, fields
+from itertools import product
+
+from driveblocks.maps.model import Drive
+from driveblocks.simulator.pattern import WORD, Pattern, of_condition
+
+
+@dataclass(frozen=True, order=True)
+class Situation:
+    """What a drive is doing, as far as status words can show it."""
+
+    fault: bool = False
+    running: bool = False
+    reverse: bool = False
+    at_speed: bool = False
+    zero_speed: bool = True
+    ready: bool = True
+    warning: bool = False
+
+    @property
+    def key(self) -> int:
+        """The facts as the bits of a number, the first one lowest."""
+        return sum(getattr(self, field.name) << place for place, field in enumerate(fields(self)))
+
+
+@dataclass(frozen=True)
+class Fact:
+    """Something that words show while one of these alternatives holds whole."""
+
+    wanted: bool
+    any: tuple[tuple[Pattern, ...], ...]
+
+    def shown(self, words: dict[int, int]) -> bool:
+        """Whether the words show it."""
+        return any(all(each.holds(words[each.register]) for each in all_) for all_ in self.any)
+
+
+Words = dict[int, int]
+
+
+def situations() -> Iterator[Situation]:
+    """Every situation that a drive can be in."""
+    for warning, zero in product((False, True), (False, True)):
+        yield Situation(zero_speed=zero, warning=warning)
+        yield Situation(zero_speed=zero, ready=False, warning=warning)
+        yield Situation(fault=True, zero_speed=zero, ready=False, warning=warning)
+        for reverse, at_speed in product((False, True), (False, True)):
+            if not (zero and at_speed):
+                yield Situation(running=True, reverse=reverse, at_speed=at_speed, zero_speed=zero, warning=warning)
+
+
+def named_bits(drive: Drive, measured: frozenset[int]) -> Words:
+    """The bits of status words that conditions name."""
+    facts = _facts(drive, measured, Situation(), None)
+    bits: Words = {}
+    for pattern in (each for fact in facts for all_ in fact.any for each in all_):
+        bits[pattern.register] = bits.get(pattern.register, 0) | pattern.mask
+    return bits
+
+
+def face(drive: Drive, measured: frozenset[int], situation: Situation, state: str | None) -> Words:
+    """The status words of a situation, but for bits that no condition names, which are 0.
+
+    Where a map's conditions exclude each other, the earlier fact of `_facts` is shown: a fault before all.
+    """
+    facts = _facts(drive, measured, situation, state)
+    options = [_options(fact) for fact in facts]
+    registers = {each.register for fact in facts for all_ in fact.any for each in all_}
+    candidates = [words for chosen in product(*options) if (words := _together(chosen, registers)) is not None]
+    return max(candidates, key=lambda words: ([fact.shown(words) == fact.wanted for fact in facts], _least(words)))
+
+
+def _least(words: Words) -> list[int]:
+    return [-word for _, word in sorted(words.items())]
+
+
+def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: str | None) -> tuple[Fact, ...]:
+    """What must be shown and what must not, what matters most first; measures show themselves."""
+    operation = drive.operation
+    stands = tuple(of_condition(each) for each in operation.standstill.all if each.register not in measured)
+    shown = {status.shows: status.any for status in operation.status}
+
+    def fact(name: str, *, wanted: bool) -> Fact:
+        return Fact(wanted, tuple((of_condition(each),) for each in shown.get(name, ())))  # type: ignore[call-overload]
+
+    named = {each.name: Fact(each.name == state, ((of_condition(each),),)) for each in operation.states}
+    now = [named.pop(state)] if state in named else []
+    facts = (
+        fact("fault", wanted=situation.fault),
+        *now,
+        fact("running", wanted=situation.running),
+        fact("reverse", wanted=situation.reverse),
+        *named.values(),
+        fact("zero_speed", wanted=situation.zero_speed),
+        Fact(not situation.running, (stands,) if stands else ()),
+        fact("at_speed", wanted=situation.at_speed),
+        fact("ready", wanted=situation.ready),
+        fact("warning", wanted=situation.warning),
+    )
+    return tuple(each for each in facts if each.any)
+
+
+def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
+    """Ways to help a fact: nothing; an alternative as it stands; or one bit of one that 0 would fulfil, turned."""
+    if fact.wanted:
+        return [(), *fact.any]
+    turned = [
+        (Pattern(each.register, 1 << bit, 1 << bit),)
+        for all_ in fact.any
+        for each in all_
+        if each.value == 0
+        for bit in range(16)
+        if each.mask >> bit & 1
+    ]
+    return [(), *turned]
+
+
+def _together(chosen: Iterable[tuple[Pattern, ...]], registers: Iterable[int]) -> Words | None:
+    """The words that fulfil all patterns, or None where two exclude each other."""
+    words, fixed = dict.fromkeys(registers, 0), dict.fromkeys(registers, 0)
+    for pattern in (each for patterns in chosen for each in patterns):
+        if (words[pattern.register] ^ pattern.value) & pattern.mask & fixed[pattern.register] & WORD:
+            return None
+        words[pattern.register] |= pattern.value
+        fixed[pattern.register] |= pattern.mask
+    return words

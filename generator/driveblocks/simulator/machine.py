@@ -1,0 +1,332 @@
+"""What a simulated drive does: its states, what is to be seen of them, and what happens to it."""
+
+from collections.abc import Mapping
+
+from driveblocks.maps.model import Drive
+from driveblocks.simulator.face import Situation
+from driveblocks.simulator.habits import Habits
+from driveblocks.simulator.memory import Memory
+from driveblocks.simulator.motor import Motor
+from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.pattern import WORD
+from driveblocks.simulator.table import Gauge, table
+
+
+class Machine:
+    """A drive of a family at a unit address, powered and standing. Time passes by `step` alone."""
+
+    def __init__(
+        self,
+        drive: Drive,
+        unit: int,
+        habits: Habits | None = None,
+        *,
+        words: Mapping[int, int] | None = None,
+        ascii_mode: bool = False,
+    ) -> None:
+        """Begin with these words in registers, the rest 0."""
+        self.habits = habits or Habits()
+        self.unit = unit
+        self.table = table(drive, self.habits, ascii_mode=ascii_mode)
+        self.memory = Memory(self.table.storage, words or {})
+        self.motor = Motor()
+        self.now = 0
+        self.heard_at = 0
+        self.busy_until = 0
+        self.turn_us = self.habits.turn_us
+        self.powered = True
+        self.fault = 0
+        """Code of the present fault."""
+        self.last_fault = 0
+        self.cause = False
+        """Whether the fault's cause is still there: no reset works."""
+        self.warning = False
+        self.inhibited = False
+        self.local = False
+        """Commands of the bus are acknowledged, and the keypad rules."""
+        self.follows = True
+        """FALSE: it acknowledges commands and does nothing."""
+        self.keeps_running = False
+        """TRUE: it acknowledges stops and runs on."""
+        self.load = 50
+        """Of the motor, in %."""
+        self.state: str | None = None
+        """The map's named state that it is in; None: in none, as after power-up and while it runs."""
+        self._next: tuple[str | None, int] | None = None
+        self._after: str | None = None
+        self._stopping = False
+        self._quick = False
+        self._reverse = False
+        self._jog = False
+        self._own_milli: int | None = None
+        self._restart = False
+
+    # ------------------------------------------------------------ what is to be seen
+
+    @property
+    def mode(self) -> str:
+        """Standing, ramping up, running, ramping down, coasting, or fault."""
+        if self.fault:
+            return "fault"
+        if not self.motor.driven:
+            return "coasting" if self.motor.shaft else "standing"
+        if self.motor.output == self._goal():
+            return "running"
+        return "ramping down" if abs(self.motor.output) > abs(self._goal()) else "ramping up"
+
+    @property
+    def hertz(self) -> float:
+        """The speed of the shaft; reverse negative."""
+        return self.motor.shaft / 1000
+
+    @property
+    def stores(self) -> int:
+        """How often parameters were stored in EEPROM."""
+        return self.memory.stores
+
+    def word(self, address: int) -> int:
+        """What a register shows."""
+        gauge = next((each for each in self.table.gauges if each.register == address), None)
+        if gauge:
+            return self._measure(gauge)
+        if address == self.table.present:
+            return self._code
+        home = self.memory.home(address)
+        bits = self.table.fault_bits
+        if bits and bits[0] <= home <= bits[1]:
+            place = self._code - 1 - 16 * (home - bits[0])
+            return self.memory[home] | (1 << place if 0 <= place < 16 else 0)
+        return self.memory[home] & ~self.table.named.get(home, 0) | self._face().get(home, 0)
+
+    @property
+    def _code(self) -> int:
+        return self.fault or (self.last_fault if self.habits.keeps_fault_code else 0)
+
+    def _face(self) -> dict[int, int]:
+        running = self.motor.driven and (self.habits.runs_while_stopping or not self._stopping)
+        output = self._shown_output()
+        goal = self._goal()
+        situation = Situation(
+            fault=self.fault != 0,
+            running=running,
+            reverse=running and (output < 0 or (output == 0 and goal < 0)),
+            at_speed=running and output == goal != 0,
+            zero_speed=output == 0,
+            ready=not self.fault and not self.inhibited,
+            warning=self.warning,
+        )
+        return self.table.faces[situation, self.state]
+
+    def _shown_output(self) -> int:
+        return self.motor.output if self.habits.coast_shows_zero else self.motor.shaft
+
+    def _measure(self, gauge: Gauge) -> int:
+        habits, output = self.habits, abs(self._shown_output())
+        share = output * 100 // (1000 * habits.maximum_hz)
+        driven = self.motor.driven
+        milli = {
+            "output_frequency": self._shown_output() if gauge.signed else output,
+            "output_current": 10 * habits.amperes * self.load * driven,
+            "output_voltage": 10 * habits.motor_volts * share * driven,
+            "dc_bus_voltage": 1000 * habits.bus_volts,
+            "output_power": habits.kilowatts * self.load * share * driven // 10,
+        }[gauge.shows]
+        # towards 0, as C divides
+        return (milli // gauge.milli if milli >= 0 else -(-milli // gauge.milli)) & WORD
+
+    # ------------------------------------------------------------ time
+
+    def step(self, ms: int) -> None:
+        """Let time pass."""
+        self.now += ms
+        habits = self.habits
+        self.motor.step(ms, self._goal(), habits.quick_ramp if self._quick else habits.ramp, habits.coast_ramp)
+        if self._stopping and self.motor.output == 0:
+            self._let_go()
+        self._settle()
+        limit = habits.watchdog_ms
+        if limit is not None and self.motor.driven and self.now - self.heard_at > limit:
+            self._lost()
+
+    def _goal(self) -> int:
+        """Where the output frequency goes, in thousandths of a hertz."""
+        if self._stopping:
+            return 0
+        if self._jog:
+            milli = 1000 * self.habits.jog_hz
+        elif self._own_milli is not None:
+            milli = self._own_milli
+        else:
+            milli = self._referred()
+        most = 1000 * self.habits.maximum_hz
+        milli = max(-most, min(most, milli))
+        return -milli if self._reverse else milli
+
+    def _referred(self) -> int:
+        given = self.table.reference
+        word = self.memory[given.register]
+        number = word - 0x10000 if given.signed and word & 0x8000 else word
+        milli = abs(number) * given.times // given.per
+        if not all(each.holds(self.memory[each.register]) for each in given.verify):
+            milli *= self.habits.misread
+        return -milli if number < 0 and given.reverses else milli
+
+    def _lost(self) -> None:
+        """The watchdog."""
+        if self.habits.watchdog == "trip":
+            self.trip(self.habits.watchdog_code)
+            self.cause = False
+        else:
+            self._stop("coast_stop" if self.habits.watchdog == "coast" else "stop")
+
+    # ------------------------------------------------------------ what happens to it
+
+    def set(self, address: int, word: int) -> None:
+        """Somebody sets a register at the keypad; of a status word, the bits that no condition of the map names."""
+        self.memory.words[self.memory.home(address)] = word
+        if self.memory.parameter(address):
+            self.memory.stored[self.memory.home(address)] = word
+
+    def trip(self, code: int) -> None:
+        """A fault, whose cause stays until `clear_cause`."""
+        if not self.powered or self.fault:
+            return
+        self.fault = self.last_fault = code
+        self.cause = True
+        self._let_go()
+        self.state = self._next = None
+
+    def clear_cause(self) -> None:
+        """The cause of a fault goes; the fault stays until it is reset."""
+        self.cause = False
+
+    def reset(self) -> None:
+        """Reset a fault, by bus or keypad; it works only while its cause is gone and the motor stands."""
+        if not self.fault or self.cause or self.motor.shaft or not self.powered:
+            return
+        self.fault = 0
+        if self.habits.resumes:
+            self._hold()
+
+    def keypad_run(self, hz: float | None = None, *, reverse: bool = False) -> None:
+        """Keypad or terminals start it, at a frequency of their own or at that of the bus."""
+        if self.powered and not self.fault and not self.inhibited:
+            self._run(reverse=reverse, own_milli=None if hz is None else round(1000 * hz))
+
+    def keypad_stop(self) -> None:
+        """Keypad or terminals stop it."""
+        if self.motor.driven:
+            self._jog = False
+            self._stop("stop")
+
+    def inhibit(self, *, on: bool) -> None:
+        """A safe torque off or another interlock: no output, and not ready."""
+        self.inhibited = on
+        if on:
+            self._let_go()
+
+    def power(self, *, on: bool) -> None:
+        """Supply on or off; what is in RAM is lost, the motor coasts."""
+        if on == self.powered:
+            return
+        self.powered = on
+        if on:
+            self.heard_at = self.now
+            self.fault = self.fault if self.cause else 0
+            if self._restart and not self.fault:
+                self.motor.start()
+            return
+        self._restart = self.habits.auto_restart and self.motor.driven and not self._stopping
+        told = {move.pattern.register for move in self.table.moves} | {self.table.reference.register}
+        self.memory.lose(told if self.habits.auto_restart else ())
+        self._let_go()
+        self.busy_until = self.now
+        self.state = self._next = None
+
+    # ------------------------------------------------------------ commands
+
+    def written(self, before: Mapping[int, tuple[int, int]]) -> None:
+        """Act on a write; `before` holds the registers that it touched: their word until then, and since when."""
+        if self.local or not self.follows:
+            return
+        fired = [move for move in self.table.moves if self._fires(move, before)]
+        stop = next((move.effect for move in fired if move.effect in STOPS), None)
+        led = [move.into for move in fired if move.effect == STATE]
+        if stop and not self.keeps_running:
+            self._obey(stop, before, led)
+        if any(move.effect == "fault_reset" for move in fired):
+            self.reset()
+        if led and not self.fault and not self.motor.driven:
+            self._next = (led[-1], self.now + self.habits.settle_ms)
+            self._settle()
+        if not stop:
+            self._move(fired)
+
+    def _fires(self, move: Move, before: Mapping[int, tuple[int, int]]) -> bool:
+        touched = {move.pattern.register}
+        if not any(need.before for need in move.needs):
+            touched.update(need.pattern.register for need in move.needs)
+        if touched.isdisjoint(before) or not move.pattern.holds(self.memory[move.pattern.register]):
+            return False
+        if move.guard not in (None, self.state) and not (move.effect in MOTIONS and self.motor.driven):
+            return False
+        return all(self._met(need, before) for need in move.needs)
+
+    def _met(self, need: Need, before: Mapping[int, tuple[int, int]]) -> bool:
+        register = need.pattern.register
+        word, since = self.memory[register], self.memory.changed.get(register, 0)
+        if need.before:
+            word, since = before[register]
+        return need.pattern.holds(word) and self.now - since >= need.for_ms
+
+    def _obey(self, stop: str, before: Mapping[int, tuple[int, int]], led: list[str | None]) -> None:
+        """A stop of the bus; its word may lead into a state, too, but not in the wrong order."""
+        words = [move for move in self.table.moves if move.effect == STATE and move.pattern.register in before]
+        after = [move.into for move in words if move.pattern.holds(self.memory[move.pattern.register])]
+        if self.motor.driven:
+            self._stop(stop, after[-1] if after else None)
+        elif not led and not after and not self.fault:
+            self.state = self._next = None
+
+    def _move(self, fired: list[Move]) -> None:
+        motions = [move for move in fired if move.effect in MOTIONS]
+        if motions and not self.fault and not self.inhibited:
+            effect = max(motions, key=lambda move: move.exact).effect
+            self._run(reverse=effect.endswith("reverse"), jog=effect.startswith("jog"))
+
+    def _hold(self) -> None:
+        """A run word that still stands acts again, where it needs neither an edge nor a state."""
+        held = [move for move in self.table.moves if move.guard is None and not any(n.before for n in move.needs)]
+        whole = {move.pattern.register: (0, 0) for move in held}
+        fired = [move for move in held if self._fires(move, whole)]
+        if not any(move.effect in STOPS for move in fired):
+            self._move(fired)
+
+    def _run(self, *, reverse: bool, jog: bool = False, own_milli: int | None = None) -> None:
+        self._stopping = self._quick = False
+        self._reverse, self._jog, self._own_milli = reverse, jog, own_milli
+        self.motor.start()
+        self.state = self._next = None
+
+    def _stop(self, effect: str, after: str | None = None) -> None:
+        if effect == "jog_stop" and not self._jog:
+            return
+        if effect == "stop" and self._jog and not self.habits.stop_ends_jog:
+            return
+        self._after = after
+        if effect == "coast_stop":
+            self._let_go()
+        else:
+            self._stopping = True
+            self._quick |= effect == "quick_stop"
+
+    def _let_go(self) -> None:
+        """No output: the motor coasts."""
+        if self.motor.driven:
+            self.state = None if self.fault else self._after
+        self.motor.release()
+        self._stopping = self._quick = self._jog = False
+
+    def _settle(self) -> None:
+        if self._next and self.now >= self._next[1]:
+            self.state, self._next = self._next[0], None

@@ -1,0 +1,60 @@
+"""Registers of a drive: what is written, what survives the power, and how often it was stored."""
+
+from collections.abc import Iterable, Mapping
+
+from driveblocks.maps.form import Span
+from driveblocks.simulator.table import Storage
+
+
+class Memory:
+    """Words by address. A register that was never written is 0.
+
+    By the map's storage rule a write to a parameter is stored at once (`ram_address_bit` without the bit, and
+    `unexplained`, which counts as EEPROM), or with ENTER, all of them in one store.
+    """
+
+    def __init__(self, storage: Storage, words: Mapping[int, int]) -> None:
+        """Begin with these words, stored."""
+        self.storage = storage
+        self.words = dict(words)
+        self.stored = {address: word for address, word in words.items() if self.parameter(address)}
+        self.stores = 0
+        self.changed: dict[int, int] = {}
+
+    def __getitem__(self, address: int) -> int:
+        """The word at an address."""
+        return self.words.get(self.home(address), 0)
+
+    def home(self, address: int) -> int:
+        """The register that an address stands for: it may have the bit for RAM added."""
+        plain = address - self.storage.add
+        return plain if self.storage.add and inside(self.storage.areas, plain) else address
+
+    def parameter(self, address: int) -> bool:
+        """Whether an address is a parameter's."""
+        return inside(self.storage.areas, self.home(address))
+
+    def write(self, address: int, word: int, now: int) -> bool:
+        """Write a word at a time in ms; whether that stores."""
+        home = self.home(address)
+        if self[home] != word:
+            self.changed[home] = now
+        self.words[home] = word
+        if address == self.storage.register and word == self.storage.value:
+            self.stored = {each: self[each] for each in self.words if self.parameter(each)}
+        elif self.storage.method != "enter_register" and home == address and self.parameter(address):
+            self.stored[address] = word
+        else:
+            return False
+        self.stores += 1
+        return True
+
+    def lose(self, kept: Iterable[int] = ()) -> None:
+        """What the loss of power leaves: what is stored, and some registers."""
+        self.words = {**{address: self[address] for address in kept}, **self.stored}
+        self.changed = {}
+
+
+def inside(spans: Iterable[Span], address: int) -> bool:
+    """Whether an address lies in one of these."""
+    return any(address in span for span in spans)

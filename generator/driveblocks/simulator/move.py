@@ -1,0 +1,77 @@
+"""What a write makes the drive do: commands, and the states on the way to them, read from the map as conditions."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from driveblocks.maps.model import Command, Drive, Step
+from driveblocks.simulator.pattern import Pattern, of_write
+
+STATE = "state"
+EFFECTS = (
+    "coast_stop", "quick_stop", "stop", "jog_stop", "fault_reset", STATE,
+    "run_forward", "run_reverse", "jog_forward", "jog_reverse",
+)  # fmt: skip
+"""What a move does, those that win over others in the same write first."""
+STOPS = EFFECTS[:4]
+MOTIONS = EFFECTS[6:]
+
+
+@dataclass(frozen=True)
+class Need:
+    """What must be there before a move: another register's bits, or this register's own before the write."""
+
+    pattern: Pattern
+    before: bool
+    """The register's word before the write, as for an edge; otherwise the word as it is now."""
+    for_ms: int
+    """How long it must have stood there."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """A word that does something."""
+
+    effect: str
+    pattern: Pattern
+    needs: tuple[Need, ...] = ()
+    guard: str | None = None
+    """The state in which alone it acts; None: in any."""
+    into: str | None = None
+    """The state that it leads to."""
+
+    @property
+    def exact(self) -> int:
+        """How many bits it names: of two motions in one word, that which names more is meant."""
+        levels = (need.pattern.mask for need in self.needs if not need.before)
+        return sum(mask.bit_count() for mask in (self.pattern.mask, *levels))
+
+
+def moves(drive: Drive) -> tuple[Move, ...]:
+    """Every move of a map; the states of steps that several commands share only once.
+
+    A step that waits for a state makes the next write act in that state only. Another step that the next write of
+    its register contradicts makes an edge or a pulse of it; one that nothing contradicts must still stand.
+    """
+    found = dict.fromkeys(move for command in drive.operation.commands for move in _path(command))
+    return tuple(sorted(found, key=lambda move: EFFECTS.index(move.effect)))
+
+
+def _path(command: Command) -> Iterator[Move]:
+    guard: str | None = None
+    before: list[Step] = []
+    for step in command.first:
+        if step.until is None:
+            before.append(step)
+            continue
+        pattern = of_write(step)
+        yield Move(STATE, pattern, _needs(before, pattern), guard, step.until)
+        guard, before = step.until, []
+    pattern = of_write(command)
+    yield Move(command.does, pattern, _needs(before, pattern), guard)
+
+
+def _needs(steps: list[Step], pattern: Pattern) -> tuple[Need, ...]:
+    """What the last step on each register asks."""
+    last = {step.register: step for step in steps}
+    patterns = [(of_write(step), step.for_ms or 0) for step in last.values()]
+    return tuple(Need(each, each.excludes(pattern), for_ms) for each, for_ms in patterns)

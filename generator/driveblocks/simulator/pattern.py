@@ -1,0 +1,45 @@
+"""Bits of a register that must have, or get, a value."""
+
+from dataclasses import dataclass
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Command, Condition, State, Step
+
+WORD = 0xFFFF
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """A register, the bits that count, and their value in its place."""
+
+    register: int
+    mask: int
+    value: int
+
+    def holds(self, word: int) -> bool:
+        """Whether a word of the register has the value."""
+        return word & self.mask == self.value
+
+    def excludes(self, other: "Pattern") -> bool:
+        """Whether no word has both values."""
+        both = self.mask & other.mask
+        return self.register == other.register and (self.value ^ other.value) & both != 0
+
+
+def of_condition(condition: Condition | State) -> Pattern:
+    """What a condition or a named state asks of its register."""
+    bit = condition.bit if isinstance(condition, Condition) else None
+    if bit is not None:
+        return Pattern(condition.register, _mask((bit,)), condition.equals << bit.first)
+    return Pattern(condition.register, WORD if condition.mask is None else condition.mask, condition.equals)
+
+
+def of_write(write: Command | Step) -> Pattern:
+    """What a command or a step leaves in its register; bits that it keeps do not count."""
+    if write.value is not None:
+        return Pattern(write.register, WORD, write.value & WORD)
+    return Pattern(write.register, _mask((*write.set, *write.clear)), _mask(write.set))
+
+
+def _mask(bits: tuple[Span, ...]) -> int:
+    return sum({1 << bit for span in bits for bit in span})

@@ -1,0 +1,191 @@
+"""A map as the numbers that a simulated drive works with, in Python and in C."""
+
+from dataclasses import dataclass
+from decimal import Decimal
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Drive, Reference
+from driveblocks.maps.plan import Words, manners, most, plan
+from driveblocks.modbus.layout import Manners
+from driveblocks.simulator.face import Situation, face, named_bits, situations
+from driveblocks.simulator.habits import Habits
+from driveblocks.simulator.move import Move, moves
+from driveblocks.simulator.pattern import WORD, Pattern, of_condition
+from driveblocks.simulator.refusal import codes
+
+MEASURES = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
+
+
+@dataclass(frozen=True)
+class Gauge:
+    """A measured register."""
+
+    register: int
+    shows: str
+    milli: int
+    """Thousandths of its unit in a count."""
+    signed: bool
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Allowed words of a register."""
+
+    register: int
+    low: int
+    high: int
+    signed: bool
+
+
+@dataclass(frozen=True)
+class Set:
+    """The speed reference: target in thousandths of a hertz = word x `times` / `per`."""
+
+    register: int
+    times: int
+    per: int
+    signed: bool
+    reverses: bool
+    verify: tuple[Pattern, ...]
+
+
+@dataclass(frozen=True)
+class Storage:
+    """What a write to a parameter stores: see `Memory`."""
+
+    method: str
+    areas: tuple[Span, ...]
+    """Parameters; of `ram_address_bit` those that the bit may be added to."""
+    add: int
+    register: int
+    value: int
+
+
+@dataclass(frozen=True)
+class Table:
+    """Everything about a drive that does not change."""
+
+    functions: frozenset[int]
+    sub_functions: tuple[int, ...]
+    most: Words
+    readable: tuple[Span, ...]
+    writable: tuple[Span, ...]
+    broadcast: int | None
+    """The unit address to which all drives listen; None: the map has none."""
+    broadcasts: tuple[int, ...]
+    """The only start addresses that it may write to; empty: any."""
+    limits: tuple[Limit, ...]
+    manners: Manners
+    codes: dict[str, int | None]
+    moves: tuple[Move, ...]
+    states: tuple[str, ...]
+    named: dict[int, int]
+    faces: dict[tuple[Situation, str | None], dict[int, int]]
+    gauges: tuple[Gauge, ...]
+    reference: Set
+    storage: Storage
+    present: int | None
+    fault_bits: tuple[int, int] | None
+
+
+def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
+    """The numbers of a map."""
+    allowed = plan(drive)
+    gauges = _gauges(drive, habits)
+    measured = frozenset(gauge.register for gauge in gauges)
+    words = most(drive, "ascii" if ascii_mode else "rtu")
+    broadcast, bits = drive.serial.broadcast, drive.faults.bits
+    states = tuple(state.name for state in drive.operation.states)
+    return Table(
+        functions=allowed.functions,
+        sub_functions=allowed.sub_functions,
+        most=words,
+        readable=allowed.readable,
+        writable=allowed.writable,
+        broadcast=broadcast.address if broadcast else None,
+        broadcasts=broadcast.start_addresses if broadcast else (),
+        limits=_limits(drive),
+        manners=manners(drive),
+        codes=codes(drive),
+        moves=moves(drive),
+        states=states,
+        named=named_bits(drive, measured),
+        faces=_faces(drive, measured),
+        gauges=gauges,
+        reference=_reference(drive, drive.operation.reference, habits),
+        storage=_storage(drive, allowed.writable),
+        present=drive.faults.present,
+        fault_bits=(bits.first, bits.last) if bits else None,
+    )
+
+
+def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
+    names = [state.name for state in drive.operation.states]
+    standing = (each for each in situations() if not each.fault and not each.running)
+    keys = [(situation, None) for situation in situations()]
+    keys += [(situation, name) for situation in standing for name in names]  # type: ignore[misc]  # str is str | None
+    return {key: face(drive, measured, *key) for key in keys}
+
+
+def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
+    shows = {each.register: each.shows for each in drive.operation.measures}
+    status = {each.register for one in drive.operation.status for each in one.any}
+    status |= {state.register for state in drive.operation.states}
+    for each in drive.operation.standstill.all:
+        # no status, and 0 at standstill: a frequency, or nothing that a motor could show
+        if each.register not in status and each.bit is None and each.mask is None and each.equals == 0:
+            shows.setdefault(each.register, "output_frequency")
+    return tuple(_gauge(drive, habits, register, what) for register, what in sorted(shows.items()))
+
+
+def _gauge(drive: Drive, habits: Habits, register: int, shows: str) -> Gauge:
+    row = drive.register_at(register)
+    return Gauge(register, shows, _milli(_factor(drive, habits, register)), bool(row and row.signed))
+
+
+def _factor(drive: Drive, habits: Habits, register: int) -> Decimal:
+    row = drive.register_at(register)
+    scale = row.scale.factor if row and row.scale else habits.scale
+    return habits.scales.get(register, scale)
+
+
+def _milli(factor: Decimal) -> int:
+    return max(1, int(1000 * factor))
+
+
+def _limits(drive: Drive) -> tuple[Limit, ...]:
+    return tuple(
+        Limit(address, row.range.min, row.range.max, row.signed or row.range.min < 0)
+        for _, row in drive.registers()
+        if row.range
+        for address in row.address
+    )
+
+
+def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
+    row = drive.register_at(reference.register)
+    signed = bool(row and row.signed)
+    factor = _factor(drive, habits, reference.register)
+    times, per = _milli(factor), 1
+    if reference.means == "percent_of_maximum":
+        times, per = 1000 * habits.maximum_hz, int(100 / factor)
+    verify = tuple(of_condition(each) for each in reference.verify)
+    return Set(reference.register, times, per, signed, reference.negative_reverses, verify)
+
+
+def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
+    """Parameters are the areas, and writable rows of sections in which no command stands; the rest is never stored."""
+    storage = drive.storage
+    told = {*(step.register for command in drive.operation.commands for step in command.first)}
+    told |= {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
+    sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
+    rows = [row.address for section in sections for row in section.registers]
+    areas = [area.addresses for area in drive.areas if storage.area in (None, area.id)]
+    kept = areas if storage.method == "ram_address_bit" else [*areas, *rows]
+    return Storage(
+        method=storage.method,
+        areas=tuple(sorted(span for span in kept if any(span.first in each for each in writable))),
+        add=storage.add or 0,
+        register=-1 if storage.register is None else storage.register,
+        value=(storage.value or 0) & WORD,
+    )

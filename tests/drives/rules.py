@@ -1,0 +1,267 @@
+"""The rules of a drive block, checked at every scan by somebody who sees its pins and the frames on the wire, no more.
+
+What a frame asks is read from the map alone, as conditions on words. A broken rule raises BrokenRuleError.
+"""
+
+from dataclasses import dataclass
+
+from tests.drives.bench import RUNS, Bench, Frame
+from tests.drives.station import PINS
+
+from driveblocks.host.engine import Value
+from driveblocks.maps.model import Command, Drive
+from driveblocks.simulator.pattern import Pattern, of_write
+
+STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
+MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))
+FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
+"""What may not be shown without CommOk."""
+SEEN_US = 5_500_000
+"""How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+ONLY_READS = 5
+"""The state in which a block has stopped its drive and only reads."""
+
+
+class BrokenRuleError(AssertionError):
+    """A rule of the drive block does not hold."""
+
+
+class Meaning:
+    """What the words of a map mean."""
+
+    def __init__(self, drive: Drive) -> None:
+        """Read the commands, each with the writes before its last."""
+        self.reference = drive.operation.reference.register
+        commands = drive.operation.commands
+        self.words = [(command.does, of_write(write)) for command in commands for write in (*command.first, command)]
+        self.both = [
+            Pattern(a.register, mask, mask)
+            for a in commands
+            for b in commands
+            if (a.does, b.does) == ("run_forward", "run_reverse") and (mask := _both(a, b))
+        ]
+
+    def does(self, frame: Frame) -> set[str]:
+        """What a write may do; nothing: it is no command."""
+        return {does for does, each in self.words if each.register == frame.address and each.holds(frame.word)}
+
+
+def _both(first: Command, second: Command) -> int:
+    """The bits of both directions, where each has its own."""
+    one, two = ({bit for span in each.set for bit in span} for each in (first, second))
+    return sum(1 << bit for bit in one | two) if one - two and two - one else 0
+
+
+@dataclass
+class Observer:
+    """Watches one drive block of a bench."""
+
+    bench: Bench
+    drive: int = 0
+    lies: bool = False
+    """The drive does not do what it acknowledges, or shows what is not so: then its motor proves nothing."""
+    wish: str | None = None
+    """What the pins have started, by an edge; None: nothing may start."""
+    free: bool = False
+    """All run and jog pins were FALSE since the last thing that stops."""
+    referred: bool = False
+    """A reference was acknowledged since the edge."""
+    commanded: bool = False
+    """... and run."""
+    ran: bool = False
+    resets: bool = False
+    """A reset was asked for, and is still of use."""
+    parameters: bool = False
+    """A parameter block was busy before this scan, or is."""
+    stopping_us: int = 0
+    skipped_us: int = 0
+    turning_us: int = 0
+    stood: bool = True
+    """The motor has stood since the drive last acknowledged a stop."""
+    frames: int = 0
+    acknowledged: int = 0
+
+    def __post_init__(self) -> None:
+        """Begin to watch."""
+        self.meaning = Meaning(self.bench.maps[self.drive])
+        self.bench.watch.append(lambda _: self.scan())
+        self.frames, self.acknowledged = len(self.bench.frames), len(self.bench.acknowledged)
+        self.was_confirmed = self.was_busy = self.idle = False
+        self.volts = 0.0
+        self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
+        self.calm = 0
+        self.now: tuple[int, ...] = ()
+        self.only_reads: Value = False
+        self.asked_before = self.reset_before = True
+
+    def fail(self, what: str) -> None:
+        """Tell which rule is broken."""
+        raise BrokenRuleError(f"drive {self.drive}: {what}; {self.bench.told()}")
+
+    def scan(self) -> None:
+        """Behind each scan. Raises BrokenRuleError."""
+        bench, pins = self.bench, self.bench.pins[self.drive]
+        now = (bench.seen, bench.changes, len(bench.frames), len(bench.acknowledged), bench.elapsed)
+        self.calm = self.calm + 1 if now == self.now else 0
+        self.now = now
+        if self.calm > 1:  # nothing to be seen but time
+            self._time(pins)
+            return
+        if bench.block[f"Skip{self.drive}"]:
+            self.skipped_us += 1000 * bench.ms
+            if self.skipped_us > 1_050_000:  # the line has stopped the drive
+                self.wish = None
+            self.free = self.was_confirmed = False
+            self.turning_us = self.stopping_us = 0
+            self.idle, self.shows = False, dict.fromkeys(PINS, False)
+            self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
+            return
+        self.skipped_us = 0
+        shows = {name: bench.shows(name, self.drive) for name in PINS}
+        if not shows["CommOk"] and any(shows[name] for name in FRESH):
+            self.fail(f"shows {[name for name in FRESH if shows[name]]} without CommOk")
+        asked = [MOTIONS[name] for name in RUNS if pins.get(name)]
+        self._permit(asked, stops=self._stops(pins, asked, shows), shows=shows)
+        self._reset(pins, asked, shows)
+        busy = bench.block["Writer.Busy"] or bench.block["Storer.Busy"]
+        self.parameters, self.was_busy = bool(busy or self.was_busy), bool(busy)
+        for frame in bench.frames[self.frames :]:
+            if frame.unit == self.drive + 1 and not frame.read:
+                self._frame(frame, shows)
+            if not 0 < frame.unit <= len(bench.types):
+                self.fail(f"asks unit {frame.unit}")
+        self.frames = len(bench.frames)
+        volts = bench.out("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
+        if volts not in (0.0, self.volts):
+            self.volts = float(str(volts))
+            if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
+                self.fail(f"shows {volts} V, which is not its own")
+        self.shows = shows
+        others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
+        anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
+        self.idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
+        self._time(pins)
+        state = self.bench.out("Control.State", self.drive) if pins.get("MonitorOnly") else 0
+        self.only_reads = state == ONLY_READS and bench.elapsed <= 1000
+        self.asked_before, self.was_confirmed = bool(asked), shows["StopConfirmed"]
+
+    # ------------------------------------------------------------ who may start
+
+    def _stops(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> bool:
+        hz = pins["SpeedReferenceHz"]
+        assert isinstance(hz, float)
+        forward, reverse = any("forward" in each for each in asked), any("reverse" in each for each in asked)
+        return bool(
+            pins.get("Restart")
+            or not pins["Enable"]
+            or any(pins.get(name) for name in ("QuickStop", "CoastStop", "MonitorOnly", "SpeedOnly"))
+            or not pins.get("SupplyOn", True)
+            or self.bench.line_pins.get("StopAll")
+            or self.bench.line_pins.get("Restart")
+            or (forward and reverse)
+            or (asked and not hz >= 0.0)
+            or (asked and hz == float("inf"))
+            or not shows["CommOk"]
+            or shows["Fault"]
+        )
+
+    def _permit(self, asked: list[str], *, stops: bool, shows: dict[str, bool]) -> None:
+        wish = asked[0] if asked else None
+        rising = bool(asked) and not self.asked_before
+        # who has started and runs, and stops without us, needs a new edge
+        self.ran = self.ran or (self.commanded and shows["Running"])
+        if stops or wish != self.wish or (self.ran and not shows["Running"]):
+            self.wish, self.referred, self.commanded, self.ran = None, False, False, False
+        if rising and self.free and not stops and self.was_confirmed:
+            self.wish, self.referred, self.commanded, self.ran = wish, False, False, False
+        self.free = not stops and not asked
+        for frame in self.bench.acknowledged[self.acknowledged :]:
+            if frame.unit == self.drive + 1 and not frame.read:
+                does = self.meaning.does(frame)
+                self.referred |= frame.address == self.meaning.reference
+                self.commanded |= self.wish in does and not does & set(STOPS)
+                self.stood &= not does & set(STOPS)
+        self.acknowledged = len(self.bench.acknowledged)
+
+    def _reset(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> None:
+        gone = not shows["CommOk"] or not shows["Fault"] or not pins.get("SupplyOn", True) or pins.get("Restart")
+        rising = pins.get("FaultReset") and not self.reset_before
+        self.resets = not gone and (self.resets or bool(rising and not asked))
+        self.reset_before = bool(pins.get("FaultReset")) or bool(pins.get("Restart"))
+
+    def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
+        """By the line, by a restart, or because the drive is not only to be watched any more."""
+        line = self.bench.line_pins
+        restarted = line.get("Restart") or pins.get("Restart") or self.bench.elapsed > 1000
+        return bool(restarted or line.get("StopAll") or pins.get("SpeedOnly"))
+
+    def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:
+        pins, does = self.bench.pins[self.drive], self.meaning.does(frame)
+        if any(each.register == frame.address and each.holds(frame.word) for each in self.meaning.both):
+            self.fail(f"{frame} runs both ways")
+        if self.only_reads and pins.get("MonitorOnly") and not self._stopped_from_outside(pins):
+            self.fail(f"{frame} is written while it only reads")
+        if does & set(STOPS):
+            return
+        if frame.address == self.meaning.reference:
+            if self.wish is None and not pins.get("SpeedOnly"):
+                self.fail(f"{frame}: a reference without an edge")
+        elif not does:
+            self._parameter(frame)
+        elif "fault_reset" in does and self.wish not in does:
+            if not self.resets:
+                self.fail(f"{frame}: a reset that nobody has asked for")
+        else:
+            self._motion(frame, does, runs=shows["Running"])
+
+    def _parameter(self, frame: Frame) -> None:
+        if not self.parameters or self.drive:
+            self.fail(f"{frame}: a write to a register that is neither command nor reference")
+        if not self.was_confirmed:
+            self.fail(f"{frame}: a parameter while the motor is not known to stand")
+
+    def _motion(self, frame: Frame, does: set[str], *, runs: bool) -> None:
+        if self.wish not in does:
+            self.fail(f"{frame} ({', '.join(sorted(does))}): no edge has asked for it")
+        if not self.referred:
+            self.fail(f"{frame}: no reference is acknowledged")
+        if self.ran and not runs:
+            self.fail(f"{frame}: refreshed though the drive does not run")
+
+    # ------------------------------------------------------------ stops
+
+    def _time(self, pins: dict[str, Value]) -> None:
+        """StopConfirmed against the true motor, and the time that a stop takes."""
+        motor, shows = self.bench.drives[self.drive].motor, self.shows
+        turns = motor.output != 0
+        self.stood = self.stood or not turns
+        self.turning_us = self.turning_us + 1000 * self.bench.ms if turns else 0
+        if shows["StopConfirmed"] and not self.lies:
+            if not self.was_confirmed and not self.stood:
+                self.fail("StopConfirmed, and the motor has not stood since the stop")
+            if self.turning_us > SEEN_US:
+                self.fail("StopConfirmed, and the motor turns")
+        self.stopping_us = self.stopping_us + 1000 * self.bench.ms if self.idle else 0
+        within = pins["StopWithinMs"]
+        assert isinstance(within, int)
+        if self.stopping_us > 1000 * within + 1_500_000 and not shows["StopOverdue"]:
+            self.fail(f"neither StopConfirmed nor StopOverdue for {self.stopping_us // 1000} ms")
+
+
+def watched(*types: str, start: bool = True, **options: object) -> Bench:
+    """A bench whose blocks are all watched."""
+    bench = Bench(*types, start=False, **options)  # type: ignore[arg-type]  # passed on
+    for drive in range(len(bench.types)):
+        Observer(bench, drive)
+    return bench.restart() if start else bench
+
+
+def sent(bench: Bench, frames: list[Frame], *does: str) -> list[Frame]:
+    """Those of these frames that do one of these things; `reference` is one of them."""
+    meaning = Meaning(bench.maps[0])
+    written = [each for each in frames if not each.read]
+    return [
+        each
+        for each in written
+        if meaning.does(each) & set(does) or ("reference" in does and each.address == meaning.reference)
+    ]

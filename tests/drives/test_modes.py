@@ -1,0 +1,273 @@
+"""What else a drive block may be told, and what may be wrong around it."""
+
+from contextlib import suppress
+from random import Random
+
+import pytest
+from tests.drives.bench import SETTINGS, Bench
+from tests.drives.rules import sent, watched
+from tests.drives.station import FAMILIES, maps
+from tests.drives.test_start import edge, meet, motions
+from tests.drives.test_stop import stops
+
+from driveblocks.host.engine import Value
+
+
+def writes(bench: Bench, ms: int) -> list[int]:
+    """The registers that were written in a time."""
+    return [each.address for each in bench.run(ms) if not each.read]
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_with_monitor_only_it_stops_and_then_only_reads(kind: str) -> None:
+    bench = watched(kind).running().put(MonitorOnly=True)
+    assert stops(bench, bench.run(4000))
+    assert bench.drives[0].mode == "standing"
+    assert not writes(bench, 2000)
+    bench.drives[0].keypad_run(20.0)
+    assert not writes(bench, 4000)
+    assert bench.shows("Running")
+    bench.drives[0].trip(3)
+    assert not writes(bench, 4000)
+    assert bench.shows("Fault")
+    bench.deaf = {1}
+    bench.run(7000)
+    bench.deaf = set()
+    assert not writes(bench, 4000)
+    bench.drives[0].clear_cause()
+    bench.drives[0].reset()
+    bench.drives[0].keypad_run(20.0)
+    bench.run(1000)
+    bench.put(MonitorOnly=False)
+    frames = bench.run(6000)
+    assert stops(bench, frames)
+    assert not motions(bench, frames)
+    assert bench.drives[0].mode == "standing"
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_with_speed_only_it_writes_the_reference_and_starts_nothing(kind: str) -> None:
+    bench = watched(kind).stopped().put(SpeedOnly=True, RunForward=True)
+    frames = bench.run(3000)
+    assert sent(bench, frames, "reference")
+    assert not motions(bench, frames)
+    assert bench.reason() == "SPEED_ONLY"
+    bench.drives[0].keypad_run()
+    frames = bench.run(5000)
+    assert not motions(bench, frames)
+    assert not stops(bench, frames)
+    assert abs(bench.drives[0].hertz - 25.0) < 0.2
+    bench.put(SpeedReferenceHz=40.0).run(3000)
+    assert abs(bench.drives[0].hertz - 40.0) < 0.2
+    bench.put(SpeedOnly=False)
+    frames = bench.run(7000)
+    assert stops(bench, frames)
+    assert not motions(bench, frames)
+    assert bench.shows("StopConfirmed")
+
+
+def test_a_plc_that_starts_warm_with_speed_only_writes_no_stop() -> None:
+    bench = watched("CHF").stopped().put(SpeedOnly=True)
+    bench.drives[0].keypad_run()
+    bench.run(3000)
+    frames = bench.restart().run(3000)
+    assert not stops(bench, frames)
+    assert bench.drives[0].mode == "running"
+
+
+def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
+    bench = watched("CHF", "CHF").running()
+    bench.put(Address=9)
+    assert {each.unit for each in bench.run(1000)} == {1, 2}
+    bench.drives[0].unit = 9
+    bench.put(RunForward=False)
+    bench.drives[0].unit = 1
+    bench.watch.clear()
+    bench.until(lambda: any(each.unit == 9 for each in bench.frames), 9000)
+    assert bench.drives[0].mode == "standing"
+    bench.drives[0].unit = 9
+    bench.until(lambda: bench.shows("Ready"))
+    assert stops(bench, [each for each in bench.frames if each.unit == 9])
+
+
+def test_two_drives_of_one_address_are_stopped() -> None:
+    bench = watched("CHF", "CHF").running()
+    bench.put(1, Address=1)
+    frames = bench.run(3000)
+    assert bench.reason() == "LINE"
+    assert not motions(bench, frames[5:])
+    assert all(stops(bench, [each]) for each in frames[10:] if not each.read)
+
+
+def test_two_blocks_on_one_slot_are_stopped() -> None:
+    bench = watched("CHF").running()
+
+    def other(bench: Bench) -> None:
+        bench.block["Slots[0].Alive"] = int(str(bench.block["Slots[0].Alive"])) ^ 7
+
+    bench.watch.append(other)
+    bench.run(100)
+    assert bench.reason() == "SHARED"
+    assert bench.out("Error")
+    frames = bench.run(3000)
+    assert stops(bench, frames)
+    assert not motions(bench, frames)
+
+
+def test_a_foreign_master_keeps_one_from_starting_until_somebody_says_so() -> None:
+    bench = watched("CHF").running()
+    meet(bench)
+    bench.put(RunForward=False).run(5000)
+    edge(bench)
+    assert not motions(bench, bench.run(2000))
+    bench.line(Acknowledge=True).put(RunForward=False).run(1000)
+    bench.running()
+
+
+def test_a_late_scan_is_flagged_and_starts_all_the_same() -> None:
+    bench = watched("CHF").stopped()
+    bench.scan(100)
+    bench.run(50)
+    assert bench.reason() == "LATE_SCAN"
+    bench.running()
+
+
+def test_a_scan_beyond_the_limit_acts_like_power_up() -> None:
+    bench = watched("CHF").running()
+    bench.scan(1500)
+    frames = bench.run(6000)
+    assert stops(bench, frames)
+    assert not motions(bench, frames)
+    assert bench.drives[0].mode == "standing"
+    assert bench.shows("StopConfirmed")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_stale_memory_starts_nothing(seed: int) -> None:
+    """Whatever retained memory, or another program before an online change, has left there."""
+    chance = Random(seed)
+    kind = FAMILIES[seed % 3]
+    bench = watched(kind, start=False)
+    for path, value in bench.block.state().items():
+        if path.startswith(("DRIVE0.", "SLOTS[0].")) and not path.startswith("DRIVE0.SLOT."):
+            _fill(bench, chance, path, value)
+    bench.put(**SETTINGS, Address=1, SupplyOn=True, RunForward=True)
+    bench.put(**dict.fromkeys(("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "Restart"), False))
+    bench.put(**dict.fromkeys(("JogForward", "JogReverse", "RunReverse"), False))
+    bench.put(RefreshMs=1000, FollowWithinMs=5000, StaleMs=5000, WatchdogMs=0, KeepWord=0, ManualChecked=True)
+    bench.put(FrequencyScale=0.01, ReferenceScale=100.0, LongestMs=60)
+    if seed % 2:
+        bench.drives[0].keypad_run(20.0)
+    bench.restart()
+    frames = bench.run(6000)
+    assert stops(bench, frames)
+    assert not motions(bench, frames)
+    assert bench.drives[0].mode == "standing"
+    edge(bench)
+    bench.until(lambda: bench.drives[0].hertz > 24.0, 8000)
+
+
+def _fill(bench: Bench, chance: Random, path: str, value: Value) -> None:
+    """Any value that fits; a constant stays."""
+    small = path.endswith(("STATE", "RESETTING", "STEPNUMBER", "KIND", "ORDER", "SENT", "WISH"))
+    wanted: Value = chance.randrange(8 if small else 256)
+    if isinstance(value, bool):
+        wanted = chance.random() < 0.5
+    elif isinstance(value, float):
+        wanted = chance.choice([0.0, -1.0, 1e30, 49.9])
+    with suppress(ValueError):
+        bench.block[path] = wanted
+
+
+def test_a_run_that_was_left_in_retained_slots_is_never_sent() -> None:
+    bench = watched("CHF").stopped()
+    slot = "Slots[0]."
+    for name, value in {"FunctionCode": 6, "Address": 0x1000, "Quantity": 1, "Words": [1], "Number": 77}.items():
+        bench.block[f"{slot}Ask[1].{name}"] = value
+    bench.restart()
+    assert not motions(bench, bench.run(4000))
+    assert bench.shows("StopConfirmed")
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_value_without_a_scale_is_not_valid(kind: str) -> None:
+    measures = {each.shows: each.register for each in maps()[kind].operation.measures}
+    bench = watched(kind).put(FrequencyScale=0.0, DcVoltageScale=0.0).stopped()
+    scaled = {name: maps()[kind].register_at(each) for name, each in measures.items()}
+    for shows, pin in (("output_frequency", "OutputFrequency"), ("dc_bus_voltage", "DcBusVoltage")):
+        row = scaled.get(shows)
+        assert bench.out(f"{pin}Valid") == bool(row and row.scale)
+
+
+def test_capabilities_are_said() -> None:
+    pins = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
+    found = {kind: [bool(watched(kind).out(pin)) for pin in pins] for kind in (*FAMILIES, "CIA")}
+    assert found == {
+        "CHF": [True, True, False, True, True],
+        "JSCC": [True, False, False, False, False],
+        "SN300G5": [True, False, False, False, False],
+        "CIA": [False, False, True, True, True],
+    }
+
+
+@pytest.mark.parametrize(("kind", "pin"), [("JSCC", "JogForward"), ("CIA", "RunReverse"), ("SN300G5", "JogReverse")])
+def test_what_a_family_cannot_do_is_refused_and_said(kind: str, pin: str) -> None:
+    bench = watched(kind).stopped().put(**{pin: True})
+    assert not motions(bench, bench.run(2000))
+    assert bench.reason() == "NOT_ABLE"
+    assert bench.out("Error")
+
+
+def parameter(bench: Bench, address: int = 0x0100, value: int = 1, **pins: Value) -> Bench:
+    """Ask for a write."""
+    bench.block["Writer.Execute"] = False
+    bench.run(50)
+    for name, wanted in {"Address": address, "Value": value, "Execute": True, **pins}.items():
+        bench.block[f"Writer.{name}"] = wanted
+    bench.run(200)
+    return bench
+
+
+def test_parameters_and_starts_exclude_each_other() -> None:
+    bench = parameter(watched("CHF").stopped(), AllowUnknown=True)
+    assert bench.block["Writer.Done"]
+    assert bench.drives[0].stores == 1
+    bench.running()
+    frames = len(bench.frames)
+    parameter(bench, AllowUnknown=True)
+    assert bench.block["Writer.Error"]
+    assert not [each for each in bench.frames[frames:] if each.address == 0x0100]
+    bench.put(RunForward=False).stopped()
+    parameter(bench, AllowUnknown=True)
+    assert bench.block["Writer.Done"]
+
+
+@pytest.mark.parametrize("address", [0x1000, 0x2000, 0x1000 + 0x8000, 0x2000 + 0x8000])
+def test_no_parameter_goes_past_the_rules(address: int) -> None:
+    bench = parameter(watched("CHF").stopped(), address, AllowUnknown=True)
+    assert bench.block["Writer.Error"]
+    assert not [each for each in bench.run(500) if not each.read]
+
+
+def test_each_drive_shows_its_own_words() -> None:
+    bench = watched("CHF", "CHF")
+    bench.run(3000)
+    for drive in (0, 1):
+        assert abs(float(str(bench.out("DcBusVoltageV", drive))) - 540 - drive) < 0.5
+    bench.running("RunForward", 0)
+    assert bench.shows("StopConfirmed", 1)
+    assert not bench.shows("Running", 1)
+    assert bench.drives[1].mode == "standing"
+
+
+def test_stop_all_stops_each_and_starts_none() -> None:
+    bench = watched(*FAMILIES)
+    for drive in range(3):
+        bench.running("RunForward", drive)
+    bench.line(StopAll=True)
+    frames = bench.run(4000)
+    assert {each.unit for each in frames if not each.read} == {1, 2, 3}
+    assert all(drive.mode == "standing" for drive in bench.drives)
+    bench.line(StopAll=False).run(4000)
+    assert all(bench.reason(drive) == "HELD" for drive in range(3))
+    assert all(drive.mode == "standing" for drive in bench.drives)

@@ -1,0 +1,152 @@
+"""A fault reset: of the fault that was there when it was asked for, so often and no more, and no start behind it."""
+
+import pytest
+from tests.drives.bench import RUNS, Bench
+from tests.drives.rules import sent, watched
+from tests.drives.station import FAMILIES, MADE_UP, maps
+from tests.drives.test_start import edge, motions
+
+CAN = [
+    kind
+    for kind in (*FAMILIES, *MADE_UP)
+    if any(command.does == "fault_reset" for command in maps()[kind].operation.commands)
+]
+
+
+def tripped(kind: str = "CHF", code: int = 3) -> Bench:
+    """A drive with a fault, whose cause is gone and whose motor stands."""
+    bench = watched(kind, ms=10).running()
+    bench.put(RunForward=False)
+    bench.drives[0].trip(code)
+    bench.drives[0].clear_cause()
+    bench.run(6000)
+    assert bench.shows("Fault")
+    return bench
+
+
+@pytest.mark.parametrize("kind", CAN)
+def test_a_reset_ends_the_fault_and_starts_nothing(kind: str) -> None:
+    bench = tripped(kind).put(FaultReset=True)
+    frames = bench.run(3000)
+    assert sent(bench, frames, "fault_reset")
+    assert not bench.shows("Fault")
+    assert not motions(bench, [each for each in frames if each not in sent(bench, frames, "fault_reset")])
+    bench.put(FaultReset=False).stopped().running()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FAMILIES if kind not in CAN])
+def test_a_family_without_a_reset_says_so(kind: str) -> None:
+    bench = tripped(kind).put(FaultReset=True)
+    bench.run(1000)
+    assert not bench.out("CanResetFault")
+    assert bench.shows("Fault")
+    bench.drives[0].reset()
+    bench.run(1000)
+    assert bench.reason() == "NO_RESET"
+    bench.put(FaultReset=False).stopped().running()
+
+
+@pytest.mark.parametrize("pin", RUNS)
+def test_no_reset_while_a_run_pin_is_held(pin: str) -> None:
+    bench = tripped().put(**{pin: True})
+    bench.run(50)
+    bench.put(FaultReset=True)
+    assert not sent(bench, bench.run(2000), "fault_reset")
+    bench.put(**{pin: False})
+    assert not sent(bench, bench.run(2000), "fault_reset")
+
+
+def test_a_reset_that_fails_is_tried_so_often_and_no_more() -> None:
+    bench = tripped()
+    bench.drives[0].cause = True
+    bench.put(FaultReset=True)
+    frames = bench.run(15_000)
+    assert len(sent(bench, frames, "fault_reset")) <= 3
+    bench.drives[0].clear_cause()
+    assert not sent(bench, bench.run(3000), "fault_reset")
+    bench.put(FaultReset=False).scan()
+    bench.put(FaultReset=True).run(2000)
+    assert not bench.shows("Fault")
+
+
+def test_a_reset_that_nobody_answers_is_tried_three_times() -> None:
+    bench = tripped()
+    bench.drives[0].cause = True
+    bench.spoil = lambda frame, reply: None if sent(bench, [frame], "fault_reset") else reply
+    bench.put(FaultReset=True)
+    assert len(sent(bench, bench.run(9000), "fault_reset")) == 3
+    assert bench.reason() == "FAULT"
+
+
+def test_another_fault_is_not_reset_by_a_repetition() -> None:
+    """The attempt is refused; meanwhile another fault has come, which nobody has seen."""
+    bench = tripped()
+    bench.spoil = lambda frame, reply: None if sent(bench, [frame], "fault_reset") else reply
+    bench.drives[0].cause = True
+    bench.put(FaultReset=True)
+    bench.until(lambda: sent(bench, bench.frames, "fault_reset"))
+    bench.drives[0].fault = 9
+    bench.drives[0].clear_cause()
+    frames = bench.run(8000)
+    assert not sent(bench, frames, "fault_reset")
+    assert bench.out("FaultCode") == 9
+
+
+@pytest.mark.parametrize("gone", ["SupplyOn", "communication", "MonitorOnly", "SpeedOnly", "Restart"])
+def test_a_reset_does_not_outlive_what_it_was_asked_for(gone: str) -> None:
+    bench = tripped()
+    bench.spoil = lambda frame, reply: None if not frame.read else reply
+    bench.put(FaultReset=True)
+    bench.run(200)
+    if gone == "communication":
+        bench.deaf = {1}
+    else:
+        bench.put(**{gone: gone != "SupplyOn"})
+    bench.run(3000)
+    bench.spoil = lambda _, reply: reply
+    bench.deaf = set()
+    bench.put(SupplyOn=True, MonitorOnly=False, SpeedOnly=False, Restart=False)
+    frames = bench.run(5000)
+    assert not sent(bench, frames, "fault_reset")
+    assert bench.shows("Fault")
+
+
+def test_a_run_pin_held_through_a_reset_starts_nothing() -> None:
+    bench = tripped().put(FaultReset=True)
+    bench.scan()
+    bench.put(RunForward=True)
+    frames = bench.run(5000)
+    assert not motions(bench, frames)
+    assert not bench.shows("Fault")
+    edge(bench)
+    bench.until(lambda: bench.drives[0].hertz > 24.0)
+
+
+def test_a_reset_goes_behind_a_stop() -> None:
+    bench = tripped().put(FaultReset=True)
+    frames = [each for each in bench.run(2000) if not each.read]
+    first = frames.index(sent(bench, frames, "fault_reset")[0])
+    assert sent(bench, frames[:first], "stop")
+    assert sent(bench, frames[first:], "stop")
+
+
+def test_the_first_fault_and_the_last_eight() -> None:
+    bench = watched("CHF").running()
+    bench.run(1000)
+    bench.drives[0].trip(3)
+    bench.run(1000)
+    assert bench.out("FirstFaultCode") == 3
+    assert bench.out("FirstFaultState") == 4
+    assert abs(float(str(bench.out("FirstFaultHz"))) - 25.0) < 0.5
+    assert abs(int(str(bench.out("FirstFaultMs"))) - 3500) < 700
+    bench.put(RunForward=False)
+    for code in range(4, 13):
+        bench.drives[0].fault = 0
+        bench.run(500)
+        bench.drives[0].trip(code)
+        bench.run(500)
+    assert bench.out("FirstFaultCode") == 3
+    assert [bench.out(f"FaultBack{back}") for back in range(1, 9)] == list(range(12, 4, -1))
+    bench.drives[0].fault = 0
+    bench.stopped().running()
+    assert bench.out("FirstFaultCode") == 0

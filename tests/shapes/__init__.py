@@ -1,0 +1,33 @@
+"""Made-up drives, one for each shape of a command: a path of states, a pulse, two registers, active-low bits.
+
+Each is an edit of the skeleton that `driveblocks new` writes; tests/maps/bad.py says how an edit is written.
+`python -m tests.shapes NAME` prints one as a whole map.
+"""
+
+from functools import cache
+from pathlib import Path
+
+from tests.maps import bad
+
+from driveblocks.maps.load import loads
+from driveblocks.maps.model import Drive
+from driveblocks.maps.page import skeleton
+
+FILE = Path(__file__).with_name("shapes.diff")
+
+
+@cache
+def texts() -> dict[str, str]:
+    """The maps by name."""
+    return {name: case.text for name, case in bad.edits(FILE, _skeleton)}
+
+
+@cache
+def shapes() -> dict[str, Drive]:
+    """The drives by name."""
+    return {name: loads(text, f"{name}.yaml") for name, text in texts().items()}
+
+
+def _skeleton(_: str) -> list[str]:
+    """The lines of the skeleton, without the first, which is for editors."""
+    return skeleton().split("\n")[1:]

@@ -1,0 +1,88 @@
+"""A conversation with a simulated drive: commands by their name, registers by their address."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.maps import catalog, nodes
+from driveblocks.maps.decode import decode
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Command, Drive, Step
+from driveblocks.maps.problem import Report
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.simulator.habits import Habits
+
+MAPS = {drive.prefix: drive for drive in map(load, catalog.shipped())}
+SMALL = (Path(__file__).parents[1] / "maps" / "bad" / "small.yaml").read_text(encoding="utf-8")
+
+
+def made_up(sections: str, operation: str) -> Drive:
+    """The small map of the tests with other registers and another operation; how things are named is not looked at."""
+    head, _, rest = SMALL.partition("sections:\n")
+    storage, tail = rest[rest.index("storage:") : rest.index("operation:")], rest[rest.index("faults:") :]
+    report = Report("made_up.yaml")
+    root = nodes.parse(f"{head}sections:\n{sections}{storage}operation:\n{operation}{tail}", report)
+    drive: Drive | None = decode(Drive, root, report) if root else None
+    report.raise_if_any()
+    assert drive is not None
+    return drive
+
+
+@dataclass
+class Talk:
+    """A drive at unit 1 and what is asked of it."""
+
+    map: Drive
+    drive: SimulatedDrive
+
+    def ask(self, text: str) -> str:
+        """A request and its reply in hexadecimal, without checksum; empty for silence."""
+        reply = self.drive.reply(bytes.fromhex(text))
+        return "" if reply is None else reply.hex(" ")
+
+    def read(self, address: int) -> int:
+        """One register."""
+        reply = self.drive.reply(bytes([1, 3, *address.to_bytes(2, "big"), 0, 1]))
+        assert reply is not None
+        assert reply[:3] == b"\x01\x03\x02", reply.hex(" ")
+        return int.from_bytes(reply[3:], "big")
+
+    def write(self, address: int, word: int) -> bytes | None:
+        """One register, by the function that the map has for it."""
+        place, data = address.to_bytes(2, "big"), (word & 0xFFFF).to_bytes(2, "big")
+        single = 6 in self.drive.table.functions
+        request = b"\x01\x06" + place + data if single else b"\x01\x10" + place + b"\0\x01\x02" + data
+        reply = self.drive.reply(request)
+        assert reply is None or not single or reply[:2] != b"\x01\x06" or reply[2:4] != place or reply == request
+        return reply
+
+    def put(self, write: Command | Step) -> None:
+        """The word of a command or a step; bits that it does not name are kept."""
+        word = self.drive.memory[write.register] if write.value is None else write.value
+        for bit in (bit for span in write.set for bit in span):
+            word |= 1 << bit
+        for bit in (bit for span in write.clear for bit in span):
+            word &= ~(1 << bit)
+        assert self.write(write.register, word) is not None
+
+    def command(self, does: str) -> None:
+        """The last word of a command."""
+        self.put(next(each for each in self.map.operation.commands if each.does == does))
+
+    def hertz(self, hz: float) -> None:
+        """The speed reference, of a drive whose scale is 0.01 Hz or 0.01 % of 50 Hz."""
+        percent = self.map.operation.reference.means == "percent_of_maximum"
+        self.write(self.map.operation.reference.register, round(hz * (200 if percent else 100)))
+
+    def at(self, hz: float, does: str = "run_forward") -> "Talk":
+        """Give a reference, run, and wait until it is reached."""
+        self.hertz(hz)
+        self.command(does)
+        self.drive.step(10_000)
+        return self
+
+
+def talk(family: str | Drive, habits: Habits | None = None, **words: int) -> Talk:
+    """A conversation with a drive of a family; words as `x0203=5000`."""
+    found = MAPS[family] if isinstance(family, str) else family
+    begin = {int(name[1:], 16): word for name, word in words.items()}
+    return Talk(found, SimulatedDrive(found, 1, habits, words=begin))

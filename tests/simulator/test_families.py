@@ -1,0 +1,249 @@
+"""The shipped families: states and ramps, words typed by hand from the manuals' tables, frames as printed."""
+
+from decimal import Decimal
+
+import pytest
+from tests.simulator.talk import MAPS, Talk, talk
+
+from driveblocks.maps.model import Frame
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.simulator.habits import Habits
+
+STATUS = {"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001}
+FREQUENCY = {"SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000}
+COUNTS_PER_HZ = {"SN300G5": 100, "JSCC": 10, "CHF": 100}
+"""0.01 Hz by 000FH bit 0; 0.1 Hz by the manual's example; CHF's manual has none, so that of `Habits`."""
+WORDS = {
+    # bit 0 running, 1 zero speed, 2 reverse, 4 speed agree, 5 ready, 6 minor fault, 7 major fault
+    "SN300G5": {"stands": 0x22, "ramps": 0x21, "runs": 0x31, "reverse": 0x35, "fault": 0x82, "warning": 0x62},
+    # 1 forward, 2 reverse, 4 stopped, 8 fault
+    "JSCC": {"stands": 4, "ramps": 1, "runs": 1, "reverse": 2, "fault": 8, "warning": 4},
+    # 1 forward, 2 reverse, 3 standby, 4 fault
+    "CHF": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
+}
+every_family = pytest.mark.parametrize("family", sorted(MAPS))
+
+
+def shows(one: Talk, family: str, what: str, hz: float) -> None:
+    """Check status and output frequency."""
+    assert one.read(STATUS[family]) == WORDS[family][what]
+    assert one.read(FREQUENCY[family]) == round(hz * COUNTS_PER_HZ[family])
+
+
+@every_family
+def test_it_starts_ramps_runs_and_stops(family: str) -> None:
+    one = talk(family)
+    shows(one, family, "stands", 0)
+    one.hertz(30)
+    one.command("run_forward")
+    one.drive.step(1000)
+    assert one.drive.mode == "ramping up"
+    shows(one, family, "ramps", 10)
+    one.drive.step(2000)
+    assert one.drive.mode == "running"
+    shows(one, family, "runs", 30)
+    one.hertz(20)
+    one.drive.step(500)
+    assert one.drive.mode == "ramping down"
+    shows(one, family, "ramps", 25)
+    one.drive.step(500)
+    shows(one, family, "runs", 20)
+    one.command("stop")
+    one.drive.step(1000)
+    assert one.drive.mode == "ramping down"
+    shows(one, family, "ramps", 10)
+    one.drive.step(1000)
+    assert one.drive.mode == "standing"
+    shows(one, family, "stands", 0)
+
+
+@every_family
+def test_it_runs_in_reverse_and_a_change_of_direction_goes_through_zero(family: str) -> None:
+    one = talk(family).at(30, "run_reverse")
+    shows(one, family, "reverse", 30)
+    assert one.drive.hertz == -30
+    one.command("run_forward")
+    one.drive.step(2000)
+    assert one.drive.hertz == -10
+    one.drive.step(2000)
+    assert one.drive.hertz == 10
+
+
+@every_family
+def test_a_fault_lets_the_motor_coast_and_is_reset_when_its_cause_is_gone_and_it_stands(family: str) -> None:
+    one = talk(family).at(30)
+    one.drive.trip(2)
+    assert one.drive.mode == "fault"
+    shows(one, family, "fault", 0)
+    assert one.drive.hertz == 30
+    one.drive.reset()
+    one.drive.clear_cause()
+    one.drive.reset()
+    assert one.drive.fault == 2
+    one.command("run_forward")
+    one.drive.step(6000)
+    assert one.drive.hertz == 0
+    one.drive.reset()
+    shows(one, family, "stands", 0)
+    one.drive.step(1000)
+    assert one.drive.hertz == 0
+
+
+@every_family
+def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
+    one = talk(family)
+    one.drive.trip(18)
+    # SN300G5: 12H is EF4, bit 1 of 0015H; the others show the number
+    where = {"SN300G5": (0x0015, 2), "JSCC": (0x3000, 18), "CHF": (0x5000, 18)}[family]
+    assert one.read(where[0]) == where[1]
+    one.drive.clear_cause()
+    one.drive.reset()
+    assert one.read(where[0]) == 0
+    keeps = talk(family, Habits(keeps_fault_code=True))
+    keeps.drive.trip(18)
+    keeps.drive.clear_cause()
+    keeps.drive.reset()
+    assert keeps.read(where[0]) == where[1]
+
+
+@every_family
+def test_a_warning_is_shown_where_there_is_one(family: str) -> None:
+    one = talk(family)
+    one.drive.warning = True
+    shows(one, family, "warning", 0)
+
+
+PREPARED = {
+    # 0026H holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
+    "SN300G5 read_dc_bus_request": (Habits(bus_volts=589, scales={0x26: Decimal(1)}), {}),
+    "JSCC read_frequency_rtu_request": (Habits(), {}),
+    "JSCC read_frequency_ascii_request": (Habits(), {}),
+    "CHF read_ascii_request": (Habits(), {4: 2}),
+}
+"""What the drives of the manuals' examples had in their registers."""
+
+
+def pairs() -> list[tuple[str, Frame, Frame]]:
+    """Every request with its reply."""
+    found = []
+    for prefix, drive in MAPS.items():
+        frames = {frame.id: frame for frame in drive.frames}
+        found += [(prefix, frames[each.answers], each) for each in frames.values() if each.answers]
+    return found
+
+
+def body(frame: Frame) -> bytes:
+    """A frame without its checksum."""
+    return frame.correct[:-2] if frame.mode == "rtu" else bytes.fromhex(frame.correct[1:-4].decode("ascii"))
+
+
+@pytest.mark.parametrize(("prefix", "request_", "reply"), pairs(), ids=lambda each: getattr(each, "id", each))
+def test_replies_are_those_that_the_manual_prints(prefix: str, request_: Frame, reply: Frame) -> None:
+    habits, words = PREPARED.get(f"{prefix} {request_.id}", (Habits(), {}))
+    drive = SimulatedDrive(MAPS[prefix], body(request_)[0], habits, words=words)
+    if 500 in reply.means.values:  # 50.0 Hz
+        drive.keypad_run(50)
+        drive.step(5000)
+    assert drive.reply(body(request_)) == body(reply)
+
+
+def test_enter_stores_and_illegal_data_is_refused_as_printed() -> None:
+    """The frames that no other answers: SN300G5's ENTER, and CHF's refusal with error 5."""
+    enter = next(frame for frame in MAPS["SN300G5"].frames if frame.id == "enter_request")
+    one = talk("SN300G5")
+    assert one.drive.reply(body(enter)) == bytes.fromhex("01 10 FF FD 00 01")
+    assert one.drive.stores == 1
+    refused = next(frame for frame in MAPS["CHF"].frames if frame.id == "error_rtu_reply")
+    chf = talk("CHF")
+    assert chf.write(0x2000, 10001) == body(refused)
+    assert chf.read(0x5001) == 5
+
+
+def test_chf_jogs_until_its_jog_stop_and_coasts() -> None:
+    one = talk("CHF")
+    one.command("jog_reverse")
+    one.drive.step(2000)
+    assert one.drive.hertz == -5
+    one.command("jog_stop")
+    one.drive.step(500)
+    assert one.drive.mode == "standing"
+    one.at(30)
+    one.command("jog_stop")
+    one.drive.step(1000)
+    assert one.drive.hertz == 30
+    one.command("coast_stop")
+    one.drive.step(1000)
+    assert one.drive.mode == "coasting"
+    assert one.drive.hertz == 25
+    assert one.read(0x3000) == 0
+    one.command("run_forward")
+    one.drive.step(100)
+    assert one.drive.hertz == 26
+
+
+def test_a_stop_may_leave_a_jog_to_its_own_stop() -> None:
+    one = talk("CHF", Habits(stop_ends_jog=False))
+    one.command("jog_forward")
+    one.drive.step(1000)
+    one.command("stop")
+    one.drive.step(1000)
+    assert one.drive.hertz == 5
+
+
+def test_chf_resets_by_bus_and_a_negative_reference_reverses() -> None:
+    one = talk("CHF")
+    one.drive.trip(3)
+    one.command("fault_reset")
+    assert one.drive.fault == 3
+    one.drive.clear_cause()
+    one.command("fault_reset")
+    assert one.drive.fault == 0
+    one.at(-20)
+    assert one.drive.hertz == -20
+    assert one.read(0x1001) == 2
+
+
+def test_a_reference_means_something_else_while_its_meaning_is_not_verified() -> None:
+    """SN300G5 with 000FH bit 0 = 1: the unit of O1-03, here ten times as much."""
+    one = talk("SN300G5")
+    one.write(0x000F, 1)
+    one.at(4)
+    assert one.drive.hertz == 40
+    one.write(0x000F, 0)
+    one.drive.step(10_000)
+    assert one.drive.hertz == 4
+
+
+def test_a_drive_runs_at_no_frequency_and_at_no_more_than_its_maximum() -> None:
+    one = talk("SN300G5").at(0)
+    assert one.read(0x0010) == 0x23
+    jscc = talk("JSCC").at(655.35)
+    assert jscc.drive.hertz == 50
+
+
+def test_terminals_of_sn300g5_are_no_command_and_both_directions_are_none() -> None:
+    one = talk("SN300G5").at(20)
+    one.write(0x0000, 0x00FD)
+    assert one.drive.mode == "running"
+    one.write(0x0000, 0x0003)
+    one.drive.step(1000)
+    assert one.drive.hertz == 20
+    one.write(0x0000, 0x00FC)
+    one.drive.step(2000)
+    assert one.drive.mode == "standing"
+
+
+def test_a_command_word_of_zero_is_no_stop_of_jscc() -> None:
+    one = talk("JSCC").at(20)
+    one.write(0x1000, 0)
+    one.drive.step(1000)
+    assert one.drive.hertz == 20
+
+
+def test_measures_go_with_speed_and_load() -> None:
+    one = talk("CHF")
+    assert [one.read(address) for address in (0x3002, 0x3003, 0x3004, 0x3006)] == [54000, 0, 0, 0]
+    one.at(25)
+    one.drive.load = 80
+    # 540 V; half of 400 V; 80 % of 10 A; half of 80 % of 4 kW
+    assert [one.read(address) for address in (0x3002, 0x3003, 0x3004, 0x3006)] == [54000, 20000, 800, 160]
