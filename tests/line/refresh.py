@@ -129,9 +129,8 @@ def seven(found: Mapping[Setup, float]) -> list[str]:
 
 def families(lines: Callable[[int], CLine]) -> list[str]:
     """Seven drives of each shipped family, at the rates of its manual: how often its status is read, in ms."""
-    rows = [
-        "| 7 drives, 10 ms | words read from status to status | bit/s, 8E1 | the wire itself, ms | port keeps silence | line keeps it |"
-    ]
+    heads = "7 drives, 10 ms", "words read from status to status", "bit/s, 8E1", "the wire itself, ms"
+    rows = [f"| {' | '.join((*heads, 'port keeps silence', 'line keeps it'))} |"]
     rows.append("|---|---|---|---|---|---|")
     for drive in map(load, catalog.shipped()):
         reads = _round(drive)
