@@ -99,6 +99,7 @@ class Bench:
         self.chance = Random(seed)
         self.faults = Faults()
         self.deaf: set[int] = set()
+        self.echo = False
         self.spoil: Callable[[Frame, bytes | None], bytes | None] = lambda _, reply: reply
         self.frames: list[Frame] = []
         self.acknowledged: list[Frame] = []
@@ -236,6 +237,8 @@ class Bench:
         self._free = end
         for each in meets:
             self._wire[self._wire.index(each)] = Heard(each.at, each.begins, self._garbled(each.text), None)
+        if self.echo:
+            self.transmit(raw, start)
         if not meets and not self._happens(self.faults.lost):
             self._answer(frame, data, end)
 
@@ -278,7 +281,29 @@ class Bench:
     def _happens(self, per_1000: int) -> bool:
         return per_1000 > 0 and self.chance.randrange(1000) < per_1000
 
-    # ------------------------------------------------------------ what tests begin with
+    # ------------------------------------------------------------ what tests begin and end with
+
+    def heal(self) -> "Bench":
+        """All is well again: a release and a new edge run each motor, and its pin stops it."""
+        self.faults, self.deaf, self.spoil = Faults(), set(), lambda _, reply: reply
+        self.line(StopAll=False, Acknowledge=False, Restart=False)
+        self.block["SkipLine"] = False
+        calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
+        for index, drive in enumerate(self.drives):
+            self.block[f"Skip{index}"] = False
+            self.put(index, Enable=True, SupplyOn=True, SpeedReferenceHz=25.0, **calm)
+            drive.power(on=True)
+            drive.inhibit(on=False)
+            drive.clear_cause()
+            drive.local, drive.follows, drive.keeps_running = False, True, False
+        self.run(1200)
+        self.until(lambda: not any(drive.motor.shaft for drive in self.drives), 9000).line(Acknowledge=True)
+        for index, drive in enumerate(self.drives):
+            drive.reset()
+            self.running("RunForward", index)
+            assert abs(drive.hertz - 25.0) < 0.2, f"turns at {drive.hertz}"
+            self.put(index, RunForward=False).stopped(index)
+        return self
 
     def stopped(self, drive: int = 0) -> "Bench":
         """Scan until the stop is confirmed and a start is possible."""

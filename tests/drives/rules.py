@@ -18,6 +18,8 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+LEFT_US = 1_050_000
+"""A block that was not called for so long: the line has stopped its drive."""
 ONLY_READS = 5
 """The state in which a block has stopped its drive and only reads."""
 
@@ -109,10 +111,9 @@ class Observer:
             return
         if bench.block[f"Skip{self.drive}"]:
             self.skipped_us += 1000 * bench.ms
-            if self.skipped_us > 1_050_000:  # the line has stopped the drive
-                self.wish = None
-            self.free = self.was_confirmed = False
             self.turning_us = self.stopping_us = 0
+            if self.skipped_us > LEFT_US:
+                self.wish, self.free, self.was_confirmed = None, False, False
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
             return
