@@ -120,7 +120,7 @@ class Bench:
 
     # ------------------------------------------------------------ pins
 
-    def put(self, drive: int = 0, **pins: Value) -> "Bench":
+    def put(self, drive: int = 0, /, **pins: Value) -> "Bench":
         """Set inputs of a drive block."""
         for name, value in pins.items():
             self.block[f"Drive{drive}.{name}"] = value
@@ -139,6 +139,12 @@ class Bench:
     def out(self, name: str, drive: int = 0) -> Value:
         """An output of a drive block."""
         return self.block[f"Drive{drive}.{name}"]
+
+    def number(self, name: str, drive: int = 0) -> float:
+        """The same as a number."""
+        value = self.out(name, drive)
+        assert isinstance(value, (int, float))
+        return value
 
     def shows(self, name: str, drive: int = 0) -> bool:
         """An output that `Seen` holds, as it was at the end of the last scan."""
@@ -202,7 +208,7 @@ class Bench:
         """What the blocks show, for messages."""
         drives = range(len(self.types))
         pins = [" ".join([pin for pin in PINS if self.shows(pin, i)] + [self.reason(i)]) for i in drives]
-        states = [f"State {self.out('Control.State', i)}, drive {self.drives[i].mode}" for i in drives]
+        states = [f"State {self.out('Control.State', i)!r}, drive {self.drives[i].mode}" for i in drives]
         shown = [f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)]
         return f"{self.now // 1000} ms: {'; '.join(shown)}"
 
@@ -253,7 +259,8 @@ class Bench:
         faults, turn = self.faults, self.drives[0].turn_us
         if self._happens(faults.late):
             turn = 1000 * self.chance.randint(20, 55)
-        text, good = _sealed(reply, self.ascii), frame
+        good: Frame | None = frame
+        text = _sealed(reply, self.ascii)
         if self._happens(faults.garbled):
             text, good = self._garbled(text), None
         if self._happens(faults.truncated):

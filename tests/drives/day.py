@@ -3,7 +3,7 @@
 from collections import Counter
 
 from tests.drives.bench import Bench, Frame
-from tests.drives.rules import Meaning, watched
+from tests.drives.rules import Meaning
 
 from driveblocks.host.engine import Library
 from driveblocks.simulator.habits import Habits
@@ -17,7 +17,7 @@ def day(kind: str, ms: int, *, every: int = 20, stations: Library | None = None)
     Raises AssertionError if the drive has stored anything, or if a write reaches a parameter.
     """
     habits = Habits(ramp=50, coast_ramp=50)
-    bench = watched(kind, habits=habits, ms=every, stations=stations).line(MaxScanMs=every + 20)
+    bench = Bench(kind, habits=habits, ms=every, stations=stations).line(MaxScanMs=every + 20)
     meaning, written = Meaning(bench.maps[0]), Counter[int]()
     turn = 0
     while bench.now < 1000 * ms:
@@ -28,7 +28,6 @@ def day(kind: str, ms: int, *, every: int = 20, stations: Library | None = None)
         written.update(frame.address for frame in bench.frames if not frame.read)
         bench.frames.clear()
         bench.acknowledged.clear()
-        bench.watch.clear()
     assert bench.drives[0].stores == 0
     return written
 

@@ -1,7 +1,7 @@
-"""Drive blocks at length: `python -m tests.drives.long [--walks N] [--first SEED] [--jobs N] [--hours N]` (`make drives`).
+"""Drive blocks at length, `make drives`: `python -m tests.drives.long [--walks N] [--first SEED] [--hours N]`.
 
-Every planted mistake found, the whole matrix, random walks, and a day of simulated bus without a store; on matiec where
-it is found, else on the embedded engine. Each failure is printed with what walks it again. Exit status 1 if there is one.
+Every planted mistake found, the whole matrix, random walks, and a day of simulated bus without a store; on matiec
+where it is found, else on the embedded engine. Each failure is printed; exit status 1 if there is one.
 """
 
 import argparse

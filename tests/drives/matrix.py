@@ -107,6 +107,26 @@ def noise(frame: bytes) -> Doing:
     return happens
 
 
+def late(ms: int) -> Doing:
+    """A scan."""
+
+    def happens(bench: Bench) -> None:
+        bench.scan(ms)
+        bench.run(500)
+
+    return happens
+
+
+def left(what: str) -> Doing:
+    """A block that is not called."""
+
+    def happens(bench: Bench) -> None:
+        bench.block[what] = True
+        bench.run(2500)
+
+    return happens
+
+
 FAULTS: dict[str, Doing] = {
     "every request lost": wire(lost=1000),
     "some requests lost": wire(lost=300),
@@ -124,10 +144,10 @@ FAULTS: dict[str, Doing] = {
     "the supply gone": dip(3000),
     "another master": noise(bytes([9, 6, 0x10, 0, 0, 1])),
     "a reply that nobody asked for": noise(bytes([1, 3, 2, 0, 3])),
-    "a late scan": lambda bench: (bench.scan(300), bench.run(500)),
-    "a scan beyond the limit": lambda bench: (bench.scan(1600), bench.run(500)),
-    "the line not called": lambda bench: (bench.block.__setitem__("SkipLine", True), bench.run(2500)),
-    "the block not called": lambda bench: (bench.block.__setitem__("Skip0", True), bench.run(2500)),
+    "a late scan": late(300),
+    "a scan beyond the limit": late(1600),
+    "the line not called": left("SkipLine"),
+    "the block not called": left("Skip0"),
 }
 
 

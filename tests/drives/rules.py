@@ -35,7 +35,10 @@ class Meaning:
         """Read the commands, each with the writes before its last."""
         self.reference = drive.operation.reference.register
         commands = drive.operation.commands
-        self.words = [(command.does, of_write(write)) for command in commands for write in (*command.first, command)]
+        self.words: list[tuple[str, Pattern]] = []
+        for command in commands:
+            self.words += [(command.does, of_write(step)) for step in command.first]
+            self.words.append((command.does, of_write(command)))
         self.both = [
             Pattern(a.register, mask, mask)
             for a in commands
@@ -132,9 +135,9 @@ class Observer:
             if not 0 < frame.unit <= len(bench.types):
                 self.fail(f"asks unit {frame.unit}")
         self.frames = len(bench.frames)
-        volts = bench.out("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
+        volts = bench.number("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
         if volts not in (0.0, self.volts):
-            self.volts = float(str(volts))
+            self.volts = volts
             if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
                 self.fail(f"shows {volts} V, which is not its own")
         self.shows = shows

@@ -8,6 +8,7 @@ from tests.drives.bench import Bench, Frame
 from tests.drives.rules import MOTIONS, sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 
+from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -32,7 +33,7 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None
     bench = watched(kind, ascii_=mode == "ascii").running()
     bench.run(300)
     assert abs(bench.drives[0].hertz - 25.0) < 0.2
-    assert abs(float(str(bench.out("OutputFrequencyHz"))) - 25.0) < 0.2
+    assert abs(bench.number("OutputFrequencyHz") - 25.0) < 0.2
     assert bench.out("OutputFrequencyValid")
     bench.put(RunForward=False).stopped()
     assert bench.drives[0].mode == "standing"
@@ -100,7 +101,7 @@ def served(bench: Bench) -> None:
     bench.run(1000)
 
 
-def pins(**wanted: float) -> Callable[[Bench], object]:
+def pins(**wanted: Value) -> Callable[[Bench], object]:
     return lambda bench: bench.put(**wanted)
 
 
@@ -119,7 +120,12 @@ def serve(bench: Bench) -> None:
 
 def meaning(word: int) -> Callable[[Bench], object]:
     """What SN300G5's reference means is another thing; its block reads that anew behind a stop."""
-    return lambda bench: (bench.drives[0].set(0x000F, word), bench.restart(), bench.run(1000))
+
+    def happens(bench: Bench) -> None:
+        bench.drives[0].set(0x000F, word)
+        bench.restart().run(1000)
+
+    return happens
 
 
 WHILE = {
