@@ -27,6 +27,7 @@ BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 DEMO = (
     ("check the vendor maps", "driveblocks", "check"),
     ("build their function blocks", "driveblocks", "build"),
+    ("run three drives of three makes, simulated (ten seconds)", "driveblocks", "run", "--demo"),
     ("test the blocks against the manuals (some seconds)", "driveblocks", "test"),
     ("look for other ST compilers", "driveblocks", "doctor"),
 )
@@ -45,6 +46,7 @@ made
 next
   read vendor_maps/README.md for how the manual of your own drive becomes a map, or try
   {driveblocks} show jscc     a drive with its commands, registers and faults
+  {driveblocks} run --demo    the three motors again; your own program in the place of --demo
   {driveblocks} test          the test programs of all drives, one by one
   {driveblocks} --help        everything else
 """

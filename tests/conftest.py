@@ -29,7 +29,7 @@ NOT_COUNTED = (
     "bench/", "blocks/", "native/", "regression/", "host/compare/", "host/traces/",
     "commands/test_build.py::test_what_is_checked_in", "commands/test_explain.py::test_an_explanation_fits",
     "commands/test_show.py::test_a_page_fits", "commands/test_test.py", "host/embedded/test_accepted.py",
-    "host/embedded/test_control.py::test_chains", "host/embedded/test_ranges.py",
+    "host/embedded/test_control.py::test_chains", "host/embedded/test_ranges.py", "drives/test_vdrive.py",
     "maps/test_agreement.py", "maps/test_bad.py::test_every", "maps/test_form.py", "maps/test_fuzz.py",
     "maps/test_hostile.py", "maps/test_load.py::test_a_good_map", "maps/test_meaning.py",
     "maps/test_schema.py::test_a_good_map", "maps/test_view.py", "reference/", "render/test_build.py::test_english",

@@ -5,8 +5,8 @@ from graphlib import TopologicalSorter
 from tests.rooms import GRAPH, room
 
 ROOMS = (
-    "driveblocks", "console", "modbus", "st", "maps", "simulator", "reference", "tables", "explain", "host", "render", "testing",
-    "building", "commands", "cli", "__main__",
+    "driveblocks", "console", "modbus", "st", "maps", "simulator", "reference", "tables", "explain", "host", "render",
+    "docs", "testing", "building", "plc", "commands", "cli", "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file."""
 

@@ -98,14 +98,19 @@ class _Console(Console):
         return super().render(renderable, options)
 
 
+def terminal() -> Console:
+    """Standard output as rich has it; `is_terminal` says whether it is one."""
+    beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
+    return _Console(file=beneath, markup=False, emoji=False, highlight=False)
+
+
 def write(*pieces: RenderableType) -> None:
     """Print text and tables as wide as the terminal or COLUMNS, or 80 columns where neither is known.
 
     Text is printed as it is: no markup, no emoji names, no colouring by guess. What does not go to a terminal has no
     escape codes and no blanks at the end of a line.
     """
-    beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
-    console = _Console(file=beneath, markup=False, emoji=False, highlight=False)
+    console = terminal()
     console.width = min(max(console.width, NARROWEST), WIDEST)
     if console.is_terminal:
         for piece in pieces:
@@ -114,4 +119,4 @@ def write(*pieces: RenderableType) -> None:
     with console.capture() as capture:
         for piece in pieces:
             console.print(piece)
-    beneath.write("".join(f"{line.rstrip()}\n" for line in capture.get().split("\n")[:-1]))
+    console.file.write("".join(f"{line.rstrip()}\n" for line in capture.get().split("\n")[:-1]))

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from tests.bench.programs import programs
 from tests.bench.turns import Taken
-from tests.blocks.library import sources
+from tests.blocks.library import alone
 from tests.native.driver import PRELUDE, Driver, run
 
 from driveblocks.host.engine import EngineError, Source
@@ -26,7 +26,7 @@ def driver(text: str, *, forced: bool = True) -> Driver:
 
 def texts() -> list[Source]:
     """The blocks of the library that the forms are made of, and behind them the bench's own ST."""
-    return [*(source for source in sources() if source.path.startswith(FOLDERS)), *programs()]
+    return [*(source for source in alone() if source.path.startswith(FOLDERS)), *programs()]
 
 
 def timed(

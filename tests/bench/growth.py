@@ -10,10 +10,10 @@ from typing import TypeVar
 from tests.bench.record import Rows
 from tests.bench.synthetic import synthetic
 
+from driveblocks.docs.page import documents
 from driveblocks.maps import catalog, collection, load, nodes
 from driveblocks.maps.model import Drive
 from driveblocks.render import library, text
-from driveblocks.render.overview import overview
 from driveblocks.testing.suite import programs
 
 Made = TypeVar("Made")
@@ -84,7 +84,7 @@ def _without_libyaml() -> float:
 def _steps(read: Callable[[], list[collection.Source]]) -> dict[str, float]:
     loading, sources = timed(read)
     rendering, made = timed(lambda: _blocks(sources))
-    page, _ = timed(lambda: overview(made, [source.drive for source in sources]))
+    page, _ = timed(lambda: documents(made, [source.drive for source in sources]))
     tests, _ = timed(lambda: programs(sources, LANGUAGES))
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return {"load": loading, "blocks": rendering, "page": page, "tests": tests, "MiB": peak}

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tests.bench import chart
 from tests.bench.record import DOCS, Record, Rows
-from tests.bench.sections import blocks, checksum, engines, exchange, growth, summary
+from tests.bench.sections import blocks, checksum, drives, engines, exchange, growth, summary
 
 NAME = "performance.md"
 HEAD = """# Performance
@@ -47,6 +47,7 @@ def _page(record: Record) -> Iterator[str]:
     yield from ("## A request and its reply", "", *_part(record, ["exchange"], exchange.section))
     yield from ("## Decoders and encoders", "", *_part(record, ["times"], blocks.decoding))
     yield from ("## Every block", "", *_part(record, ["instructions", "memory", "times"], blocks.instructions))
+    yield from ("## Drive blocks on a line", "", *_part(record, ["drives"], drives.section))
     yield from ("## Building", "", *_part(record, ["growth"], growth.section))
     yield from ("## Engines", "", *_part(record, ["engines"], engines.section))
     yield from _part(record, ["front end"], engines.front_end)

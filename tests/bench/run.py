@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from tests.bench import blocks, checksums, engines, growth, machine, page, record
+from tests.bench import blocks, checksums, drives, engines, growth, machine, page, record
 from tests.bench.record import Part, Record, Rows
 from tests.native.driver import lines
 
@@ -62,6 +62,7 @@ MEASUREMENTS: dict[str, Measurement] = {
     "memory": Measurement(("matiec",), lambda tools: blocks.memory(tools.matiec)),
     "instructions": Measurement(("matiec", "valgrind"), lambda tools: blocks.instructions(tools.matiec)),
     "times": Measurement(("matiec",), lambda tools: blocks.all_times(tools.matiec)),
+    "drives": Measurement(("matiec",), lambda tools: drives.measure(tools.matiec)),
     "growth": Measurement((), lambda _: growth.measure()),
     "front end": Measurement((), lambda _: engines.front_end()),
     "engines": Measurement((), lambda tools: engines.measure([EmbeddedEngine(), *tools.matiec])),

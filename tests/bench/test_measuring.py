@@ -1,7 +1,7 @@
 """What the bench measures does what it says: the forms agree, the inputs are taken; no time is judged here."""
 
 import pytest
-from tests.bench import blocks, checksums, exchange, growth, speed
+from tests.bench import blocks, checksums, drives, exchange, growth, speed
 from tests.bench.forms import NATIVE, driver, texts
 from tests.bench.inputs import SPECIAL, pins
 from tests.bench.units import units
@@ -63,3 +63,11 @@ def test_every_step_of_the_front_end_is_measured() -> None:
     found = speed.measure("FUNCTION F : INT\n  F := 1;\nEND_FUNCTION\n", rounds=1)
     assert list(found) == ["lex", "parse", "check", "lint"]
     assert min(found.values()) > 0
+
+
+def test_drive_blocks_run_while_they_are_timed(matiec: MatiecEngine, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drives, "FAMILIES", ("JSCC",))
+    rows = drives.measure([matiec], rounds=1)
+    assert set(rows) == {"JSCC_Drive", drives.LINE, drives.SLOT}
+    assert rows["JSCC_Drive"][f"{matiec.name} ns of eight and the line"] > 0
+    assert rows[drives.LINE][f"{matiec.name} bytes"] > 1000

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import cache
 from typing import Any
 
-from tests.blocks import asking, driving, meanings, vectors
+from tests.blocks import asking, driving, meanings, permissions, vectors
 from tests.blocks.library import Blocks, shipped
 from tests.blocks.test_reply import check_by_chance
 from tests.maps import test_facts
@@ -81,6 +81,8 @@ _JUDGES: dict[str, Judge] = {
     "Command": _commands,
     "Reference": _references,
     "Standstill": meanings.check_standstill,
+    "MayWrite": permissions.check_writes,
+    "ParameterAddress": permissions.check_numbers,
     "FaultNumber": meanings.check_fault_number,
     "FaultText": meanings.check_code_texts,
     "ErrorText": meanings.check_code_texts,

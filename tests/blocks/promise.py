@@ -25,13 +25,14 @@ from pathlib import Path
 from tests.blocks import authors
 from tests.maps import mutate
 
+from driveblocks.docs.page import documents
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.render import library, overview, text
+from driveblocks.render import library, text
 from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.suite import ROOT, drive_suite
@@ -125,7 +126,7 @@ def broken(map_text: str) -> Iterator[str]:
     if made is None:
         return
     drive, blocks = made
-    overview.overview([*shared(), *blocks], [drive])
+    documents([*shared(), *blocks], [drive])
     files = [each for each in shared() if "Text" not in each.name] + blocks  # no block needs the texts of results
     suite = drive_suite(collection.Source(Path("map.yaml"), drive), LANGUAGES)
     unit = Unit(suite, tuple(Source(each.path, each.text) for each in files))

@@ -15,6 +15,8 @@ from driveblocks.render import expression
 from driveblocks.st.lint import lint_sources
 
 Plain = dict[str, Any]
+READ_TOGETHER = 60
+"""More terms than a statement has, and no more words than a drive block reads."""
 NAMES = {original.name: original for original in promise.originals()}
 
 
@@ -61,7 +63,12 @@ def lists(changed: Plain, count: int) -> None:
     changed["functions"][1]["sub_functions"] += subs
     starts = rows(changed, count, access="rw")
     changed["serial"]["broadcast"]["start_addresses"] += starts
-    changed["operation"]["standstill"]["all"] += [{"register": address, "equals": "0"} for address in starts]
+    changed["limits"]["read_words"]["value"] = "16"
+    proof = [f"{0xD000 + n:04X}H" for n in range(min(count, READ_TOGETHER))]
+    changed["sections"][1]["registers"] += [
+        {"address": address, "name": f"Proof {address}", "zh": "零", "access": "r"} for address in proof
+    ]
+    changed["operation"]["standstill"]["all"] += [{"register": address, "equals": "0"} for address in proof]
     values = [{"value": f"{n * 3}", "name": f"Kind {n}", "zh": f"种{n}"} for n in range(count)]
     changed["sections"][1]["registers"].append({"address": "F000H", "name": "Kinds", "zh": "种", "values": values})
 

@@ -41,11 +41,11 @@ def test_the_command_writes_what_stands_on_the_page() -> None:
 
 
 def test_the_prefix_is_the_users_as_long_as_it_may_be() -> None:
-    assert CliRunner().invoke(app, ["new", "NORDWIND2000", "-o", "drive.yaml"]).exit_code == 0
-    text = Path("drive.yaml").read_text(encoding="utf-8")
+    assert CliRunner().invoke(app, ["new", "NORDWIND2000", "-o", "nordwind.yaml"]).exit_code == 0
+    text = Path("nordwind.yaml").read_text(encoding="utf-8")
     assert "\nprefix: NORDWIND2000 " in text
     assert "ACME" not in text
-    collection.read([Path("drive.yaml")])
+    collection.read([Path("nordwind.yaml")])
 
 
 def test_a_file_that_is_there_is_never_touched() -> None:

@@ -44,7 +44,7 @@ class CLine:
 
     def run(self, mode: str, *words: str, **keys: int) -> Ran:
         """Run it. Raises ValueError for what it does not understand."""
-        command = [str(self.program), mode, *words, *(f"{key}={value}" for key, value in keys.items())]
+        command = [str(self.program), mode, *words, *(f"{key}={int(value)}" for key, value in keys.items())]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         lines = done.stdout.splitlines()
         if done.returncode not in (0, 1):

@@ -1,7 +1,7 @@
 """The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]` (`make line`).
 
 Random lines of every kind around each line of matiec, every planted mistake found, 10^5 scans of walks with the full
-state of every engine compared, refresh beside its formula. `--page` writes what was measured into docs/line.md.
+state of every engine compared, refresh beside its formulas. `--page` writes what was measured into docs/line.md.
 Exit status 1 if anything is not as it must be.
 """
 
@@ -9,14 +9,16 @@ import argparse
 import re
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import product
-from math import ceil
 from pathlib import Path
 
 from tests.blocks.compare.comparison import with_double
 from tests.blocks.toolchains import FOUND
+from tests.drives import test_engines
+from tests.drives.walk import walk as drive_walk
+from tests.line import refresh
 from tests.line.cline import WHY_NOT, CLine, Ran, build
 from tests.line.planted import PLANTED, Planted
 from tests.line.test_engines import twins
@@ -26,13 +28,14 @@ from driveblocks.host.discovery import MATIEC_NAMES, survey
 from driveblocks.host.matiec.installation import Installation
 
 PAGE = Path(__file__).parents[2] / "docs" / "line.md"
-KINDS = {"stops": 1.0, "timing": 0.1, "late": 0.1, "broken": 0.1, "faults": 0.1}
+KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1, "faults": 0.1}
 """Kinds of random lines, and how many of each for one of the first."""
-OTHERS = 0.02
+OTHERS = 0.2
 """How many lines run on another line of matiec, and with 32 slots, for one on the first."""
 WALKS, SCANS = 100, 1000
-SLACK = 1.12
-WORDS, TURN_MS = 6, 5
+DRIVE_WALKS = 60
+"""Twice each station of tests/drives/station.py, and some more of the families."""
+JITTER = 10
 
 
 @dataclass(frozen=True)
@@ -77,65 +80,61 @@ def main() -> int:
     if WHY_NOT:
         print(WHY_NOT)
         return 1
-    rows = []
+    rows, tables = [], []
+    began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        for row in _all(Job(Path(folder), options.runs, options.first)):
-            print(row if row.good else f"FAILED {row}", flush=True)
-            rows.append(row)
+        for part in _all(Job(Path(folder), options.runs, options.first)):
+            if isinstance(part, Row):
+                print(part if part.good else f"FAILED {part}", flush=True)
+                rows.append(part)
+            else:
+                print("\n".join(part), flush=True)
+                tables += ["", *part]
+    rows.append(Row("all of this, on one core", f"{(time.monotonic() - began) / 60:.0f} minutes"))
     if options.page:
-        write([str(row) for row in rows])
+        write([*map(str, rows), *tables])
     failed = [row for row in rows if not row.good]
     print(f"{len(failed)} of {len(rows)} are not as they must be")
     return 1 if failed else 0
 
 
-def _all(job: Job) -> Iterator[Row]:
-    for part in (refresh, bus, cost, randoms, planted, sanitized, engines):
+def _all(job: Job) -> Iterator[Row | list[str]]:
+    for part in (refreshed, bus, cost, randoms, planted, sanitized, engines):
         yield from part(job)
 
 
-def write(rows: list[str]) -> None:
-    """Put the table into the page, between its marks."""
+def write(lines: list[str]) -> None:
+    """Put the tables into the page, between its marks."""
     page = PAGE.read_text(encoding="utf-8")
-    table = "\n".join(["| what | measured |", "|---|---|", *rows, ""])
+    table = "\n".join(["| what | measured |", "|---|---|", *lines, ""])
     made = re.sub(r"(?s)(<!-- measured -->\n).*?(<!-- end -->)", lambda found: found[1] + table + found[2], page)
     PAGE.write_text(made, encoding="utf-8")
 
 
-# ---------------------------------------------------------------- refresh
+# ---------------------------------------------------------------- refresh, late replies, cost
 
 
-def formula(drives: int, rate: int, bits: int, scan_ms: int, late: int, *, keeps: bool) -> float:
-    """Refresh in ms: whole scans of a transaction, of the silence where the line keeps it, of the adapter."""
-    wire = (8 + 5 + 2 * WORDS) * bits * 1000 / rate + TURN_MS
-    silence = 1.75 if rate > 19200 else 3.5 * bits * 1000 / rate
-    scans = ceil((wire + silence) / scan_ms) if keeps else ceil(wire / scan_ms) + int((silence + 1) / scan_ms) + 1
-    return drives * (scans + late) * scan_ms
-
-
-def refresh(job: Job) -> Iterator[Row]:
-    """Every combination against the formula."""
-    rates, lates = (9600, 19200, 38400, 57600, 115200), range(4)
-    for keeps in (True, False):
-        shares = []
-        for drives, rate, bits, scan, late in product((1, 3, 7, 16, 32), rates, (10, 11), (5, 10, 20), lates):
-            wanted = formula(drives, rate, bits, scan, late, keeps=keeps)
-            pins = {
-                "drives": drives,
-                "rate": rate,
-                "bits": bits,
-                "scan": 1000 * scan,
-                "max_scan": scan,
-                "rx_late": late,
-            }
-            ran = job.line(32 if drives > 8 else 8).run(
-                "run", jitter=0, keeps=keeps, ms=6000 + 40 * int(wanted), **pins
-            )
-            where = f"{drives} drives, {rate} bit/s, {bits} bits, {scan} ms scans, {late} late"
-            shares.append((ran["refresh_ms"] / wanted, where))
-        most, where = max(shares)
-        what = f"refresh beside the formula, {len(shares)} lines, the {'port' if keeps else 'line'} keeps the silence"
-        yield Row(what, f"at most {most:.2f} of it ({where})", most <= SLACK)
+def refreshed(job: Job) -> Iterator[Row | list[str]]:
+    """Every combination beside both formulas, with steady scans and with scans that vary."""
+    found = {each: each.run(job.line) for each in refresh.setups()}
+    varied = {each: each.run(job.line, JITTER) for each in refresh.setups()}
+    shares = [
+        ("as it stands", {each: ms / each.formula() for each, ms in found.items()}),
+        ("silence in whole ms", {each: ms / each.formula(whole=True) for each, ms in found.items()}),
+        (
+            f"the same, scans that vary by {JITTER} %",
+            {each: ms / each.formula(whole=True, shortest=1 - JITTER / 100) for each, ms in varied.items()},
+        ),
+    ]
+    for name, ratios in shares:
+        most = max(ratios.values())
+        over = [each for each, ratio in ratios.items() if ratio > refresh.SLACK]
+        measured = f"at most {most:.3f}; above {refresh.SLACK}: {'; '.join(map(str, over)) or 'none'}"
+        good = all(each.coarse for each in over) if name == shares[0][0] else not over
+        yield Row(f"refresh beside its formula, {len(ratios)} lines, {name}", measured, good)
+    yield refresh.seven(found)
+    yield refresh.axes(found)
+    yield refresh.families(job.line)
 
 
 def bus(job: Job) -> Iterator[Row]:
@@ -149,16 +148,21 @@ def bus(job: Job) -> Iterator[Row]:
     pins = {"late": 1000, "longest_ms": 100, "ms": 3_600_000}
     late, hasty = line.run("run", **pins), line.run("run", drain=1, **pins)
     measured = late.told("{refresh_ms:.1f} ms, {wrong_readings:.0f} of {readings:.0f} readings wrong; ")
-    measured += hasty.told("{refresh_ms:.1f} ms without waiting for them")
+    for name, other in (("going on at once", hasty), ("none late", good)):
+        measured += f"{100 * (late['refresh_ms'] / other['refresh_ms'] - 1):+.1f} % beside {name}"
+        measured += other.told(" ({refresh_ms:.1f} ms); ")
     fine = not late["wrong_readings"] and late["refresh_ms"] <= 1.03 * hasty["refresh_ms"]
-    yield Row("1 % of replies late, up to 100 ms", measured, fine)
+    yield Row("1 % of replies late, up to 100 ms", measured.removesuffix("; "), fine)
     for loss in ("loss", "garble"):
         ran = line.run("run", ms=600_000, **{loss: 1000})
         yield Row(f"1 % of replies {'lost' if loss == 'loss' else 'garbled'}", ran.told("{refresh_ms:.1f} ms"))
-    noise = line.run("run", drives=1, scramble=30_000, ms=360_000_000)
-    theory = noise["scrambled"] / 65536
-    measured = noise.told("{wrong_readings:.0f} of {scrambled:.0f} believed; 16 bits let ") + f"{theory:.1f} pass"
-    yield Row("replies, every byte behind the head by chance", measured, noise["wrong_readings"] <= 2 * theory + 10)
+    for ascii_, pass_ in ((0, 65536), (1, 256)):
+        noise = line.run("run", drives=1, ascii=ascii_, scramble=30_000, ms=36_000_000 if ascii_ else 360_000_000)
+        theory = noise["scrambled"] / pass_
+        measured = noise.told("{wrong_readings:.0f} of {scrambled:.0f} believed; the checksum lets ")
+        name = "ASCII" if ascii_ else "RTU"
+        fine = noise["wrong_readings"] <= 1.2 * theory + 10
+        yield Row(f"{name} replies, every byte behind the head by chance", f"{measured}{theory:.1f} pass", fine)
 
 
 def _turns(line: CLine) -> Iterator[Row]:
@@ -175,11 +179,23 @@ def cost(job: Job) -> Iterator[Row]:
     for slots in (8, 32):
         busy = job.line(slots).run("cost", drives=slots)
         idle = job.line(slots).run("cost", drives=slots, poll_ms=30_000)
-        measured = busy.told("{line_bytes:.0f} bytes, {slot_bytes:.0f} per slot; ") + idle.told(
-            "{idle_ns:.0f} ns idle, "
-        )
-        measured += busy.told("{waiting_ns:.0f} waiting, {transaction_ns:.0f} with a transaction")
-        yield Row(f"line of {slots} slots and drives", measured, busy["line_bytes"] <= 200 * slots + 1200)
+        times = {
+            "idle": idle["idle_ns"] / idle["crc_ns"],
+            "waiting": busy["waiting_ns"] / busy["crc_ns"],
+            "with a transaction": busy["transaction_ns"] / busy["crc_ns"],
+        }
+        measured = busy.told("{line_bytes:.0f} bytes, {slot_bytes:.0f} per slot; ") + idle.told("{idle_ns:.0f} ns ")
+        measured += busy.told("idle, {waiting_ns:.0f} waiting, {transaction_ns:.0f} with a transaction; ")
+        measured += "of the CRC of 256 bytes by a table in C: "
+        measured += ", ".join(f"{ratio:.2f} {name}" for name, ratio in times.items())
+        fine = busy["line_bytes"] <= 200 * slots + 1200 and busy["slot_bytes"] <= 224
+        yield Row(f"line of {slots} slots and drives", measured, fine)
+
+
+def _name(tool: Installation) -> str:
+    """The line of matiec that an installation belongs to."""
+    engines = (each.engine for each in survey().examined if each.iec2c == str(tool.iec2c))
+    return next((each.name for each in engines if each is not None), str(tool.iec2c))
 
 
 # ---------------------------------------------------------------- random lines, planted mistakes, engines
@@ -189,6 +205,7 @@ SUMS = (
     "{ratio:.2f} of `WorstStopMs` at most",
     "{late_lone_stops:.0f} of {lone_stops:.0f} lone ones over `StopAloneMs`",
     "{requests:.0f} requests: {false_timeouts:.0f} false timeouts, {short_silences:.0f} short silences",
+    "{parameters:.0f} parameters and the fault resets: {unasked:.0f} that must not leave",
     "{wrong_readings:.0f} of {readings:.0f} readings wrong, {false_acks:.0f} false acknowledgements",
     "{virtual_hours:.0f} h of bus",
 )
@@ -202,7 +219,7 @@ def randoms(job: Job) -> Iterator[Row]:
             count = max(1, int(job.runs * share * (OTHERS if number else 1)))
             ran = line.random(job.first, count, kind)
             print("\n".join(ran.failures), end="", flush=True)
-            what = f"{count} random lines of kind {kind}, {slots} slots, {tool.iec2c.parent.name}"
+            what = f"{count} random lines of kind {kind}, {slots} slots, {_name(tool)}"
             yield Row(what, ran.told("; ".join(SUMS)), not ran.failures)
 
 
@@ -227,18 +244,22 @@ def sanitized(job: Job) -> Iterator[Row]:
         place.mkdir()
         flags = ("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
         line = build(place, tool=tool, flags=flags)
-        ran = [line.random(job.first, max(10, job.runs // 100), kind) for kind in KINDS]
+        ran = [line.random(job.first, max(10, job.runs // 500), kind) for kind in KINDS]
         scans = sum(each["scans"] for each in ran)
-        yield Row(f"{scans:.0f} scans under the sanitizers, {tool.iec2c.parent.name}", "nothing found")
+        yield Row(f"{scans:.0f} scans under the sanitizers, {_name(tool)}", "nothing found")
 
 
 def engines(_: Job) -> Iterator[Row]:
     """10^5 scans of walks, the full state of both lines of matiec and of the embedded engine after each."""
-    for each in survey().candidates():
-        if each.engine is not None and each.name in MATIEC_NAMES:
-            for seed in range(WALKS):
-                walk(seed, SCANS, twins(with_double(each.engine)))
-            yield Row(f"{WALKS * SCANS} scans of walks on {each.name} and the embedded engine", "one state after each")
+    found = {each.name: each.engine for each in survey().candidates() if each.name in MATIEC_NAMES and each.engine}
+    every = {**with_double(next(iter(found.values()))), **found}
+    for seed in range(WALKS):
+        walk(seed, SCANS, twins(every))
+    yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")
+    stations = test_engines.twins(every, every=1)
+    for seed in range(DRIVE_WALKS):
+        drive_walk(seed, stations)
+    yield Row(f"{DRIVE_WALKS} walks of drive blocks on {', '.join(every)}", "one state after each scan")
 
 
 if __name__ == "__main__":

@@ -54,8 +54,8 @@ PLANTED = (
     ),
     Planted(
         "time runs before the port has the request",
-        "    SinceMs := Passed;\n    QuietMs := 0;\n",
-        "    SinceMs := MB_Plus(Number := SinceMs, More := 20);\n    QuietMs := 0;\n",
+        "    SinceMs := Passed;\n    QuietMs := Passed;\n",
+        "    SinceMs := MB_Plus(Number := SinceMs, More := 20);\n    QuietMs := Passed;\n",
         "timing",
     ),
     Planted(
@@ -73,4 +73,21 @@ PLANTED = (
         "",
         "timing",
     ),
+    Planted(
+        "a request that nobody answers passes for silence",
+        "    SinceMs := Passed;\n    QuietMs := Passed;\n",
+        "    SinceMs := Passed;\n    QuietMs := 0;\n",
+    ),
+    Planted(
+        "the port's silence, rounded up, passes for the drive's",
+        ".SilenceMs) >= NextSilence THEN",
+        ".SilenceMs) > NextSilence THEN",
+        "timing",
+    ),
+    Planted(
+        "a parameter leaves without its drive block",
+        "IF Asked = Slots[Index].ParameterCleared THEN",
+        "IF Asked > 0 THEN",
+    ),
+    Planted("a fault reset is repeated", "      Most := 0;\n", "      Most := CommandRetries;\n"),
 )

@@ -2,16 +2,18 @@
 
 import re
 from functools import cache
+from pathlib import Path
 
 import pytest
 from tests.blocks.library import shipped, sources
-from tests.line.vline import NAMES, Bench, Config
+from tests.line.vline import NAMES, PARAMETER, Bench, Config
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Library, Source
 from driveblocks.maps.plan import plan
 from driveblocks.render.environment import environment, needed
 from driveblocks.render.parameter import passing
+from driveblocks.st.lint import lint_sources
 
 SCENE = """
 FUNCTION_BLOCK T_Drive
@@ -40,7 +42,7 @@ VAR_INPUT
   MaxScanMs : UINT;     (* of the line *)
   Called : BOOL;        (* the drive block is called *)
   Lined : BOOL;         (* the line is called *)
-  Asleep : BOOL;        (* Get1 is not called *)
+  Asleep : BOOL;        (* Get1, Put1 and Keep are not called *)
 END_VAR
 VAR_IN_OUT
   Port : MB_Port;     (* of the line *)
@@ -50,38 +52,41 @@ END_VAR
 VAR
   Get1 : DB_ReadParameter;  (* before the drive block *)
   Put1 : DB_WriteParameter; (* before the drive block *)
+  Keep : DB_Store;          (* before the drive block *)
   Drive : T_Drive;          (* the drive block *)
   Get2 : DB_ReadParameter;  (* behind it *)
   Put2 : DB_WriteParameter; (* behind it *)
-  Keep : DB_Store;          (* behind it *)
   Line : MB_Line8;          (* the line *)
 END_VAR
 
   IF NOT Asleep THEN
     Get1(Slot := Slots[0]);
+    Put1(Slot := Slots[0]);
+    Keep(Slot := Slots[0], Stores := Stores);
   END_IF;
-  Put1(Slot := Slots[0]);
   IF Called THEN
     Drive(Slot := Slots[0]);
   END_IF;
   Get2(Slot := Slots[0]);
   Put2(Slot := Slots[0]);
-  Keep(Slot := Slots[0], Stores := Stores);
   IF Lined THEN
     Line(ElapsedMs := ElapsedMs, BitRate := BitRate, CharacterBits := CharacterBits, Ascii := Ascii,
       MaxScanMs := MaxScanMs, Port := Port, Slots := Slots);
   END_IF;
 END_FUNCTION_BLOCK
 """
-BLOCKS = ("Get1", "Put1", "Get2", "Put2", "Keep")
 WRITABLE = {"JSCC": 0x0012, "CHF": 0x8007, "SN300G5": 0x0200}
 """A register of each family that a ladder user may write."""
+ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
+"""One block of each kind, and a request that passes for SN300G5."""
 
 
 @cache
 def library(prefix: str) -> Library:
     """The line, the blocks of parameters, and what a drive block of the family does for them."""
-    wanted = re.compile(rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite)\.st")
+    wanted = re.compile(
+        rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
+    )
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     drive = shipped()[prefix]
     parameter = passing(drive, plan(drive))
@@ -92,9 +97,10 @@ def library(prefix: str) -> Library:
 class Scene(Bench):
     """A line with one drive, whose registers hold their own address, and the blocks of parameters."""
 
-    def __init__(self, prefix: str = "JSCC", drives: int = 1) -> None:
-        """Begin with a motor that stands."""
-        super().__init__(Config(drives=drives), block=library(prefix).instance("T_Scene"))
+    def __init__(self, prefix: str = "JSCC", clock: int = 0) -> None:
+        """Begin with a motor that stands; `clock` is what the line says to begin with."""
+        super().__init__(Config(drives=1), block=library(prefix).instance("T_Scene"))
+        self.block["Slots[0].TimeMs"] = clock
         self.set(Called=True, Lined=True)
         self.block["Drive.StopConfirmed"] = True
         self.drives[0].answer = self.reply
@@ -102,14 +108,22 @@ class Scene(Bench):
         self.silent = False
         self.ready()
 
+    def rested(self) -> "Scene":
+        """Long behind the last store."""
+        self.block["Keep.SinceMs"] = 60_000
+        return self
+
     def reply(self, request: bytes) -> bytes | None:
         address = int.from_bytes(request[2:4], "big")
+        polled = address == self.kind.read_address
+        if self.silent and not polled:
+            return None
+        if self.refuses and not polled:
+            return bytes([request[0], request[1] + 0x80, self.refuses])
         if request[1] in (3, 4):
             words = b"".join((address + index).to_bytes(2, "big") for index in range(request[5]))
             return request[:2] + bytes([len(words)]) + words
-        if self.silent:
-            return None
-        return bytes([request[0], request[1] + 0x80, self.refuses]) if self.refuses else request[:6]
+        return request[:6]
 
     def execute(self, block: str, **pins: int | bool) -> None:
         """A rising edge, with pins."""
@@ -117,8 +131,9 @@ class Scene(Bench):
             self.block[f"{block}.{name}"] = value
 
     def drop(self, block: str) -> None:
-        """Execute falls."""
+        """Execute falls, for a scan."""
         self.block[f"{block}.Execute"] = False
+        self.scan()
 
     def done(self, block: str, ms: int = 300, **pins: int | bool) -> str:
         """Execute and wait; the name of the result."""
@@ -323,7 +338,7 @@ def test_no_answer_is_lost_or_taken_for_anothers(apart: int) -> None:
         for name in asked:
             if said := scene.result(name):
                 found[name].append(said)
-                scene.drop(name)
+                scene.block[f"{name}.Execute"] = False
             elif not scene[f"{name}.Busy"]:
                 scene.execute(name)
         assert scene["Get1.Value"] in (0, 0x0200)
@@ -334,26 +349,39 @@ def test_no_answer_is_lost_or_taken_for_anothers(apart: int) -> None:
     assert set(scene.written()) == {bytes.fromhex("10 0201 0001 02 0007")}
 
 
-def test_who_sleeps_through_its_answer_says_so() -> None:
-    scene = Scene()
-    scene.execute("Get1", Address=0x0012)
-    scene.run(30)
+@pytest.mark.parametrize("block", ASKING)
+def test_who_sleeps_through_its_answer_says_so(block: str) -> None:
+    scene = Scene("SN300G5").rested()
+    scene.execute(block, **ASKING[block])
+    scene.run(40)
     scene.set(Asleep=True)
-    assert scene.done("Get2", Address=0x0013) == scene.done("Put2", Address=0x0014) == "OK"
+    assert scene.done("Get2", Address=0x0201) == scene.done("Put2", Address=0x0202, Quantity=3, Value2=7) == "OK"
     scene.set(Asleep=False)
     scene.scan()
-    assert scene.result("Get1") == "LOST"
+    assert scene.result(block) == "LOST"
+    assert scene["Keep.Most"] == 0, "what stands in the compartment is another's"
+
+
+def test_a_store_waits_for_its_turn() -> None:
+    scene = Scene("SN300G5").rested()
+    scene.execute("Put2", Address=0x0200)
+    scene.run(20)
+    assert scene.done("Keep") == scene.result("Put2") == "OK"
+    assert [each[1:3].hex() for each in scene.written()] == ["0200", "fffd"]
 
 
 # ---------------------------------------------------------------- results
 
 
-def test_a_refusal_tells_the_drives_own_code() -> None:
-    scene = Scene("SN300G5")
+@pytest.mark.parametrize("block", ASKING)
+def test_a_refusal_tells_the_drives_own_code(block: str) -> None:
+    scene = Scene("SN300G5").rested()
     scene.refuses = 0x22
-    assert scene.done("Put1", Address=0x0200) == "REFUSED"
-    assert scene["Put1.RefusedReason"] == 0x22
-    assert len(scene.written()) == 1
+    assert scene.done(block, **ASKING[block]) == "REFUSED"
+    assert scene[f"{block}.RefusedReason"] == 0x22
+    assert scene.slot(0, "Retries") == 0
+    scene.drop(block)
+    assert scene[f"{block}.RefusedReason"] == 0
 
 
 def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
@@ -362,7 +390,6 @@ def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
     scene.run(500)
     assert scene.result("Get1") == "OK"
     scene.drop("Get1")
-    scene.scan()
     assert scene.result("Get1") == ""
     scene.execute("Put1", Address=0x0012)
     scene.scan()
@@ -378,30 +405,31 @@ def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
 def test_an_edge_while_busy_begins_nothing() -> None:
     scene = Scene()
     scene.execute("Put1", Address=0x0012)
-    scene.scan()
+    scene.run(40)
     scene.drop("Put1")
-    scene.scan()
     scene.execute("Put1")
     scene.run(300)
     assert len(scene.written()) == 1
     assert scene.result("Put1") == "OK"
 
 
-def test_a_drive_block_that_is_not_called_lets_nothing_pass() -> None:
-    scene = Scene()
+@pytest.mark.parametrize("block", ASKING)
+def test_a_drive_block_that_is_not_called_lets_nothing_pass(block: str) -> None:
+    scene = Scene("SN300G5").rested()
     scene.set(Called=False)
-    assert scene.done("Put1", 900, Address=0x0012, WithinMs=1000) == ""
+    assert scene.done(block, 900, **ASKING[block], WithinMs=1000) == ""
     scene.run(150)
-    assert scene.result("Put1") == "NOT_SENT"
+    assert scene.result(block) == "NOT_SENT"
     scene.set(Called=True)
-    assert scene.done("Get1", Address=0x0012) == "OK", "the compartment is free again"
+    assert scene.done("Get2", Address=0x0200) == "OK", "the compartment is free again"
     assert scene.written() == []
 
 
-def test_a_line_that_is_not_called() -> None:
-    scene = Scene()
+@pytest.mark.parametrize("block", ASKING)
+def test_a_line_that_is_not_called(block: str) -> None:
+    scene = Scene("SN300G5").rested()
     scene.set(Lined=False)
-    assert scene.done("Put1", 10_100, Address=0x0012) == "NO_LINE"
+    assert scene.done(block, 10_100, **ASKING[block]) == "NO_LINE"
 
 
 def test_a_drive_that_keeps_silent() -> None:
@@ -414,42 +442,103 @@ def test_a_drive_that_keeps_silent() -> None:
     assert scene.done("Get1", Address=0x0012) == "OFFLINE"
 
 
-def test_what_is_given_up_behind_an_attempt_may_have_arrived() -> None:
-    scene = Scene()
+@pytest.mark.parametrize("block", ASKING)
+def test_what_is_given_up_behind_an_attempt_may_have_arrived(block: str) -> None:
+    scene = Scene("SN300G5").rested()
     scene.silent = True
-    assert scene.done("Put1", 60, Address=0x0012, WithinMs=40) == "SILENCE"
+    before = len(scene.sent)
+    assert scene.done(block, 80, **ASKING[block], WithinMs=60) == "SILENCE"
+    scene.run(200)
+    asked = [each for each in scene.sent[before:] if each.pdu[2:4] != scene.kind.read_address.to_bytes(2, "big")]
+    assert len(asked) == 1, "there is no second attempt"
+
+
+@pytest.mark.parametrize(("function", "quantity"), [(3, 5), (3, 0), (6, 4), (6, 0), (16, 4)])
+def test_whoever_fills_the_compartment_is_judged(function: int, quantity: int) -> None:
+    scene = Scene("SN300G5")
+    scene.ask(0, PARAMETER, function, 0x0200, quantity=quantity)
+    scene.run(100)
+    assert NAMES[scene.slot(0, "Ask[2].Words[3]") >> 8] == "QUANTITY"
+    assert scene.answer(0, PARAMETER) == ""
+    assert scene.done("Get1", Address=0xFFFE, Quantity=3) == "WRAP"
+    assert scene.done("Put1", Quantity=0) == "QUANTITY"
 
 
 # ---------------------------------------------------------------- store
 
 
 def test_a_store_goes_by_its_own_block_alone() -> None:
-    scene = Scene("SN300G5")
-    scene.run(60_000)
+    scene = Scene("SN300G5").rested()
     assert scene.done("Keep") == "OK"
     assert scene.written() == [bytes.fromhex("10 FFFD 0001 02 0000")]
     assert (scene["Stores"], scene["Keep.Most"], scene["Keep.Worn"]) == (1, 100_000, 0)
 
 
 def test_stores_are_apart_and_counted() -> None:
-    scene = Scene("SN300G5")
+    scene = Scene("SN300G5", clock=59_000)
     assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon behind power-up"
     scene.drop("Keep")
-    scene.run(60_000)
-    scene.silent = True
+    scene.rested().silent = True
     scene.block["Stores"] = 99_998
     assert scene.done("Keep") == "SILENCE"
     assert (scene["Stores"], scene["Keep.Worn"]) == (100_000, 1), "both attempts may have stored"
     scene.drop("Keep")
-    scene.run(59_000)
+    scene.run(58_000)
     assert scene.done("Keep") == "TOO_SOON"
     assert len(scene.written()) == 2
+    scene.drop("Keep")
+    scene.run(2000)
+    scene.silent = False
+    assert scene.done("Keep") == "OK"
 
 
 @pytest.mark.parametrize(("prefix", "stands", "why"), [("SN300G5", False, "NOT_STOPPED"), ("JSCC", True, "NOT_ABLE")])
 def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
-    scene = Scene(prefix)
-    scene.run(60_000)
+    scene = Scene(prefix).rested()
     scene.block["Drive.StopConfirmed"] = stands
     assert scene.done("Keep") == why
     assert (scene.written(), scene["Stores"]) == ([], 0)
+
+
+def test_the_example_of_the_page_runs_and_lints_clean() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
+    wanted = re.compile(r"types/.*|drive/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
+    texts = [each for each in sources() if wanted.fullmatch(each.path)]
+    texts.append(Source("example.st", program + "\n"))
+    assert list(lint_sources([(each.path, each.text) for each in texts])) == []
+    example = EmbeddedEngine().build(texts).instance("Parameters")
+    example["SetRamp"] = True
+    for _ in range(4):
+        example.scan()
+    assert example["Slots[0].Ask[2].Address"] == 0x0200
+
+
+@pytest.mark.parametrize(
+    ("letter", "group", "number", "address"),
+    [
+        ("H", 5, 2, 0x041D),
+        ("A", 1, 0, 0x0100),
+        ("A", 2, 32, 0x0125),
+        ("C", 3, 5, 0x0242),
+        ("C", 5, 8, 0x0241),
+        ("U", 1, 23, 0x0036),
+        ("U", 1, 24, -1),
+        ("U", 1, 26, 0x0039),
+        ("A", 1, 6, -1),
+        ("A", 3, 1, -1),
+        ("G", 1, 1, -1),
+    ],
+)
+def test_the_manuals_ids_of_sn300g5(letter: str, group: int, number: int, address: int) -> None:
+    """Typed from the manual; C3-05 and C5-08 stand apart from their groups, U1-24 has no row."""
+    pins = {"Letter": ord(letter), "Group": group, "Number": number}
+    assert library("SN300G5").call("SN300G5_ParameterAddress", pins) == address
+
+
+@pytest.mark.parametrize(("prefix", "last"), [("JSCC", 0xFF), ("CHF", 0x1FF)])
+def test_the_numbers_of_an_area(prefix: str, last: int) -> None:
+    found = [
+        library(prefix).call(f"{prefix}_ParameterAddress", {"Number": number}) for number in (0, 18, last, last + 1)
+    ]
+    assert found == [0, 18, last, -1]

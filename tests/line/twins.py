@@ -1,10 +1,11 @@
 """One line on several engines at once: what is set is set on all, and their states must be equal after every scan."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 
-from driveblocks.host.engine import Instance, Value
+from driveblocks.host.engine import Configuration, Instance, Library, Value
 
-COPIES = ("LISTEN.REPLY",)
+_COPY = re.compile(r"[\w.]+\.(?:REPLY|SLOT|SLOTS|PORT|STORES)\b.*")
 """Copies of in-outs inside inner instances, which only C keeps."""
 
 
@@ -52,4 +53,29 @@ class Twins:
 
 
 def _state(instance: Instance) -> dict[str, Value]:
-    return {path: value for path, value in instance.state().items() if not path.startswith(COPIES)}
+    return {path: value for path, value in instance.state().items() if not _COPY.match(path)}
+
+
+class TwinLibrary:
+    """Libraries of several engines that look like one."""
+
+    def __init__(self, libraries: Sequence[Library], every: int = 1) -> None:
+        """Compare the states behind `every` so many scans."""
+        self.libraries = libraries
+        self.every = every
+
+    def instance(self, block: str) -> Twins:
+        """One of each engine."""
+        return Twins([each.instance(block) for each in self.libraries], self.every)
+
+    def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
+        """Call a function of the first."""
+        return self.libraries[0].call(function, arguments)
+
+    def configuration(self, name: str | None = None) -> Configuration:
+        """Start that of the first."""
+        return self.libraries[0].configuration(name)
+
+    def blocks(self) -> Iterator[str]:
+        """Those of the first."""
+        return self.libraries[0].blocks()

@@ -149,6 +149,7 @@ class Bench:
         self.drives = [Drive(unit + 1, self.kind) for unit in range(self.config.drives)]
         self._wire: list[tuple[int, int, int]] = []
         self._order = count()
+        self._alive = [0] * self.config.drives
         self._last = -1_000_000
         self._busy = (0, 0)
         self._held = 0
@@ -261,8 +262,8 @@ class Bench:
         self.now += self.config.scan if took is None else took
         self._receive()
         for slot in self.attended:
-            path = f"Slots[{slot}].Alive"
-            self.block[path] = (self[path] + 1) % 256
+            self._alive[slot] = (self._alive[slot] + 1) % 256
+            self.block[f"Slots[{slot}].Alive"] = self._alive[slot]
         self.block["ElapsedMs"] = self.now // 1000 - self.called if elapsed is None else elapsed
         self.called = self.now // 1000
         self.block.scan()
@@ -279,12 +280,15 @@ class Bench:
 
     def _receive(self) -> None:
         until = self.now - self.config.rx_late * self.config.scan
+        if not self._wire:
+            return
+        place = self["Port.RxIn"]
         while self._wire and self._wire[0][0] <= until and not (self.config.whole and self._going_on(until)):
             at, _, octet = heapq.heappop(self._wire)
             self._last = max(self._last, at)
-            place = self["Port.RxIn"]
             self.block[f"Port.Rx[{place}]"] = octet
-            self.block["Port.RxIn"] = (place + 1) % 256
+            place = (place + 1) % 256
+        self.block["Port.RxIn"] = place
 
     def _going_on(self, until: int) -> bool:
         """Whether the message that has begun may not have ended yet."""

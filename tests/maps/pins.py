@@ -161,9 +161,10 @@ class Document:
 
     @cached_property
     def conditions(self) -> list[Plain]:
-        """Every condition: of standstill, of the reference, of a scale."""
+        """Every condition: of standstill, of the reference, of the status, of a scale."""
         operation = self.root["operation"]
         found = [*operation["standstill"]["all"], *operation["reference"].get("verify", [])]
+        found += [condition for status in operation["status"] for condition in status["any"]]
         scales = (row.entry.get("scale", {}) for row in self.rows.values())
         return found + [scale["when"] for scale in scales if "when" in scale]
 
@@ -458,6 +459,16 @@ def _sub_function(document: Document, path: Path, _: str) -> bool:
     return code in found
 
 
+def _shows(document: Document, path: Path, new: str) -> bool:
+    """The one pin that must be shown, or one that something else shows."""
+    listed = [one["shows"] for one in document.at(path[:2])]
+    return document.at(path) == "running" or new in listed
+
+
+def _present(document: Document, _: Path, new: str) -> bool:
+    return not any(number(new) in addresses(text) for text in document.root["faults"]["registers"])
+
+
 def _equals(document: Document, path: Path, new: str) -> bool:
     """A number that its bits cannot hold, or that the register does not list, or that it calls turning."""
     condition = document.at(path[:-1])
@@ -479,6 +490,8 @@ _REFERENCES = (
     "operation.reference.register",
     "operation.reference.verify[].register",
     "operation.standstill.all[].register",
+    "operation.status[].any[].register",
+    "operation.measures[].register",
     "sections[].registers[].scale.when.register",
     "faults.registers[]",
     "faults.bits.first",
@@ -532,6 +545,9 @@ PINS: dict[str, Pin] = {
     "operation.commands[].clear[]": _cleared,
     "operation.standstill.all[].equals": _equals,
     "operation.reference.verify[].equals": _equals,
+    "operation.status[].shows": _shows,
+    "operation.measures[].shows": _shows,
+    "faults.present": _present,
     "settings[].id": _setting_id,
     "settings[].values[].value": _setting_value,
     "settings[].needed.value": _needed,

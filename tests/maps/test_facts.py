@@ -12,7 +12,7 @@ import pytest
 from tests.maps.facts import chf, glossary, jscc, sn300g5
 
 from driveblocks.maps.load import load
-from driveblocks.maps.model import Bit, Drive, Frame, Register
+from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
 
 MAPS = Path(__file__).parents[2] / "vendor_maps"
 
@@ -107,6 +107,34 @@ def test_what_the_manual_asks_for_is_a_notice(drive: str, about: str, chinese: s
     held = [one for one in DRIVES[drive].notices if any(names(ref, about) for ref in one.about)]
     said = [(one.text.own, f"{one.text.en} {one.note}") for one in held]
     assert any(chinese in zh and english in en for zh, en in said), said
+
+
+SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS}
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+def test_the_pins_show_what_the_manual_says(drive: str) -> None:
+    assert list(shown(DRIVES[drive])) == SHOWS[drive].strip().splitlines()
+    assert not DRIVES[drive].manual.second_hand
+    assert DRIVES[drive].operation.in_one_word
+    assert not DRIVES[drive].operation.states
+
+
+def shown(drive: Drive) -> Iterator[str]:
+    """What the pins show, a line for each."""
+    for status in drive.operation.status:
+        yield f"{status.shows} | {', '.join(map(asked, status.any))}"
+    for measured in drive.operation.measures:
+        yield f"{measured.shows} | {measured.register:04X}H"
+    present, bits = drive.faults.present, drive.faults.bits
+    yield f"fault code | {f'{bits.first:04X}H-{bits.last:04X}H' if bits else f'{present:04X}H'}"
+
+
+def asked(one: Condition) -> str:
+    """A condition as the tables of facts write it."""
+    bit = f".{one.bit.first:X}" if one.bit else ""
+    mask = f" AND {one.mask}" if one.mask is not None else ""
+    return f"{one.register:04X}H{bit}{mask} = {one.equals}"
 
 
 @pytest.mark.parametrize("drive", DRIVES)
@@ -206,6 +234,13 @@ def test_a_fault_has_one_english_name_in_bits_and_codes() -> None:
     assert {one.code: one.name for one in JS.faults.codes} == fault_type
     refused = {one.value: one.name for one in rows(CH)[0x5001].values if one.value}
     assert {one.code: one.name for one in CH.errors.codes} == refused
+
+
+def test_a_busy_drive_is_asked_again() -> None:
+    """CHF, its table of errors, code 8; JSCC, "slave device busy", 6 of the standard; SN300G5 has none."""
+    assert [one.code for one in CH.errors.codes if one.busy] == [8]
+    assert [number for number, one in enumerate(JS.errors.codes, start=1) if one.busy] == [6]
+    assert [one.code for one in SN.errors.codes if one.busy] == []
 
 
 def test_corroborated_codes_are_those_of_the_map() -> None:

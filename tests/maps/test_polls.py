@@ -139,6 +139,7 @@ def test_the_schedule_sends_all_fast_ones_before_each_slow_one() -> None:
 
     assert of(True, True, False, False) == (0, 1, 2, 0, 1, 3)
     assert of(True) == (0,)
+    assert of(True, False, False) == (0, 0, 1, 0, 0, 2)
     assert schedule(polls(SHIPPED["SN300G5"])) == (0, 1)
     assert schedule(polls(SHIPPED["CHF"])) == (0, 1, 2)
 

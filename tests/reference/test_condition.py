@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Bit, Drive, Fault, Short
+from driveblocks.maps.model import Bit, Condition, Drive, Fault, Short
 from driveblocks.reference import text
 from driveblocks.reference.fault import Faulted, numbered
-from driveblocks.reference.standstill import proven
+from driveblocks.reference.standstill import holds, proven
 from driveblocks.reference.text import Texts
 
 
@@ -28,6 +28,13 @@ from driveblocks.reference.text import Texts
 )
 def test_standstill(drives: dict[str, Drive], prefix: str, words: dict[int, int], expected: bool) -> None:
     assert proven(drives[prefix], words) is expected
+
+
+def test_a_mask_asks_for_its_bits_alone() -> None:
+    enabled = Condition(register=0x2100, mask=0x006F, equals=0x0027)
+    assert [holds(enabled, word) for word in (0x0027, 0xFFB7, 0x0037, 0x002F, 0x0007, 0x0023, 0x0127)] == [
+        True, True, True, False, False, False, True
+    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Made-up drives, one for each shape that a command can have: a path of states, a pulse, two registers, active-low bits.
+"""Made-up drives, one for each shape of a command: a path of states, a pulse, two registers, active-low bits.
 
 Each is an edit of the skeleton that `driveblocks new` writes; tests/maps/bad.py says how an edit is written.
 `python -m tests.shapes NAME` prints one as a whole map.

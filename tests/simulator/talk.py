@@ -3,9 +3,11 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load, loads
+from driveblocks.maps import catalog, nodes
+from driveblocks.maps.decode import decode
+from driveblocks.maps.load import load
 from driveblocks.maps.model import Command, Drive, Step
+from driveblocks.maps.problem import Report
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -13,13 +15,16 @@ MAPS = {drive.prefix: drive for drive in map(load, catalog.shipped())}
 SMALL = (Path(__file__).parents[1] / "maps" / "bad" / "small.yaml").read_text(encoding="utf-8")
 
 
-def made_up(*edits: tuple[str, str]) -> Drive:
-    """The small map of the tests, edited."""
-    text = SMALL
-    for old, new in edits:
-        assert old in text, old
-        text = text.replace(old, new)
-    return loads(text, "made_up.yaml")
+def made_up(sections: str, operation: str) -> Drive:
+    """The small map of the tests with other registers and another operation; how things are named is not looked at."""
+    head, _, rest = SMALL.partition("sections:\n")
+    storage, tail = rest[rest.index("storage:") : rest.index("operation:")], rest[rest.index("faults:") :]
+    report = Report("made_up.yaml")
+    root = nodes.parse(f"{head}sections:\n{sections}{storage}operation:\n{operation}{tail}", report)
+    drive: Drive | None = decode(Drive, root, report) if root else None
+    report.raise_if_any()
+    assert drive is not None
+    return drive
 
 
 @dataclass

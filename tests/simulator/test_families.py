@@ -214,6 +214,13 @@ def test_a_reference_means_something_else_while_its_meaning_is_not_verified() ->
     assert one.drive.hertz == 4
 
 
+def test_a_drive_runs_at_no_frequency_and_at_no_more_than_its_maximum() -> None:
+    one = talk("SN300G5").at(0)
+    assert one.read(0x0010) == 0x23
+    jscc = talk("JSCC").at(655.35)
+    assert jscc.drive.hertz == 50
+
+
 def test_terminals_of_sn300g5_are_no_command_and_both_directions_are_none() -> None:
     one = talk("SN300G5").at(20)
     one.write(0x0000, 0x00FD)

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from driveblocks.building import manifest, transaction
 from driveblocks.building.manifest import Manifest, Refused, State
+from driveblocks.docs.page import documents
 from driveblocks.host.engine import Source as Text
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
 from driveblocks.render import library
-from driveblocks.render.overview import overview
 from driveblocks.render.text import Language, told
 from driveblocks.testing.suite import drive_suite, programs, shared_suite
 from driveblocks.testing.unit import Unit
@@ -30,8 +30,7 @@ def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     texts = {f"{PLATFORM}/{file.path}": file.text for file in made}
     texts[f"{PLATFORM}/order.txt"] = "".join(f"{file.path}\n" for file in made)
-    texts["README.md"] = overview(made, [source.drive for source in sources])
-    return texts | programs(sources, languages)
+    return texts | documents(made, [source.drive for source in sources]) | programs(sources, languages)
 
 
 def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:

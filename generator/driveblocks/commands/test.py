@@ -137,6 +137,9 @@ def _cover(measured: "list[Coverage]") -> None:
                 if miss.path == path:
                     typer.echo(f"  {miss}")
         typer.echo(f"coverage on {each.engine}: {each.count()}")
+        if each.uncounted:
+            left = f"{len(each.uncounted)} files of line and drive blocks are not counted"
+            typer.echo(f"{left}: they run in time, against drives, which the tests of DriveBlocks itself simulate")
 
 
 def _rows(run: "Run") -> "Iterator[tuple[str, str, list[Result]]]":

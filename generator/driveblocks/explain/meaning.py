@@ -7,7 +7,7 @@ from decimal import Decimal
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Area, Bit, Condition, Drive, Register, Value
+from driveblocks.maps.model import Area, Bit, Command, Condition, Drive, Register, Step, Value
 from driveblocks.tables.register import condition
 
 WORD = Span(0, 15)
@@ -153,13 +153,21 @@ def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
 
 def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
     for command in drive.operation.commands:
-        if command.register != address:
-            continue
-        asked = {bit for span in command.set for bit in span}
-        cleared = {bit for span in command.clear for bit in span}
-        by_bits = all(word >> bit & 1 for bit in asked) and not any(word >> bit & 1 for bit in cleared)
-        if command.value == word if command.value is not None else by_bits:
-            yield Line("command", "", command.does.replace("_", " "), "", None)
+        does = command.does.replace("_", " ")
+        for turn, step in enumerate(command.first, 1):
+            if _writes(step, address, word):
+                yield Line("command", "", f"{does}, write {turn} of {len(command.first) + 1}", "", None)
+        if _writes(command, address, word):
+            yield Line("command", "", does, "", None)
+
+
+def _writes(one: Command | Step, address: int, word: int) -> bool:
+    """Whether a word at an address may be this write."""
+    if one.register != address or one.value is not None:
+        return one.register == address and one.value == word
+    asked = {bit for span in one.set for bit in span}
+    cleared = {bit for span in one.clear for bit in span}
+    return all(word >> bit & 1 for bit in asked) and not any(word >> bit & 1 for bit in cleared)
 
 
 def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:

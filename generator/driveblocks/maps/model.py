@@ -205,6 +205,12 @@ class Needed(Entry):
     value: Number | None = fact(
         "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
     )
+    by_terminals: Number | None = fact(
+        "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
+        "command",
+        "1",
+        optional=True,
+    )
     why: English = fact("what it is for", "run commands come from the bus")
 
 
@@ -612,6 +618,11 @@ class Command(Entry):
     )
     source: English = fact("where the manual says so", "section (I), 0000H")
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
+
+    @property
+    def writes(self) -> tuple["Command | Step", ...]:
+        """All its writes in their order, its own word last."""
+        return (*self.first, self)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -101,10 +101,14 @@ def _together(drive: Drive, readable: tuple[Span, ...], span: Span) -> bool:
 
 
 def schedule(polls: tuple[Poll, ...]) -> tuple[int, ...]:
-    """The order in which a standing poll goes through the reads, as indices: all fast ones, then the next slow one."""
+    """The order in which the standing poll goes through the reads, as indices.
+
+    All fast ones, twice if there is but one, then the next slow one: at most every third request is slow.
+    """
     fast = tuple(index for index, poll in enumerate(polls) if poll.fast)
     slow = [index for index, poll in enumerate(polls) if not poll.fast]
-    return tuple(index for last in slow for index in (*fast, last)) or fast
+    rounds = fast * 2 if len(fast) == 1 else fast
+    return tuple(index for last in slow for index in (*rounds, last)) or fast
 
 
 def wire_ms(poll: Poll, bit_rate: int, bits: int, turn_round_ms: float, silence_ms: float | None = 0.0) -> float:

@@ -61,10 +61,11 @@ class Judge:
     def __init__(self, drive: Drive) -> None:
         """Look up once what the map has at each address."""
         operation = drive.operation
-        steps = {step.register for command in operation.commands for step in command.first}
-        self._known = {
+        steps = (step.register for command in operation.commands for step in command.first)
+        commands = (command.register for command in operation.commands)
+        self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
-            "OWNED": {operation.reference.register, *(command.register for command in operation.commands)} | steps,
+            "OWNED": {operation.reference.register, *commands, *steps},
             "LINE_SETTING": {setting.register for setting in drive.settings},
         }
         self._writable = writable(drive)
@@ -74,7 +75,7 @@ class Judge:
 
     def result(self, wish: Write) -> str:
         """The name of the result; `OK` where it may be written."""
-        meant = {wish.address, wish.address & ~self._bit}
+        meant: set[int | None] = {wish.address, wish.address & ~self._bit}
         for name, registers in self._known.items():
             if meant & registers:
                 return name
@@ -95,20 +96,22 @@ class Judge:
         return not row.range.min <= number <= row.range.max
 
 
-def parameters(drive: Drive) -> dict[tuple[str, int], int]:
-    """Group and number of each parameter that the manual numbers -> its register; the group of an area has no name.
+Numbered = tuple[str, int, int]
+"""Letter, group and number of a parameter: H5-02 is ("H", 5, 2), A40 is ("A", 0, 40), 20.01 is ("", 20, 1)."""
 
-    An id is a group, perhaps a sign, and digits at its end: H5-02 is number 2 of H5.
-    """
-    found: dict[tuple[str, int], set[int]] = {}
+
+def parameters(drive: Drive) -> dict[Numbered, int]:
+    """Each parameter that the manual numbers -> its register; those of an area have a number alone."""
+    found: dict[Numbered, set[int]] = {}
     for id_, address in _identified(drive):
-        digits = re.search(r"[0-9]+$", id_)
-        group = id_[: digits.start()].rstrip(".-") if digits else ""
-        if digits and group:
-            found.setdefault((group, int(digits[0])), set()).add(address)
+        letter = id_[:1] if id_[:1].isalpha() and id_.isascii() else ""
+        group, _, number = id_[len(letter) :].replace(".", "-").rpartition("-")
+        group = group.rstrip("-") or "0"
+        if number.isdecimal() and group.isdecimal() and len(number) < 5 and len(group) < 4:
+            found.setdefault((letter, int(group), int(number)), set()).add(address)
     if found or len(drive.areas) != 1:
         return {key: min(some) for key, some in found.items() if len(some) == 1}
-    return {("", number): address for number, address in enumerate(drive.areas[0].addresses)}
+    return {("", 0, number): address for number, address in enumerate(drive.areas[0].addresses)}
 
 
 def _identified(drive: Drive) -> Iterator[tuple[str, int]]:

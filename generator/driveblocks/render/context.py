@@ -237,7 +237,7 @@ def _keeps(drive: Drive, first: int) -> dict[int, Context]:
 
 def kept(drive: Drive) -> dict[int, int]:
     """The bits of each command register that are in use and belong to no command, where there are such."""
-    writes = [write for one in drive.operation.commands for write in (*one.first, one) if write.value is None]
+    writes = [write for one in drive.operation.commands for write in one.writes if write.value is None]
     found = {}
     for register in {one.register for one in writes}:
         row = drive.register_at(register)

@@ -84,7 +84,7 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
     """
     kept = context.kept(drive)
     image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
-    for write in (*one.first, one):
+    for write in one.writes:
         if write.value is not None:
             image[write.register] = write.value
         else:

@@ -58,8 +58,8 @@ def environment() -> jinja2.Environment:
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
-        string=string,
         within=expression.within,
+        label=expression.label,
         more=expression.more,
         each=expression.each,
         none_of=expression.none_of,
@@ -86,11 +86,11 @@ def needed(text: str) -> str:
 
 
 def head(  # noqa: PLR0913  (the five parts of every head)
-    name: str, title: str, *, purpose: str, source: str, call: str, loops: str
+    name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
 ) -> str:
     """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs."""
     parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops)]
-    return _comment(f"{name}: {title}", parts)
+    return _comment(f"{name}: {title}", [(label, text) for label, text in parts if text])
 
 
 def type_head(name: str, title: str, note: str) -> str:
@@ -130,11 +130,6 @@ def turn(number: int) -> str:
 def young(read: int) -> str:
     """Whether the words of a read of a drive block have come since the fault."""
     return f"(Age{read} <= FaultMs)"
-
-
-def string(text: str) -> str:
-    """A STRING literal."""
-    return writing.string(text.encode())
 
 
 def condition(one: Condition) -> str:

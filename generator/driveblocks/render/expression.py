@@ -39,6 +39,11 @@ def within(span: Span, pin: str) -> str:
     return f"({pin} >= {span.first}) AND ({pin} <= {span.last})"
 
 
+def label(span: Span) -> str:
+    """The label of a branch for the numbers of a span."""
+    return str(span.first) if len(span) == 1 else f"{span.first}..{span.last}"
+
+
 def more(number: int) -> str:
     """What adds a number to the expression before it."""
     return f" {'+' if number > 0 else '-'} {abs(number)}" if number else ""

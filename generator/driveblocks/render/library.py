@@ -104,7 +104,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     yield "MayWrite", parameter.may_write(drive, allowed)
     numbers = parameter.addresses(drive)
     if numbers is not None:
-        yield "ParameterAddress", numbers
+        yield numbers
     yield "Request", context.request(drive, allowed)
     yield "Reply", context.reply(drive)
     if drive.operation.in_one_word:

@@ -7,9 +7,7 @@ from driveblocks.maps.view import UNPROVED
 from driveblocks.render import context
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, FunctionBlock, VarDecl, VarKind
+from driveblocks.st.tree import Checked, Function, FunctionBlock, VarDecl, VarKind
 from driveblocks.st.types import Type
 
 _TITLE = re.compile(r"\(\* \w+: (.*?)\n\s+-{20,}", re.DOTALL)
@@ -17,18 +15,19 @@ _LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Made by", re.DOTALL | re.MULTILIN
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 
-def overview(files: list[File], drives: list[Drive]) -> str:
-    """The page's text; reads names, pins and sizes from the blocks themselves."""
-    checked = check([parse("\n".join(file.text for file in files), "library")])
+def overview(files: list[File], drives: list[Drive], checked: Checked, can: dict[str, object]) -> str:
+    """The page's text; reads names, pins and sizes from the blocks themselves. `can` is what each family can."""
     rows: dict[str, list[dict[str, object]]] = {}
     for file in files:
         block = checked.blocks.get(file.name.upper()) or checked.functions.get(file.name.upper())
         if block is not None:
-            rows.setdefault(file.folder, []).append(_row(file, block))
+            found = rows.setdefault(file.folder, [])
+            found.insert(0 if file.name.endswith("_Drive") else len(found), _row(file, block))
     types = {file.name: checked.types[file.name.upper()] for file in files if file.folder == "types"}
     known = {drive.prefix: context.identity(drive) for drive in drives}
     return render(
         "README.md.j2",
+        can=can,
         results=_results(files),
         groups={_heading(folder, known, files): found for folder, found in rows.items()},
         unproved={known[drive.prefix].family: UNPROVED for drive in drives if not drive.frames},
@@ -69,6 +68,7 @@ def _row(file: File, block: Function | FunctionBlock) -> dict[str, object]:
         "title": _found(_TITLE, file.text),
         "kind": "FB" if isinstance(block, FunctionBlock) else "function",
         "pins": _pins(block),
+        "page": f"docs/{file.name}.md" if file.name.endswith("_Drive") else "",
         "bytes": block.type.size if isinstance(block, FunctionBlock) and block.type else 0,
         "loops": _found(_LOOPS, file.text),
     }

@@ -1,36 +1,45 @@
 """Map -> values ready to print, of what a ladder user reads and writes beside the pins: single parameters."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import Plan
-from driveblocks.maps.rules.parameter import numbered
 from driveblocks.render.context import Context, source_of
 
 MOST = 4
 """Registers of a compartment; the last word of a write holds the mark of its block."""
 
+_ID = re.compile(r"([A-Za-z]?)(?:([0-9]{1,3})?[.-]+)?([0-9]{1,4})")
+"""An id of a manual: letter, group, number."""
+
+_Key = tuple[int, int, int]
+"""A parameter: its letter by its ASCII code, its group, its number; 0 for what its id does not have."""
 
 # ---------------------------------------------------------------- which registers may be written
 
 
 def may_write(drive: Drive, allowed: Plan) -> Context:
-    """For MayWrite: spans that are refused, each with the name of its result, from the weakest to the strongest."""
-    kept = {
-        "LINE_SETTING": _with_aliases(drive, (one.register for one in drive.settings)),
-        "OWNED": _with_aliases(drive, _commanded(drive)),
-        "STORE_REGISTER": _with_aliases(drive, [drive.storage.register]),
-    }
-    taken = set().union(*kept.values())
+    """For MayWrite: spans that are refused with the name of the result and why, from the weakest to the strongest."""
+    kept = [
+        (
+            "LINE_SETTING",
+            "what the connection rests on",
+            _with_aliases(drive, (one.register for one in drive.settings)),
+        ),
+        ("OWNED", "what moves the motor", _with_aliases(drive, _commanded(drive))),
+        ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
+    ]
+    taken = {one for _, _, some in kept for one in some}
     writable = {address for span in allowed.writable for address in span}
     fixed = _spans(_with_aliases(drive, _listed(drive)) - writable - taken)
     return {
         "name": f"{drive.prefix}_MayWrite",
         "can_write": f"{drive.prefix}_CanWrite",
         "fixed": fixed,
-        "refused": {name: _spans(some) for name, some in kept.items() if some},
+        "refused": [(name, why, _spans(some)) for name, why, some in kept if some],
         "ranges": list(_ranges(drive, writable - taken)),
     }
 
@@ -78,27 +87,24 @@ def _ranges(drive: Drive, writable: set[int]) -> Iterator[Context]:
 # ---------------------------------------------------------------- the manual's numbers
 
 
-def addresses(drive: Drive) -> Context | None:
-    """For ParameterAddress: the manual's numbers as runs by group; None where they prove no address.
+def addresses(drive: Drive) -> tuple[str, Context] | None:
+    """The template for the manual's numbers and what it prints; None where they prove no address.
 
-    Ids that end in a number come from the rows of the tables; the only area gives them where no row has one.
+    Ids such as H5-02, F0.04, A40 or 20.01 come from the rows of the tables; the only area gives numbers where no row
+    has an id.
     """
-    groups = _groups(_numbered(drive))
-    what, source = "an id of the manual", ""
-    if not groups:
-        if len(drive.areas) != 1:
-            return None
-        area = drive.areas[0]
-        groups = {"": [_Run(0, len(area.addresses) - 1, area.addresses.first)]}
-        what, source = f"a {area.numbered_by.replace('_', ' ')}", source_of(drive, area.source)
-    first = next(iter(groups))
-    return {
-        "name": f"{drive.prefix}_ParameterAddress",
-        "groups": groups,
-        "what": what,
-        "source": source,
-        "example": (first, groups[first][0].last),
-    }
+    name = f"{drive.prefix}_ParameterAddress"
+    known = _numbered(drive)
+    if known:
+        letter, group, number = min(known)
+        example = {"letter": letter, "group": group, "number": number, "id": f"{_group(letter, group)}-{number:02d}"}
+        return "ParameterAddress", {"name": name, "letters": _letters(known), "example": example}
+    if len(drive.areas) != 1:
+        return None
+    area = drive.areas[0]
+    run = _Run(0, len(area.addresses) - 1, area.addresses.first)
+    what = area.numbered_by.replace("_", " ")
+    return "NumberAddress", {"name": name, "run": run, "what": what, "source": source_of(drive, area.source)}
 
 
 @dataclass(frozen=True)
@@ -125,16 +131,21 @@ class _Run:
         return self.base - self.first
 
 
-def _numbered(drive: Drive) -> dict[tuple[str, int], int]:
-    """Group and number of each id -> its address; without those that two rows claim."""
-    found: dict[tuple[str, int], set[int]] = {}
+def _numbered(drive: Drive) -> dict[_Key, int]:
+    """The parameters that have an id -> their registers; without those that two rows claim."""
+    found: dict[_Key, set[int]] = {}
     for id_, first, count in _ids(drive):
-        start = id_.partition("..")[0]
-        prefix, number = numbered(start)
-        group = prefix.rstrip("-.")
-        for index in range(count if group and prefix != start else 0):
-            found.setdefault((group, number + index), set()).add(first + index)
+        parts = _ID.fullmatch(id_.partition("..")[0])
+        if parts is not None:
+            letter, group = ord(parts[1] or "\0"), int(parts[2] or 0)
+            for index in range(count):
+                found.setdefault((letter, group, int(parts[3]) + index), set()).add(first + index)
     return {key: min(places) for key, places in found.items() if len(places) == 1}
+
+
+def _group(letter: int, group: int) -> str:
+    """A group as its ids begin, such as H5."""
+    return (chr(letter) if letter else "") + (str(group) if group else "")
 
 
 def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
@@ -147,16 +158,17 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
             yield setting.id, setting.register, 1
 
 
-def _groups(known: dict[tuple[str, int], int]) -> dict[str, list[_Run]]:
-    """Runs of numbers whose addresses follow each other, by group."""
-    groups: dict[str, list[_Run]] = {}
-    for (group, number), address in sorted(known.items()):
-        runs = groups.setdefault(group, [])
+def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Context]]:
+    """Runs of numbers whose registers follow each other, by letter and group."""
+    letters: dict[int, dict[int, Context]] = {}
+    for (letter, group, number), address in sorted(known.items()):
+        empty: Context = {"name": _group(letter, group), "runs": []}
+        runs = letters.setdefault(letter, {}).setdefault(group, empty)["runs"]
         if runs and number == runs[-1].last + 1 and address == runs[-1].away + number:
             runs[-1] = replace(runs[-1], last=number)
         else:
             runs.append(_Run(number, number, address))
-    return groups
+    return letters
 
 
 # ---------------------------------------------------------------- the part of the drive block

@@ -25,7 +25,7 @@ def answer(machine: Machine, request: bytes) -> bytes | None:
     if not machine.powered or not (called or everyone) or not _whole(machine, request):
         return None
     try:
-        data = _granted(machine, request, everyone=everyone and not called)
+        data = _granted(machine, request, everyone=everyone)
     except Refused as refused:
         return _refusal(machine, request, refused.reason) if called else None
     if not called:

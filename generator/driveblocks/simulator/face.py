@@ -94,9 +94,9 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
         fact("running", wanted=situation.running),
         fact("reverse", wanted=situation.reverse),
         *named.values(),
+        fact("zero_speed", wanted=situation.zero_speed),
         Fact(not situation.running, (stands,) if stands else ()),
         fact("at_speed", wanted=situation.at_speed),
-        fact("zero_speed", wanted=situation.zero_speed),
         fact("ready", wanted=situation.ready),
         fact("warning", wanted=situation.warning),
     )

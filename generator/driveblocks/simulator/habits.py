@@ -27,7 +27,7 @@ class Habits:
     runs_while_stopping: bool = True
     """The status says running until the output frequency is 0."""
     stop_ends_jog: bool = True
-    """A stop ends a jog, too, where the map has a jog stop of its own."""
+    """A stop ends a jog; else only a jog stop does."""
     settle_ms: int = 0
     """From a step's word to the state that it leads to."""
     resumes: bool = False

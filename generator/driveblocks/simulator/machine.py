@@ -1,7 +1,6 @@
 """What a simulated drive does: its states, what is to be seen of them, and what happens to it."""
 
 from collections.abc import Mapping
-from typing import Literal
 
 from driveblocks.maps.model import Drive
 from driveblocks.simulator.face import Situation
@@ -11,8 +10,6 @@ from driveblocks.simulator.motor import Motor
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import WORD
 from driveblocks.simulator.table import Gauge, table
-
-Mode = Literal["standing", "ramping up", "running", "ramping down", "coasting", "fault"]
 
 
 class Machine:
@@ -53,29 +50,29 @@ class Machine:
         """TRUE: it acknowledges stops and runs on."""
         self.load = 50
         """Of the motor, in %."""
-        self.state = self.table.initial
+        self.state: str | None = None
+        """The map's named state that it is in; None: in none, as after power-up and while it runs."""
         self._next: tuple[str | None, int] | None = None
-        self._after: str | None = self.table.initial
+        self._after: str | None = None
         self._stopping = False
         self._quick = False
         self._reverse = False
         self._jog = False
         self._own_milli: int | None = None
         self._restart = False
-        self._has_jog_stop = any(move.effect == "jog_stop" for move in self.table.moves)
 
     # ------------------------------------------------------------ what is to be seen
 
     @property
-    def mode(self) -> Mode:
-        """What it does, in a word."""
+    def mode(self) -> str:
+        """Standing, ramping up, running, ramping down, coasting, or fault."""
         if self.fault:
             return "fault"
         if not self.motor.driven:
             return "coasting" if self.motor.shaft else "standing"
         if self.motor.output == self._goal():
             return "running"
-        return "ramping down" if self._stopping or abs(self.motor.output) > abs(self._goal()) else "ramping up"
+        return "ramping down" if abs(self.motor.output) > abs(self._goal()) else "ramping up"
 
     @property
     def hertz(self) -> float:
@@ -118,10 +115,10 @@ class Machine:
             ready=not self.fault and not self.inhibited,
             warning=self.warning,
         )
-        return self.table.faces[situation, None if self.fault or running else self.state]
+        return self.table.faces[situation, self.state]
 
     def _shown_output(self) -> int:
-        return self.motor.output if self.motor.driven or self.habits.coast_shows_zero else self.motor.shaft
+        return self.motor.output if self.habits.coast_shows_zero else self.motor.shaft
 
     def _measure(self, gauge: Gauge) -> int:
         habits, output = self.habits, abs(self._shown_output())
@@ -148,7 +145,7 @@ class Machine:
             self._let_go()
         self._settle()
         limit = habits.watchdog_ms
-        if limit is not None and self.powered and self.motor.driven and self.now - self.heard_at > limit:
+        if limit is not None and self.motor.driven and self.now - self.heard_at > limit:
             self._lost()
 
     def _goal(self) -> int:
@@ -176,12 +173,11 @@ class Machine:
 
     def _lost(self) -> None:
         """The watchdog."""
-        self.heard_at = self.now
         if self.habits.watchdog == "trip":
             self.trip(self.habits.watchdog_code)
             self.cause = False
         else:
-            self._stop("coast_stop" if self.habits.watchdog == "coast" else "stop", self.table.initial)
+            self._stop("coast_stop" if self.habits.watchdog == "coast" else "stop")
 
     # ------------------------------------------------------------ what happens to it
 
@@ -209,7 +205,6 @@ class Machine:
         if not self.fault or self.cause or self.motor.shaft or not self.powered:
             return
         self.fault = 0
-        self.state = self.table.initial
         if self.habits.resumes:
             self._hold()
 
@@ -222,7 +217,7 @@ class Machine:
         """Keypad or terminals stop it."""
         if self.motor.driven:
             self._jog = False
-            self._stop("stop", self.table.initial)
+            self._stop("stop")
 
     def inhibit(self, *, on: bool) -> None:
         """A safe torque off or another interlock: no output, and not ready."""
@@ -238,10 +233,8 @@ class Machine:
         if on:
             self.heard_at = self.now
             self.fault = self.fault if self.cause else 0
-            self.state = None if self.fault else self.table.initial
             if self._restart and not self.fault:
                 self.motor.start()
-                self.state = None
             return
         self._restart = self.habits.auto_restart and self.motor.driven and not self._stopping
         told = {move.pattern.register for move in self.table.moves} | {self.table.reference.register}
@@ -291,9 +284,9 @@ class Machine:
         words = [move for move in self.table.moves if move.effect == STATE and move.pattern.register in before]
         after = [move.into for move in words if move.pattern.holds(self.memory[move.pattern.register])]
         if self.motor.driven:
-            self._stop(stop, after[-1] if after else self.table.initial)
+            self._stop(stop, after[-1] if after else None)
         elif not led and not after and not self.fault:
-            self.state, self._next = self.table.initial, None
+            self.state = self._next = None
 
     def _move(self, fired: list[Move]) -> None:
         motions = [move for move in fired if move.effect in MOTIONS]
@@ -315,17 +308,17 @@ class Machine:
         self.motor.start()
         self.state = self._next = None
 
-    def _stop(self, effect: str, after: str | None) -> None:
+    def _stop(self, effect: str, after: str | None = None) -> None:
         if effect == "jog_stop" and not self._jog:
             return
-        if effect == "stop" and self._jog and self._has_jog_stop and not self.habits.stop_ends_jog:
+        if effect == "stop" and self._jog and not self.habits.stop_ends_jog:
             return
         self._after = after
         if effect == "coast_stop":
             self._let_go()
         else:
             self._stopping = True
-            self._quick = effect == "quick_stop"
+            self._quick |= effect == "quick_stop"
 
     def _let_go(self) -> None:
         """No output: the motor coasts."""

@@ -79,7 +79,6 @@ class Table:
     codes: dict[str, int | None]
     moves: tuple[Move, ...]
     states: tuple[str, ...]
-    initial: str | None
     named: dict[int, int]
     faces: dict[tuple[Situation, str | None], dict[int, int]]
     gauges: tuple[Gauge, ...]
@@ -95,7 +94,6 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     gauges = _gauges(drive, habits)
     measured = frozenset(gauge.register for gauge in gauges)
     words = most(drive, "ascii" if ascii_mode else "rtu")
-    found = moves(drive)
     broadcast, bits = drive.serial.broadcast, drive.faults.bits
     states = tuple(state.name for state in drive.operation.states)
     return Table(
@@ -109,9 +107,8 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         limits=_limits(drive),
         manners=manners(drive),
         codes=codes(drive),
-        moves=found,
+        moves=moves(drive),
         states=states,
-        initial=_initial(drive, found),
         named=named_bits(drive, measured),
         faces=_faces(drive, measured),
         gauges=gauges,
@@ -128,27 +125,6 @@ def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str 
     keys = [(situation, None) for situation in situations()]
     keys += [(situation, name) for situation in standing for name in names]  # type: ignore[misc]  # str is str | None
     return {key: face(drive, measured, *key) for key in keys}
-
-
-def _initial(drive: Drive, found: tuple[Move, ...]) -> str | None:
-    """The state after power-up: the first that no step leads to, and that is neither running nor fault."""
-    busy = [
-        of_condition(each)
-        for status in drive.operation.status
-        if status.shows in {"running", "fault"}
-        for each in status.any
-    ]
-    led = {move.into for move in found}
-    for state in drive.operation.states:
-        shown = of_condition(state)
-        if state.name not in led and not any(_implies(shown, each) for each in busy):
-            return state.name
-    return None
-
-
-def _implies(shown: Pattern, other: Pattern) -> bool:
-    """Whether a word with the one value always has the other."""
-    return shown.register == other.register and not other.mask & ~shown.mask and other.holds(shown.value)
 
 
 def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:

@@ -154,5 +154,7 @@ def of_setting(drive: Drive, setting: Setting) -> RenderableType:
 def _needed(setting: Setting) -> str | None:
     if setting.needed is None:
         return None
-    value = "" if setting.needed.value is None else f"{setting.needed.value}: "
-    return f"{value}{setting.needed.why}"
+    needed = setting.needed
+    value = "" if needed.value is None else f"{needed.value}: "
+    other = "" if needed.by_terminals is None else f" ({needed.by_terminals}: from the drive's terminals)"
+    return f"{value}{needed.why}{other}"

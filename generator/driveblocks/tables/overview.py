@@ -7,10 +7,10 @@ from rich.console import RenderableType
 
 from driveblocks.maps import counts, view
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Command, Drive, Reference, Text
+from driveblocks.maps.model import Command, Drive, Reference, Step, Text
 from driveblocks.tables.layout import both, facts, heading, listed, table
 from driveblocks.tables.line import line, settings
-from driveblocks.tables.register import condition
+from driveblocks.tables.register import condition, value_text
 from driveblocks.tables.registers import tables
 
 KINDS = ("settings", "faults", "errors", "frames", "errata", "absent", "notices")
@@ -43,17 +43,19 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
         ("publisher", _text(manual.publisher)),
         ("edition", manual.edition or "none printed"),
         ("covers", manual.covers),
+        ("second hand", "runs only when its user has checked the manual" if manual.second_hand else None),
         ("proof", None if drive.frames else view.UNPROVED),
         ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
     )
 
 
 def operation(drive: Drive) -> Iterator[RenderableType]:
-    """Commands, the speed reference, what proves standstill, and what happens to written parameters."""
+    """Commands, the speed reference, what proves standstill and what pins show, and the storage of parameters."""
     yield heading("Commands")
     made = table("command", "register", "write", "set", "clear", "note", wide=("note",))
     for command in drive.operation.commands:
-        made.add_row(*_command(command))
+        for row in _command(drive, command):
+            made.add_row(*row)
     yield made
     still = drive.operation.standstill
     yield heading("Reference, standstill, storage")
@@ -62,30 +64,70 @@ def operation(drive: Drive) -> Iterator[RenderableType]:
         ("standstill", f"{' and '.join(map(condition, still.all))}: {still.why}  ({still.source})"),
         ("storage", _storage(drive)),
     )
+    yield from _shown(drive)
+
+
+def _shown(drive: Drive) -> Iterator[RenderableType]:
+    """What the pins of the drive block show, and the states that commands wait for."""
+    operation = drive.operation
+    yield heading("What the pins show")
+    made = table("pin", "from", wide=("from",))
+    for status in operation.status:
+        made.add_row(_plain(status.shows), f"{' or '.join(map(condition, status.any))}  ({status.source})")
+    for measured in operation.measures:
+        made.add_row(_plain(measured.shows), f"{address_text(measured.register)}  ({measured.source})")
+    made.add_row("fault code", _fault_code(drive))
+    for state in operation.states:
+        made.add_row(f"state {state.name}", f"{condition(state)}  ({state.source})")
+    yield made
+
+
+def _fault_code(drive: Drive) -> str:
+    faults = drive.faults
+    if faults.present is not None:
+        return f"{address_text(faults.present)}  ({faults.source})"
+    bits = faults.bits
+    return (
+        f"the bits of {address_text(bits.first)} to {address_text(bits.last)}  ({bits.source})" if bits else "not told"
+    )
+
+
+def _plain(word: str) -> str:
+    return word.replace("_", " ")
 
 
 def _reference(reference: Reference) -> str:
     maximum = f", 100 % is {reference.maximum}" if reference.maximum else ""
     reverse = ", negative turns the other way" if reference.negative_reverses else ""
     verify = f"; trusted only after reading {listed(map(condition, reference.verify))}" if reference.verify else ""
-    meaning = reference.means.replace("_", " ")
+    meaning = _plain(reference.means)
     return f"{address_text(reference.register)}, {meaning}{maximum}{reverse}{verify}  ({reference.source})"
 
 
-def _command(command: Command) -> tuple[str, ...]:
+def _command(drive: Drive, command: Command) -> Iterator[tuple[str, ...]]:
+    """One row for each write; the writes that go first say what the next one waits for."""
+    for number, step in enumerate(command.first, 1):
+        yield f"{_plain(command.does)}, {number}", *_written(drive, step), _waits(step)
+    name = f"{_plain(command.does)}{f', {len(command.first) + 1}' if command.first else ''}"
+    yield name, *_written(drive, command), both(both(command.because, command.note), f"({command.source})")
+
+
+def _written(drive: Drive, one: Command | Step) -> tuple[str, ...]:
     return (
-        command.does.replace("_", " "),
-        address_text(command.register),
-        "" if command.value is None else str(command.value),
-        listed(map(bits_text, command.set)),
-        listed(map(bits_text, command.clear)),
-        both(both(command.because, command.note), f"({command.source})"),
+        address_text(one.register),
+        value_text(drive, one),
+        listed(map(bits_text, one.set)),
+        listed(map(bits_text, one.clear)),
     )
+
+
+def _waits(step: Step) -> str:
+    return f"until {step.until}" if step.until else f"for {step.for_ms} ms" if step.for_ms else "then"
 
 
 def _storage(drive: Drive) -> str:
     storage = drive.storage
-    parts = [storage.method.replace("_", " ") + ": " + storage.note]
+    parts = [_plain(storage.method) + ": " + storage.note]
     if storage.register is not None:
         parts.append(f"write {storage.value} to {address_text(storage.register)}")
     if storage.max_writes is not None:

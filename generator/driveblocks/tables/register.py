@@ -7,7 +7,7 @@ from rich.padding import Padding
 
 from driveblocks.maps import view
 from driveblocks.maps.form import address_text, bits_text, masked_text, span_text
-from driveblocks.maps.model import Area, Condition, Drive, Register, Section, Value
+from driveblocks.maps.model import Area, Command, Condition, Drive, Register, Section, State, Step, Value
 from driveblocks.tables.errata import corroborated
 from driveblocks.tables.faults import recorded
 from driveblocks.tables.layout import OWN, both, card, code_text, listed, listing
@@ -32,6 +32,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("signed", "two's complement, -32768 to 32767" if row.signed else None),
         ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
         ("commands", "\n".join(_commands(drive, address))),
+        ("pins", "\n".join(_shows(drive, address))),
         ("note", row.note),
         ("also says", corroborated(drive, row.corroborated)),
         ("section", both(section.title.en, section.title.own)),
@@ -75,22 +76,51 @@ def _scale(row: Register) -> str | None:
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
 
 
-def condition(one: Condition) -> str:
-    """A condition in words: `000FH bit 0 = 0`."""
+def condition(one: Condition | State) -> str:
+    """A condition or state in words: `000FH bit 0 = 0`."""
     if one.mask is not None:
         return masked_text(one.register, one.mask, one.equals)
-    bit = f" bit {bits_text(one.bit)}" if one.bit is not None else ""
+    bit = f" bit {bits_text(one.bit)}" if isinstance(one, Condition) and one.bit is not None else ""
     return f"{address_text(one.register)}{bit} = {one.equals}"
 
 
 def _commands(drive: Drive, address: int) -> Iterator[str]:
     for command in drive.operation.commands:
+        does = command.does.replace("_", " ")
+        for number, step in enumerate(command.first, 1):
+            if step.register == address:
+                yield f"{does}, write {number}: {_written(drive, step)}"
         if command.register == address:
-            parts = [f"write {command.value}"] if command.value is not None else []
-            parts += [f"set bit {listed(map(bits_text, command.set))}"] if command.set else []
-            parts += [f"clear bit {listed(map(bits_text, command.clear))}"] if command.clear else []
             note = f" ({command.note})" if command.note else ""
-            yield f"{command.does.replace('_', ' ')}: {listed(parts)}{note}"
+            yield f"{does}: {_written(drive, command)}{note}"
+
+
+def value_text(drive: Drive, one: Command | Step) -> str:
+    """The word that a command writes, in hexadecimal where its bits have names; nothing where it writes single bits."""
+    row = drive.register_at(one.register)
+    if one.value is None:
+        return ""
+    return address_text(one.value) if row is not None and row.bits else str(one.value)
+
+
+def _written(drive: Drive, one: Command | Step) -> str:
+    parts = [f"write {value_text(drive, one)}"] if one.value is not None else []
+    parts += [f"set bit {listed(map(bits_text, one.set))}"] if one.set else []
+    parts += [f"clear bit {listed(map(bits_text, one.clear))}"] if one.clear else []
+    return listed(parts)
+
+
+def _shows(drive: Drive, address: int) -> Iterator[str]:
+    """What a register shows on pins of the drive block."""
+    operation = drive.operation
+    for status in operation.status:
+        some = [condition(one) for one in status.any if one.register == address]
+        if some:
+            yield f"{status.shows.replace('_', ' ')}: {' or '.join(some)}"
+    yield from (one.shows.replace("_", " ") for one in operation.measures if one.register == address)
+    if address == drive.faults.present:
+        yield "fault code"
+    yield from (f"state {one.name}: {condition(one)}" for one in operation.states if one.register == address)
 
 
 def _frames(drive: Drive, address: int) -> str:

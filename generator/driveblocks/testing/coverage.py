@@ -17,9 +17,10 @@ from driveblocks.testing.outcome import FAILED, PASSED, Outcome, Result
 
 _Key = TypeVar("_Key")
 
-IN_TIME = ("/line/", "/drive/")
-"""The folders of what only runs in time, against drives that answer: the programs call each block by itself, so a line
-is not counted here. The virtual line of the generator's own tests reaches all of it."""
+_IN_TIME = re.compile(r"(?:.*/)?(?:line/\w+|drive/DB_(?!ReasonText)\w+|\w+/\w+_Drive)\.st")
+"""What only runs in time, against drives that answer: line, drive blocks, and what those share. The programs call each
+block by itself, so it is not counted here, which `Coverage.uncounted` says. The virtual line of the generator's own
+tests reaches it."""
 
 
 @runtime_checkable
@@ -85,10 +86,13 @@ class Coverage:
     lines: Lines = field(default_factory=dict)
     branches: Branches = field(default_factory=dict)
     texts: dict[str, list[str]] = field(default_factory=dict)
+    uncounted: set[str] = field(default_factory=set)
 
     def add(self, blocks: Iterable[Source], library: Counted) -> None:
         """Count what has run of some blocks of a library. Raises EngineError."""
-        own = {block.path: block.text for block in blocks if not any(folder in block.path for folder in IN_TIME)}
+        timed = {block.path for block in blocks if _IN_TIME.fullmatch(block.path)}
+        own = {block.path: block.text for block in blocks if block.path not in timed}
+        self.uncounted |= timed
         self.texts |= {path: text.split("\n") for path, text in own.items()}
         _sum(self.lines, library.coverage(), own)
         _sum(self.branches, library.branches(), own)

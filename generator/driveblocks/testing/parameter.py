@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
-from driveblocks.reference.permission import Judge, Write, parameters
-from driveblocks.st.writing import flag, string, word
+from driveblocks.reference.permission import Judge, Numbered, Write, parameters
+from driveblocks.st.writing import flag, word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
@@ -26,7 +26,7 @@ def _writes(drive: Drive, stem: str) -> Script:
     program = bench.script(drive, stem, "MayWrite", "what a ladder user may write, each side of every limit")
     judge = Judge(drive)
     for address in _turns(drive, judge):
-        wishes = (Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4))
+        wishes = [Write(address, unknown=how & 1 > 0, stopped=how & 2 > 0) for how in range(4)]
         program.stage(address_text(address), *(_wish(drive, judge, wish) for wish in wishes))
     for _, row in drive.registers():
         if row.range is not None:
@@ -58,29 +58,38 @@ def _wish(drive: Drive, judge: Judge, wish: Write) -> Probe:
     return bench.is_number(call, NUMBERS[result], f"{how}: {WORDS[result]}")
 
 
-def _numbers(drive: Drive, stem: str, known: dict[tuple[str, int], int]) -> Script:
+def _numbers(drive: Drive, stem: str, known: dict[Numbered, int]) -> Script:
     title = "the registers of the manual's numbers, each side of every gap"
     program = bench.script(drive, stem, "ParameterAddress", title)
-    for group in dict.fromkeys(group for group, _ in known):
-        numbers = {number for one, number in known if one == group}
-        sides = {number + step for number in numbers for step in (-1, 0, 1)} | {0}
-        asked = sorted(number for number in sides if number >= 0 and _turn(known, group, number))
-        probes = (_number(drive, known, group, number) for number in asked)
-        program.stage(f"group {group}" if group else "numbers", *probes)
-    if any(group for group, _ in known):
-        program.stage("no such group", _number(drive, known, "?", 1))
+    for letter, group in dict.fromkeys((letter, group) for letter, group, _ in known):
+        own = {number for *beside, number in known if beside == [letter, group]}
+        sides = {0} | {number + step for number in own for step in (-1, 0, 1)}
+        asked = [(letter, group, number) for number in sorted(sides) if number >= 0]
+        probes = (_number(drive, known, each) for each in asked if _turn(known, each))
+        program.stage(f"{letter}{group}", *probes)
+    if _grouped(known):
+        letters = dict.fromkeys(letter for letter, _, _ in known)
+        behind = ((one, 1 + max(group for letter, group, _ in known if letter == one), 1) for one in letters)
+        program.stage("no such group", *(_number(drive, known, each) for each in [("?", 1, 1), *behind]))
     return program
 
 
-def _turn(known: dict[tuple[str, int], int], group: str, number: int) -> bool:
+def _grouped(known: dict[Numbered, int]) -> bool:
+    """Whether the function has pins for letter and group."""
+    return any(letter or group for letter, group, _ in known)
+
+
+def _turn(known: dict[Numbered, int], asked: Numbered) -> bool:
     """Whether the register of a number does not lie between those of the numbers beside it."""
-    before, own, behind = (known.get((group, number + step)) for step in (-1, 0, 1))
+    letter, group, number = asked
+    before, own, behind = (known.get((letter, group, number + step)) for step in (-1, 0, 1))
     return own is None or before != own - 1 or behind != own + 1
 
 
-def _number(drive: Drive, known: dict[tuple[str, int], int], group: str, number: int) -> Probe:
-    register = known.get((group, number))
-    pins = f"Group := {string(group.encode())}, " if any(one for one, _ in known) else ""
+def _number(drive: Drive, known: dict[Numbered, int], asked: Numbered) -> Probe:
+    letter, group, number = asked
+    register = known.get(asked)
+    pins = f"Letter := {ord(letter or chr(0))}, Group := {group}, " if _grouped(known) else ""
     call = f"{drive.prefix}_ParameterAddress({pins}Number := {number})"
     says = "none" if register is None else address_text(register)
-    return bench.is_flag(f"{call} = {-1 if register is None else register}", True, f"{number}: {says}")
+    return bench.is_flag(f"{call} = {-1 if register is None else register}", True, f"{letter}{group}, {number}: {says}")

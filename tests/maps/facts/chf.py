@@ -68,6 +68,19 @@ COMMANDS = {
     "jog_stop": 8,
 }
 
+SHOWS = """
+running | 1001H = 1, 1001H = 2
+reverse | 1001H = 2
+fault | 1001H = 4
+output_frequency | 3000H
+dc_bus_voltage | 3002H
+output_voltage | 3003H
+output_current | 3004H
+output_power | 3006H
+fault code | 5000H
+"""
+"""What the pins show: the words of 1001H, 运行频率, 母线电压, 输出电压, 输出电流, 输出功率; the fault's number."""
+
 FRAMES = {
     "read_rtu_request": ("01 03 00 04 00 02 85 CA", 1, 0x0004, ()),
     "read_rtu_reply": ("01 03 04 00 00 00 00 FA 33", 1, None, (0, 0)),

@@ -33,6 +33,15 @@ FAULTS = {code: text for code, text in VALUES[0x3000].items() if code}
 
 COMMANDS = {"run_forward": 1, "run_reverse": 2, "stop": 3}
 
+SHOWS = """
+running | 2001H AND 1 = 1, 2001H AND 2 = 2
+reverse | 2001H AND 2 = 2
+fault | 2001H AND 8 = 8
+output_frequency | 2000H
+fault code | 3000H
+"""
+"""What the pins show: 01, 02, 08 of 2001H, which may be bits that combine; 实时输出频率; 故障类型."""
+
 SETTINGS = {
     "F0.04": (
         "1",

@@ -361,6 +361,23 @@ FAULTS = """
 
 PRINTED_CODES = {0x01: "01H01H", 0x0A: "OAH", 0x0B: "OBH", 0x0C: "OCH", 0x0D: "ODH", 0x0E: "OEF", 0x0F: "OFH"}
 
+SHOWS = """
+running | 0010H.0 = 1
+zero_speed | 0010H.1 = 1
+reverse | 0010H.2 = 1
+at_speed | 0010H.4 = 1
+ready | 0010H.5 = 1
+warning | 0010H.6 = 1
+fault | 0010H.7 = 1
+output_frequency | 0021H
+output_current | 0022H
+dc_bus_voltage | 0026H
+output_power | 0027H
+fault code | 0014H-0016H
+"""
+"""What the pins show: 运行中, 零速, 反转中, 速度一致中, 准备完了, 轻故障, 重故障 of 0010H; U1-02, U1-03, U1-07; U1-08,
+which prints 输出频率 a second time; the three words of 故障内容."""
+
 FAULT_REGISTERS = {0x0080, 0x0081, 0x0090, 0x0091, 0x0092, 0x0093}
 
 ERRORS = {

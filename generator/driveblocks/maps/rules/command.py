@@ -42,8 +42,8 @@ def _releases(drive: Drive, command: Command, report: Report) -> None:
     """Note a stop that leaves a run bit as it is, and a direction that leaves that of the other one."""
     if not (command.set or command.clear) or drive.register_at(command.register) is None:
         return
-    ours = meaning.image(meaning.writes(command))
-    registers = dict.fromkeys(one.register for one in meaning.writes(command))
+    ours = meaning.image(command.writes)
+    registers = dict.fromkeys(one.register for one in command.writes)
     for other in drive.operation.commands:
         if other is command or other.does not in _ENDS.get(command.does, ()):
             continue
@@ -58,7 +58,7 @@ def _releases(drive: Drive, command: Command, report: Report) -> None:
 
 def _command(drive: Drive, command: Command, report: Report) -> None:
     before = len(report.problems)
-    rows = [_write(drive, one, command, report) for one in meaning.writes(command)]
+    rows = [_write(drive, one, command, report) for one in command.writes]
     if all(rows) and len(report.problems) == before:
         meaning.check(drive, command, report)
 

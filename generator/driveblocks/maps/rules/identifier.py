@@ -4,7 +4,9 @@ import re
 from collections.abc import Iterable, Iterator
 
 from driveblocks.maps import names
+from driveblocks.maps.form import span_text
 from driveblocks.maps.model import Bit, Drive, Register, Value
+from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Report
 
 _LIBRARY = ("MB", "DB")
@@ -29,6 +31,9 @@ OWN = re.compile(
 _OWN_PINS = ("Value", "Unknown")
 """What every decoder has."""
 
+_OWN_WORDS = ("KeepWord",)
+"""What a drive block may have."""
+
 
 def check(drive: Drive, report: Report) -> None:
     """Note every name that makes no identifier, or one that is taken."""
@@ -43,9 +48,7 @@ def check(drive: Drive, report: Report) -> None:
         pins = _Taken("output", report, _OWN_PINS)
         for entry in _outputs(row):
             pins.add(entry, names.symbol(entry), names.wrong_pin(names.symbol(entry)))
-    _inputs(drive, (one.register for one in drive.operation.standstill.all), report)
-    if drive.faults.bits is not None:
-        _inputs(drive, range(drive.faults.bits.first, drive.faults.bits.last + 1), report)
+    _words(drive, report)
 
 
 def suffixes(row: Register) -> Iterator[str]:
@@ -99,10 +102,15 @@ def _outputs(row: Register) -> Iterator[Bit | Value]:
     yield from row.values
 
 
-def _inputs(drive: Drive, addresses: Iterable[int], report: Report) -> None:
-    """The registers whose words a block takes."""
-    pins = _Taken("input", report)
-    for address in dict.fromkeys(addresses):
+def _words(drive: Drive, report: Report) -> None:
+    """The registers whose words the drive block keeps; those of standstill and of fault bits are inputs, too."""
+    pins = _Taken("input", report, _OWN_WORDS)
+    before: Register | None = None
+    for address in sorted(fast_words(drive) | slow_words(drive)):
         row = drive.register_at(address)
-        if row is not None:
+        if row is not None and row is before:
+            wrong = f"pins show two registers of the row {span_text(row.address)}, which has one name for both"
+            report.add(row.place("address"), wrong, "write one row per register")
+        elif row is not None:
             pins.add(row, names.word_pin(row), names.wrong_pin(names.word_pin(row)))
+        before = row

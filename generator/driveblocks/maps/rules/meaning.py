@@ -101,19 +101,14 @@ def image(writes: Iterable[Write]) -> Image:
     return {(one.register, number): on for one in writes for number, on in written(one).items()}
 
 
-def writes(command: Command) -> tuple[Write, ...]:
-    """All writes of a command in their order, its own word last."""
-    return (*command.first, command)
-
-
 def acting(command: Command) -> tuple[Write, ...]:
     """The writes of a command up to the one that does it: of a pulse the step that sets what is taken back later."""
-    end = image(writes(command))
+    end = image(command.writes)
     for count in range(len(command.first), 0, -1):
         step = command.first[count - 1]
         if step.for_ms and any(on and not end[step.register, number] for number, on in written(step).items()):
             return command.first[:count]
-    return writes(command)
+    return command.writes
 
 
 def key(one: Write, on: bool) -> str:
@@ -170,7 +165,7 @@ def _merged(some: tuple[Write, ...]) -> Iterator[Write]:
 def _passed(drive: Drive, command: Command, due: _Due, report: Report) -> bool:
     """Note what writes on the way are called and must not be; whether there was such."""
     found = False
-    for one in writes(command) if command.first else ():
+    for one in command.writes if command.first else ():
         for said in _said(drive, one):
             if said.holds and said.alone and said.meaning & due.never & _MOTION:
                 wrong = f"on its way `{command.does}` writes what the register calls {said}"
@@ -189,7 +184,7 @@ def _said(drive: Drive, one: Write) -> Iterator[_Said]:
         if each.value == one.value:
             yield _Said(*where, each.name, each.text_zh or "", on=True)
     if not row.values and not row.bits:
-        writers = [each for each in drive.operation.commands if one.register in {w.register for w in writes(each)}]
+        writers = [each for each in drive.operation.commands if one.register in {w.register for w in each.writes}]
         yield _Said(*where, row.name or "", row.text_zh or "", on=True, alone=len(writers) == 1)
     yield from _said_bits(one, row)
 
@@ -254,7 +249,7 @@ def _ended(drive: Drive, command: Command, said: list[_Said]) -> Meaning:
 
 def sets_off(drive: Drive, motion: Command) -> frozenset[tuple[int, int]]:
     """The bits that make a motion: those that it sets, and those that it clears where the table calls just that so."""
-    found = {place for one in writes(motion) for place, on in image([one]).items() if on}
+    found = {place for one in motion.writes for place, on in image([one]).items() if on}
     for one in _merged(acting(motion)):
         for said in _said(drive, one):
             if said.holds and said.alone and not said.on and said.meaning & _MOTION:

@@ -1,9 +1,25 @@
 """Rules on how the speed reference is given, and on what the pins of the drive block show."""
 
+from typing import get_args
+
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Drive, Measure, Measured, Reference, Register, Status, Unit
+from driveblocks.maps.model import (
+    Bit,
+    Condition,
+    Drive,
+    Measure,
+    Measured,
+    Reference,
+    Register,
+    Shows,
+    Status,
+    Unit,
+    Value,
+)
 from driveblocks.maps.problem import Report
+from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import cyclic, known
+from driveblocks.maps.rules.condition import WORD, counted
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.unique import unique
 
@@ -37,6 +53,27 @@ def _status(drive: Drive, status: Status, report: Report) -> None:
         if row is not None and row.masks and condition.mask is None:
             wrong = f"the values of {address_text(condition.register)} are bits that may combine"
             report.add(condition.place("equals"), wrong, f"add `mask: {condition.equals}`")
+        named = _called(row, condition) if row is not None else None
+        if named is not None and _other(status.shows, named, get_args(Shows)):
+            wrong = f"`{status.shows}` is shown by what {address_text(condition.register)} calls `{named.name}`"
+            report.add(condition.at, wrong, "correct the pin, the bit or value, or the register's table")
+
+
+def _called(row: Register, condition: Condition) -> Bit | Value | None:
+    """The one bit or value that a condition asks for; None where it asks for several bits at once, or for a 0."""
+    mask, value = counted(condition)
+    for bit in row.bits:
+        if mask == sum(1 << number for number in bit.bit):
+            listed = (one for one in bit.values if one.value == value >> bit.bit.first)
+            return next(listed, bit if value and len(bit.bit) == 1 and not bit.values else None)
+    whole = mask == (value if row.masks else WORD)
+    return next((one for one in row.values if whole and one.value == value), None)
+
+
+def _other(pin: str, named: Bit | Value | Register, pins: tuple[str, ...]) -> bool:
+    """Whether a name is one for what another pin shows, and not for what this one does."""
+    shown = term.shown(named.name or "", named.text_zh or "", pins)
+    return bool(shown) and pin not in shown and not term.negated(named.name or "", named.text_zh or "")
 
 
 def _measured(drive: Drive, measured: Measured, report: Report) -> None:
@@ -49,6 +86,11 @@ def _measured(drive: Drive, measured: Measured, report: Report) -> None:
     elif row is not None and row.unit not in (None, unit):
         wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has the unit {row.unit}"
         report.add(place, wrong, "name another register, or correct its `unit`")
+    elif row is not None and (
+        _other(measured.shows, row, get_args(Measure)) or term.wanted(row.name or "", row.zh or "")
+    ):
+        wrong = f"`{measured.shows}` is shown by {address_text(measured.register)}, which is called `{row.name}`"
+        report.add(place, wrong, "name the register that measures it")
 
 
 def _reference(drive: Drive, reference: Reference, report: Report) -> None:

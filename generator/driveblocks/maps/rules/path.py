@@ -1,5 +1,7 @@
 """Rules on commands of several writes: their steps, the states that they wait for, and what they pass through."""
 
+from collections.abc import Iterator
+
 from driveblocks.maps.model import Command, Does, Drive, Step
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import meaning
@@ -48,13 +50,28 @@ def _passes(drive: Drive, command: Command, report: Report) -> None:
     told: set[tuple[int, str]] = set()
     for start in _starts(drive):
         now = dict(start)
-        for number, one in enumerate(meaning.writes(command)):
-            now |= meaning.image([one])
+        for number, (one, word) in enumerate(_words(drive, command)):
+            now |= word
             for other in others:
                 if _holds(now, meaning.image(meaning.acting(other)), one) and (number, other.does) not in told:
                     told.add((number, other.does))
                     wrong = f"on its way `{command.does}` passes through `{other.does}`"
                     report.add(one.at, wrong, "write the direction first and what runs last, or clear more before")
+
+
+def _words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:
+    """What each write of a command puts into its register.
+
+    Of a word written by bits, those of other commands are 0 unless an earlier write of this one has set them; a reset
+    begins as a stop.
+    """
+    commands = drive.operation.commands
+    by_bits = meaning.image(one for each in commands for one in each.writes if one.value is None)
+    own = meaning.image(one for one in commands if one.does == "stop" and command.does == "fault_reset")
+    for one in command.writes:
+        own |= meaning.image([one])
+        word = {place: own.get(place, False) for place in by_bits if place[0] == one.register}
+        yield one, word | {place: on for place, on in own.items() if place[0] == one.register}
 
 
 def _contrary(command: Command, other: Command) -> bool:
@@ -66,8 +83,11 @@ def _starts(drive: Drive) -> list[Image]:
     """What is known of the registers when a command begins."""
     commands = drive.operation.commands
     stopped = [meaning.image([one]) for one in commands if one.does in _STOPS]
-    resets = [meaning.image(meaning.writes(one)) for one in commands if one.does == "fault_reset"]
-    return [*stopped, *(stop | reset for stop in stopped for reset in resets)]
+    reset: Image = {}
+    for one in commands:
+        for _, word in _words(drive, one) if one.does == "fault_reset" else ():
+            reset |= word
+    return [*stopped, *(stop | reset for stop in stopped)]
 
 
 def _holds(now: Image, wanted: Image, last: Write) -> bool:

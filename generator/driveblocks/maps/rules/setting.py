@@ -60,10 +60,11 @@ def _values(setting: Setting, report: Report) -> None:
 def _numbers(setting: Setting, report: Report) -> None:
     """What the setting must be, and its factory setting where that is printed in plain decimal."""
     needed = setting.needed
-    if needed is not None and needed.value is not None:
-        wrong = _impossible(setting, needed.value)
-        if wrong:
-            report.miss(needed.place("value"), f"needed is {needed.value}, but {wrong}", "correct one of them")
+    if needed is not None:
+        for key, number in (("value", needed.value), ("by_terminals", needed.by_terminals)):
+            wrong = _impossible(setting, number) if number is not None else ""
+            if wrong:
+                report.miss(needed.place(key), f"needed is {number}, but {wrong}", "correct one of them")
     default = _decimal(setting.default)
     if default is not None:
         wrong = _impossible(setting, default)

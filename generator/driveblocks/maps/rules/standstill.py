@@ -6,11 +6,9 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Bit, Condition, Drive, Value
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.condition import bit_at, exclude
-from driveblocks.maps.rules.term import negated
+from driveblocks.maps.rules.term import negated, wanted
 
 _SPEED = ("frequency", "speed", "频率", "转速", "速度")
-_WANTED = ("set ", "setting", "reference", "command", "target", "设定", "给定", "指令", "目标")
-"""Words for a frequency that is asked for: it may be 0 while the motor turns."""
 _STANDS = ("stop", "standby", "standstill", "zero speed", "停", "待机", "零速")
 _TURNS = ("running", "turning", "rotating", "operating", "operation enabled", "运行", "运转", "正转", "反转", "旋转")
 _OTHER = ("fault", "error", "故障")
@@ -52,7 +50,7 @@ def _while_running(drive: Drive, report: Report) -> None:
 def _says_frequency_is_0(drive: Drive, condition: Condition) -> bool:
     row = drive.register_at(condition.register)
     words = f"{row.name or ''} {row.text_zh or ''}".lower() if row is not None else ""
-    is_speed = _hold(words, _SPEED) and not _hold(words, _WANTED)
+    is_speed = _hold(words, _SPEED) and not wanted(words)
     return condition.bit is None and condition.mask is None and condition.equals == 0 and is_speed
 
 

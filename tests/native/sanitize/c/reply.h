@@ -42,7 +42,7 @@ static int granted(const Manners *manners, const MB_REQUEST *asked, const uint8_
 static Judgement judge(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
                        unsigned *reason)
 {
-    if (asked->FUNCTIONCODE == 0 || asked->QUANTITY > 125 || asked->UNITADDRESS == 0)
+    if (asked->FUNCTIONCODE == 0 || asked->QUANTITY == 0 || asked->QUANTITY > 125 || asked->UNITADDRESS == 0)
         return UNBELIEVED;
     if (length < 3 || length > 254 || body[0] != asked->UNITADDRESS)
         return UNBELIEVED;

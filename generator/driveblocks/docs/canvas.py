@@ -1,0 +1,71 @@
+"""Pictures as SVG that read on light and on dark pages; the same content gives the same text."""
+
+from dataclasses import dataclass, field
+from xml.sax.saxutils import escape
+
+STYLE = """text { font: 13px system-ui, sans-serif; fill: #24292f }
+.head { font-weight: 600 }
+.small, .type { font-size: 11px; fill: #57606a }
+.mono { font-family: ui-monospace, Menlo, Consolas, monospace; font-size: 12px }
+.page { fill: #ffffff; stroke: #d0d7de }
+.box { fill: #f6f8fa; stroke: #24292f; stroke-width: 1.5 }
+.line { fill: none; stroke: #24292f; stroke-width: 1.5 }
+.thin { fill: none; stroke: #afb8c1; stroke-dasharray: 3 3 }
+.go { fill: none; stroke: #0969da; stroke-width: 2 }
+.stop { fill: none; stroke: #cf222e; stroke-width: 2 }
+.band { fill: #ddf4ff }
+.mark { fill: #0969da }
+.alarm { fill: #cf222e }
+@media (prefers-color-scheme: dark) {
+text { fill: #e6edf3 }
+.small, .type { fill: #9198a1 }
+.page { fill: #0d1117; stroke: #30363d }
+.box { fill: #151b23; stroke: #e6edf3 }
+.line { stroke: #e6edf3 }
+.thin { stroke: #656c76 }
+.go { stroke: #4493f8 }
+.stop { stroke: #f85149 }
+.band { fill: #132a45 }
+.mark { fill: #4493f8 }
+.alarm { fill: #f85149 }
+}"""
+
+
+@dataclass
+class Canvas:
+    """A picture with a title; y goes down, all sizes are pixels."""
+
+    title: str
+    width: int
+    height: int
+    body: list[str] = field(default_factory=list)
+
+    def text(self, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> None:
+        """A line of text; x is its start, middle or end."""
+        attributes = (f' class="{kind}"' if kind else "") + (f' text-anchor="{anchor}"' if anchor != "start" else "")
+        self.body.append(f'<text x="{x:g}" y="{y:g}"{attributes}>{escape(words)}</text>')
+
+    def box(self, x: float, y: float, width: float, height: float, kind: str = "box") -> None:
+        """A rectangle."""
+        self.body.append(f'<rect class="{kind}" x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" rx="4"/>')
+
+    def path(self, points: list[tuple[float, float]], kind: str = "line") -> None:
+        """A line through points."""
+        way = " ".join(f"{x:g},{y:g}" for x, y in points)
+        self.body.append(f'<polyline class="{kind}" points="{way}"/>')
+
+    def arrow(self, points: list[tuple[float, float]], kind: str = "line") -> None:
+        """The same with a head at its end."""
+        self.path(points, kind)
+        (x0, y0), (x, y) = points[-2:]
+        dx, dy = (x > x0) - (x < x0), (y > y0) - (y < y0)
+        self.path(
+            [(x - 7 * dx - 4 * dy, y - 7 * dy - 4 * dx), (x, y), (x - 7 * dx + 4 * dy, y - 7 * dy + 4 * dx)], kind
+        )
+
+    def svg(self) -> str:
+        """The text of the file."""
+        size = f'width="{self.width}" height="{self.height}" viewBox="0 0 {self.width} {self.height}"'
+        page = f'<rect class="page" x="0.5" y="0.5" width="{self.width - 1}" height="{self.height - 1}" rx="6"/>'
+        head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escape(self.title)}</title>"]
+        return "\n".join([*head, f"<style>{STYLE}</style>", page, *self.body, "</svg>"]) + "\n"

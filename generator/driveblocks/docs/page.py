@@ -1,0 +1,209 @@
+"""The page of a drive block: values for its template, and the pictures beside it."""
+
+from collections.abc import Iterator, Mapping
+from math import ceil
+from typing import Any
+
+from driveblocks.docs import ladder, states, timing
+from driveblocks.docs.pins import Pin, pins
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import Absence, Drive, Notice, Setting
+from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.render import context
+from driveblocks.render.drive import MEASURES, drive_block
+from driveblocks.render.environment import render
+from driveblocks.render.library import File
+from driveblocks.render.overview import overview
+from driveblocks.render.reasons import REASONS
+from driveblocks.st.checker import check
+from driveblocks.st.parser import parse
+from driveblocks.st.tree import FunctionBlock, VarKind
+from driveblocks.st.types import Type
+
+FOLDER = "docs"
+STATES = "drive_states.svg"
+RATES = (9600, 19200)
+DRIVES = (1, 3, 7)
+SCAN_MS, TURN_ROUND_MS, BITS = 10, 5, 10
+"""Under what the page's figures hold: the task, a turn-round that no manual promises, and 8N1."""
+ABILITIES = {
+    "run_reverse": "run in reverse", "jog_forward": "jog forward", "jog_reverse": "jog in reverse",
+    "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
+}  # fmt: skip
+"""Command -> what a drive can do over the bus if it has it."""
+WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
+
+
+def documents(files: list[File], drives: list[Drive]) -> dict[str, str]:
+    """The overview, every page and every picture, path below the output folder -> text."""
+    checked = check([parse("\n".join(file.text for file in files), "library")])
+    return {
+        "README.md": overview(files, drives, checked, abilities(drives)),
+        **pages(drives, checked.blocks, checked.types),
+    }
+
+
+def pages(drives: list[Drive], blocks: Mapping[str, FunctionBlock], types: Mapping[str, Type]) -> dict[str, str]:
+    """Every page and picture, path below the output folder -> text."""
+    found = {f"{FOLDER}/{STATES}": states.picture()} if drives else {}
+    for drive in drives:
+        name = f"{drive.prefix}_Drive"
+        block = blocks[name.upper()]
+        inputs, in_outs, outputs = _pins(drive, block)
+        values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
+        found[f"{FOLDER}/{name}.md"] = _page(drive, block, values, types["MB_SLOT"].size)
+        found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, inputs, in_outs, outputs)
+        found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
+    return found
+
+
+def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], list[Pin]]:
+    unit = drive.serial.unit
+    ranges = {"Address": f"{unit.min} to {unit.max}"}
+    inputs, in_outs, outputs = (pins(block, kind, ranges) for kind in (VarKind.INPUT, VarKind.IN_OUT, VarKind.OUTPUT))
+    return inputs, in_outs, outputs
+
+
+def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot: int) -> str:
+    listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
+    return render(
+        "docs/Drive.md.j2",
+        drive=drive,
+        name=block.name,
+        family=context.identity(drive).family,
+        manual=context.title(drive),
+        cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
+        hides=[pin.name for pin in values["outputs"] if pin.idle and not pin.name.endswith("Valid")],
+        settings=drive.settings,
+        run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
+        stay=[each for each in drive.settings if _stays(each)],
+        named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
+        hazards=[each for each in drive.notices if _matters(each)],
+        open=[each for each in drive.absent if _open(drive, each)],
+        reasons=REASONS,
+        reads=list(_reads(drive)),
+        refresh=list(_refresh(drive)),
+        rates=RATES,
+        drives=DRIVES,
+        unlisted=[rate for rate in RATES if listed and rate not in listed],
+        bytes=block.type.size if block.type else 0,
+        slot=slot,
+        port=_port(drive),
+        has_reset=can(drive, "fault_reset"),
+        unscaled=drive_block(drive)["scaled"] is False,
+        derived=_guessed(drive),
+        verify=drive.operation.reference.verify,
+        proved_tripped=timing.proves_while_tripped(drive),
+        states=STATES,
+        scan=SCAN_MS,
+        turn_round=TURN_ROUND_MS,
+        ascii="rtu" not in drive.serial.mode.modes,
+        **values,
+    )
+
+
+# ---------------------------------------------------------------- what a family can
+
+
+def can(drive: Drive, does: str) -> bool:
+    """Whether a drive has a command."""
+    return any(one.does == does for one in drive.operation.commands)
+
+
+def abilities(drives: list[Drive]) -> dict[str, Any]:
+    """The table of what each family can over the bus: what it does, then what it shows."""
+    rows = {words: [_yes(can(drive, does)) for drive in drives] for does, words in ABILITIES.items()}
+    for shows in ("at_speed", "ready", "warning"):
+        having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
+        rows[f"say itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
+    for shows, (name, unit, _) in MEASURES.items():
+        rows[f"show `{name}{unit}`"] = [_shows(drive, shows) for drive in drives]
+    return {"families": [drive.prefix for drive in drives], "rows": rows}
+
+
+def _yes(one: bool) -> str:
+    return "yes" if one else "no"
+
+
+def _shows(drive: Drive, shows: str) -> str:
+    measure = drive_block(drive)["measures"].get(shows)
+    return _yes(measure is not None) if measure is None or measure["scale"] else "with a scale that you find out"
+
+
+def _guessed(drive: Drive) -> bool:
+    """Whether AtSpeed rests on an output frequency without a scale."""
+    shown = any(one.shows == "at_speed" for one in drive.operation.status)
+    return not shown and _shows(drive, "output_frequency") not in ("yes", "no")
+
+
+# ---------------------------------------------------------------- what a person sets, and has to find out
+
+
+def _stays(setting: Setting) -> bool:
+    needed = setting.needed
+    return needed is not None and needed.value is not None and needed.by_terminals is None
+
+
+def _matters(notice: Notice) -> bool:
+    return notice.kind == "hazard" or (notice.kind == "prohibition" and not notice.about)
+
+
+def _open(drive: Drive, one: Absence) -> bool:
+    """Whether a gap of the manual is about the line, the commands, the reference or a scale that a pin needs."""
+    rows = {each.register: drive.register_at(each.register) for each in drive.operation.measures}
+    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
+    words |= {address for address, row in rows.items() if row and not row.scale}
+    about = {"serial", "operation", *(f"register {address_text(word)}" for word in words)}
+    about |= {f"setting {each.id}" for each in drive.settings}
+    return not about.isdisjoint(one.about)
+
+
+def _port(drive: Drive) -> dict[str, int]:
+    """Bit rate and bits of a character for the example: the drive's factory settings where the manual has them."""
+    rates, formats = drive.serial.baud, drive.serial.format
+    rate = next((each.baud for each in rates.codes if each.code == rates.default), 9600) if rates else 9600
+    parity = next((each.parity for each in formats.codes if each.code == formats.default), "") if formats else ""
+    return {"rate": rate, "bits": 11 if parity in ("even", "odd") else 10, "known": int(rates is not None)}
+
+
+# ---------------------------------------------------------------- what is read
+
+
+def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
+    """Each read with its registers and what it takes on the wire, turn-round and silences included."""
+    block = drive_block(drive)
+    for read in block["reads"]:
+        poll: Poll = read["read"]
+        yield {
+            "poll": poll,
+            "first": address_text(poll.address),
+            "titles": [f"{word['address_text']} {word['title'].lower()}" for word in read["words"]],
+            "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
+        }
+
+
+def _silence(drive: Drive) -> float | None:
+    """The silence that a drive asks for, ms; None for one that speaks ASCII alone, which needs none."""
+    if "rtu" not in drive.serial.mode.modes:
+        return None
+    return float((drive.serial.silence and drive.serial.silence.milliseconds) or 0)
+
+
+def _refresh(drive: Drive) -> Iterator[dict[str, Any]]:
+    """By the formula of the line: the time in which every word of every drive is read once."""
+    found = polls(drive)
+    turns = [found[index] for index in schedule(found)]
+    for rate in RATES:
+        for keeps in (True, False):
+            scans = sum(_scans(drive, poll, rate, keeps=keeps) for poll in turns)
+            yield {"rate": rate, "keeps": keeps, "ms": [count * scans * SCAN_MS for count in DRIVES]}
+
+
+def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:
+    character = 1000 * BITS / rate
+    own = _silence(drive)
+    silence = 0.0 if own is None else max(3.5 * character, own)
+    wire = poll.characters(ascii_mode=own is None) * character + TURN_ROUND_MS
+    if keeps:
+        return ceil((wire + silence) / SCAN_MS)
+    return ceil(wire / SCAN_MS) + int((silence + 1) // SCAN_MS) + 1

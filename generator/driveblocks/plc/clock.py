@@ -1,0 +1,44 @@
+"""Time for a scan loop: of the machine, or as fast as it can be reckoned."""
+
+import time
+from typing import Protocol
+
+
+class Clock(Protocol):
+    """Microseconds since some beginning."""
+
+    def now_us(self) -> int:
+        """The time."""
+
+    def sleep_until(self, us: int) -> None:
+        """Come back at that time."""
+
+
+class RealClock:
+    """The machine's own."""
+
+    def now_us(self) -> int:
+        """Since the machine was started, or so."""
+        return time.monotonic_ns() // 1000
+
+    def sleep_until(self, us: int) -> None:
+        """Come back at that time, or a little later."""
+        left = us - self.now_us()
+        if left > 0:
+            time.sleep(left / 1e6)
+
+
+class VirtualClock:
+    """Time that passes by sleeping alone."""
+
+    def __init__(self) -> None:
+        """Begin at 0."""
+        self._now = 0
+
+    def now_us(self) -> int:
+        """Since the beginning."""
+        return self._now
+
+    def sleep_until(self, us: int) -> None:
+        """It is that time."""
+        self._now = max(self._now, us)

@@ -1,0 +1,74 @@
+"""What may leave on a real port: reads, and the stops of the maps; all else only to drives that a person let run."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+
+from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import plan
+from driveblocks.plc.wire import opened
+from driveblocks.simulator.pattern import of_write
+
+READS = frozenset({1, 2, 3, 4})
+STOPS = frozenset({"stop", "coast_stop", "quick_stop", "jog_stop"})
+
+
+def stops(drive: Drive) -> Iterator[tuple[int, int]]:
+    """The register and word of every stop of a map; bits that a stop keeps are 0."""
+    for command in drive.operation.commands:
+        if command.does in STOPS:
+            yield command.register, of_write(command).value
+
+
+def stop_request(unit: int, drive: Drive) -> bytes:
+    """The stop of a drive as a request without checksum."""
+    command = next(each for each in drive.operation.commands if each.does == "stop")
+    place, word = command.register.to_bytes(2, "big"), of_write(command).value.to_bytes(2, "big")
+    if 6 in plan(drive).functions:
+        return bytes([unit, 6]) + place + word
+    return bytes([unit, 16]) + place + b"\0\1\2" + word
+
+
+def writes(body: bytes) -> tuple[int, int] | None:
+    """Register and word of a request that writes just one; None for any other."""
+    if len(body) == 6 and body[1] == 6:
+        return int.from_bytes(body[2:4], "big"), int.from_bytes(body[4:6], "big")
+    if len(body) == 9 and body[1] == 16 and body[4:7] == b"\0\1\2":
+        return int.from_bytes(body[2:4], "big"), int.from_bytes(body[7:9], "big")
+    return None
+
+
+class Guard:
+    """Judges each frame by its bytes, and counts what it drops."""
+
+    def __init__(
+        self, units: Mapping[int, Drive], free: frozenset[int] = frozenset(), dropped: Counter[str] | None = None
+    ) -> None:
+        """`units`: the drive at each unit address; `free`: those to which everything may go."""
+        self._stops = {unit: frozenset(stops(drive)) for unit, drive in units.items()}
+        self._free = free
+        self.dropped: Counter[str] = Counter() if dropped is None else dropped
+        """How many frames did not leave, by what they were."""
+
+    def passes(self, frame: bytes) -> bool:
+        """Whether a frame may leave; what is no whole, good request never does."""
+        what = self._judge(frame)
+        if what:
+            self.dropped[what] += 1
+        return not what
+
+    def _judge(self, frame: bytes) -> str:
+        """Why a frame must not leave; empty if it may."""
+        body = opened(frame, ascii_mode=True) or opened(frame, ascii_mode=False)
+        if body is None:
+            return "what is no request"
+        unit, function = body[0], body[1]
+        if unit == 0:
+            return "broadcast"
+        if (function in READS and len(body) == 6) or unit in self._free:
+            return ""
+        write = writes(body)
+        if write is not None and write in self._stops.get(unit, ()):
+            return ""
+        if write is None:
+            return f"function {function:02X}H to unit {unit}"
+        return f"write to unit {unit}, {write[0]:04X}H := {write[1]:04X}H"

@@ -1,0 +1,54 @@
+"""Lines that a person types, or a pipe brings; no key by itself, which would need another module on each platform."""
+
+import os
+from collections.abc import Callable
+
+from driveblocks.host.engine import Value
+from driveblocks.plc.script import Setting, Variables, setting
+
+
+class Keyboard:
+    """Lines of a file descriptor, read without the locks of sys.stdin, which a waiting thread would keep at the end."""
+
+    def __init__(self, descriptor: int) -> None:
+        """Read from there."""
+        self._descriptor = descriptor
+        self._rest = b""
+
+    def line(self) -> str | None:
+        """The next line; None at the end."""
+        while b"\n" not in self._rest:
+            try:
+                some = os.read(self._descriptor, 4096)
+            except OSError:  # the terminal is gone
+                return None
+            if not some:
+                line, self._rest = self._rest, b""
+                return line.decode("utf-8", "replace") if line else None
+            self._rest += some
+        line, _, self._rest = self._rest.partition(b"\n")
+        return line.decode("utf-8", "replace").rstrip("\r")
+
+    def serve(self, taken: Callable[[str], None], ended: Callable[[], None]) -> None:
+        """Hand over every line, then say that there are no more."""
+        while (line := self.line()) is not None:
+            taken(line)
+        ended()
+
+
+def typed(line: str, inputs: tuple[str, ...], program: Variables) -> Setting:
+    """What a line sets: `NAME := VALUE`, or the number or name of a BOOL, which changes. Raises ValueError."""
+    word = line.strip()
+    if ":=" in word:
+        return setting(word, program)
+    if word.isdigit():
+        if not 1 <= int(word) <= len(inputs):
+            raise ValueError(f"there is no input {word}; write NAME := VALUE")
+        word = inputs[int(word) - 1]
+    try:
+        old: Value = program[word]
+    except KeyError:
+        raise ValueError(f"the program has no variable {word}") from None
+    if not isinstance(old, bool):
+        raise ValueError(f"{word} is no BOOL; write {word} := VALUE")
+    return Setting(word, not old)

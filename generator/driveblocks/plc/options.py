@@ -1,0 +1,79 @@
+"""The words of the command line: what they are, and what does not go together."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.plc import script
+
+LOOPBACK = ("", "127.0.0.1", "localhost")
+
+
+class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
+    """What is wrong with the words of the command line, or with what they name."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """The words of the command line."""
+
+    program: Path | None
+    name: str | None = None
+    maps: tuple[str, ...] = ()
+    simulate: tuple[str, ...] = ()
+    tcp: str | None = None
+    port: str | None = None
+    form: str | None = None
+    scan: str = "10ms"
+    length: str | None = None
+    show: tuple[str, ...] = ()
+    script: Path | None = None
+    trace: Path | None = None
+    picture: Path | None = None
+    allow_run: bool = False
+    demo: bool = False
+    fast: bool = False
+
+    @property
+    def loopback(self) -> bool:
+        """Whether --tcp names this computer."""
+        return self.tcp is not None and self.tcp.rpartition(":")[0] in LOOPBACK
+
+    @property
+    def real(self) -> bool:
+        """Whether real drives may hear it."""
+        return self.port is not None or (self.tcp is not None and not self.loopback)
+
+
+def wrong(options: Options) -> Iterator[str]:
+    """What does not go together."""
+    if (options.program is None) != options.demo:
+        yield "--demo brings its own program; leave yours out" if options.demo else "name a program, or write --demo"
+    ways = [
+        word
+        for word, given in (("--simulate", options.simulate), ("--tcp", options.tcp), ("--port", options.port))
+        if given
+    ]
+    if options.demo:
+        ways.insert(0, "--demo")
+    if len(ways) > 1:
+        yield f"{' and '.join(ways)} exclude each other: drives are simulated, or real"
+    if options.tcp is not None and not options.tcp.rpartition(":")[2].isdigit():
+        yield f"--tcp {options.tcp} is no address; write HOST:PORT"
+    if options.allow_run and not options.real:
+        yield "--allow-run is for a real port; simulated drives may always run"
+    if options.fast and (options.tcp or options.port):
+        yield "--fast is for simulated drives; a port has its own time"
+    if options.fast and not options.demo and options.length is None:
+        yield "--fast needs --for: it would never end"
+
+
+def time(word: str, text: str, least: int, most: int) -> int:
+    """A time of the command line in microseconds. Raises Refused."""
+    try:
+        us = script.duration_us(text)
+    except ValueError as error:
+        raise Refused(f"{word}: {error}") from None
+    if not least <= us <= most:
+        raise Refused(f"{word} {text} is out of range; write {least / 1e6:g}s to {most / 1e6:g}s")
+    return us

@@ -1,0 +1,170 @@
+"""Serial ports: a simulated line in this process, a TCP socket that carries serial bytes, a serial port."""
+
+import errno
+import os
+import socket
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from driveblocks.plc.clock import Clock
+from driveblocks.plc.wire import Wire
+
+AGAIN_US = 1_000_000
+"""Between two attempts to open a port that has gone."""
+CONNECT_S = 0.2
+LATE_MS = 20
+"""How long a network or an adapter may keep a request and a reply back, both together."""
+MOST = 4096
+EXCLUSIVE = None if os.name == "nt" else True
+"""A second program must not speak on the line; Windows never lets it."""
+
+
+class Port(Protocol):
+    """Bytes to and fro, without ever waiting."""
+
+    late_ms: int
+    error: str
+    """Why it does not work; empty while it does."""
+
+    def send(self, data: bytes) -> None:
+        """Bytes onto the line; lost while the port does not work."""
+
+    def receive(self) -> bytes:
+        """Bytes that have come."""
+
+    def close(self) -> None:
+        """Give it back."""
+
+
+class WirePort:
+    """A simulated line in this process."""
+
+    late_ms = 0
+    error = ""
+
+    def __init__(self, wire: Wire, clock: Clock) -> None:
+        """Drives on a wire, and their time."""
+        self._wire = wire
+        self._clock = clock
+
+    def send(self, data: bytes) -> None:
+        """Bytes onto the line."""
+        self._wire.send(data, self._clock.now_us())
+
+    def receive(self) -> bytes:
+        """Bytes that have come."""
+        return self._wire.receive(self._clock.now_us())
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+
+class DevicePort:
+    """A port of the machine; one that goes is looked for again, once a second.
+
+    `device` has `read() -> bytes`, `write(bytes)` and `close()`, and `opened` makes it; all of them raise OSError.
+    """
+
+    late_ms = LATE_MS
+
+    def __init__(self, opened: Callable[[], Any], clock: Clock) -> None:
+        """Open it. Raises OSError."""
+        self._opened = opened
+        self._clock = clock
+        self._device: Any = opened()
+        self._tried_us = clock.now_us()
+        self.error = ""
+
+    def send(self, data: bytes) -> None:
+        """Bytes onto the line."""
+        if self._device is not None:
+            try:
+                self._device.write(data)
+            except OSError as error:
+                self._gone(error)
+
+    def receive(self) -> bytes:
+        """Bytes that have come."""
+        if self._device is None:
+            self._look_again()
+        try:
+            return bytes(self._device.read()) if self._device is not None else b""
+        except OSError as error:
+            self._gone(error)
+            return b""
+
+    def close(self) -> None:
+        """Give it back."""
+        if self._device is not None:
+            self._device.close()
+            self._device = None
+
+    def _gone(self, error: OSError) -> None:
+        self.error = error.strerror or str(error)
+        self._tried_us = self._clock.now_us()
+        self.close()
+
+    def _look_again(self) -> None:
+        now = self._clock.now_us()
+        if now - self._tried_us < AGAIN_US:
+            return
+        self._tried_us = now
+        try:
+            self._device = self._opened()
+            self.error = ""
+        except OSError as error:
+            self.error = error.strerror or str(error)
+
+
+class _Socket:
+    """A TCP connection as a device."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._socket = socket.create_connection((host, port), timeout=CONNECT_S)
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket.setblocking(False)
+
+    def write(self, data: bytes) -> None:
+        self._socket.sendall(data)
+
+    def read(self) -> bytes:
+        try:
+            data = self._socket.recv(MOST)
+        except (BlockingIOError, InterruptedError):
+            return b""
+        if not data:
+            raise OSError(errno.ECONNRESET, "the other side has closed the connection")
+        return data
+
+    def close(self) -> None:
+        self._socket.close()
+
+
+class _Serial:
+    """A serial port as a device."""
+
+    def __init__(self, name: str, bit_rate: int, form: str) -> None:
+        import serial
+
+        self._port = serial.Serial(
+            name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
+        )
+
+    def write(self, data: bytes) -> None:
+        self._port.write(data)
+
+    def read(self) -> bytes:
+        return bytes(self._port.read(MOST))
+
+    def close(self) -> None:
+        self._port.close()
+
+
+def tcp(host: str, port: int, clock: Clock) -> DevicePort:
+    """Serial bytes over TCP. Raises OSError."""
+    return DevicePort(lambda: _Socket(host, port), clock)
+
+
+def serial_port(name: str, bit_rate: int, form: str, clock: Clock) -> DevicePort:
+    """A serial port by pyserial; a form is data bits, parity and stop bits. Raises ImportError, OSError, ValueError."""
+    return DevicePort(lambda: _Serial(name, bit_rate, form), clock)

@@ -1,0 +1,136 @@
+"""What a person, or a script in their place, sets in a running program: `at 2.5s: Start1 := TRUE`."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from driveblocks.host.engine import Message, Value
+
+_UNITS = {"ms": 1_000, "s": 1_000_000, "min": 60_000_000}
+_TIME = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)")
+_LINE = re.compile(r"at\s+(?P<time>[^:]*?)\s*:(?P<rest>.*)", re.IGNORECASE)
+_SETTING = re.compile(r"\s*(?P<name>[A-Za-z_][\w.\[\],]*)\s*:=\s*(?P<value>.*?)\s*")
+_COMMENT = re.compile(r"(?<!\S)#")
+"""A number sign that begins a word; in 16#FF it does not."""
+_WHOLE = re.compile(r"[-+]?\d+|(?P<base>16|8|2)#(?P<digits>[0-9A-Fa-f_]+)")
+
+
+class Variables(Protocol):
+    """A running program."""
+
+    def __getitem__(self, path: str) -> Value:
+        """Read a variable. KeyError."""
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write one. KeyError, ValueError."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A variable, its new value, and when."""
+
+    name: str
+    value: Value
+    at_us: int = 0
+
+
+class ScriptError(Exception):
+    """What is wrong with a script, each with its place."""
+
+    def __init__(self, messages: Sequence[Message]) -> None:
+        """Keep the messages; the text is one per line."""
+        self.messages = tuple(messages)
+        super().__init__("\n".join(map(str, messages)))
+
+
+def duration_us(text: str) -> int:
+    """`60s`, `10ms`, `2.5 s`, `1min` in microseconds. Raises ValueError, which says what would be right."""
+    found = _TIME.fullmatch(text.strip())
+    if found is None:
+        raise ValueError(f"`{text}` is no time; write 10ms, 2.5s or 1min")
+    return round(float(found[1]) * _UNITS[found[2]])
+
+
+def read(path: str, text: str, program: Variables) -> list[Setting]:
+    """A script in the order of its times; `#` begins a comment. Raises ScriptError with everything that is wrong."""
+    settings: list[Setting] = []
+    wrong: list[Message] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        bare = _COMMENT.split(line)[0]
+        if not bare.strip():
+            continue
+        try:
+            settings += _line(bare, program)
+        except _Wrong as error:
+            wrong.append(Message(path, number, error.column, str(error)))
+    if wrong:
+        raise ScriptError(wrong)
+    return sorted(settings, key=lambda each: each.at_us)
+
+
+class _Wrong(Exception):  # noqa: N818  (a mistake in a script is no error of the program)
+    def __init__(self, column: int, text: str) -> None:
+        self.column = column
+        super().__init__(text)
+
+
+def _line(line: str, program: Variables) -> list[Setting]:
+    start = len(line) - len(line.lstrip())
+    found = _LINE.fullmatch(line.strip())
+    if found is None:
+        raise _Wrong(start + 1, "this is no step; write: at 2.5s: NAME := VALUE")
+    try:
+        at_us = duration_us(found["time"])
+    except ValueError as error:
+        raise _Wrong(start + found.start("time") + 1, str(error)) from None
+    made = []
+    column = start + found.start("rest")
+    for part in found["rest"].split(";"):
+        if part.strip():
+            made.append(_placed(part, column, program, at_us))
+        column += len(part) + 1
+    return made
+
+
+def _placed(part: str, column: int, program: Variables, at_us: int) -> Setting:
+    try:
+        return setting(part, program, at_us)
+    except ValueError as error:
+        raise _Wrong(column + len(part) - len(part.lstrip()) + 1, str(error)) from None
+
+
+def setting(text: str, program: Variables, at_us: int = 0) -> Setting:
+    """`NAME := VALUE` of a variable of the program. Raises ValueError, which says what would be right."""
+    found = _SETTING.fullmatch(text)
+    if found is None:
+        raise ValueError(f"`{text.strip()}` sets nothing; write NAME := VALUE")
+    name = found["name"]
+    try:
+        old = program[name]
+    except KeyError:
+        raise ValueError(f"the program has no variable {name}") from None
+    value = _value(found["value"], old, name)
+    try:
+        program[name] = value
+        program[name] = old
+    except ValueError as error:
+        raise ValueError(str(error)) from None
+    return Setting(name, value, at_us)
+
+
+def _value(text: str, old: Value, name: str) -> Value:
+    word = text.upper()
+    if isinstance(old, bool):
+        if word not in ("TRUE", "FALSE", "1", "0"):
+            raise ValueError(f"{name} is a BOOL; write TRUE or FALSE, not `{text}`")
+        return word in ("TRUE", "1")
+    whole = _WHOLE.fullmatch(word)
+    if isinstance(old, int) and whole:
+        return int(whole["digits"].replace("_", ""), int(whole["base"])) if whole["base"] else int(word)
+    if isinstance(old, float) and re.fullmatch(r"[-+]?\d+(\.\d+)?(E[-+]?\d+)?", word):
+        return float(word)
+    if isinstance(old, int | float):
+        kind = "a whole number" if isinstance(old, int) else "a number"
+        raise ValueError(f"{name} takes {kind}, not `{text}`")
+    raise ValueError(f"{name} is no BOOL and no number; set one of its members")

@@ -1,0 +1,304 @@
+"""From the words of the command line to a run: program, port, drives, what is recorded and shown."""
+
+import difflib
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+from driveblocks import console
+from driveblocks.host.engine import BuildError, ScanError
+from driveblocks.maps import catalog, collection
+from driveblocks.maps.collection import Source as Map
+from driveblocks.maps.problem import MapError
+from driveblocks.plc import demo, live, permission, port, script, source, wiring
+from driveblocks.plc.clock import Clock, RealClock, VirtualClock
+from driveblocks.plc.controller import Controller
+from driveblocks.plc.ending import Ending
+from driveblocks.plc.keyboard import Keyboard
+from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
+from driveblocks.plc.port import Port, WirePort
+from driveblocks.plc.record import Timing, Trace
+from driveblocks.plc.screen import Lines, LiveTable, Screen
+from driveblocks.plc.session import Result, Session
+from driveblocks.plc.simulated import Simulation
+from driveblocks.plc.wanted import chosen, words
+from driveblocks.plc.wire import Wire
+from driveblocks.simulator.drive import SimulatedDrive
+
+LONGEST_SCAN_US = 60_000_000
+RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
+"""Outputs of each drive block that are recorded where nobody names others."""
+
+
+class Setup:
+    """A run that is ready."""
+
+    def __init__(self, options: Options, keyboard: Keyboard) -> None:
+        """Prepare everything but the port, and ask what has to be asked. Raises Refused."""
+        if mistakes := list(wrong(options)):
+            raise Refused("\n".join(mistakes))
+        self._options = options
+        self._keyboard = keyboard
+        self._scan_us = time("--scan", options.scan, 1_000, LONGEST_SCAN_US)
+        self._for_us = None if options.length is None else time("--for", options.length, 1, 10**15)
+        self._stack = ExitStack()
+        self._path = demo.path() if options.demo else options.program or Path()
+        self._maps = _maps(options)
+        self._loaded = self._load()
+        self._probe = self._probed()
+        self._wanted = [] if options.tcp or options.port else chosen(options.simulate, self._probe, self._maps)
+        self._clock: Clock = VirtualClock() if options.fast else RealClock()
+        self._demo: demo.Demo | None = None
+        self._session = self._made()
+        self._records()
+        self._free = self._allowed()
+
+    # ------------------------------------------------------------ program
+
+    def _load(self) -> source.Loaded:
+        name = console.name(catalog.shown(self._path))
+        try:
+            text = self._path.read_text(encoding="utf-8-sig")
+        except (OSError, UnicodeDecodeError) as error:
+            why = (error.strerror or str(error)) if isinstance(error, OSError) else "it is not UTF-8; save it as such"
+            raise Refused(f"{name}:1:1: cannot be read: {why}") from None
+        try:
+            return source.load(name, text, self._maps, self._options.name)
+        except BuildError as error:
+            raise Refused(str(error)) from None
+
+    def _controller(self) -> Controller:
+        loaded = self._loaded
+        try:
+            wired = wiring.find(loaded.program, set(loaded.drives))
+        except BuildError as error:
+            raise Refused(str(error)) from None
+        return Controller(loaded.library, loaded.program.name, wired, loaded.drives, self._scan_us)
+
+    def _probed(self) -> Controller:
+        """The program behind one scan without a port: what it says of its line and drives. Raises Refused."""
+        probe = self._controller()
+        probe.connect(_Nowhere(), None)
+        try:
+            probe.scan(self._scan_us)
+        except ScanError as error:
+            raise Refused(str(error)) from None
+        return probe
+
+    def _line(self, pin: str) -> int:
+        return self._probe.number(f"{self._probe.wiring.line}.{pin}")
+
+    # ------------------------------------------------------------ port
+
+    def _port(self) -> Port:
+        """Open the port. Raises Refused."""
+        options = self._options
+        try:
+            if options.port is not None:
+                return port.serial_port(options.port, self._line("BitRate"), self._form(), self._clock)
+            if options.tcp is not None:
+                host, _, number = options.tcp.rpartition(":")
+                return port.tcp(host or LOOPBACK[1], int(number), self._clock)
+            return self._simulated()
+        except ImportError as error:
+            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
+        except (OSError, ValueError, OverflowError) as error:
+            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {error}") from None
+
+    def _form(self) -> str:
+        """Data bits, parity and stop bits. Raises Refused."""
+        if self._options.form is not None:
+            form = self._options.form.upper()
+            if len(form) != 3 or form[0] not in "78" or form[1] not in "NEO" or form[2] not in "12":
+                raise Refused(f"--format {self._options.form} is none; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+            return form
+        bits = self._line("CharacterBits")
+        found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
+        if found is None:
+            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves the format open; write --format")
+        return found
+
+    def _simulated(self) -> Port:
+        wanted = self._wanted
+        rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
+        if not (300 <= rate <= 1_000_000 and 8 <= bits <= 12):
+            raise Refused(f"{self._probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
+        if isinstance(self._clock, VirtualClock) or self._options.demo:
+            drives = [one.made(ascii_mode=ascii_mode) for one in wanted]
+            if self._options.demo:
+                self._play(drives)
+            return WirePort(Wire(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock))
+        process = Simulation(wanted, rate, bits, ascii_mode=ascii_mode)
+        self._stack.callback(process.close)
+        return port.tcp(LOOPBACK[1], process.port, self._clock)
+
+    def _play(self, drives: list[SimulatedDrive]) -> None:
+        for drive in drives:
+            drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
+        self._demo = demo.Demo(self._session, drives[-1])
+        self._session.step = self._demo.step
+
+    # ------------------------------------------------------------ the session
+
+    @property
+    def label(self) -> str:
+        """Whose port it is."""
+        return "REAL PORT" if self._options.real else "SIMULATED"
+
+    def _made(self) -> Session:
+        controller = self._controller()
+        session = Session(controller, self._clock, Ending(), self._scan_us)
+        session.recorded = self._recorded(controller)
+        session.script, session.shown = self._script(controller), self._options.show
+        return session
+
+    def _allowed(self) -> frozenset[tuple[int, str]] | None:
+        """Unit and path of the drives that may run on a real port; None: the port is not real."""
+        if not self._options.real:
+            return None
+        return permission.ask(self._probe, self._keyboard) if self._options.allow_run else frozenset()
+
+    def _recorded(self, controller: Controller) -> tuple[str, ...]:
+        """Names of what is recorded. Raises Refused for names that are none."""
+        for name in self._options.show:
+            try:
+                value = controller.instance[name]
+            except KeyError:
+                near = difflib.get_close_matches(name.upper(), controller.instance.state(), 3)
+                guess = f"; did you mean {', '.join(near)}?" if near else ""
+                raise Refused(f"--show: the program has no variable {name}{guess}") from None
+            if isinstance(value, list | dict):
+                raise Refused(f"--show: {name} has parts; name one of them")
+        drives = [f"{block.path}.{pin}" for block in controller.wiring.drives for pin in RECORDED]
+        return self._options.show or (*controller.wiring.inputs, *drives)
+
+    def _records(self) -> None:
+        """Open what is to be recorded. Raises Refused."""
+        where, names = f"{self.label}, {console.name(self._path.name)}", self._session.recorded
+        try:
+            if self._options.trace is not None:
+                file = self._stack.enter_context(self._options.trace.open("w", encoding="utf-8", newline=""))
+                self._session.records.append(Trace(file, names, where))
+            if self._options.picture is not None:
+                self._options.picture.touch()
+                self._session.records.append(Timing(names, where))
+        except OSError as error:
+            raise Refused(f"{console.name(error.filename)}: {error.strerror}") from None
+
+    def _script(self, controller: Controller) -> list[script.Setting]:
+        path = self._options.script
+        if path is None:
+            return []
+        try:
+            return script.read(console.name(path), path.read_text(encoding="utf-8"), controller.instance)
+        except (OSError, UnicodeDecodeError) as error:
+            raise Refused(f"{console.name(path)}:1:1: cannot be read: {error}") from None
+        except script.ScriptError as error:
+            raise Refused(str(error)) from None
+
+    # ------------------------------------------------------------ the run
+
+    def run(self) -> int:
+        """Run to the end; the exit status. Raises Refused if the port cannot be opened."""
+        with self._stack, live.listening(self._session.ending):
+            opened = self._port()
+            self._stack.callback(opened.close)
+            self._session.connect(opened, self._free)
+            for note in self._session.controller.wiring.notes:
+                console.write(str(note))
+            screen = self._screen()
+            return self._report(self._fast(screen) if self._options.fast else self._live(screen))
+
+    def _screen(self) -> Screen:
+        terminal, title = console.terminal(), console.name(self._path.name)
+        if terminal.is_terminal and not terminal.is_dumb_terminal and not self._options.fast:
+            return LiveTable(self._head(), title, real=self._options.real, keys=not self._options.demo)
+        screen = Lines(self.label, brief=self._options.demo)
+        screen.say(f"{self._head().removeprefix(self.label)} {title}".strip())
+        return screen
+
+    def _head(self) -> str:
+        place = self._options.port or (self._options.tcp if self._options.real else "")
+        return f"{self.label} {place}".strip()
+
+    def _live(self, screen: Screen) -> Result:
+        person = sys.stdin is not None and sys.stdin.isatty()
+        keyboard = None if self._options.demo else self._keyboard
+        return live.run(self._session, screen, keyboard, self._for_us, end_of_input=self._options.real or person)
+
+    def _fast(self, screen: Screen) -> Result:
+        session = self._session
+        step = session.step
+
+        def also(at_us: int) -> None:
+            step(at_us)
+            live.tell(session, screen)
+            if session.view is not None:
+                screen.show(session.view)
+
+        session.step = also
+        result = session.run(self._for_us)
+        live.tell(session, screen)
+        return result
+
+    def _report(self, result: Result) -> int:
+        """Say how it went; the exit status."""
+        wrong = [self._demo.wrong] if self._demo and self._demo.wrong else []
+        for record in self._session.records:
+            if isinstance(record, Timing) and self._options.picture is not None:
+                self._options.picture.write_text(record.svg(), encoding="utf-8")
+        lines = [f"{self.label}  {line}" for line in (*_stands(result), *wrong)]
+        lines += [
+            f"not sent {number} times: {what}" for what, number in sorted(self._session.controller.dropped.items())
+        ]
+        if not self._options.fast:
+            lines.append(str(self._session.pace))
+        sys.stdout.write("".join(f"{line}\n" for line in lines))
+        return 1 if result.crashed or result.unconfirmed or wrong else 0
+
+
+def _stands(result: Result) -> Iterator[str]:
+    if result.stopped:
+        yield f"stopped, and standstill read: {', '.join(result.stopped)}"
+    for name, why in result.unconfirmed.items():
+        yield f"NOT CONFIRMED: {name}: {why}. Go and look"
+
+
+def _maps(options: Options) -> list[Map]:
+    """The shipped maps, and those that are named. Raises Refused."""
+    named = [*options.maps, *(name for name, _ in words(options.simulate))]
+    try:
+        paths = [*catalog.shipped(), *(catalog.resolve(name) for name in named)]
+        known = {path.resolve(): path for path in reversed(paths)}
+        return collection.read(sorted(known.values(), key=lambda path: path.stem))
+    except (catalog.UnknownDrive, MapError) as error:
+        raise Refused(str(error)) from None
+
+
+class _Nowhere:
+    """A port at which nobody is."""
+
+    late_ms = 0
+    error = ""
+
+    def send(self, data: bytes) -> None:
+        pass
+
+    def receive(self) -> bytes:
+        return b""
+
+    def close(self) -> None:
+        pass
+
+
+class _Since:
+    """A clock whose beginning is now."""
+
+    def __init__(self, clock: Clock) -> None:
+        self._clock, self._begun = clock, clock.now_us()
+        self.sleep_until: Callable[[int], None] = clock.sleep_until
+
+    def now_us(self) -> int:
+        return self._clock.now_us() - self._begun

@@ -1,0 +1,78 @@
+"""A user's program, compiled together with those blocks of the library that it names."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+
+from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
+from driveblocks.host.engine import BuildError, Message, Source
+from driveblocks.maps.collection import Source as Map
+from driveblocks.maps.model import Drive
+from driveblocks.render import library
+from driveblocks.render.text import Language, languages
+from driveblocks.st.parser import ParseError, parse
+from driveblocks.st.tree import Program, Unit
+
+_WORD = re.compile(r"[A-Za-z]\w*")
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A program that is ready to run."""
+
+    library: EmbeddedLibrary
+    program: Program
+    drives: dict[str, Drive]
+    """By the prefix of their blocks, upper case."""
+
+
+def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> Loaded:
+    """Compile a program; `name` says which, where there are several. Raises BuildError."""
+    used = [each for each in maps if re.search(rf"\b{each.drive.prefix}_", text, re.IGNORECASE)]
+    built = EmbeddedEngine("fail").build([*_needed(path, text, used), Source(path, text)])
+    unit = built.compiler.checked.units[-1]
+    return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
+
+
+def _needed(path: str, text: str, maps: Sequence[Map]) -> list[Source]:
+    """The files of the library that a text needs, in their order, but for what it declares itself."""
+    try:
+        own = {getattr(each, "name", "").upper() for each in parse(text, path).elements}
+    except ParseError as error:
+        raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
+    files = [*_shared()]
+    for each in maps:
+        files.extend(library.drive(each.path.stem, each.drive, _english()))
+    known = {file.name.upper(): file for file in files if file.name.upper() not in own}
+    wanted: set[str] = set()
+    waiting = [text]
+    while waiting:
+        words = {word.upper() for word in _WORD.findall(waiting.pop())}
+        new = (words & known.keys()) - wanted
+        wanted |= new
+        waiting += [known[word].text for word in sorted(new)]
+    return [Source(f"{file.folder}/{file.name}.st", file.text) for file in files if file.name.upper() in wanted]
+
+
+def _english() -> list[Language]:
+    return languages(["en"], "utf-8")
+
+
+@cache
+def _shared() -> tuple[library.File, ...]:
+    """What all drives share, rendered once."""
+    return tuple(library.generic(_english()))
+
+
+def _chosen(unit: Unit, name: str | None) -> Program:
+    programs = [each for each in unit.elements if isinstance(each, Program)]
+    found = [each for each in programs if name is None or each.name.upper() == name.upper()]
+    if len(found) == 1:
+        return found[0]
+    names = ", ".join(each.name for each in programs)
+    if not programs:
+        raise BuildError([Message(unit.path, 1, 1, "there is no PROGRAM in here; write PROGRAM ... END_PROGRAM")])
+    wrong = f"there is no PROGRAM {name}" if name else f"there are {len(programs)} PROGRAMs"
+    places = [Message(unit.path, *unit.place(each.at), f"{wrong}; choose by --program: {names}") for each in programs]
+    raise BuildError(places[:1] if name else places[1:2])

@@ -1,0 +1,91 @@
+"""What is to be seen of a running program: its drives, and the variables that a person names."""
+
+from dataclasses import dataclass
+
+from driveblocks.host.embedded.certainty import known
+from driveblocks.host.engine import Value
+from driveblocks.plc.controller import Controller
+from driveblocks.render.reasons import REASONS
+
+_STARTING = {reason.code for reason in REASONS if reason.name in ("STARTING", "RAMPING", "RUNS")}
+_WHY = {reason.code: reason.en for reason in REASONS}
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A drive at a moment."""
+
+    name: str
+    unit: int
+    state: str
+    asked_hz: float
+    hertz: float | None
+    why: str
+
+
+@dataclass(frozen=True)
+class View:
+    """All that is to be seen at a moment, in microseconds since the start."""
+
+    at_us: int
+    drives: tuple[Seen, ...]
+    shown: dict[str, Value]
+    inputs: dict[str, Value]
+    dropped: int = 0
+    port_error: str = ""
+
+
+def look(controller: Controller, names: tuple[str, ...], at_us: int, port_error: str = "") -> View:
+    """Look at a program."""
+    drives = tuple(_seen(controller, block.path) for block in controller.wiring.drives)
+    shown = {name: controller.instance[name] for name in names}
+    inputs = {name: controller.instance[name] for name in controller.wiring.inputs}
+    return View(at_us, drives, shown, inputs, sum(controller.dropped.values()), port_error)
+
+
+def _seen(controller: Controller, path: str) -> Seen:
+    pin = {name: controller.instance[f"{path}.{name}"] for name in _PINS}
+    hertz = known(pin["OutputFrequencyHz"], float)
+    asked = known(pin["SpeedReferenceHz"], float)
+    reason = known(pin["Reason"], int)
+    return Seen(
+        name=path,
+        unit=controller.number(f"{path}.Unit"),
+        state=_state(pin),
+        asked_hz=asked,
+        hertz=hertz if pin["OutputFrequencyValid"] else None,
+        why=_WHY.get(reason, f"reason {reason}"),
+    )
+
+
+_PINS = (
+    "CommOk", "Running", "Reverse", "AtSpeed", "Fault", "FaultCode", "StopConfirmed", "StopOverdue",
+    "OutputFrequencyHz", "OutputFrequencyValid", "SpeedReferenceHz", "Reason",
+)  # fmt: skip
+
+
+def _state(pin: dict[str, Value]) -> str:
+    """What a drive does, in a word or two."""
+    if not pin["CommOk"]:
+        return "STOP OVERDUE" if pin["StopOverdue"] else "no reply"
+    if pin["Fault"]:
+        return f"fault {known(pin['FaultCode'], int)}"
+    if pin["StopOverdue"]:
+        return "STOP OVERDUE"
+    if pin["Running"]:
+        way = "reverse" if pin["Reverse"] else "forward"
+        return f"{way}, at speed" if pin["AtSpeed"] else f"{way}"
+    if pin["StopConfirmed"]:
+        return "stands"
+    return "starting" if pin["Reason"] in _STARTING else "stopping"
+
+
+def spelled(value: Value) -> str:
+    """A value as ST writes it, more or less."""
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, float):
+        return f"{value:.2f}"
+    if isinstance(value, bytes):
+        return value.decode("latin-1")
+    return f"{value:d}" if isinstance(value, int) else "..."

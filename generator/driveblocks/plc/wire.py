@@ -1,0 +1,99 @@
+"""A simulated RS-485 line with its drives, in a time that is handed in: of a test, a demonstration or the clock."""
+
+from collections import deque
+from collections.abc import Sequence
+
+from driveblocks.modbus.checksum import crc16, lrc
+from driveblocks.modbus.frame import seal
+from driveblocks.simulator.drive import SimulatedDrive
+
+_LONGEST = 520
+"""Characters that no request has."""
+_LENGTHS = {3: 8, 4: 8, 6: 8, 8: 8}
+"""Bytes of an RTU request by its function; of 10H its byte count says, of others their checksum."""
+_PATIENCE_US = 50_000
+"""Behind this silence a request that has begun is given up."""
+
+
+class Wire:
+    """Bytes in, bytes out; each character takes its time."""
+
+    def __init__(
+        self, drives: Sequence[SimulatedDrive], bit_rate: int, character_bits: int, *, ascii_mode: bool = False
+    ) -> None:
+        """Begin at time 0."""
+        self.drives = drives
+        self._character_us = character_bits * 1_000_000 / bit_rate
+        self._ascii = ascii_mode
+        self._asked = b""
+        self._asked_us = 0.0
+        """When the last character asked ends."""
+        self._said: deque[tuple[float, bytes]] = deque()
+        """Replies with when each begins."""
+        self._stepped_ms = 0
+
+    def send(self, data: bytes, now_us: int) -> None:
+        """Characters of the master go onto the wire; one that meets a reply spoils it."""
+        if self._asked and now_us - self._asked_us > _PATIENCE_US:
+            self._asked = b""
+        if self._said and self._said[-1][0] + len(self._said[-1][1]) * self._character_us > now_us:
+            self._said.clear()
+            return
+        self._asked_us = max(now_us, self._asked_us) + len(data) * self._character_us
+        self._asked = (self._asked + data)[-_LONGEST:]
+        body = opened(self._asked, ascii_mode=self._ascii)
+        if body is not None:
+            self._asked = b""
+            self._answer(body)
+
+    def _answer(self, body: bytes) -> None:
+        self._pass(self._asked_us)
+        for drive in self.drives:
+            reply = drive.reply(body)
+            if reply is not None:
+                frame = seal("ascii" if self._ascii else "rtu", reply)
+                self._said.append((self._asked_us + drive.turn_us, frame))
+
+    def receive(self, now_us: int) -> bytes:
+        """Characters of the drives that have ended by now."""
+        self._pass(now_us)
+        heard = b""
+        while self._said:
+            begin, frame = self._said.popleft()
+            ended = max(0, min(len(frame), int((now_us - begin) / self._character_us)))
+            heard += frame[:ended]
+            if ended < len(frame):
+                self._said.appendleft((begin + ended * self._character_us, frame[ended:]))
+                break
+        return heard
+
+    def _pass(self, now_us: float) -> None:
+        """Time of the drives, in whole milliseconds."""
+        passed = int(now_us // 1000) - self._stepped_ms
+        if passed > 0:
+            self._stepped_ms += passed
+            for drive in self.drives:
+                drive.step(passed)
+
+
+def opened(text: bytes, *, ascii_mode: bool) -> bytes | None:
+    """A whole request without its checksum; None where it is not whole, or wrong."""
+    if ascii_mode:
+        return _characters(text)
+    if len(text) < 4 or crc16(text[:-2]) != int.from_bytes(text[-2:], "little"):
+        return None
+    wanted = _LENGTHS.get(text[1], len(text))
+    if text[1] == 16:
+        wanted = 9 + text[6] if len(text) > 6 else 0
+    return text[:-2] if len(text) == wanted else None
+
+
+def _characters(text: bytes) -> bytes | None:
+    """The body of a MODBUS ASCII frame; None where it is not whole, or wrong."""
+    if not text.startswith(b":") or not text.endswith(b"\r\n"):
+        return None
+    digits = text[1:-2]
+    if len(digits) < 6 or len(digits) % 2 or digits.strip(b"0123456789ABCDEF"):
+        return None
+    body = bytes.fromhex(digits.decode("ascii"))
+    return body[:-1] if lrc(body[:-1]) == body[-1] else None

@@ -1,0 +1,237 @@
+"""Where a program reaches its serial port, its lines and its drives: found in the typed tree, not by names."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from driveblocks.host.embedded.certainty import present
+from driveblocks.host.engine import BuildError, Message
+from driveblocks.st import tree
+from driveblocks.st.tree import Binding, Block, Direction, Expression, FunctionBlock, Pou, Program, VarDecl, VarKind
+from driveblocks.st.types import Elementary
+from driveblocks.st.walk import statements
+
+LINES = {"MB_LINE8", "MB_LINE32"}
+BYTE_LINES = {"MB_BYTELINE8", "MB_BYTELINE32"}
+DRIVE = "_DRIVE"
+"""The end of the type of a drive block."""
+
+
+@dataclass(frozen=True)
+class DriveBlock:
+    """A drive block: the path of its instance, and the prefix of its family."""
+
+    path: str
+    prefix: str
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """Paths of what the scan loop reads and writes; those that it writes are written by nothing in the program."""
+
+    line: str
+    """Instance of the line."""
+    port: str | None
+    """The MB_Port, of a line without mailbox."""
+    rx_count: str
+    rx_chars: str
+    tx_chars: str
+    pins: dict[str, str | None]
+    """Inputs of the line that the port fills: a variable, or the pin itself where the call leaves it alone."""
+    restart: tuple[str, ...]
+    drives: tuple[DriveBlock, ...]
+    inputs: tuple[str, ...]
+    """What a person at the keyboard may set: the program's inputs, and what else feeds its drives and its line."""
+    notes: tuple[Message, ...]
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """A POU as one of its instances: `prefix` stands before its variables."""
+
+    pou: Pou
+    prefix: str = ""
+    bindings: dict[str, Expression | None] = field(default_factory=dict)
+    outer: "_Frame | None" = None
+
+
+@dataclass(frozen=True)
+class _Call:
+    """A call of a block in a frame."""
+
+    frame: _Frame
+    call: tree.Call
+    block: Block
+    path: str
+
+    @property
+    def bindings(self) -> dict[str, Binding]:
+        return {each.parameter.name.upper(): each for each in self.call.bindings}
+
+
+def find(program: Program, prefixes: set[str]) -> Wiring:
+    """The wiring of a program; `prefixes` are those of the families known. Raises BuildError."""
+    frame = _Frame(program)
+    calls = list(_calls(frame))
+    written = {path.upper() for path in _written(calls, frame)}
+    lines = {each.path.upper(): each for each in calls if each.block.name.upper() in LINES | BYTE_LINES}
+    if len(lines) != 1:
+        raise BuildError([_no_port(program, list(lines.values()))])
+    (line,) = lines.values()
+    blocks = [each for each in calls if each.block.name.upper().removesuffix(DRIVE) in prefixes]
+    blocks = [each for each in blocks if each.block.name.upper().endswith(DRIVE)]
+    drives = {each.path.upper(): DriveBlock(each.path, each.block.name[: -len(DRIVE)].upper()) for each in blocks}
+    wired = _port(line, written)
+    restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (line, *blocks))))
+    served = {each.upper() for each in (wired.rx_count, *restart, *filter(None, wired.pins.values()))}
+    inputs = [*_inputs(program), *(path for each in (*blocks, line) for path in _feeding(each))]
+    free = {path.upper(): path for path in inputs if path.upper() not in served | written}
+    return replace(wired, drives=tuple(drives.values()), restart=tuple(restart), inputs=tuple(free.values()))
+
+
+def _inputs(program: Program) -> list[str]:
+    """The program's inputs of one value each."""
+    found = [each for each in program.symbols.values() if each.kind is VarKind.INPUT]
+    return [each.name for each in found if isinstance(each.type, Elementary)]
+
+
+def _feeding(call: _Call) -> Iterator[str]:
+    """The variables that feed the inputs of a call."""
+    for name, binding in call.bindings.items():
+        source = _source(call, name)
+        if isinstance(source, str) and binding.parameter.direction is Direction.INPUT:
+            yield source
+
+
+def _port(line: _Call, written: set[str]) -> Wiring:
+    """The wiring as far as the line tells it."""
+    pins = {name: _pin(line, name, written) for name in ("ELAPSEDMS", "PORTLATEMS", "PORTERRORID")}
+    notes = []
+    if pins["ELAPSEDMS"] is None and not isinstance(_source(line, "ELAPSEDMS"), str):
+        notes.append(
+            _told(line, "ElapsedMs is no variable: a late scan is not seen; wire a UINT that is set from here")
+        )
+    if line.block.name.upper() in LINES:
+        port = _needed(line, "PORT", set())
+        pins |= {"PORTLATEMS": f"{port}.LateMs", "PORTERRORID": f"{port}.ErrorID"}
+        return Wiring(line.path, port, "", "", "", pins, (), (), (), tuple(notes))
+    return Wiring(
+        line=line.path,
+        port=None,
+        rx_count=_needed(line, "RXCOUNT", written),
+        rx_chars=_needed(line, "RXCHARS", set()),
+        tx_chars=_needed(line, "TXCHARS", set()),
+        pins=pins,
+        restart=(),
+        drives=(),
+        inputs=(),
+        notes=tuple(notes),
+    )
+
+
+def _no_port(program: Program, lines: list[_Call]) -> Message:
+    if not lines:
+        unit = present(program.unit)
+        wrong = (
+            f"{program.name} calls no line, so it has no port; call an MB_ByteLine8, as README.md of the blocks shows"
+        )
+        return Message(unit.path, *unit.place(program.name_at), wrong)
+    names = ", ".join(each.path for each in lines)
+    return _told(lines[1], f"{len(lines)} ports ({names}): one port can be served; keep one line in this program")
+
+
+def _told(call: _Call, text: str) -> Message:
+    unit = present(call.frame.pou.unit)
+    return Message(unit.path, *unit.place(call.call.at), text)
+
+
+# ------------------------------------------------------------ calls
+
+
+def _calls(frame: _Frame) -> Iterator[_Call]:
+    """Every call of a block, those inside blocks of the user's, too, in the order of the source."""
+    for statement in statements(frame.pou.body):
+        if not isinstance(statement, tree.CallStatement) or not isinstance(statement.call.target, Block):
+            continue
+        call, block = statement.call, statement.call.target
+        path = _path(call.callee, frame)
+        if path is None:
+            continue
+        yield _Call(frame, call, block, path)
+        inner = block.declaration
+        if isinstance(inner, FunctionBlock) and inner.unit is frame.pou.unit:
+            bound = {each.parameter.name.upper(): each.value for each in call.bindings}
+            yield from _calls(_Frame(inner, f"{path}.", bound, frame))
+
+
+def _path(expression: Expression | None, frame: _Frame) -> str | None:
+    """The path of a variable from the program's instance; None for what is none, or not always the same."""
+    if isinstance(expression, tree.Name):
+        return _variable(expression, frame)
+    if isinstance(expression, tree.Member):
+        base = _path(expression.base, frame)
+        return None if base is None else f"{base}.{expression.name}"
+    if isinstance(expression, tree.Index):
+        base = _path(expression.base, frame)
+        places = [each.value for each in expression.indices if isinstance(each, tree.Literal)]
+        whole = base is not None and len(places) == len(expression.indices)
+        return f"{base}[{','.join(map(str, places))}]" if whole else None
+    return None
+
+
+def _variable(name: tree.Name, frame: _Frame) -> str | None:
+    variable = name.symbol
+    if not isinstance(variable, VarDecl) or variable.kind is VarKind.EXTERNAL or variable.constant:
+        return None
+    if frame.outer and variable.kind in (VarKind.INPUT, VarKind.IN_OUT):
+        bound = frame.bindings.get(variable.name.upper())
+        if bound is not None or variable.kind is VarKind.IN_OUT:
+            return _path(bound, frame.outer)
+    return frame.prefix + variable.name
+
+
+def _written(calls: list[_Call], frame: _Frame) -> Iterator[str]:
+    """What the program itself writes, by assignments and by outputs of calls."""
+    frames = {id(each.frame): each.frame for each in calls} | {id(frame): frame}
+    for each in frames.values():
+        for statement in statements(each.pou.body):
+            if isinstance(statement, tree.Assign):
+                yield from filter(None, [_path(statement.target, each)])
+            elif isinstance(statement, tree.CallStatement):
+                outputs = [one.value for one in statement.call.arguments if one.output]
+                yield from filter(None, (_path(one, each) for one in outputs))
+
+
+# ------------------------------------------------------------ pins
+
+
+def _source(call: _Call, name: str) -> str | Expression | None:
+    """What a pin is fed by: the path of a variable, another expression, or None where the call leaves it alone."""
+    binding = call.bindings.get(name)
+    if binding is None or binding.value is None:
+        return None
+    return _path(binding.value, call.frame) or binding.value
+
+
+def _fed(call: _Call, name: str, written: set[str]) -> str | None:
+    """The variable that feeds a pin, if nothing in the program writes it."""
+    source = _source(call, name)
+    return source if isinstance(source, str) and source.upper() not in written else None
+
+
+def _pin(call: _Call, name: str, written: set[str]) -> str | None:
+    """Where to write for a pin: the variable that feeds it, or the pin itself where the call leaves it alone."""
+    if _source(call, name) is None:
+        return f"{call.path}.{name}" if name in call.block.parameters else None
+    return _fed(call, name, written)
+
+
+def _needed(call: _Call, name: str, written: set[str]) -> str:
+    """The variable behind a pin without which there is no port. Raises BuildError."""
+    formal = next(each.name for key, each in call.block.parameters.items() if key == name)
+    source = _source(call, name)
+    if not isinstance(source, str):
+        raise BuildError([_told(call, f"{formal} of {call.path} has no variable of the program; give it one")])
+    if source.upper() in written:
+        wrong = f"the program writes {source}, which the port has to fill; give {formal} a variable that nothing writes"
+        raise BuildError([_told(call, wrong)])
+    return source

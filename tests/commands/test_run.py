@@ -1,0 +1,197 @@
+"""`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
+
+import functools
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import typer
+from tests.plc.desk import EXAMPLE, ONE
+from typer.testing import CliRunner, Result
+
+from driveblocks.commands import run as command
+from driveblocks.maps import collection
+from driveblocks.plc import demo, source
+
+app = typer.Typer()
+app.command()(command.run)
+FAST = ("--fast", "--for", "8s", "--script", "run.txt")
+KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
+_read, _whole = collection.read, source.load
+HIDDEN = "import sys\nfor name in ('pty', 'termios', 'tty', 'fcntl'):\n    sys.modules[name] = None\n"
+
+
+def run(*words: str | Path) -> Result:
+    """Run the command."""
+    return CliRunner().invoke(app, [str(each) for each in words])
+
+
+@pytest.fixture(autouse=True)
+def _compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many tests run a program: compiling has tests of its own."""
+    monkeypatch.setattr(source, "load", compiled)
+    monkeypatch.setattr(collection, "read", lambda paths: read(tuple(paths)))
+
+
+@functools.cache
+def read(paths: tuple[Path, ...]) -> list[collection.Source]:
+    """Maps, read once."""
+    return _read(paths)
+
+
+@functools.cache
+def _load(path: str, text: str, maps: tuple[int, ...], name: str | None) -> source.Loaded:
+    return _whole(path, text, KNOWN[maps], name)
+
+
+def compiled(path: str, text: str, maps: list[collection.Source], name: str | None = None) -> source.Loaded:
+    """A program, compiled once."""
+    key = tuple(map(id, maps))
+    KNOWN[key] = maps
+    return _load(path, text, key, name)
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A program with one motor."""
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "my.st"
+    path.write_text(ONE, encoding="utf-8")
+    return path
+
+
+REFUSED = [
+    ("", "name a program, or write --demo"),
+    ("my.st --demo", "--demo brings its own program; leave yours out"),
+    ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or real"),
+    ("my.st --simulate jscc --tcp 10.0.0.1:1", "--simulate and --tcp exclude each other"),
+    ("--demo --port COM3", "--demo and --port exclude each other"),
+    ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT"),
+    ("my.st --allow-run", "--allow-run is for a real port; simulated drives may always run"),
+    ("my.st --tcp :502 --allow-run", "--allow-run is for a real port"),
+    ("my.st --fast", "--fast needs --for: it would never end"),
+    ("my.st --fast --for 1s --port COM3", "--fast is for simulated drives; a port has its own time"),
+    ("my.st --scan 10", "--scan: `10` is no time; write 10ms, 2.5s or 1min"),
+    ("my.st --scan 0ms", "--scan 0ms is out of range; write 0.001s to 60s"),
+    ("my.st --for ever", "--for: `ever` is no time"),
+    ("no.st", "no.st:1:1: cannot be read: No such file or directory"),
+    ("my.st --show Motor.Speeed", "--show: the program has no variable Motor.Speeed; did you mean MOTOR."),
+    ("my.st --show Motor", "--show: Motor has parts; name one of them"),
+    ("my.st --program Other", "my.st:1:1: there is no PROGRAM Other; choose by --program: One"),
+    ("my.st --simulate acme", "there is no drive `acme`"),
+    ("my.st --simulate jscc@7,chf@7", "--simulate chf@7: units are 1 to 247, one drive each; write chf@1"),
+    ("my.st --simulate jscc@0", "--simulate jscc@0: units are 1 to 247"),
+    ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
+    ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
+    ("my.st --port no-such-port", "no-such-port: "),
+    ("my.st --port x --format 9X9", "--format 9X9 is none; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("words", "wrong"), REFUSED, ids=[words for words, _ in REFUSED])
+@pytest.mark.usefixtures("program")
+def test_what_is_refused_and_why(words: str, wrong: str) -> None:
+    result = run(*words.split())
+    assert result.exit_code == 2
+    assert wrong in result.output
+
+
+def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: Path) -> None:
+    program.write_text(ONE.replace("Hz : REAL", "Hz : REEL"), encoding="utf-8")
+    result = run(program)
+    assert (result.exit_code, result.output[:10]) == (2, "my.st:4:8:")
+    program.write_text(ONE, encoding="utf-8")
+    Path("run.txt").write_text("at 1s: Go := TRUE\n", encoding="utf-8")
+    result = run(program, "--script", "run.txt")
+    assert (result.exit_code, result.output) == (2, "run.txt:1:8: the program has no variable Go\n")
+
+
+def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
+    Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
+    files = ("--trace", "t.csv", "--picture", "t.svg")
+    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf,jscc@7")
+    assert (result.exit_code, result.output[-1:]) == (0, "\n")
+    lines = result.output.splitlines()
+    assert all(line.startswith("SIMULATED  ") for line in lines)
+    assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
+    rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
+    assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]
+    assert [row.split(",")[1] for row in rows[2:]] == ["0", "0", "1", "0"]
+    assert "SIMULATED, my.st" in Path("t.svg").read_text(encoding="utf-8")
+
+
+def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
+    Path("run.txt").write_text("at 1s: Divisor := 0\n", encoding="utf-8")
+    result = run(program, *FAST)
+    assert result.exit_code == 1
+    assert "SIMULATED  the program has failed: my.st:16:15: division by zero: stopping every drive" in result.output
+    assert "stopped, and standstill read: Motor" in result.output
+
+
+def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
+    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8")
+    assert result.exit_code == 1
+    assert "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look" in result.output
+
+
+# ------------------------------------------------------------ the demonstration, and another platform
+
+
+@pytest.fixture
+def windows(tmp_path: Path) -> dict[str, str]:
+    """An environment in which every process lacks what Windows lacks."""
+    (tmp_path / "sitecustomize.py").write_text(HIDDEN, encoding="utf-8")
+    return {**os.environ, "PYTHONPATH": str(tmp_path)}
+
+
+def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[str, str]) -> None:
+    words = [sys.executable, "-m", "driveblocks", "run", "--demo", "--fast"]
+    done = subprocess.run(words, env=windows, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    lines = done.stdout.splitlines()
+    assert [line for line in lines if line.removeprefix("SIMULATED  ") in {act.says for act in demo.ACTS}] == [
+        f"SIMULATED  {act.says}" for act in demo.ACTS
+    ]
+    assert lines[-1] == "SIMULATED  stopped, and standstill read: Pump1, Pump2, Fan"
+    assert max(map(len, lines)) <= 80
+
+
+LOOPBACK = """
+import socket, sys
+from driveblocks.plc.simulated import Simulation
+from driveblocks.plc.wanted import Wanted
+from driveblocks.maps import catalog
+made = Simulation([Wanted(catalog.resolve("jscc"), 5)], 19200, 10, ascii_mode=False)
+with socket.create_connection(("127.0.0.1", made.port)) as line:
+    line.settimeout(600)
+    line.sendall(bytes.fromhex("05 03 20 01 00 01 DF 8E"))
+    reply = b""
+    while len(reply) < 7:
+        reply += line.recv(7)
+    print(reply.hex(" "))
+made.close()
+"""
+
+
+def test_drives_are_simulated_in_another_process_without_what_windows_lacks(windows: dict[str, str]) -> None:
+    words = [sys.executable, "-c", LOOPBACK]
+    done = subprocess.run(words, env=windows, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout == "05 03 02 00 04 48 47\n"  # 2001H: stopped
+
+
+def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(demo, "FAULT", 0)
+    acts = [act if act.says.startswith(("power-up", "start")) else None for act in demo.ACTS]
+    kept = tuple(act for act in acts if act)
+    monkeypatch.setattr(demo, "ACTS", (*kept, demo.Act("the fan trips", then={"Fan.Fault": True})))
+    result = run("--demo", "--fast")
+    assert result.exit_code == 1
+    assert "the demonstration has failed: stopping every drive" in result.output
+    assert "this did not come true: the fan trips" in result.output
+
+
+def test_the_demonstration_is_the_example() -> None:
+    assert demo.path().read_text(encoding="utf-8") == EXAMPLE.read_text(encoding="utf-8")

@@ -1,0 +1,121 @@
+"""Seven drives of a family at its best bit rate: refresh, stops, share of the wire: `python -m tests.drives.seven`."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from random import Random
+
+from tests.blocks.library import sources
+from tests.drives.station import maps
+from tests.line.vline import Config, Sent
+from tests.simulator.bench import DriveBench
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Source
+from driveblocks.maps.model import Drive
+from driveblocks.maps.polls import polls
+from driveblocks.simulator.drive import SimulatedDrive
+
+COUNT = 7
+RATES = {"SN300G5": 9600, "JSCC": 57600, "CHF": 19200}
+"""The fastest that the map lists, 8N1; CHF's manual gives no rate, so 19,200 bit/s is an assumption."""
+PINS = ("BitRate : UDINT", "CharacterBits : UINT", "ElapsedMs : UINT", "MaxScanMs : UINT", "Ascii : BOOL",
+        "Restart : BOOL")  # fmt: skip
+SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, TurnRoundMs := 20, StopWithinMs := 20000"
+
+
+def station(prefix: str) -> Source:
+    """A program with a line and seven drives, as a block."""
+    drives = range(COUNT)
+    calls = "".join(
+        f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, ReferenceScale := 100.0, Restart := Restart,"
+        f" Address := {at + 1}, Slot := Slots[{at}]);\n"
+        for at in drives
+    )
+    pins = ", ".join(f"{name} := {name}" for name in (pin.partition(" ")[0] for pin in PINS))
+    inputs = "".join(f"  {pin};\n" for pin in (*PINS, *(f"Run{at} : BOOL" for at in drives)))
+    blocks = "".join(f"  Drive{at} : {prefix}_Drive;\n" for at in drives)
+    return Source(
+        "seven.st",
+        f"FUNCTION_BLOCK Seven\nVAR_INPUT\n{inputs}END_VAR\nVAR\n  Port : MB_Port;\n  Slots : MB_Slots8;\n"
+        f"  TheLine : MB_Line8;\n{blocks}END_VAR\n{calls}  TheLine({pins}, Port := Port, Slots := Slots);\n"
+        "END_FUNCTION_BLOCK\n",
+    )
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Figures of a line with seven drives that run: ms, and percent of the wire."""
+
+    refresh: float
+    stop_mean: float
+    stop_most: float
+    alone: int
+    worst: int
+    load: int
+    timeouts: int
+
+
+def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: int = 40) -> Measured:
+    """Let seven drives run, stop one at a time at random moments, and measure."""
+    chance = Random(7)
+    config = Config(rate=rate, keeps=keeps, turn_ms=20)
+    block = EmbeddedEngine().build([*sources(), station(drive.prefix)]).instance("Seven")
+    bench = DriveBench([SimulatedDrive(drive, at + 1) for at in range(COUNT)], config, block=block)
+    command = {one.does: one for one in drive.operation.commands}["stop"]
+    bench.attended = set()
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    bench.run(8000)
+    for at in range(COUNT):
+        bench.set(**{f"Run{at}": True})
+    bench.run(8000)
+    assert all(block[f"Drive{at}.Running"] for at in range(COUNT))
+    asked = (_asked(each, 1, polls(drive)[0].address) for each in bench.run(1000 * seconds))
+    reads = [each for each in asked if each is not None]
+    gaps = [later - before for before, later in pairwise(reads)]
+    load = bench["TheLine.LoadPercent"]
+    late = list(_stops(bench, command.register, stops, chance))
+    return Measured(
+        sum(gaps) / len(gaps), sum(late) / len(late), max(late), bench["TheLine.StopAloneMs"],
+        bench["TheLine.WorstStopMs"], load, bench["TheLine.Timeouts"],
+    )  # fmt: skip
+
+
+def _asked(sent: Sent, unit: int, register: int) -> float | None:
+    """When a request for a register of a drive began, if it is one."""
+    return sent.ms if sent.unit == unit and sent.pdu[2:4] == register.to_bytes(2, "big") else None
+
+
+def _stops(bench: DriveBench, register: int, stops: int, chance: Random) -> Iterator[float]:
+    """From the pin to the first stop on the wire, one drive after the other."""
+    for _ in range(stops):
+        bench.run(chance.randrange(20, 400))
+        at = chance.randrange(COUNT)
+        bench.set(**{f"Run{at}": False})
+        pressed = bench.now / 1000 + bench.config.scan / 1000
+        asked = (_asked(each, at + 1, register) for each in bench.run(2000))
+        sent = next(each for each in asked if each is not None)
+        yield sent - pressed
+        bench.run(8000)
+        bench.set(**{f"Run{at}": True})
+        bench.run(6000)
+
+
+def table() -> Iterator[str]:
+    """The table, as Markdown."""
+    yield "| seven drives | refresh | one stop, mean and most | `StopAloneMs` | `WorstStopMs` | wire in use |"
+    yield "|---|---:|---:|---:|---:|---:|"
+    for prefix, rate in RATES.items():
+        for keeps in (True, False):
+            got = measure(maps()[prefix], rate, keeps=keeps)
+            who = "port" if keeps else "line"
+            yield (
+                f"| {prefix}, {rate} bit/s 8N1, the {who} keeps the silence | {got.refresh:.0f} ms |"
+                f" {got.stop_mean:.0f}, {got.stop_most:.0f} ms | {got.alone} ms | {got.worst} ms | {got.load} % |"
+            )
+
+
+if __name__ == "__main__":
+    print("\n".join(table()))

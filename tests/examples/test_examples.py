@@ -1,0 +1,136 @@
+"""The examples as a user would take them: short, clean, and run against simulated drives by the bytes on the wire."""
+
+import re
+from pathlib import Path
+
+from tests.blocks.library import built, shipped, sources
+from tests.examples.port import Port
+
+from driveblocks.host.engine import Engine, Source
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.st.lint import lint_sources
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "examples"
+NAMES = ("one_motor", "three_makes")
+PARTS = ("types/", "modbus/MB_Hex", "line/", "drive/DB_", "invt_chf/", "jscc/", "shuen_sn300g5/")
+SPARE = re.compile("Text|_Request|_Reply|_Command|32")
+"""Blocks that the examples do not use."""
+TEXTS = {name: (FOLDER / f"{name}.st").read_text(encoding="utf-8") for name in NAMES}
+FILES = [
+    *(each for each in sources() if each.path.startswith(PARTS) and not SPARE.search(each.path)),
+    *(Source(f"{name}.st", text) for name, text in TEXTS.items()),
+]
+STOP = bytes.fromhex("010610000005")
+
+
+def test_every_example_is_short_clean_and_tried() -> None:
+    assert {path.stem for path in FOLDER.iterdir()} == set(NAMES)
+    assert all(len(text.splitlines()) < 80 for text in TEXTS.values())
+    assert lint_sources((each.path, each.text) for each in FILES) == []
+
+
+def test_the_readme_shows_the_shorter_one() -> None:
+    assert TEXTS["one_motor"] in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+class Plant:
+    """A program with its drives: set pins, let time pass, read what it says."""
+
+    def __init__(self, engine: Engine, program: str, families: list[str], bits: int) -> None:
+        """Drives at unit 1, 2 ... at 9600 bit/s."""
+        self.program = built(engine, "examples", FILES).library.instance(program)
+        self.drives = [SimulatedDrive(shipped()[family], unit) for unit, family in enumerate(families, 1)]
+        self.port = Port(self.program, self.drives, bits / 9.6)
+
+    def run(self, ms: int, **pins: bool | float) -> list[bytes]:
+        """Let time pass; the writes that went out."""
+        for pin, value in pins.items():
+            self.program[pin] = value
+        before = len(self.port.sent)
+        for _ in range(ms // 10):
+            self.port.scan()
+        return [frame for frame in self.port.sent[before:] if frame[1] != 3]
+
+    def says(self, *paths: str) -> list[object]:
+        """What the program shows."""
+        return [self.program[path] for path in paths]
+
+
+def test_one_motor(engine: Engine) -> None:
+    plant = Plant(engine, "OneMotor", ["CHF"], 10)
+    (drive,) = plant.drives
+    # power-up: stopped and confirmed; then a start, which gives reference and run once each and turns up to speed
+    assert set(plant.run(2000, NotStop=True, Hertz=30.0)) == {STOP}
+    assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, True]
+    started = [*plant.run(100, Start=True), *plant.run(900, Start=False)]
+    assert started[:2] == [bytes.fromhex(each) for each in ("010620001770", "010610000001")]
+    assert plant.says("Standing", "Why") == [False, 0]
+    assert 0 < drive.hertz < 30
+    plant.run(4000)
+    assert drive.hertz == 30
+    # stop: at once, repeated, confirmed when it stands, and the button that returns starts nothing
+    assert plant.run(1000, NotStop=False)[0] == STOP
+    assert plant.says("Standing", "Why") == [False, 20]
+    plant.run(4000)
+    assert plant.says("Standing", "Why") == [True, 20]
+    assert plant.run(2000, NotStop=True) == []
+    # a trip stops it, with the start button stuck; the reset moves nothing; a new edge does
+    plant.run(3000, Start=True)
+    drive.trip(3)
+    plant.run(500)
+    assert plant.says("Why", "Motor.FaultCode", "Standing") == [40, 3, False]
+    drive.clear_cause()
+    plant.run(10000)
+    plant.run(3000, Reset=True)
+    assert plant.says("Why", "Motor.Fault", "Standing") == [1, False, True]
+    assert (drive.hertz, drive.fault) == (0, 0)
+    plant.run(3000, Reset=False, Start=False)
+    assert drive.hertz == 0
+    plant.run(100, Start=True)
+    plant.run(4000, Start=False)
+    assert drive.hertz == 30
+
+
+def test_three_makes(engine: Engine) -> None:
+    plant = Plant(engine, "ThreeMakes", ["SN300G5", "JSCC", "CHF"], 11)
+    names = ("Pump1", "Pump2", "Fan")
+    plant.run(4000, PumpHertz=40.0, FanHertz=30.0, CountsPerHertz=100.0)
+    assert plant.says("AllStand", "HardStopOk", *(f"{name}.Reason" for name in names)) == [True, True, 1, 1, 1]
+    plant.run(8000, Pump1On=True, Pump2On=True, FanOn=True)
+    assert [drive.hertz for drive in plant.drives] == [40, 40, 30]
+    assert plant.says("AllStand", *(f"{name}.Running" for name in names)) == [False, True, True, True]
+    # one trips and the others run on; reset at its keypad, it waits for a new edge
+    pump, fan = plant.drives[0], plant.drives[2]
+    pump.trip(7)
+    plant.run(1000)
+    assert plant.says("Pump1.Reason", "Pump1.FaultCode", "Pump2.Reason", "Fan.Reason") == [40, 7, 0, 0]
+    pump.clear_cause()
+    plant.run(10000)
+    pump.reset()
+    plant.run(2000)
+    assert (pump.hertz, plant.says("Pump1.Reason", "Pump1.StopConfirmed")) == (0, [24, True])
+    plant.run(500, Pump1On=False)
+    plant.run(6000, Pump1On=True)
+    assert pump.hertz == 40
+    # StopAll reaches every drive within the promised time, and none starts again without an edge
+    longest = plant.program["Bus.WorstStopMs"]
+    assert isinstance(longest, int)
+    stopped = plant.run(longest // 10 * 10, StopAll=True)
+    assert {frame[0] for frame in stopped} == {1, 2, 3}
+    plant.run(8000)
+    assert plant.says("AllStand", "HardStopOk") == [True, True]
+    plant.run(3000, StopAll=False)
+    assert [drive.hertz for drive in plant.drives] == [0, 0, 0]
+    plant.run(500, FanOn=False)
+    plant.run(6000, FanOn=True)
+    assert [drive.hertz for drive in plant.drives] == [0, 0, 30]
+    # the fan's fault is reset over the bus, but not while its run pin is held
+    fan.trip(2)
+    plant.run(15000)
+    fan.clear_cause()
+    plant.run(1000, Reset=True)
+    assert plant.says("Fan.Fault") == [True]
+    plant.run(500, Reset=False, FanOn=False)
+    plant.run(3000, Reset=True)
+    assert plant.says("Fan.Fault", "Fan.Reason", "AllStand") == [False, 1, True]

@@ -1,0 +1,112 @@
+"""What a person sees and keeps of a run: lines, a live table, a trace and a picture, each with whose port it was."""
+
+import io
+from collections.abc import Iterator
+from xml.etree import ElementTree
+
+import pytest
+from rich.console import Console
+from tests.plc.desk import Desk
+
+from driveblocks import console
+from driveblocks.plc import record, screen
+from driveblocks.plc.record import Timing, Trace
+from driveblocks.plc.view import View, look
+
+
+def views() -> Iterator[View]:
+    """A motor that starts, runs, trips, is lost."""
+    desk = Desk()
+
+    def seen() -> View:
+        return look(desk.controller, ("Hz", "Bus.Good", "Motor.CommOk"), desk.clock.now_us())
+
+    desk.scan(50)
+    yield seen()
+    desk.started()
+    yield seen()
+    desk.drives[0].trip(3)
+    desk.scan(500)
+    yield seen()
+    desk.line.cut = True
+    desk.scan(9000)
+    yield seen()
+
+
+def test_lines_tell_what_has_changed_each_with_whose_port_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    lines = screen.Lines("REAL PORT")
+    for view in views():
+        lines.show(view)
+        lines.show(view)
+    said = capsys.readouterr().out.splitlines()
+    assert said[:4] == [
+        "REAL PORT    0.1 s  Motor no reply; no reply yet",
+        "REAL PORT    0.1 s  Hz = 20.00",
+        "REAL PORT    0.1 s  Bus.Good = 0",
+        "REAL PORT    0.1 s  Motor.CommOk = FALSE",
+    ]
+    assert said[4] == "REAL PORT    6.0 s  Motor 20.0 Hz forward, at speed; runs as asked"
+    assert "Motor 0.0 Hz fault 3; fault: see FaultCode" in said[7]
+    assert "Motor STOP OVERDUE; the drive has stopped answering" in "\n".join(said[8:])
+    assert all(line.startswith("REAL PORT ") for line in said)
+
+
+@pytest.mark.parametrize("width", [80, 120])
+@pytest.mark.parametrize("real", [False, True])
+def test_a_table_fits_and_says_whose_port_it_is(width: int, real: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = io.StringIO()
+    made = Console(file=drawn, width=width, height=30, force_terminal=True, color_system=None, legacy_windows=False)
+    monkeypatch.setattr(console, "terminal", lambda: made)
+    label = "REAL PORT /dev/ttyUSB0" if real else "SIMULATED"
+    table = screen.LiveTable(label, "my.st", real=real, keys=True)
+    for view in views():
+        drawn.seek(0)
+        drawn.truncate()
+        table.show(view)
+    table.say("Ctrl-C: stopping every drive")
+    table.typed()
+    table.close()
+    text = drawn.getvalue()
+    for word in (label, "my.st", "STOP OVERDUE", "Bus.Good", "Start", screen.HELP):
+        assert word in text
+    visible = [line.split("\x1b[2K")[-1] for line in text.splitlines()]
+    assert max(len(line.rstrip()) for line in visible) <= width
+
+
+def test_frames_that_were_not_sent_stand_in_the_table() -> None:
+    view = View(0, (), {}, {}, dropped=7, port_error="No such device")
+    made = screen.LiveTable.__new__(screen.LiveTable)
+    made._label, made._title, made._real, made._keys = "REAL PORT", "my.st", True, False
+    text = "\n".join(str(part) for part in made._parts(view))
+    assert "7 frames not sent: only reads and stops leave" in text
+    assert "the port does not work: No such device" in text
+
+
+def test_a_trace_has_a_row_for_every_change() -> None:
+    file = io.StringIO()
+    trace = Trace(file, ("A", "B"), "SIMULATED, my.st")
+    for at, a, b in ((0, False, 1.0), (10_000, False, 1.0), (20_000, True, 1.0), (30_000, True, 1.5)):
+        trace.add(at, {"A": a, "B": b})
+    assert file.getvalue() == "# SIMULATED, my.st\nms,A,B\n0,0,1\n20,1,1\n30,1,1.5\n"
+
+
+def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
+    timing = Timing(("A", "B<1>"), "SIMULATED, my.st")
+    for at in range(0, 3_000_001, 10_000):
+        timing.add(at, {"A": at >= 1_000_000, "B<1>": at / 100_000})
+    root = ElementTree.fromstring(timing.svg())  # noqa: S314 - our own
+    space = "{http://www.w3.org/2000/svg}"
+    texts = [each.text for each in root.iter(f"{space}text")]
+    assert texts[0] == "SIMULATED, my.st"
+    assert {"A", "B<1>", "30", "0 s", "3 s"} <= set(texts)
+    lanes = [each.get("points", "").split() for each in root.iter(f"{space}polyline")]
+    # low until 1 s, a third of the way; then high
+    assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
+
+
+def test_a_picture_forgets_what_is_too_much(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(record, "MOST_CHANGES", 10)
+    timing = Timing(("A",), "SIMULATED")
+    for at in range(100):
+        timing.add(at, {"A": at % 2})
+    assert timing.svg().count(",") < 40

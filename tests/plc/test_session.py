@@ -1,0 +1,255 @@
+"""A run in virtual time: what goes in and out of a scan, time that is lost, and every way in which it can end."""
+
+import signal
+from collections.abc import Callable
+
+import pytest
+from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk
+from tests.simulator.talk import MAPS
+
+from driveblocks.plc import live
+from driveblocks.plc.clock import VirtualClock
+from driveblocks.plc.ending import Ending
+from driveblocks.plc.pace import Pace
+from driveblocks.plc.port import AGAIN_US, DevicePort
+from driveblocks.plc.script import Setting
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.simulator.habits import Habits
+
+SECOND = 1_000_000
+
+
+@pytest.mark.parametrize("text", [ONE, BOX], ids=["bytes", "mailbox"])
+def test_a_motor_runs_and_stops(text: str) -> None:
+    desk = Desk(text).started()
+    assert desk.drives[0].mode == "running"
+    assert desk.instance["Motor.OutputFrequencyHz"] == pytest.approx(20)
+    desk.instance["Start"] = False
+    desk.scan(4000)
+    assert desk.drives[0].mode == "standing"
+    assert desk.instance["Motor.StopConfirmed"]
+    assert (desk.controller.number("Bus.Bad"), desk.controller.number("Bus.Timeouts")) == (0, 0)
+
+
+def test_a_line_speaks_ascii() -> None:
+    text = ONE.replace("BitRate := 19200", "Ascii := TRUE, BitRate := 19200").replace("JSCC", "CHF")
+    desk = ended(Desk(text, [SimulatedDrive(MAPS["CHF"], 7, ascii_mode=True)], frozenset({(7, "Motor")})))
+    assert desk.line.sent[0].startswith(b":07")
+    assert desk.controller.number("Bus.Bad") == 0
+    assert desk.drives[0].mode == "standing"
+    assert desk.session.result is not None
+    assert desk.session.result.stopped == ("Motor",)
+
+
+def test_time_is_measured_and_a_late_scan_is_told() -> None:
+    desk = Desk().scan(30)
+    assert (desk.instance["Elapsed"], desk.instance["First"]) == (10, False)
+    desk.clock.sleep_until(desk.clock.now_us() + 34_000)
+    desk.scan(10)
+    assert desk.instance["Elapsed"] == 44
+    assert desk.controller.number("Bus.LateScans") == 1
+
+
+def test_five_seconds_of_sleep_act_like_a_restart_and_start_nothing() -> None:
+    desk = Desk().started()
+    desk.clock.sleep_until(desk.clock.now_us() + 5 * SECOND)
+    desk.scan(5000)
+    assert desk.drives[0].mode == "standing"
+    assert desk.instance["Motor.Reason"] == 24  # the run pin is held since before
+
+
+class Lagging(VirtualClock):
+    """A clock of a machine that takes its time: each look at it costs some, and one in a hundred much more."""
+
+    looks = 0
+
+    def now_us(self) -> int:
+        """The time, a little later each time."""
+        self.looks += 1
+        self.sleep_until(super().now_us() + (25_000 if self.looks % 100 == 0 else 100))
+        return super().now_us()
+
+
+def test_an_overrun_is_counted_and_the_scans_that_it_cost_are_left_out() -> None:
+    desk = Desk()
+    desk.clock = desk.session._clock = Lagging()
+    desk.session._loop(SECOND)
+    pace = desk.session.pace
+    assert pace.missed > 0
+    assert pace.late > 0
+    assert pace.scans + pace.missed == pytest.approx(100, abs=3)
+    assert pace.worst_us >= 25_000 - SCAN_US
+
+
+def test_the_figures_of_a_pace() -> None:
+    pace = Pace(10_000)
+    for took in (*range(1000, 1980, 10), 9000):
+        assert pace.add(took, took - 10_000) == 0
+    assert pace.add(34_000, 24_000) == 2
+    assert (pace.scans, pace.late, pace.missed, pace.worst_us) == (100, 1, 2, 34_000)
+    assert pace.share_us(50) == pytest.approx(1490, abs=20)
+    assert pace.share_us(99) == pytest.approx(9000, abs=20)
+    assert str(pace) == ("100 scans of 10 ms: 97.1 % kept, 2 missed; 1.50 ms median, 9.02 ms 99 %, 34.00 ms worst")
+
+
+# ------------------------------------------------------------ how it ends
+
+
+def ended(desk: Desk, end: Callable[[Desk], None] = lambda _: None, seconds: int = 8) -> Desk:
+    """Run, with a start at 2 s; `end` is called at 5 s."""
+    desk.session.script = [Setting("Start", True, 2 * SECOND)]
+    done: list[int] = []
+
+    def step(at_us: int) -> None:
+        if at_us >= 5 * SECOND and not done:
+            done.append(at_us)
+            assert desk.drives[0].mode == "running"
+            end(desk)
+
+    desk.session.step = step
+    desk.session.run(seconds * SECOND)
+    return desk
+
+
+def test_the_end_of_the_time_stops_every_drive() -> None:
+    desk = ended(Desk())
+    assert desk.drives[0].mode == "standing"
+    result = desk.session.result
+    assert result is not None
+    assert (result.reason, result.crashed, result.unconfirmed, result.stopped) == (
+        "8 s are over",
+        False,
+        {},
+        ("Motor",),
+    )
+    assert desk.told() == ["8 s are over: stopping every drive"]
+
+
+@pytest.mark.parametrize("name", sorted(set(live.SIGNALS) & set(dir(signal))))
+def test_a_signal_stops_every_drive(name: str) -> None:
+    desk = Desk()
+    before = signal.getsignal(getattr(signal, name))
+    with live.listening(desk.ending):
+        ended(desk, lambda _: signal.raise_signal(getattr(signal, name)))
+    assert signal.getsignal(getattr(signal, name)) == before
+    assert desk.drives[0].mode == "standing"
+    assert desk.session.result is not None
+    assert desk.session.result.reason == live.SIGNALS[name]
+
+
+def fails(desk: Desk) -> None:
+    """The program divides by 0."""
+    desk.instance["Divisor"] = 0
+
+
+def breaks(desk: Desk) -> None:
+    """Something that nobody has thought of."""
+    desk.controller.scan = None  # type: ignore[assignment,method-assign]  # calling it fails
+
+
+@pytest.mark.parametrize(("crash", "said"), [(fails, "my.st:16:15: division by zero"), (breaks, "TypeError")])
+def test_a_crash_stops_every_drive_and_is_told(crash: Callable[[Desk], None], said: str) -> None:
+    desk = ended(Desk(), crash)
+    assert desk.drives[0].mode == "standing"
+    result = desk.session.result
+    assert result is not None
+    assert result.crashed
+    assert result.unconfirmed == {}
+    assert result.reason.startswith(f"the program has failed: {said}")
+
+
+def test_a_drive_that_does_not_reply_is_named_behind_a_bounded_time() -> None:
+    desk = ended(Desk(), lambda desk: setattr(desk.line, "cut", True), seconds=6)
+    before = len(desk.line.sent)
+    assert desk.session.result is not None
+    assert desk.session.result.unconfirmed == {"Motor (unit 7)": "no reply to the stop"}
+    assert desk.clock.now_us() == pytest.approx(16 * SECOND, abs=SECOND)
+    assert {frame[:6] for frame in desk.line.sent[before - 20 :]} == {bytes.fromhex("07 06 10 00 00 03")}
+
+
+def test_a_motor_that_runs_on_is_named() -> None:
+    desk = Desk()
+    ended(desk, lambda desk: setattr(desk.drives[0], "keeps_running", True))
+    assert desk.session.result is not None
+    why = {"Motor (unit 7)": "stop acknowledged, its status does not prove that it stands"}
+    assert desk.session.result.unconfirmed == why
+
+
+def test_who_asks_again_does_not_wait() -> None:
+    def twice(desk: Desk) -> None:
+        desk.line.cut = True
+        desk.ending.ask("Ctrl-C")
+        desk.ending.ask("Ctrl-C")
+
+    desk = ended(Desk(), twice)
+    assert desk.clock.now_us() < 6 * SECOND
+    assert desk.session.result is not None
+    assert desk.session.result.unconfirmed
+
+
+def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
+    drives = [
+        SimulatedDrive(MAPS[name], unit, Habits(ramp=5)) for unit, name in enumerate(("SN300G5", "JSCC", "CHF"), 1)
+    ]
+    desk = Desk(EXAMPLE.read_text(encoding="utf-8"), drives)
+    desk.line.sent.clear()
+    for drive in drives:
+        drive.keypad_run(20)
+    desk.ending.ask("Ctrl-C")
+    desk.controller.connect(desk.line, frozenset())
+    desk.scan(100)
+    desk.line.sent.clear()
+    desk.session.run()
+    assert [frame[0] for frame in desk.line.sent[:3]] == [1, 2, 3]
+    assert [drive.mode for drive in drives] == ["standing"] * 3
+    assert desk.session.result is not None
+    assert desk.session.result.unconfirmed == {}
+
+
+# ------------------------------------------------------------ a port that goes
+
+
+class Device:
+    """A port of the machine that can be pulled out."""
+
+    there = True
+
+    def open(self) -> "Device":
+        """Plug it in."""
+        if not self.there:
+            raise OSError(2, "No such device")
+        return self
+
+    def write(self, _: bytes) -> None:
+        """Send."""
+        self.open()
+
+    def read(self) -> bytes:
+        """Receive."""
+        self.open()
+        return b""
+
+    def close(self) -> None:
+        """Give it back."""
+
+
+def test_a_port_that_goes_is_told_to_the_line_and_looked_for_again() -> None:
+    desk, device = Desk(), Device()
+    port = DevicePort(device.open, desk.clock)
+    desk.session.connect(port, None)
+    desk.scan(100)
+    assert desk.controller.number("Bus.PortErrorID") == 0
+    device.there = False
+    desk.scan(100)
+    assert (port.error, desk.controller.number("Bus.ErrorID")) == ("No such device", 57)
+    device.there = True
+    desk.scan(AGAIN_US // 1000)
+    assert (port.error, desk.controller.number("Bus.PortErrorID")) == ("", 0)
+
+
+def test_an_ending_keeps_its_first_reason() -> None:
+    ending = Ending()
+    ending.ask("Ctrl-C")
+    assert not ending.hurry
+    ending.ask("SIGTERM")
+    assert (ending.reason, ending.hurry) == ("Ctrl-C", True)

@@ -1,0 +1,84 @@
+"""What is refused and which ids prove a register, on maps that no manual has."""
+
+from dataclasses import replace
+
+import pytest
+from tests.blocks.library import shipped
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Drive, Step
+from driveblocks.maps.plan import plan
+from driveblocks.reference.permission import Judge, Write, parameters
+from driveblocks.render.parameter import addresses, may_write, passing
+
+
+def with_id(id_: str, address: Span) -> Drive:
+    """A drive whose only register with an id is this."""
+    drive = shipped()["JSCC"]
+    row = replace(drive.sections[0].registers[2], id=id_, address=address)
+    return replace(drive, sections=(replace(drive.sections[0], registers=(row,)),))
+
+
+def with_step(register: int) -> Drive:
+    """A drive whose run command begins with a write to another register."""
+    drive = shipped()["CHF"]
+    run, *others = drive.operation.commands
+    commands = (replace(run, first=(Step(register=register, value=1),)), *others)
+    return replace(drive, operation=replace(drive.operation, commands=commands))
+
+
+def test_what_goes_before_a_command_moves_the_motor_too() -> None:
+    drive = with_step(0x0042)
+    refused = {name: spans for name, _, spans in may_write(drive, plan(drive))["refused"]}
+    assert {Span(0x0042, 0x0042), Span(0x8042, 0x8042)} <= set(refused["OWNED"])
+    judge = Judge(drive)
+    assert [judge.result(Write(at)) for at in (0x0042, 0x8042, 0x0043)] == ["OWNED", "OWNED", "OK"]
+
+
+@pytest.mark.parametrize(
+    ("id_", "parts"),
+    [
+        ("H5-02", ("H", 5, 2)),
+        ("A40", ("A", 0, 40)),
+        ("F-18", ("F", 0, 18)),
+        ("20.01", ("", 20, 1)),
+        ("b1-01", ("b", 1, 1)),
+        ("0107", ("", 0, 107)),
+        ("cL1-1", None),
+        ("A1-B2", None),
+    ],
+)
+def test_an_id_is_a_letter_a_group_and_a_number(id_: str, parts: tuple[str, int, int] | None) -> None:
+    drive = with_id(id_, Span(0x0500, 0x0500))
+    found = addresses(drive)
+    assert found is not None
+    template, values = found
+    if parts is None:
+        assert template == "NumberAddress"
+        return
+    letter, group, number = parts
+    (run,) = values["letters"][ord(letter or "\0")][group]["runs"]
+    assert (run.first, run.last, run.base) == (number, number, 0x0500)
+    assert parameters(drive) == {parts: 0x0500}
+
+
+def test_a_range_of_ids_is_one_run() -> None:
+    drive = with_id("A2-01..A2-32", Span(0x0106, 0x0125))
+    found = addresses(drive)
+    assert found is not None
+    (run,) = found[1]["letters"][65][2]["runs"]
+    assert (run.first, run.last, run.base, run.away) == (1, 32, 0x0106, 0x0105)
+    assert parameters(drive)["A", 2, 32] == 0x0125
+
+
+def test_two_areas_prove_no_number() -> None:
+    drive = shipped()["CHF"]
+    two = replace(drive, areas=(*drive.areas, replace(drive.areas[0], id="other", addresses=Span(0x0600, 0x0601))))
+    assert addresses(two) is None
+    assert parameters(two) == {}
+
+
+def test_what_passes_keeps_to_the_drives_functions_and_limits() -> None:
+    found = {prefix: passing(drive, plan(drive)) for prefix, drive in shipped().items()}
+    limits = {prefix: (one["read"], one["most_read"], one["most_written"]) for prefix, one in found.items()}
+    assert limits == {"JSCC": (3, 4, 3), "CHF": (3, 4, 1), "SN300G5": (3, 4, 3)}

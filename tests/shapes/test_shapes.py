@@ -1,0 +1,161 @@
+"""Drives that are commanded by paths, pulses, several registers or active-low bits are one map each, and no code."""
+
+import json
+import re
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from tests.shapes import shapes, texts
+from typer.testing import CliRunner
+
+from driveblocks.building import build
+from driveblocks.cli import app
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.maps import check
+from driveblocks.maps.collection import Source
+from driveblocks.maps.model import Command, Does, Drive, Step
+from driveblocks.maps.problem import Report
+from driveblocks.render.text import languages
+from driveblocks.st.lint import lint_sources
+from driveblocks.testing import runner
+from driveblocks.testing.script import Suite
+from driveblocks.testing.unit import Unit
+
+NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low")
+CONCERNED = re.compile(r"_Test(Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
+"""Programs that depend on the shape; requests and replies do not."""
+every = pytest.mark.parametrize("name", NAMES)
+
+
+def command(drive: Drive, does: Does) -> Command:
+    """One command of a drive."""
+    return next(one for one in drive.operation.commands if one.does == does)
+
+
+def judged(drive: Drive, *commands: Command) -> list[str]:
+    """What the rules say when these commands stand in the place of the drive's own of their kind."""
+    new = {one.does: one for one in commands}
+    some = tuple(new.pop(one.does, one) for one in drive.operation.commands)
+    report = Report("")
+    check.check(replace(drive, operation=replace(drive.operation, commands=(*some, *new.values()))), report)
+    return [problem.wrong for problem in report.problems]
+
+
+def run(name: str, folder: Path, *words: str) -> str:
+    """What a command prints about a shape."""
+    path = folder / f"{name}.yaml"
+    path.write_text(texts()[name], encoding="utf-8")
+    result = CliRunner().invoke(app, [path.as_posix() if word == "MAP" else word for word in words])
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_there_is_one_of_each_shape() -> None:
+    assert tuple(shapes()) == NAMES
+    assert [one.does for one in shapes()["cia402"].operation.commands if one.first] == ["run_forward", "fault_reset"]
+
+
+@cache
+def units() -> dict[str, Unit]:
+    """The blocks and programs of each."""
+    sources = [Source(Path(f"{name}.yaml"), drive) for name, drive in shapes().items()]
+    return {unit.suite.name: unit for unit in build.units(sources, languages(["en"], "utf-8"))}
+
+
+def test_their_blocks_are_clean_and_the_programs_of_their_commands_and_words_pass() -> None:
+    blocks = {each.path: each for unit in units().values() for each in unit.blocks}
+    assert [str(problem) for problem in lint_sources([(each.path, each.text) for each in blocks.values()])] == []
+    made = tuple(each for name in NAMES for each in units()[name].suite.programs if CONCERNED.search(each.path))
+    assert len(made) >= 4 * len(NAMES)
+    assert runner.run([Unit(Suite("shapes", made, 1), tuple(blocks.values()))], [EmbeddedEngine()]).passed
+
+
+@every
+def test_the_command_block_is_left_out_where_a_command_takes_several_writes(name: str) -> None:
+    unit, prefix = units()[name], shapes()[name].prefix
+    paths = [*(each.path for each in unit.blocks), *(each.path for each in unit.suite.programs)]
+    for block in (f"{prefix}_Command.st", f"{prefix}_TestCommand.st"):
+        assert any(path.endswith(block) for path in paths) == (name == "active_low")
+
+
+@every
+def test_neither_direction_may_go_the_way_of_the_other(name: str) -> None:
+    drive = shapes()[name]
+    assert judged(drive) == []
+    if name == "cia402":  # has one direction
+        return
+    forward, reverse = command(drive, "run_forward"), command(drive, "run_reverse")
+    assert judged(drive, replace(forward, does="run_reverse"), replace(reverse, does="run_forward"))
+    own = {key: getattr(reverse, key) for key in ("register", "value", "set", "clear")}
+    wrong = judged(drive, replace(forward, first=(*forward.first, *reverse.first, Step(**own))))
+    assert "on its way `run_forward` passes through `run_reverse`" in wrong
+
+
+def test_the_run_register_may_not_be_written_before_the_direction() -> None:
+    drive = shapes()["two_registers"]
+    swapped = [
+        replace(one, register=0x1000, value=one.first[0].value, first=(Step(register=0x1002, value=1),))
+        for one in (command(drive, "run_forward"), command(drive, "run_reverse"))
+    ]
+    assert judged(drive, *swapped) == [
+        "on its way `run_forward` passes through `run_reverse`",
+        "on its way `run_reverse` passes through `run_forward`",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("cia402", 0x000F), ("profidrive", 0x047F), ("profidrive", 0x0C7F), ("two_registers", 1)]
+)
+def test_no_reset_passes_through_a_run(name: str, value: int) -> None:
+    drive = shapes()[name]
+    reset = command(drive, "fault_reset")
+    wrong = judged(drive, replace(reset, first=(Step(register=reset.register, value=value),)))
+    assert [each for each in wrong if each.startswith("on its way `fault_reset` passes through `run_")]
+
+
+def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
+    drive = shapes()["active_low"]
+    wrong = judged(drive, replace(command(drive, "stop"), set=()))
+    assert "`stop` leaves bit 0 as it is, which `run_forward` sets" in wrong
+
+
+def test_a_start_pulse_is_cleared_by_the_stop() -> None:
+    drive = shapes()["pulse"]
+    assert "`stop` leaves bit 1 as it is, which `run_reverse` sets" in judged(
+        drive, replace(command(drive, "stop"), clear=(command(drive, "stop").set[0],), set=())
+    )
+
+
+def test_show_tells_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:
+    page = run("cia402", tmp_path, "show", "MAP")
+    lines = [" ".join(line.split()) for line in page.splitlines()]
+    assert "run forward, 1 1000H 0006H until ready_to_switch_on" in lines
+    assert "fault reset, 1 1000H 0000H then" in lines
+    assert "running 2000H AND 006FH = 0027H (table 2)" in lines
+    assert "output frequency 2001H (table 2)" in lines
+    assert "fault code 2002H (table 3)" in lines
+    assert "state switched_on 2000H AND 006FH = 0023H (table 2)" in lines
+    assert "run forward, 1 1000H 0 1-2 for 100 ms" in " ".join(run("pulse", tmp_path, "show", "MAP").split())
+    registers = (run("cia402", tmp_path, "show", "MAP", address) for address in ("1000H", "2000H"))
+    assert [word in page for page in registers for word in ("run forward, write 2: write 0007H", "running: 2000H")] == [
+        True, False, False, True
+    ]  # fmt: skip
+
+
+def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:
+    operation = json.loads(run("cia402", tmp_path, "show", "MAP", "--json"))["operation"]
+    assert operation["commands"][0]["first"][0] == {"register": 0x1000, "value": 6, "until": "ready_to_switch_on"}
+    assert operation["status"][0]["any"] == [{"register": 0x2000, "mask": 0x6F, "equals": 0x27}]
+    assert operation["measures"][0]["shows"] == "output_frequency"
+    assert operation["states"][1]["name"] == "switched_on"
+
+
+def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:
+    written = run("cia402", tmp_path, "explain", "01 06 10 00 00 06 0D 08", "--drive", "MAP")
+    assert "run forward, write 1 of 3" in written
+    assert "stop" in written
+    asked = ("--request", "01 03 20 00 00 01 8F CA")
+    for reply, said in (("01 03 02 00 02 39 85", "as at standstill"), ("01 03 02 00 07 F9 86", "no standstill")):
+        assert said in run("profidrive", tmp_path, "explain", reply, "--drive", "MAP", *asked)

@@ -1,0 +1,70 @@
+"""Status words show each situation by the map's conditions, and nothing else."""
+
+from dataclasses import replace
+
+import pytest
+from tests.simulator.shapes import shape
+from tests.simulator.talk import MAPS
+
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Condition, Drive, State, Status
+from driveblocks.simulator.face import Situation, situations
+from driveblocks.simulator.habits import Habits
+from driveblocks.simulator.table import table
+
+MANY = {**MAPS, "states": shape("states"), "edge": shape("edge")}
+
+
+def holds(condition: Condition | State, words: dict[int, int]) -> bool:
+    """Whether a condition is true of some words; a measured register is not asked."""
+    word = words.get(condition.register)
+    if word is None:
+        return True
+    if isinstance(condition, Condition) and condition.bit is not None:
+        return word >> condition.bit.first & ((1 << len(condition.bit)) - 1) == condition.equals
+    mask = 0xFFFF if condition.mask is None else condition.mask
+    return word & mask == condition.equals
+
+
+def shown(drive: Drive, words: dict[int, int]) -> set[str]:
+    """The pins that words make TRUE."""
+    return {each.shows for each in drive.operation.status if any(holds(one, words) for one in each.any)}
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_each_situation_is_shown_as_it_is(name: str) -> None:
+    drive = MANY[name]
+    able = {status.shows for status in drive.operation.status}
+    for (situation, state), words in table(drive, Habits()).faces.items():
+        wanted = {fact for fact in able if getattr(situation, fact)}
+        assert shown(drive, words) == wanted, (situation, state)
+        # the output frequency decides, too; a drive with a bit for zero speed shows it there as well
+        if not situation.fault and (situation.zero_speed or "zero_speed" not in able):
+            stands = all(holds(one, words) for one in drive.operation.standstill.all)
+            assert stands != situation.running, (situation, state)
+        assert {one.name for one in drive.operation.states if holds(one, words)} == ({state} - {None})
+
+
+def test_situations_have_keys_of_their_own() -> None:
+    """The numbers by which C finds a face."""
+    found = list(situations())
+    assert len({each.key for each in found}) == len(found)
+    assert Situation(fault=True, zero_speed=False, ready=False, warning=True).key == 0b1000001
+
+
+def test_a_condition_that_zero_fulfils_is_not_shown_where_it_must_not_be() -> None:
+    """Made up: bit 2 is 0 while the motor runs, and the whole word 0 would be a fault."""
+    drive = shape("two registers")
+    running, fault = Condition(register=0x10, bit=Span(2, 2), equals=0), Condition(register=0x10, equals=0)
+    stands = Condition(register=0x10, bit=Span(2, 2), equals=1)
+    status = (
+        Status(shows="running", any=(running,), source="made up"),
+        Status(shows="fault", any=(fault,), source="made up"),
+    )
+    standstill = replace(drive.operation.standstill, all=(stands,))
+    drive = replace(drive, operation=replace(drive.operation, status=status, standstill=standstill))
+    faces = table(drive, Habits()).faces
+    assert faces[Situation(), None] == {0x10: 4}
+    assert faces[Situation(running=True), None] == {0x10: 1}
+    # a fault excludes all else here, and goes before it
+    assert faces[Situation(fault=True, ready=False), None] == {0x10: 0}
