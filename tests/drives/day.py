@@ -41,7 +41,7 @@ def _look(bench: Bench, meaning: Meaning, frame: Frame) -> None:
 def _turn(bench: Bench, turn: int) -> None:
     """Runs, at other and other speeds, a fault with its reset, a dip of the supply, a restart of the PLC."""
     drive = bench.drives[0]
-    bench.put(FaultReset=False, RunForward=False, SpeedReferenceHz=float(5 + turn % 45)).stopped()
+    bench.put(FaultReset=False, RunForward=False, SpeedReferenceHz=float(5 + turn % 45)).scan()
     bench.running()
     for step in range(30):
         bench.put(SpeedReferenceHz=float(5 + (turn + 7 * step) % 45)).run(3000)
