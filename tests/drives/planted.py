@@ -214,6 +214,12 @@ PLANTED = (
         partial(test_start.test_the_other_direction_goes_through_stop_and_a_new_edge, "CHF"),
     ),
     Planted(
+        "a refresh undoes the stop of a keypad",
+        "RefreshRun := AtSpeed AND NOT RefreshRun;",
+        "RefreshRun := NOT RefreshRun;",
+        partial(test_start.test_a_stop_of_the_keypad_is_not_undone_by_a_refresh, "CHF"),
+    ),
+    Planted(
         "no refresh",
         "        ELSIF Moving AND (EveryMs > 0) AND",
         "        ELSIF Moving AND (EveryMs > 60000) AND",

@@ -326,6 +326,19 @@ def test_a_run_that_ends_by_itself_is_answered_by_a_stop(kind: str) -> None:
         bench.until(lambda bench=bench: bench.drives[0].hertz > 24.0)  # type: ignore[misc]  # a default
 
 
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
+    """The drive says that it runs until the motor stands."""
+    bench = watched(kind).running()
+    bench.run(1500)
+    bench.drives[0].keypad_stop()
+    frames = bench.run(9000)
+    assert not motions(bench, frames)
+    assert bench.drives[0].mode == "standing"
+    assert bench.shows("StopConfirmed")
+    assert bench.reason() == "BY_ITSELF"
+
+
 def test_run_and_reference_are_refreshed_while_it_runs() -> None:
     bench = watched("CHF").running()
     frames = bench.run(10_000)
