@@ -233,7 +233,7 @@ class Machine:
         if on:
             self.heard_at = self.now
             self.fault = self.fault if self.cause else 0
-            if self._restart and not self.fault:
+            if self._restart and not self.fault and not self.inhibited:
                 self.motor.start()
             return
         self._restart = self.habits.auto_restart and self.motor.driven and not self._stopping
