@@ -89,7 +89,7 @@ def test_the_figures_of_a_pace() -> None:
     assert (pace.scans, pace.late, pace.missed, pace.worst_us) == (100, 1, 2, 34_000)
     assert pace.share_us(50) == pytest.approx(1490, abs=20)
     assert pace.share_us(99) == pytest.approx(9000, abs=20)
-    assert str(pace) == ("100 scans of 10 ms: 97.1 % kept, 2 missed; 1.50 ms median, 9.02 ms 99 %, 34.00 ms worst")
+    assert str(pace) == ("100 scans of 10 ms: 97.1 % kept, 2 missed\na scan took 1.50 ms (median), 9.02 ms (99 %), 34.00 ms (worst)")
 
 
 # ------------------------------------------------------------ how it ends
