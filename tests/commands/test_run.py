@@ -4,6 +4,7 @@ import functools
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -191,6 +192,15 @@ def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytes
     assert result.exit_code == 1
     assert "the demonstration has failed: stopping every drive" in result.output
     assert "this did not come true: the fan trips" in result.output
+
+
+def test_a_wheel_carries_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = tomllib.loads((EXAMPLE.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]["examples"] == "driveblocks/examples"
+    packed = tmp_path / "driveblocks" / "examples"
+    packed.mkdir(parents=True)
+    monkeypatch.setattr("driveblocks.__file__", str(tmp_path / "driveblocks" / "__init__.py"))
+    assert demo.path().parent == packed.resolve()
 
 
 def test_the_demonstration_is_the_example() -> None:

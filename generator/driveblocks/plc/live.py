@@ -15,6 +15,8 @@ from driveblocks.plc.session import Result, Session
 
 SIGNALS = {"SIGINT": "Ctrl-C", "SIGTERM": "SIGTERM", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
 """What ends a run, where the platform has it."""
+INSISTS = ("SIGINT", "SIGBREAK")
+"""What a person does who does not want to wait."""
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
@@ -63,7 +65,8 @@ def listening(ending: Ending) -> Iterator[None]:
     """Let signals end the run."""
 
     def ask(number: int, _: FrameType | None) -> None:
-        ending.ask(SIGNALS[signal.Signals(number).name])
+        name = signal.Signals(number).name
+        ending.ask(SIGNALS[name], insists=name in INSISTS)
 
     numbers = [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
     before = [(number, signal.signal(number, ask)) for number in numbers]
