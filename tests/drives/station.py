@@ -32,12 +32,14 @@ def maps() -> dict[str, Drive]:
     return {drive.prefix: drive for drive in (*map(load, catalog.shipped()), *shapes().values())}
 
 
-def texts(edit: Edit = str) -> list[Source]:
-    """The files that the stations need, each edited, and the stations."""
+def texts(edit: Edit = str, kinds: Sequence[str] = (*FAMILIES, *MADE_UP)) -> list[Source]:
+    """The files that the stations of these drives need, each edited, and the stations."""
     made = [file for name in MADE_UP for file in blocks.drive(name.lower(), maps()[name], [])]
     found = [*sources(), *(Source(each.path, each.text) for each in made)]
-    wanted = [Source(each.path, edit(each.text)) for each in found if _WANTED.fullmatch(each.path)]
-    return [*wanted, Source("stations.st", "\n".join(map(station, STATIONS)))]
+    others = tuple(f"{name}_" for name in (*FAMILIES, *MADE_UP) if name not in kinds)
+    wanted = [each for each in found if _WANTED.fullmatch(each.path) and not each.path.split("/")[1].startswith(others)]
+    stations = [station(types) for types in STATIONS if set(types) <= set(kinds)]
+    return [*(Source(each.path, edit(each.text)) for each in wanted), Source("stations.st", "\n".join(stations))]
 
 
 def name_of(types: Sequence[str]) -> str:
@@ -94,11 +96,11 @@ VAR
 
 
 @cache
-def library(edit: Edit = str) -> Library:
-    """The stations on the embedded engine."""
-    return built(EmbeddedEngine(), edit)
+def library() -> Library:
+    """Every station on the embedded engine."""
+    return built(EmbeddedEngine())
 
 
-def built(engine: Engine, edit: Edit = str) -> Library:
-    """The stations on an engine."""
-    return engine.build(texts(edit))
+def built(engine: Engine, edit: Edit = str, kinds: Sequence[str] = (*FAMILIES, *MADE_UP)) -> Library:
+    """The stations of these drives on an engine."""
+    return engine.build(texts(edit, kinds))

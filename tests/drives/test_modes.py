@@ -101,9 +101,11 @@ def test_two_drives_of_one_address_are_stopped() -> None:
 
 def test_two_blocks_on_one_slot_are_stopped() -> None:
     bench = watched("CHF").running()
-    bench.watch.append(
-        lambda each: each.block.__setitem__("Slots[0].Alive", int(str(each.block["Slots[0].Alive"])) ^ 7)
-    )
+
+    def other(bench: Bench) -> None:
+        bench.block["Slots[0].Alive"] = int(str(bench.block["Slots[0].Alive"])) ^ 7
+
+    bench.watch.append(other)
     bench.run(100)
     assert bench.reason() == "SHARED"
     assert bench.out("Error")

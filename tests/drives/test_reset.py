@@ -15,7 +15,7 @@ CAN = [
 
 def tripped(kind: str = "CHF", code: int = 3) -> Bench:
     """A drive with a fault, whose cause is gone and whose motor stands."""
-    bench = watched(kind).running()
+    bench = watched(kind, ms=10).running()
     bench.put(RunForward=False)
     bench.drives[0].trip(code)
     bench.drives[0].clear_cause()
@@ -69,6 +69,15 @@ def test_a_reset_that_fails_is_tried_so_often_and_no_more() -> None:
     assert not bench.shows("Fault")
 
 
+def test_a_reset_that_nobody_answers_is_tried_three_times() -> None:
+    bench = tripped()
+    bench.drives[0].cause = True
+    bench.spoil = lambda frame, reply: None if sent(bench, [frame], "fault_reset") else reply
+    bench.put(FaultReset=True)
+    assert len(sent(bench, bench.run(9000), "fault_reset")) == 3
+    assert bench.reason() == "FAULT"
+
+
 def test_another_fault_is_not_reset_by_a_repetition() -> None:
     """The attempt is refused; meanwhile another fault has come, which nobody has seen."""
     bench = tripped()
@@ -78,7 +87,6 @@ def test_another_fault_is_not_reset_by_a_repetition() -> None:
     bench.until(lambda: sent(bench, bench.frames, "fault_reset"))
     bench.drives[0].fault = 9
     bench.drives[0].clear_cause()
-    bench.drives[0].habits = bench.drives[0].habits
     frames = bench.run(8000)
     assert not sent(bench, frames, "fault_reset")
     assert bench.out("FaultCode") == 9

@@ -244,6 +244,14 @@ def test_what_gives_the_reference_its_meaning_is_read_first() -> None:
     bench.until(lambda: bench.drives[0].hertz > 24.0)
 
 
+def test_a_setting_that_changes_while_it_runs_stops_it() -> None:
+    bench = watched("SN300G5").running()
+    bench.drives[0].set(0x000F, 1)
+    bench.run(6000)
+    assert bench.shows("StopConfirmed")
+    assert bench.reason() == "SETTING"
+
+
 def test_settings_are_read_again_behind_a_run_of_its_own() -> None:
     """A dip of the supply may have brought another setting."""
     bench = watched("SN300G5").running()
@@ -333,3 +341,22 @@ def test_a_reference_is_written_when_it_changes() -> None:
     bench.put(SpeedReferenceHz=70.0)
     assert [each.word for each in sent(bench, bench.run(3000), "reference")] == [10000]
     assert bench.out("ReferenceLimited")
+
+
+def test_a_path_of_states_is_walked_in_its_order() -> None:
+    """The drive needs a while from each word to its state."""
+    bench = watched("CIA", habits=Habits(settle_ms=150)).stopped()
+    edge(bench)
+    bench.until(lambda: bench.drives[0].hertz > 24.0)
+    assert bench.block["TheLine.Refusals"] == 0
+    seventh, last = (next(each for each in bench.frames if each.word == word) for word in (0x0007, 0x000F))
+    assert last.ms - seventh.ms >= 150
+
+
+def test_a_pulse_is_as_long_as_the_map_says() -> None:
+    bench = watched("PUL").stopped()
+    edge(bench)
+    frames = [each for each in bench.run(500) if each.address == 0x1000]
+    assert [each.word for each in frames[:2]] == [1, 0]
+    assert frames[1].ms - frames[0].ms >= 100
+    bench.until(lambda: bench.drives[0].hertz > 24.0)

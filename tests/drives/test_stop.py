@@ -68,33 +68,41 @@ def test_a_stop_that_nobody_acknowledges_is_not_confirmed(kind: str) -> None:
     bench.stopped()
 
 
-@pytest.mark.parametrize(("kind", "status", "frequency"), [("CHF", 0x1001, 0x3000), ("JSCC", 0x2001, 0x2000)])
-def test_standstill_needs_status_and_frequency(kind: str, status: int, frequency: int) -> None:
-    for odd, word in ((status, 1), (frequency, 1)):
-        bench = watched(kind).stopped()
-        true_word = bench.drives[0].word
-        bench.drives[0].word = (  # type: ignore[method-assign]  # another word in one register
-            lambda address, odd=odd, word=word, true_word=true_word: word if address == odd else true_word(address)
-        )
-        bench.restart().run(3000)
-        assert bench.shows("CommOk")
-        assert not bench.shows("StopConfirmed")
+@pytest.mark.parametrize(
+    ("kind", "odd", "word"),
+    [("CHF", 0x1001, 5), ("CHF", 0x3000, 1), ("JSCC", 0x2001, 0), ("JSCC", 0x2000, 1), ("SN300G5", 0x0021, 1)],
+)
+def test_standstill_needs_status_and_frequency(kind: str, odd: int, word: int) -> None:
+    bench = watched(kind).stopped()
+    shown = bench.drives[0].word
+    bench.drives[0].word = lambda address: word if address == odd else shown(address)  # type: ignore[method-assign]  # it lies
+    bench.restart().run(3000)
+    assert bench.shows("CommOk")
+    assert not bench.shows("StopConfirmed")
 
 
 def test_words_read_before_the_acknowledgement_prove_nothing() -> None:
+    """The stop is acknowledged late; meanwhile standstill is read, and then a motor that turns again."""
     bench = watched("CHF").stopped()
-    bench.put(Enable=False)
-    reads: list[int] = []
-    for _ in range(200):
-        acknowledged = len(bench.acknowledged)
-        bench.scan()
-        news = bench.acknowledged[acknowledged:]
-        if any(stops(bench, [each]) for each in news):
-            reads = []
-        reads += [each.address for each in news if each.read]
-        if bench.shows("StopConfirmed") and not bench.shows("Ready") and bench.reason() == "DISABLED" and reads:
-            break
-    assert {0x1001, 0x3000} <= {each for read in reads for each in range(read, read + 7)}
+    bench.spoil = lambda frame, reply: None if stops(bench, [frame]) else reply
+    bench.put(Enable=False).run(100)
+    bench.spoil = lambda _, reply: reply
+    bench.until(lambda: stops(bench, bench.acknowledged[-1:]))
+    before = len(bench.acknowledged)
+    bench.until(lambda: bench.shows("StopConfirmed"))
+    assert {0x1001, 0x3000} <= {each.address for each in bench.acknowledged[before:]}
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_stop_follows_a_lost_connection(kind: str) -> None:
+    """Though the motor stood before: nobody knows what has happened meanwhile."""
+    bench = watched(kind).stopped()
+    bench.deaf = {1}
+    bench.until(lambda: not bench.shows("CommOk"), 9000)
+    bench.deaf = set()
+    before = len(bench.acknowledged)
+    bench.until(lambda: bench.shows("StopConfirmed"), 9000)
+    assert stops(bench, bench.acknowledged[before:])
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,8 @@ from pathlib import Path
 
 from tests.blocks.compare.comparison import with_double
 from tests.blocks.toolchains import FOUND
+from tests.drives import test_engines
+from tests.drives.walk import walk as drive_walk
 from tests.line import refresh
 from tests.line.cline import WHY_NOT, CLine, Ran, build
 from tests.line.planted import PLANTED, Planted
@@ -31,6 +33,8 @@ KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1,
 OTHERS = 0.2
 """How many lines run on another line of matiec, and with 32 slots, for one on the first."""
 WALKS, SCANS = 100, 1000
+DRIVE_WALKS = 60
+"""Twice each station of tests/drives/station.py, and some more of the families."""
 JITTER = 10
 
 
@@ -252,6 +256,10 @@ def engines(_: Job) -> Iterator[Row]:
     for seed in range(WALKS):
         walk(seed, SCANS, twins(every))
     yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")
+    stations = test_engines.twins(every, every=1)
+    for seed in range(DRIVE_WALKS):
+        drive_walk(seed, stations)
+    yield Row(f"{DRIVE_WALKS} walks of drive blocks on {', '.join(every)}", "one state after each scan")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
 """One line on several engines at once: what is set is set on all, and their states must be equal after every scan."""
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from driveblocks.host.engine import Instance, Library, Value
+from driveblocks.host.engine import Configuration, Instance, Library, Value
 
 _COPY = re.compile(r"[\w.]+\.(?:REPLY|SLOT|SLOTS|PORT|STORES)\b.*")
 """Copies of in-outs inside inner instances, which only C keeps."""
@@ -68,6 +68,14 @@ class TwinLibrary:
         """One of each engine."""
         return Twins([each.instance(block) for each in self.libraries], self.every)
 
-    def call(self, function: str, pins: Mapping[str, Value]) -> Value:
-        """Call of the first."""
-        return self.libraries[0].call(function, pins)
+    def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
+        """Call a function of the first."""
+        return self.libraries[0].call(function, arguments)
+
+    def configuration(self, name: str | None = None) -> Configuration:
+        """Start that of the first."""
+        return self.libraries[0].configuration(name)
+
+    def blocks(self) -> Iterator[str]:
+        """Those of the first."""
+        return self.libraries[0].blocks()

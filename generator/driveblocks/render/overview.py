@@ -21,7 +21,8 @@ def overview(files: list[File], drives: list[Drive], checked: Checked, can: dict
     for file in files:
         block = checked.blocks.get(file.name.upper()) or checked.functions.get(file.name.upper())
         if block is not None:
-            rows.setdefault(file.folder, []).append(_row(file, block))
+            found = rows.setdefault(file.folder, [])
+            found.insert(0 if file.name.endswith("_Drive") else len(found), _row(file, block))
     types = {file.name: checked.types[file.name.upper()] for file in files if file.folder == "types"}
     known = {drive.prefix: context.identity(drive) for drive in drives}
     return render(

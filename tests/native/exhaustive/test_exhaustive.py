@@ -127,9 +127,11 @@ def test_the_embedded_engine_finds_a_planted_mistake() -> None:
 
 
 def test_every_block_but_the_commands_is_in_a_check() -> None:
-    """A block that is new is not left out in silence."""
+    """A block that is new is not left out in silence. What parameters need is tried at each side of every limit by
+    tests/blocks/permissions.py, and compared on every engine."""
     by_name = {scan.name for scan in program.SCANS} | {*ALLOWED}
     by_hand = {"MB_Crc16", "MB_Crc16Compact", "MB_Lrc"}
     by_hand |= {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Reference", "Standstill")}
     blocks = {Path(source.path).stem for source in alone() if not source.path.startswith("types/")}
-    assert blocks - by_name - by_hand == {f"{prefix}_Command" for prefix in shipped()}
+    left = {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Command", "MayWrite", "ParameterAddress")}
+    assert blocks - by_name - by_hand == left

@@ -1,0 +1,338 @@
+"""Mistakes that somebody could make in a drive block, each as an edit of its text, and the test that has to find it."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from unittest.mock import patch
+
+from tests.drives import test_modes, test_reset, test_start, test_stop
+from tests.drives.station import built
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+
+CHF, SN, CIA, PUL = ("CHF",), ("SN300G5",), ("CIA",), ("PUL",)
+THREE = ("CHF", "JSCC", "SN300G5")
+never_stored = test_start.test_an_edge_is_never_stored
+needs_release = test_start.test_what_stops_a_motor_needs_a_release_and_a_new_edge
+
+
+@dataclass(frozen=True)
+class Planted:
+    """A mistake: its name, what stands in the text, what instead, the test that tells, and the drives that it needs."""
+
+    name: str
+    old: str
+    new: str
+    test: Callable[[], None]
+    kinds: Sequence[str] = CHF
+
+    def edit(self, text: str) -> str:
+        """The text with the mistake in it, where it belongs there."""
+        return text.replace(self.old, self.new)
+
+    def found(self) -> bool:
+        """Whether its test turns red."""
+        stations = built(EmbeddedEngine(), self.edit, self.kinds)
+        with patch("tests.drives.bench.library", lambda: stations):
+            try:
+                self.test()
+            except AssertionError:
+                return True
+        return False
+
+    @property
+    def by(self) -> str:
+        """The name of the test."""
+        test = self.test
+        if not isinstance(test, partial):
+            return test.__name__
+        return f"{test.func.__name__}[{'-'.join(map(str, test.args))}]"
+
+
+PLANTED = (
+    Planted(
+        "a stop is sent once",
+        "      ELSIF ((RepeatMs >= 3000) OR",
+        "      ELSIF (State > 9) AND ((RepeatMs >= 3000) OR",
+        partial(test_stop.test_a_stop_leaves_at_once_and_again_until_the_motor_stands, "CHF"),
+    ),
+    Planted(
+        "an edge that comes too early is not held",
+        "    ELSE\n      Held := TRUE;\n      IF Halt THEN",
+        "    ELSE\n      AskedMemory := FALSE;\n      Asked := FALSE;\n      IF Halt THEN",
+        test_start.test_an_edge_before_the_stop_is_confirmed_is_lost,
+    ),
+    *(
+        Planted(f"{what} does not count", f"  ELSIF {old} THEN\n    Cause", "  ELSIF FALSE THEN\n    Cause", test)
+        for what, old, test in (
+            ("SupplyOn", "NOT SupplyOn", partial(never_stored, "no supply")),
+            ("a missing line", "NOT Linked", partial(never_stored, "no line")),
+            ("a fault", "FaultPresent", partial(never_stored, "a fault")),
+            ("StopAll", "Slot.StopAll", partial(never_stored, "StopAll")),
+            ("SpeedOnly", "SpeedOnly", partial(never_stored, "only speed")),
+            ("MonitorOnly", "MonitorOnly", partial(never_stored, "only reads")),
+            ("Enable", "NOT Enable", partial(needs_release, "Enable")),
+            ("a stop pin", "QuickStop OR CoastStop", partial(needs_release, "CoastStop")),
+            ("both directions", "Both", partial(needs_release, "both directions")),
+            ("a setting that is missing", "Missing", partial(needs_release, "no time to stop")),
+            ("a reference that is no number", "Asked AND (ReferenceErrorID <> 0)", partial(needs_release, "no number")),
+        )
+    ),
+    Planted(
+        "a shared slot does not count",
+        "  Shared := (Slot.Alive <> AliveSeen) AND Started",
+        "  Shared := (Slot.Alive <> AliveSeen) AND NOT Started",
+        test_modes.test_two_blocks_on_one_slot_are_stopped,
+    ),
+    Planted(
+        "a refresh goes out behind a dip of the supply",
+        "    ELSIF Ran AND NOT Halt THEN\n      NewStop := TRUE;\n      Held := TRUE;\n",
+        "    ELSIF FALSE THEN\n      NewStop := TRUE;\n      Held := TRUE;\n",
+        partial(test_start.test_a_short_dip_of_the_supply_starts_nothing, "CHF"),
+    ),
+    Planted(
+        "a run of its own is taken over",
+        "    IF (ProofRead AND NOT Stands) OR Moving THEN",
+        "    IF FALSE THEN",
+        partial(test_start.test_a_keypad_that_starts_or_stops_is_answered_by_a_stop, "CHF"),
+    ),
+    Planted(
+        "a start is sent without its reference",
+        "      Begun := TRUE;\n      SinceStartMs := 0;\n      Sent := 10;\n",
+        "      Begun := TRUE;\n      SinceStartMs := 0;\n      State := 3;\n      Sent := Order;\n",
+        test_start.test_no_run_before_its_reference_is_acknowledged,
+    ),
+    Planted(
+        "run does not wait for its reference",
+        "    ELSIF (State = 2) AND Taken AND NOT Answered THEN",
+        "    ELSIF (State = 2) AND (SinceStartMs > 40) THEN",
+        test_start.test_no_run_before_its_reference_is_acknowledged,
+    ),
+    Planted(
+        "a run without an answer is left alone",
+        "    ELSIF Answered AND (AnswerErrorID <> 0) THEN\n      NewStop := TRUE;\n      Held := TRUE;\n",
+        "    ELSIF Answered AND (AnswerErrorID <> 0) THEN\n      State := 1;\n      Held := TRUE;\n",
+        test_start.test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed,
+    ),
+    Planted(
+        "settings are not verified",
+        "    Good := (",
+        "    Good := TRUE OR (",
+        test_start.test_what_gives_the_reference_its_meaning_is_read_first,
+        SN,
+    ),
+    Planted(
+        "a setting may change while it runs",
+        "    ELSIF SettingsRead AND NOT SettingsGood THEN\n      NewStop",
+        "    ELSIF FALSE THEN\n      NewStop",
+        test_start.test_a_setting_that_changes_while_it_runs_stops_it,
+        SN,
+    ),
+    Planted(
+        "standstill is believed by words read before",
+        "        Reread := NOT Acknowledged OR (Resetting = 0);\n",
+        "",
+        test_stop.test_words_read_before_the_acknowledgement_prove_nothing,
+    ),
+    Planted(
+        "StopConfirmed without the acknowledgement",
+        "    IF (Slot.Answer[0].Number = StopNumber) AND NOT NewStop THEN",
+        "    IF (RepeatMs > 200) AND NOT NewStop THEN",
+        partial(test_stop.test_a_stop_that_nobody_acknowledges_is_not_confirmed, "CHF"),
+    ),
+    Planted(
+        "StopConfirmed by frequency alone",
+        "Stands := Proof.StandstillProven AND",
+        "Stands := ZeroSpeed AND",
+        partial(test_stop.test_standstill_needs_status_and_frequency, "CHF", 0x1001, 5),
+    ),
+    Planted(
+        "old words are shown behind a lost connection",
+        "  CommOk := Link.Linked AND Slot.Online AND (DataAgeMs <= StaleMs) AND NOT Moved;",
+        "  CommOk := Link.Linked AND (DataAgeMs <= 65535) AND NOT Moved;",
+        test_stop.test_nothing_stale_is_shown_as_good,
+    ),
+    Planted(
+        "a reset while a run pin is held",
+        "    IF Asked OR NOT CanResetFault",
+        "    IF NOT CanResetFault",
+        partial(test_reset.test_no_reset_while_a_run_pin_is_held, "RunForward"),
+    ),
+    Planted(
+        "a reset is repeated without end",
+        "    IF (FaultCode <> ResetCode) OR (ResetTries >= 3) THEN",
+        "    IF FaultCode <> ResetCode THEN",
+        test_reset.test_a_reset_that_nobody_answers_is_tried_three_times,
+    ),
+    Planted(
+        "a repeated reset does not look at the fault",
+        "    IF (FaultCode <> ResetCode) OR (ResetTries >= 3) THEN",
+        "    IF ResetTries >= 3 THEN",
+        test_reset.test_another_fault_is_not_reset_by_a_repetition,
+    ),
+    Planted(
+        "a reset starts again",
+        "  IF Asked AND NOT AskedMemory THEN\n    IF Startable AND NOT Held AND",
+        "  IF Asked AND (NOT AskedMemory OR (ResetCode > 0)) THEN\n    IF Startable AND",
+        test_reset.test_a_run_pin_held_through_a_reset_starts_nothing,
+    ),
+    Planted(
+        "a repeated stop cuts a reset of two writes",
+        "    IF (ProofRead AND NOT Stands) OR Moving THEN",
+        "    IF NOT Stands OR Moving THEN",
+        partial(test_reset.test_a_reset_ends_the_fault_and_starts_nothing, "CIA"),
+        CIA,
+    ),
+    Planted(
+        "with MonitorOnly a fault is answered",
+        "    NewStop := NOT MonitorOnly OR SpeedOnly OR Slot.StopAll;",
+        "    NewStop := NewStop OR NOT MonitorOnly OR SpeedOnly OR Slot.StopAll;",
+        partial(test_modes.test_with_monitor_only_it_stops_and_then_only_reads, "CHF"),
+    ),
+    Planted(
+        "with SpeedOnly a stop goes out",
+        "    NewStop := NOT SpeedOnly;",
+        "    NewStop := NOT SpeedOnly OR (RefreshedMs > 900);",
+        partial(test_modes.test_with_speed_only_it_writes_the_reference_and_starts_nothing, "CHF"),
+    ),
+    Planted(
+        "an address is taken while the motor turns",
+        "  Moved := (Address <> Unit) AND (Link.Restarted OR Control.StopConfirmed OR (Unit = 0));",
+        "  Moved := Address <> Unit;",
+        test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
+    ),
+    Planted(
+        "a poll starves",
+        "    IF (Link.Turn = 0) THEN\n      Entry := 1;",
+        "    IF (Link.Turn = 9) THEN\n      Entry := 1;",
+        partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "CHF", "rtu"),
+    ),
+    Planted(
+        "the other direction needs no stop",
+        "    IF Halt OR (Wish <> Order) THEN",
+        "    IF Halt OR (Wish = 0) THEN",
+        partial(test_start.test_the_other_direction_goes_through_stop_and_a_new_edge, "CHF"),
+    ),
+    Planted(
+        "no refresh",
+        "        ELSIF Moving AND (EveryMs > 0) AND",
+        "        ELSIF Moving AND (EveryMs > 60000) AND",
+        test_start.test_run_and_reference_are_refreshed_while_it_runs,
+    ),
+    Planted(
+        "a reference is written in every scan",
+        "        GoodWord := SentWord;\n",
+        "",
+        test_start.test_a_reference_is_written_when_it_changes,
+    ),
+    Planted(
+        "a parameter while the motor turns",
+        "AllowUnknown := ParAny, Stopped := StopConfirmed);",
+        "AllowUnknown := ParAny, Stopped := TRUE);",
+        test_modes.test_parameters_and_starts_exclude_each_other,
+    ),
+    Planted(
+        "a start while a parameter waits",
+        "AND ReadyShown AND NOT WriteWaits AND",
+        "AND ReadyShown AND",
+        partial(never_stored, "a parameter waits"),
+    ),
+    Planted(
+        "the next write of a path does not wait for its state",
+        "StepReached := Reached, ",
+        "StepReached := TRUE, ",
+        test_start.test_a_path_of_states_is_walked_in_its_order,
+        CIA,
+    ),
+    Planted(
+        "a pulse is cut short",
+        "StepHoldMs := HoldMs",
+        "StepHoldMs := 0",
+        test_start.test_a_pulse_is_as_long_as_the_map_says,
+        PUL,
+    ),
+    Planted(
+        "a stop waits behind the one before",
+        "  IF Halted AND (Kind > StopKind) AND (StopKind < 4) AND (State = 0) THEN\n    NewStop := TRUE;",
+        "  IF FALSE THEN\n    NewStop := TRUE;",
+        test_stop.test_a_harder_stop_replaces_a_softer_one,
+        CIA,
+    ),
+    Planted(
+        "a drive that is not ready stays so",
+        "    ELSIF NOT Halt AND NOT ReadyShown AND (RepeatMs >= 1000)",
+        "    ELSIF FALSE AND (RepeatMs >= 1000)",
+        test_stop.test_a_drive_that_is_not_ready_gets_the_word_of_a_stop_again,
+        CIA,
+    ),
+    Planted(
+        "a missing line is not overdue",
+        " OR (NOT Link.Linked AND NOT Link.Restarted AND SupplyOn);",
+        ";",
+        test_stop.test_a_line_that_is_no_longer_called_is_told,
+    ),
+    Planted(
+        "the first fault is overwritten",
+        "    IF NOT Latched THEN\n      Latched := TRUE;\n",
+        "    IF TRUE THEN\n      Latched := TRUE;\n",
+        test_reset.test_the_first_fault_and_the_last_eight,
+    ),
+    Planted(
+        "what does not follow is let run",
+        "    IF NOT NewStop AND NOT Ran AND (SinceStartMs",
+        "    IF NOT NewStop AND NOT Ran AND Halt AND (SinceStartMs",
+        test_start.test_a_drive_that_does_not_follow_is_stopped,
+        ("JSCC",),
+    ),
+    Planted(
+        "a fault posts no stop",
+        "  IF FaultPresent AND CommOk AND NOT FaultMemory THEN\n    NewStop := TRUE;",
+        "  IF FaultPresent AND CommOk AND NOT FaultMemory THEN\n    Held := TRUE;",
+        partial(test_stop.test_a_fault_posts_a_stop, "SN300G5"),
+        SN,
+    ),
+    Planted(
+        "a lost connection posts no stop",
+        "  IF CommMemory AND NOT CommOk THEN\n    NewStop := TRUE;\n",
+        "  IF CommMemory AND NOT CommOk THEN\n",
+        partial(test_stop.test_a_stop_follows_a_lost_connection, "CHF"),
+    ),
+    Planted(
+        "a reset outlives what it was asked for",
+        "  ELSIF (Resetting > 0) AND (NOT CommOk OR NOT SupplyOn OR MonitorOnly OR SpeedOnly OR (ResetMs > 10000)) THEN",
+        "  ELSIF (Resetting > 0) AND (ResetMs > 10000) THEN",
+        partial(test_reset.test_a_reset_does_not_outlive_what_it_was_asked_for, "MonitorOnly"),
+    ),
+    Planted(
+        "a word is taken from the wrong place",
+        "      DCBusVoltageWord := Slot.PollWords[2];",
+        "      DCBusVoltageWord := Slot.PollWords[3];",
+        test_modes.test_each_drive_shows_its_own_words,
+    ),
+    Planted(
+        "a stop pin sends the plain stop",
+        "    IF Control.StopKind = 3 THEN",
+        "    IF Control.StopKind = 33 THEN",
+        partial(test_stop.test_each_stop_pin_sends_its_stop_or_the_one_there_is, "CHF", "CoastStop", "coast_stop"),
+    ),
+    Planted(
+        "a jog is never ended",
+        "        IF StopKind = 4 THEN\n          StopKind := 1;\n        END_IF;\n",
+        "        StopKind := 4;\n",
+        partial(test_stop.test_a_stop_leaves_at_once_and_again_until_the_motor_stands, "CHF"),
+    ),
+    Planted(
+        "other bits of the command word are lost",
+        "Words[0] := KeepWord AND WORD#16#00FC;",
+        "Words[0] := WORD#16#0000;",
+        test_stop.test_only_the_drives_own_bits_change_with_a_stop,
+        SN,
+    ),
+    Planted(
+        "both directions in one word",
+        " OR WORD#16#0001;",
+        " OR WORD#16#0003;",
+        partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "SN300G5", "rtu"),
+        SN,
+    ),
+)

@@ -1,0 +1,16 @@
+"""Mistakes planted in the blocks are found; here that each still has its place, and some of them; `make drives`: all."""
+
+import pytest
+from tests.drives.planted import PLANTED, Planted
+from tests.drives.station import texts
+
+
+def test_every_mistake_has_its_place() -> None:
+    text = "".join(each.text for each in texts())
+    assert [each.name for each in PLANTED if each.old not in text] == []
+    assert len({each.name for each in PLANTED}) == len(PLANTED) >= 30
+
+
+@pytest.mark.parametrize("planted", PLANTED[::18], ids=lambda each: each.name)
+def test_it_is_found(planted: Planted) -> None:
+    assert planted.found(), planted.by

@@ -1,0 +1,9 @@
+"""Short walks; `make drives` goes on."""
+
+import pytest
+from tests.drives.walk import walk
+
+
+@pytest.mark.parametrize("seed", [*range(20), 20605, 3196])
+def test_every_rule_holds(seed: int) -> None:
+    walk(seed)
