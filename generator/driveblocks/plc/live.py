@@ -32,7 +32,7 @@ def run(
         scans.start()
         try:
             if keyboard is not None:
-                _listen_to(keyboard, session, screen, end_of_input=end_of_input)
+                _listen_to(keyboard, session, end_of_input=end_of_input)
             _watch(session, screen, scans)
         except BaseException as error:  # a lost terminal must not leave drives running
             session.ending.ask(f"the screen has failed: {error or type(error).__name__}")
@@ -77,11 +77,10 @@ def listening(ending: Ending) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _listen_to(keyboard: Keyboard, session: Session, screen: Screen, *, end_of_input: bool) -> None:
+def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:
     inputs, instance = session.controller.wiring.inputs, session.controller.instance
 
     def taken(line: str) -> None:
-        screen.typed()
         if line.strip():
             try:
                 session.settings.put(typed(line, inputs, instance))
