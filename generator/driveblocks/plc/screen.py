@@ -59,7 +59,7 @@ class Lines:
                 self._at(view, f"  {drive.name} {hertz}{now}")
         for name, value in view.shown.items():
             at, old = self._shown.get(name, (-EVERY_US, None))
-            settled = not isinstance(value, float) or view.at_us - at >= EVERY_US
+            settled = isinstance(value, bool) or view.at_us - at >= EVERY_US
             if old != value and settled:
                 self._shown[name] = view.at_us, value
                 self._at(view, f"  {name} = {spelled(value)}")
