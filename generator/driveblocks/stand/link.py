@@ -144,7 +144,8 @@ class WithoutEcho:
     def receive(self) -> bytes:
         """Bytes that have come, without the echo."""
         data = self._inner.receive()
-        same = len(os.path.commonprefix([data, self._own]))
+        same = next((at for at, (one, own) in enumerate(zip(data, self._own, strict=False)) if one != own), None)
+        same = min(len(data), len(self._own)) if same is None else same
         self._own = self._own[same:] if same == len(data) else b""
         return data[same:]
 

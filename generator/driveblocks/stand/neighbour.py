@@ -92,6 +92,6 @@ def _question(unit: int, drive: Drive) -> bytes:
 
 def _refusal(unit: int) -> str:
     return (
-        f"a real unit answers at address {unit}: a PLC could read from the simulator that it has stopped while its motor "
-        f"turns; simulate another unit, or take the real one off the line"
+        f"a real unit answers at address {unit}: a PLC could read from the simulator that it has stopped while its "
+        f"motor turns; simulate another unit, or take the real one off the line"
     )

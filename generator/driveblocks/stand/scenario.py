@@ -73,7 +73,7 @@ VERBS = (
     Verb("stop", UNIT, "stop 2", "somebody stops it at the keypad", lambda drive, _: drive.keypad_stop()),
     Verb("load", PERCENT + UNIT, "load 80 % 2", "the motor's load",
          lambda drive, words: setattr(drive, "load", round(float(words["percent"] or 0)))),
-    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin so long behind the request"),
+    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin so long behind a request"),
     Verb("drop", PERCENT + LASTS, "drop 10 % for 5 s", "so many of all frames, to and fro, get lost"),
     Verb("damage", PERCENT + LASTS, "damage 1 %", "so many of all frames arrive with a wrong bit"),
 )  # fmt: skip
@@ -146,7 +146,7 @@ class _Step:
         self._report.add((line, column + there), wrong, right)
 
     def _made(self, verb: Verb, value: Scalar, words: dict[str, str | None]) -> Iterator[Happening]:
-        units = self._units(verb, value, words)
+        units = self._units(value, words)
         percent = float(words.get("percent") or 0)
         if percent > 100:
             self._wrong(value, verb.word, f"{words['percent']} % is more than all", "write 0 % to 100 %")
@@ -169,7 +169,7 @@ class _Step:
             does = verb.does
             yield Happening(self._at_us, value.text, _each(units, lambda drive: does(drive, words)))
 
-    def _units(self, verb: Verb, value: Scalar, words: Words) -> tuple[int, ...]:
+    def _units(self, value: Scalar, words: Words) -> tuple[int, ...]:
         named = words.get("unit")
         if named is None:
             return tuple(self._drives)
