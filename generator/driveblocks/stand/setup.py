@@ -15,7 +15,7 @@ from driveblocks.plc import live, port, wanted
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, Refused, time
-from driveblocks.plc.screen import Lines, LiveTable, Screen
+from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand import scenario
 from driveblocks.stand.bus import Bus
@@ -127,7 +127,7 @@ class Setup:
         terminal = console.terminal()
         self._begun_us = self._clock.now_us()
         if terminal.is_terminal and not terminal.is_dumb_terminal:
-            return LiveTable(LABEL, place, real=self._words.port is not None, keys=False)
+            return LiveTable(Heading(LABEL, place, real=self._words.port is not None))
         return Lines(LABEL, brief=True)
 
     def _told(self, place: str) -> str:
