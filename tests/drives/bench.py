@@ -99,6 +99,7 @@ class Bench:
         self.chance = Random(seed)
         self.faults = Faults()
         self.deaf: set[int] = set()
+        self.echo = False
         self.spoil: Callable[[Frame, bytes | None], bytes | None] = lambda _, reply: reply
         self.frames: list[Frame] = []
         self.acknowledged: list[Frame] = []
@@ -119,7 +120,7 @@ class Bench:
 
     # ------------------------------------------------------------ pins
 
-    def put(self, drive: int = 0, **pins: Value) -> "Bench":
+    def put(self, drive: int = 0, /, **pins: Value) -> "Bench":
         """Set inputs of a drive block."""
         for name, value in pins.items():
             self.block[f"Drive{drive}.{name}"] = value
@@ -138,6 +139,12 @@ class Bench:
     def out(self, name: str, drive: int = 0) -> Value:
         """An output of a drive block."""
         return self.block[f"Drive{drive}.{name}"]
+
+    def number(self, name: str, drive: int = 0) -> float:
+        """The same as a number."""
+        value = self.out(name, drive)
+        assert isinstance(value, (int, float))
+        return value
 
     def shows(self, name: str, drive: int = 0) -> bool:
         """An output that `Seen` holds, as it was at the end of the last scan."""
@@ -201,7 +208,7 @@ class Bench:
         """What the blocks show, for messages."""
         drives = range(len(self.types))
         pins = [" ".join([pin for pin in PINS if self.shows(pin, i)] + [self.reason(i)]) for i in drives]
-        states = [f"State {self.out('Control.State', i)}, drive {self.drives[i].mode}" for i in drives]
+        states = [f"State {self.out('Control.State', i)!r}, drive {self.drives[i].mode}" for i in drives]
         shown = [f"{pin}, {state}" for pin, state in zip(pins, states, strict=True)]
         return f"{self.now // 1000} ms: {'; '.join(shown)}"
 
@@ -236,6 +243,8 @@ class Bench:
         self._free = end
         for each in meets:
             self._wire[self._wire.index(each)] = Heard(each.at, each.begins, self._garbled(each.text), None)
+        if self.echo:
+            self.transmit(raw, start)
         if not meets and not self._happens(self.faults.lost):
             self._answer(frame, data, end)
 
@@ -250,7 +259,8 @@ class Bench:
         faults, turn = self.faults, self.drives[0].turn_us
         if self._happens(faults.late):
             turn = 1000 * self.chance.randint(20, 55)
-        text, good = _sealed(reply, self.ascii), frame
+        good: Frame | None = frame
+        text = _sealed(reply, self.ascii)
         if self._happens(faults.garbled):
             text, good = self._garbled(text), None
         if self._happens(faults.truncated):
@@ -278,7 +288,29 @@ class Bench:
     def _happens(self, per_1000: int) -> bool:
         return per_1000 > 0 and self.chance.randrange(1000) < per_1000
 
-    # ------------------------------------------------------------ what tests begin with
+    # ------------------------------------------------------------ what tests begin and end with
+
+    def heal(self) -> "Bench":
+        """All is well again: a release and a new edge run each motor, and its pin stops it."""
+        self.faults, self.deaf, self.spoil = Faults(), set(), lambda _, reply: reply
+        self.line(StopAll=False, Acknowledge=False, Restart=False)
+        self.block["SkipLine"] = False
+        calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
+        for index, drive in enumerate(self.drives):
+            self.block[f"Skip{index}"] = False
+            self.put(index, Enable=True, SupplyOn=True, SpeedReferenceHz=25.0, **calm)
+            drive.power(on=True)
+            drive.inhibit(on=False)
+            drive.clear_cause()
+            drive.local, drive.follows, drive.keeps_running = False, True, False
+        self.run(1200)
+        self.until(lambda: not any(drive.motor.shaft for drive in self.drives), 9000).line(Acknowledge=True)
+        for index, drive in enumerate(self.drives):
+            drive.reset()
+            self.running("RunForward", index)
+            assert abs(drive.hertz - 25.0) < 0.2, f"turns at {drive.hertz}"
+            self.put(index, RunForward=False).stopped(index)
+        return self
 
     def stopped(self, drive: int = 0) -> "Bench":
         """Scan until the stop is confirmed and a start is possible."""

@@ -214,6 +214,12 @@ PLANTED = (
         partial(test_start.test_the_other_direction_goes_through_stop_and_a_new_edge, "CHF"),
     ),
     Planted(
+        "a refresh undoes the stop of a keypad",
+        "RefreshRun := AtSpeed AND NOT RefreshRun;",
+        "RefreshRun := NOT RefreshRun;",
+        partial(test_start.test_a_stop_of_the_keypad_is_not_undone_by_a_refresh, "CHF"),
+    ),
+    Planted(
         "no refresh",
         "        ELSIF Moving AND (EveryMs > 0) AND",
         "        ELSIF Moving AND (EveryMs > 60000) AND",
@@ -299,8 +305,8 @@ PLANTED = (
     ),
     Planted(
         "a reset outlives what it was asked for",
-        "  ELSIF (Resetting > 0) AND (NOT CommOk OR NOT SupplyOn OR MonitorOnly OR SpeedOnly OR (ResetMs > 10000)) THEN",
-        "  ELSIF (Resetting > 0) AND (ResetMs > 10000) THEN",
+        "(NOT CommOk OR NOT SupplyOn OR MonitorOnly OR SpeedOnly OR (ResetMs > 10000)) THEN",
+        "(ResetMs > 10000) THEN",
         partial(test_reset.test_a_reset_does_not_outlive_what_it_was_asked_for, "MonitorOnly"),
     ),
     Planted(

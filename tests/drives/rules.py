@@ -18,6 +18,8 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+LEFT_US = 1_050_000
+"""A block that was not called for so long: the line has stopped its drive."""
 ONLY_READS = 5
 """The state in which a block has stopped its drive and only reads."""
 
@@ -33,7 +35,10 @@ class Meaning:
         """Read the commands, each with the writes before its last."""
         self.reference = drive.operation.reference.register
         commands = drive.operation.commands
-        self.words = [(command.does, of_write(write)) for command in commands for write in (*command.first, command)]
+        self.words: list[tuple[str, Pattern]] = []
+        for command in commands:
+            self.words += [(command.does, of_write(step)) for step in command.first]
+            self.words.append((command.does, of_write(command)))
         self.both = [
             Pattern(a.register, mask, mask)
             for a in commands
@@ -109,10 +114,9 @@ class Observer:
             return
         if bench.block[f"Skip{self.drive}"]:
             self.skipped_us += 1000 * bench.ms
-            if self.skipped_us > 1_050_000:  # the line has stopped the drive
-                self.wish = None
-            self.free = self.was_confirmed = False
             self.turning_us = self.stopping_us = 0
+            if self.skipped_us > LEFT_US:
+                self.wish, self.free, self.was_confirmed = None, False, False
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
             return
@@ -131,9 +135,9 @@ class Observer:
             if not 0 < frame.unit <= len(bench.types):
                 self.fail(f"asks unit {frame.unit}")
         self.frames = len(bench.frames)
-        volts = bench.out("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
+        volts = bench.number("DcBusVoltageV", self.drive) if len(bench.types) > 1 else 0.0
         if volts not in (0.0, self.volts):
-            self.volts = float(str(volts))
+            self.volts = volts
             if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
                 self.fail(f"shows {volts} V, which is not its own")
         self.shows = shows

@@ -182,7 +182,8 @@ def _fill(bench: Bench, chance: Random, path: str, value: Value) -> None:
 def test_a_run_that_was_left_in_retained_slots_is_never_sent() -> None:
     bench = watched("CHF").stopped()
     slot = "Slots[0]."
-    for name, value in {"FunctionCode": 6, "Address": 0x1000, "Quantity": 1, "Words": [1], "Number": 77}.items():
+    run: dict[str, Value] = {"FunctionCode": 6, "Address": 0x1000, "Quantity": 1, "Words": [1], "Number": 77}
+    for name, value in run.items():
         bench.block[f"{slot}Ask[1].{name}"] = value
     bench.restart()
     assert not motions(bench, bench.run(4000))
@@ -191,7 +192,7 @@ def test_a_run_that_was_left_in_retained_slots_is_never_sent() -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_value_without_a_scale_is_not_valid(kind: str) -> None:
-    measures = {each.shows: each.register for each in maps()[kind].operation.measures}
+    measures = {str(each.shows): each.register for each in maps()[kind].operation.measures}
     bench = watched(kind).put(FrequencyScale=0.0, DcVoltageScale=0.0).stopped()
     scaled = {name: maps()[kind].register_at(each) for name, each in measures.items()}
     for shows, pin in (("output_frequency", "OutputFrequency"), ("dc_bus_voltage", "DcBusVoltage")):
@@ -222,7 +223,8 @@ def parameter(bench: Bench, address: int = 0x0100, value: int = 1, **pins: Value
     """Ask for a write."""
     bench.block["Writer.Execute"] = False
     bench.run(50)
-    for name, wanted in {"Address": address, "Value": value, "Execute": True, **pins}.items():
+    wishes: dict[str, Value] = {"Address": address, "Value": value, "Execute": True, **pins}
+    for name, wanted in wishes.items():
         bench.block[f"Writer.{name}"] = wanted
     bench.run(200)
     return bench
@@ -253,7 +255,7 @@ def test_each_drive_shows_its_own_words() -> None:
     bench = watched("CHF", "CHF")
     bench.run(3000)
     for drive in (0, 1):
-        assert abs(float(str(bench.out("DcBusVoltageV", drive))) - 540 - drive) < 0.5
+        assert abs(bench.number("DcBusVoltageV", drive) - 540 - drive) < 0.5
     bench.running("RunForward", 0)
     assert bench.shows("StopConfirmed", 1)
     assert not bench.shows("Running", 1)

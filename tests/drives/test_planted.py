@@ -1,4 +1,4 @@
-"""Mistakes planted in the blocks are found; here that each still has its place, and some of them; `make drives`: all."""
+"""Mistakes planted in the blocks are found: here some of them, and that each has its place; by `make drives` all."""
 
 import pytest
 from tests.drives.planted import PLANTED, Planted

@@ -137,8 +137,8 @@ def test_the_first_fault_and_the_last_eight() -> None:
     bench.run(1000)
     assert bench.out("FirstFaultCode") == 3
     assert bench.out("FirstFaultState") == 4
-    assert abs(float(str(bench.out("FirstFaultHz"))) - 25.0) < 0.5
-    assert abs(int(str(bench.out("FirstFaultMs"))) - 3500) < 700
+    assert abs(bench.number("FirstFaultHz") - 25.0) < 0.5
+    assert abs(bench.number("FirstFaultMs") - 3500) < 700
     bench.put(RunForward=False)
     for code in range(4, 13):
         bench.drives[0].fault = 0

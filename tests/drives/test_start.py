@@ -8,6 +8,7 @@ from tests.drives.bench import Bench, Frame
 from tests.drives.rules import MOTIONS, sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 
+from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -32,7 +33,7 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None
     bench = watched(kind, ascii_=mode == "ascii").running()
     bench.run(300)
     assert abs(bench.drives[0].hertz - 25.0) < 0.2
-    assert abs(float(str(bench.out("OutputFrequencyHz"))) - 25.0) < 0.2
+    assert abs(bench.number("OutputFrequencyHz") - 25.0) < 0.2
     assert bench.out("OutputFrequencyValid")
     bench.put(RunForward=False).stopped()
     assert bench.drives[0].mode == "standing"
@@ -100,7 +101,7 @@ def served(bench: Bench) -> None:
     bench.run(1000)
 
 
-def pins(**wanted: float) -> Callable[[Bench], object]:
+def pins(**wanted: Value) -> Callable[[Bench], object]:
     return lambda bench: bench.put(**wanted)
 
 
@@ -119,7 +120,12 @@ def serve(bench: Bench) -> None:
 
 def meaning(word: int) -> Callable[[Bench], object]:
     """What SN300G5's reference means is another thing; its block reads that anew behind a stop."""
-    return lambda bench: (bench.drives[0].set(0x000F, word), bench.restart(), bench.run(1000))
+
+    def happens(bench: Bench) -> None:
+        bench.drives[0].set(0x000F, word)
+        bench.restart().run(1000)
+
+    return happens
 
 
 WHILE = {
@@ -318,6 +324,19 @@ def test_a_run_that_ends_by_itself_is_answered_by_a_stop(kind: str) -> None:
         assert bench.reason() == "BY_ITSELF"
         edge(bench)
         bench.until(lambda bench=bench: bench.drives[0].hertz > 24.0)  # type: ignore[misc]  # a default
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
+    """The drive says that it runs until the motor stands."""
+    bench = watched(kind).running()
+    bench.run(1500)
+    bench.drives[0].keypad_stop()
+    frames = bench.run(9000)
+    assert not motions(bench, frames)
+    assert bench.drives[0].mode == "standing"
+    assert bench.shows("StopConfirmed")
+    assert bench.reason() == "BY_ITSELF"
 
 
 def test_run_and_reference_are_refreshed_while_it_runs() -> None:

@@ -25,7 +25,7 @@ def test_a_stop_leaves_at_once_and_again_until_the_motor_stands(kind: str) -> No
     begun = bench.now // 1000
     bench.put(RunForward=False, StopWithinMs=3000)
     frames = stops(bench, bench.run(5000))
-    assert frames[0].ms - begun <= int(str(bench.out("StopAloneMs")))
+    assert frames[0].ms - begun <= bench.number("StopAloneMs")
     apart = [b.ms - a.ms for a, b in pairwise(frames)]
     assert len(frames) >= 7
     assert min(apart) >= 500

@@ -68,34 +68,12 @@ class Walk:
                 self.trail.append(f"{self.bench.now // 1000} {action.__name__} {drive}")
                 action(drive)
                 self.bench.run(self.chance.choice([0, 20, 60, 200, 500, 1000]))
-            self.heal()
+            self.trail.append(f"{self.bench.now // 1000} heal")
+            for observer in self.observers:
+                observer.lies = False
+            self.bench.heal()
         except AssertionError as error:
             raise BrokenRuleError(f"{error}; {', '.join(self.trail)}") from error
-
-    def heal(self) -> None:
-        """All is well again: a release and a new edge run each motor, and its pin stops it."""
-        bench = self.bench
-        bench.faults, bench.deaf = Faults(), set()
-        bench.line(StopAll=False, Acknowledge=False)
-        bench.block["SkipLine"] = False
-        calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
-        for index, drive in enumerate(bench.drives):
-            bench.block[f"Skip{index}"] = False
-            bench.put(index, Enable=True, SupplyOn=True, SpeedReferenceHz=25.0, **calm)
-            drive.power(on=True)
-            drive.inhibit(on=False)
-            drive.clear_cause()
-            drive.local, drive.follows, drive.keeps_running = False, True, False
-        self.trail.append(f"{bench.now // 1000} heal")
-        bench.run(1200)
-        bench.until(lambda: not any(drive.motor.shaft for drive in bench.drives)).line(Acknowledge=True)
-        for drive in bench.drives:
-            drive.reset()
-        for index, observer in enumerate(self.observers):
-            observer.lies = False
-            bench.running("RunForward", index)
-            assert abs(bench.drives[index].hertz - 25.0) < 0.2, f"turns at {bench.drives[index].hertz}"
-            bench.put(index, RunForward=False).stopped(index)
 
     # ------------------------------------------------------------ what may happen
 

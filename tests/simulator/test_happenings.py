@@ -46,6 +46,16 @@ def test_a_drive_may_restart_after_a_dip() -> None:
     assert one.drive.hertz == 0
 
 
+def test_a_drive_does_not_restart_against_an_interlock() -> None:
+    one = talk("CHF", Habits(auto_restart=True)).at(20)
+    one.drive.power(on=False)
+    one.drive.inhibit(on=True)
+    one.drive.power(on=True)
+    one.drive.step(5000)
+    assert one.drive.mode == "standing"
+    assert one.read(0x1001) == 3
+
+
 def test_a_fault_outlives_the_power_while_its_cause_does() -> None:
     one = talk("CHF", Habits(auto_restart=True)).at(20)
     one.drive.trip(4)

@@ -80,6 +80,11 @@ class Machine:
         return self.motor.shaft / 1000
 
     @property
+    def asked_hertz(self) -> float:
+        """The speed that it goes to; 0 while it stops or has let go."""
+        return self._goal() / 1000 if self.motor.driven else 0.0
+
+    @property
     def stores(self) -> int:
         """How often parameters were stored in EEPROM."""
         return self.memory.stores
@@ -233,7 +238,7 @@ class Machine:
         if on:
             self.heard_at = self.now
             self.fault = self.fault if self.cause else 0
-            if self._restart and not self.fault:
+            if self._restart and not self.fault and not self.inhibited:
                 self.motor.start()
             return
         self._restart = self.habits.auto_restart and self.motor.driven and not self._stopping

@@ -1,6 +1,6 @@
 """Programs for the blocks that every drive shares."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 
 from driveblocks.reference.permission import MOST_READ
 from driveblocks.reference.reply import Manners, parse
@@ -11,12 +11,13 @@ from driveblocks.testing.script import Script
 PROTOCOL = "MODBUS Application Protocol V1.1b3"
 
 
-def scripts(languages: Iterable[text.Language]) -> Iterator[Script]:
+def scripts(languages: Sequence[text.Language]) -> Iterator[Script]:
     """All of them."""
     for subject in (checksum, framing, packing, builder):
         yield from subject.scripts()
     yield from _replies()
     yield from text.results(languages)
+    yield from text.reasons(languages)
 
 
 def _replies() -> Iterator[Script]:

@@ -59,6 +59,27 @@ def results(languages: Iterable[Language]) -> Iterator[Script]:
         yield program
 
 
+REASONS = (*range(6), *range(10, 20), *range(20, 28), *range(30, 36), *range(40, 49))
+"""Every number that `Reason` of a drive block can have."""
+
+
+def reasons(languages: Iterable[Language]) -> Iterator[Script]:
+    """Programs for the texts of reasons: each number has one, and no other has."""
+    for language in languages:
+        name, title = f"ReasonText{language.suffix}", "every reason has a text"
+        program = bench.generic(name, title, "the reasons of DriveBlocks.")
+        program.variables["Found"] = ("STRING", "the text")
+        unknown = string(_bytes(reference.UNKNOWN, language))
+        for number in range(max(REASONS) + 2):
+            what = "has a text" if number in REASONS else "has none"
+            program.stage(
+                f"{number} {what}",
+                f"Found := DB_ReasonText{language.suffix}(Code := {number});",
+                bench.is_flag(f"Found = {unknown}", number not in REASONS, "is an unknown code"),
+            )
+        yield program
+
+
 def _bytes(texts: reference.Texts | None, language: Language) -> bytes:
     found = texts or reference.UNKNOWN
     return (found.zh if language.suffix == "Zh" else found.en).encode(language.encoding)
