@@ -4,6 +4,7 @@ import functools
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -182,6 +183,17 @@ def test_drives_are_simulated_in_another_process_without_what_windows_lacks(wind
     assert done.stdout == "05 03 02 00 04 48 47\n"  # 2001H: stopped
 
 
+def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[str, str], program: Path) -> None:
+    words = [sys.executable, "-m", "driveblocks", "run", str(program), "--for", "50ms"]
+    done = subprocess.run(words, env=windows, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    *lines, scans, took = done.stdout.splitlines()
+    assert lines[0] == "SIMULATED  my.st"
+    assert "SIMULATED  0.05 s are over: stopping every drive" in lines
+    assert " scans of 10 ms: " in scans
+    assert took.startswith("a scan took ")
+
+
 def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(demo, "FAULT", 0)
     acts = [act if act.says.startswith(("power-up", "start")) else None for act in demo.ACTS]
@@ -191,6 +203,15 @@ def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytes
     assert result.exit_code == 1
     assert "the demonstration has failed: stopping every drive" in result.output
     assert "this did not come true: the fan trips" in result.output
+
+
+def test_a_wheel_carries_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    project = tomllib.loads((EXAMPLE.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+    assert project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]["examples"] == "driveblocks/examples"
+    packed = tmp_path / "driveblocks" / "examples"
+    packed.mkdir(parents=True)
+    monkeypatch.setattr("driveblocks.__file__", str(tmp_path / "driveblocks" / "__init__.py"))
+    assert demo.path().parent == packed.resolve()
 
 
 def test_the_demonstration_is_the_example() -> None:

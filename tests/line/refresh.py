@@ -107,7 +107,7 @@ AXES: tuple[tuple[str, Callable[[Setup], str]], ...] = (
 
 def axes(found: Mapping[Setup, float]) -> list[str]:
     """The worst of all lines beside both formulas, by each value of each axis, and what is typical."""
-    rows = ["| | | beside the plain formula | beside whole ms | median |", "|---|---|---|---|---|"]
+    rows = ["| axis | | beside the plain formula | beside whole ms | median |", "|---|---|---|---|---|"]
     for name, value in AXES:
         for text in dict.fromkeys(map(value, found)):
             mine = {each: ms for each, ms in found.items() if value(each) == text}
@@ -119,7 +119,7 @@ def axes(found: Mapping[Setup, float]) -> list[str]:
 def seven(found: Mapping[Setup, float]) -> list[str]:
     """Seven drives by rate, format and scan, in ms."""
     heads = [f"{who} keeps silence, {scan} ms" for who in ("port", "line") for scan in SCANS]
-    rows = [f"| bit/s | the wire itself | {' | '.join(heads)} |", "|---|---|" + "---|" * len(heads)]
+    rows = [f"| 7 drives, ms | the wire itself | {' | '.join(heads)} |", "|---|---|" + "---|" * len(heads)]
     for rate, bits in product(RATES, BITS):
         cells = [f"{found[Setup(7, rate, bits, scan, 0, 0, keeps)]:.0f}" for keeps in (True, False) for scan in SCANS]
         limit = Setup(7, rate, bits).limit
@@ -129,7 +129,8 @@ def seven(found: Mapping[Setup, float]) -> list[str]:
 
 def families(lines: Callable[[int], CLine]) -> list[str]:
     """Seven drives of each shipped family, at the rates of its manual: how often its status is read, in ms."""
-    rows = ["| family | reads of a round, words | bit/s 8E1 | the wire itself | port keeps silence | line keeps it |"]
+    heads = "7 drives, 10 ms", "words read from status to status", "bit/s, 8E1", "the wire itself, ms"
+    rows = [f"| {' | '.join((*heads, 'port keeps silence', 'line keeps it'))} |"]
     rows.append("|---|---|---|---|---|---|")
     for drive in map(load, catalog.shipped()):
         reads = _round(drive)

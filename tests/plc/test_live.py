@@ -28,9 +28,6 @@ class Noted:
         if self._fails is not None:
             raise self._fails
 
-    def typed(self) -> None:
-        pass
-
     def close(self) -> None:
         if self._fails is not None:
             raise OSError(5, "Input/output error")

@@ -1,6 +1,7 @@
 """What a person sees and keeps of a run: lines, a live table, a trace and a picture, each with whose port it was."""
 
 import io
+import re
 from collections.abc import Iterator
 from xml.etree import ElementTree
 
@@ -53,31 +54,32 @@ def test_lines_tell_what_has_changed_each_with_whose_port_it_is(capsys: pytest.C
 
 @pytest.mark.parametrize("width", [80, 120])
 @pytest.mark.parametrize("real", [False, True])
-def test_a_table_fits_and_says_whose_port_it_is(width: int, real: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("kind", [screen.LiveTable, screen.Desk])
+def test_a_table_fits_and_says_whose_port_it_is(
+    width: int, real: bool, kind: type[screen.LiveTable | screen.Desk], monkeypatch: pytest.MonkeyPatch
+) -> None:
     drawn = io.StringIO()
     made = Console(file=drawn, width=width, height=30, force_terminal=True, color_system=None, legacy_windows=False)
     monkeypatch.setattr(console, "terminal", lambda: made)
     label = "REAL PORT /dev/ttyUSB0" if real else "SIMULATED"
-    table = screen.LiveTable(label, "my.st", real=real, keys=True)
+    table = kind(screen.Heading(label, "my.st", real))
     for view in views():
         drawn.seek(0)
         drawn.truncate()
         table.show(view)
     table.say("Ctrl-C: stopping every drive")
-    table.typed()
     table.close()
     text = drawn.getvalue()
-    for word in (label, "my.st", "STOP OVERDUE", "Bus.Good", "Start", screen.HELP):
+    for word in (label, "my.st", "STOP OVERDUE", "Bus.Good", "Ctrl-C: stopping every drive"):
         assert word in text
-    visible = [line.split("\x1b[2K")[-1] for line in text.splitlines()]
+    assert (screen.HELP in text) == (kind is screen.Desk)
+    visible = [re.sub(r"\x1b(\[\??[\d;]*[a-zA-Z]|\d)", "", line) for line in text.splitlines()]
     assert max(len(line.rstrip()) for line in visible) <= width
 
 
 def test_frames_that_were_not_sent_stand_in_the_table() -> None:
     view = View(0, (), {}, {}, dropped=7, port_error="No such device")
-    made = screen.LiveTable.__new__(screen.LiveTable)
-    made._label, made._title, made._real, made._keys = "REAL PORT", "my.st", True, False
-    text = "\n".join(str(part) for part in made._parts(view))
+    text = "\n".join(str(part) for part in screen._parts(screen.Heading("REAL PORT", "my.st", True), view))
     assert "7 frames not sent: only reads and stops leave" in text
     assert "the port does not work: No such device" in text
 

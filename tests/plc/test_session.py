@@ -89,7 +89,9 @@ def test_the_figures_of_a_pace() -> None:
     assert (pace.scans, pace.late, pace.missed, pace.worst_us) == (100, 1, 2, 34_000)
     assert pace.share_us(50) == pytest.approx(1490, abs=20)
     assert pace.share_us(99) == pytest.approx(9000, abs=20)
-    assert str(pace) == ("100 scans of 10 ms: 97.1 % kept, 2 missed; 1.50 ms median, 9.02 ms 99 %, 34.00 ms worst")
+    assert str(pace) == (
+        "100 scans of 10 ms: 97.1 % kept, 2 missed\na scan took 1.50 ms (median), 9.02 ms (99 %), 34.00 ms (worst)"
+    )
 
 
 # ------------------------------------------------------------ how it ends
@@ -178,13 +180,28 @@ def test_a_motor_that_runs_on_is_named() -> None:
 def test_who_asks_again_does_not_wait() -> None:
     def twice(desk: Desk) -> None:
         desk.line.cut = True
-        desk.ending.ask("Ctrl-C")
-        desk.ending.ask("Ctrl-C")
+        desk.line.sent.clear()
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
 
-    desk = ended(Desk(), twice)
+    desk = Desk()
+    with live.listening(desk.ending):
+        ended(desk, twice)
     assert desk.clock.now_us() < 6 * SECOND
+    assert desk.line.sent[-1][:6] == bytes.fromhex("07 06 10 00 00 03")
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed
+
+
+def test_a_terminal_that_goes_brings_much_at_once_and_every_drive_is_waited_for() -> None:
+    def gone(desk: Desk) -> None:
+        for reason in ("SIGHUP", "the input has ended", "the screen has failed", "SIGTERM"):
+            desk.ending.ask(reason)
+
+    desk = ended(Desk(), gone)
+    assert desk.drives[0].mode == "standing"
+    assert desk.session.result is not None
+    assert (desk.session.result.reason, desk.session.result.stopped) == ("SIGHUP", ("Motor",))
 
 
 def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
@@ -252,4 +269,4 @@ def test_an_ending_keeps_its_first_reason() -> None:
     ending.ask("Ctrl-C")
     assert not ending.hurry
     ending.ask("SIGTERM")
-    assert (ending.reason, ending.hurry) == ("Ctrl-C", True)
+    assert (ending.reason, ending.hurry) == ("Ctrl-C", False)

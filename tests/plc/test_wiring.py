@@ -109,7 +109,7 @@ SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
         (SECOND, "my.st:21:3: 2 ports (Bus, Other): one port can be served"),
         (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:19:3: RxCount of Bus has no variable"),
         (ONE.replace("  Quotient := 1", "  Received := 0;\n  Quotient := 1"), "the program writes Received"),
-        ("FUNCTION_BLOCK B\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_FUNCTION_BLOCK\n", "my.st:1:1: there is no PROGRAM"),
+        ("TYPE\n  Count : INT;\nEND_TYPE\n", "my.st:1:1: there is no PROGRAM"),
         (ONE + ONE.replace("One", "Two"), "my.st:22:1: there are 2 PROGRAMs; choose by --program: One, Two"),
         (ONE.replace("Hz : REAL", "Hz : REEL"), "my.st:4:8: "),
         (ONE.replace("JSCC_Drive", "ACME_Drive"), "my.st:10:11: "),

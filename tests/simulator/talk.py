@@ -1,12 +1,13 @@
 """A conversation with a simulated drive: commands by their name, registers by their address."""
 
 from dataclasses import dataclass
+from decimal import Decimal
 from pathlib import Path
 
 from driveblocks.maps import catalog, nodes
 from driveblocks.maps.decode import decode
 from driveblocks.maps.load import load
-from driveblocks.maps.model import Command, Drive, Step
+from driveblocks.maps.model import Command, Drive, Frame, Step
 from driveblocks.maps.problem import Report
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
@@ -86,3 +87,37 @@ def talk(family: str | Drive, habits: Habits | None = None, **words: int) -> Tal
     found = MAPS[family] if isinstance(family, str) else family
     begin = {int(name[1:], 16): word for name, word in words.items()}
     return Talk(found, SimulatedDrive(found, 1, habits, words=begin))
+
+
+PREPARED = {
+    # 0026H holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
+    "SN300G5 read_dc_bus_request": (Habits(bus_volts=589, scales={0x26: Decimal(1)}), {}),
+    "JSCC read_frequency_rtu_request": (Habits(), {}),
+    "JSCC read_frequency_ascii_request": (Habits(), {}),
+    "CHF read_ascii_request": (Habits(), {4: 2}),
+}
+"""What the drives of the manuals' examples had in their registers."""
+
+
+def pairs() -> list[tuple[str, Frame, Frame]]:
+    """Every request with its reply."""
+    found = []
+    for prefix, drive in MAPS.items():
+        frames = {frame.id: frame for frame in drive.frames}
+        found += [(prefix, frames[each.answers], each) for each in frames.values() if each.answers]
+    return found
+
+
+def body(frame: Frame) -> bytes:
+    """A frame without its checksum."""
+    return frame.correct[:-2] if frame.mode == "rtu" else bytes.fromhex(frame.correct[1:-4].decode("ascii"))
+
+
+def prepared(prefix: str, request: Frame, reply: Frame) -> SimulatedDrive:
+    """A drive that stands as that of the example did."""
+    habits, words = PREPARED.get(f"{prefix} {request.id}", (Habits(), {}))
+    drive = SimulatedDrive(MAPS[prefix], body(request)[0], habits, words=words)
+    if 500 in reply.means.values:  # 50.0 Hz
+        drive.keypad_run(50)
+        drive.step(5000)
+    return drive

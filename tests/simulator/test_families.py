@@ -1,12 +1,9 @@
 """The shipped families: states and ramps, words typed by hand from the manuals' tables, frames as printed."""
 
-from decimal import Decimal
-
 import pytest
-from tests.simulator.talk import MAPS, Talk, talk
+from tests.simulator.talk import MAPS, Talk, body, pairs, prepared, talk
 
 from driveblocks.maps.model import Frame
-from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 STATUS = {"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001}
@@ -113,38 +110,9 @@ def test_a_warning_is_shown_where_there_is_one(family: str) -> None:
     shows(one, family, "warning", 0)
 
 
-PREPARED = {
-    # 0026H holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
-    "SN300G5 read_dc_bus_request": (Habits(bus_volts=589, scales={0x26: Decimal(1)}), {}),
-    "JSCC read_frequency_rtu_request": (Habits(), {}),
-    "JSCC read_frequency_ascii_request": (Habits(), {}),
-    "CHF read_ascii_request": (Habits(), {4: 2}),
-}
-"""What the drives of the manuals' examples had in their registers."""
-
-
-def pairs() -> list[tuple[str, Frame, Frame]]:
-    """Every request with its reply."""
-    found = []
-    for prefix, drive in MAPS.items():
-        frames = {frame.id: frame for frame in drive.frames}
-        found += [(prefix, frames[each.answers], each) for each in frames.values() if each.answers]
-    return found
-
-
-def body(frame: Frame) -> bytes:
-    """A frame without its checksum."""
-    return frame.correct[:-2] if frame.mode == "rtu" else bytes.fromhex(frame.correct[1:-4].decode("ascii"))
-
-
 @pytest.mark.parametrize(("prefix", "request_", "reply"), pairs(), ids=lambda each: getattr(each, "id", each))
 def test_replies_are_those_that_the_manual_prints(prefix: str, request_: Frame, reply: Frame) -> None:
-    habits, words = PREPARED.get(f"{prefix} {request_.id}", (Habits(), {}))
-    drive = SimulatedDrive(MAPS[prefix], body(request_)[0], habits, words=words)
-    if 500 in reply.means.values:  # 50.0 Hz
-        drive.keypad_run(50)
-        drive.step(5000)
-    assert drive.reply(body(request_)) == body(reply)
+    assert prepared(prefix, request_, reply).reply(body(request_)) == body(reply)
 
 
 def test_enter_stores_and_illegal_data_is_refused_as_printed() -> None:

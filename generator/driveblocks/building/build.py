@@ -30,6 +30,7 @@ def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     texts = {f"{PLATFORM}/{file.path}": file.text for file in made}
     texts[f"{PLATFORM}/order.txt"] = "".join(f"{file.path}\n" for file in made)
+    texts |= {file.path: file.text for file in library.linux(languages)}
     return texts | documents(made, [source.drive for source in sources]) | programs(sources, languages)
 
 

@@ -49,7 +49,7 @@ Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw a t
 Allow = Annotated[
     bool, typer.Option("--allow-run", help="Let more than reads and stops leave on a real port; asks first.")
 ]
-Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, for ten seconds.")]
+Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, twelve seconds.")]
 Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait, reckon the time.")]
 
 

@@ -171,11 +171,15 @@ def _port(drive: Drive) -> dict[str, int]:
 
 def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
     """Each read with its registers and what it takes on the wire, turn-round and silences included."""
-    block = drive_block(drive)
-    for read in block["reads"]:
+    found = drive_block(drive)["reads"]
+    fast = [read for read in found if read["read"].fast]
+    # see `schedule`: a status that one read brings comes twice before what is slow
+    often = "twice a round" if len(fast) == 1 < len(found) else "once a round"
+    for read in found:
         poll: Poll = read["read"]
         yield {
             "poll": poll,
+            "often": often if poll.fast else "one of the slow ones a round",
             "first": address_text(poll.address),
             "titles": [f"{word['address_text']} {word['title'].lower()}" for word in read["words"]],
             "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],

@@ -34,6 +34,18 @@ def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
         yield from pages(one, None)
 
 
+def brief(made: Explanation) -> Iterator[str]:
+    """The same in a few lines: verdict, what is wrong, and the registers with their values."""
+    yield _verdict(made).plain
+    yield from (f"  wrong: {wrong.what}" for wrong in made.all_wrongs)
+    for one in made.readings[:1]:
+        for register in one.registers:
+            name = " ".join(filter(None, (register.id, register.name)))
+            place = address_text(register.address) if register.address is not None else "word"
+            if register.word is not None:
+                yield f"  {place}  {_word(register)}  {': '.join(filter(None, (name, _means(register))))}"
+
+
 def written(wire: Wire) -> str:
     """A frame as it is written: bytes, or characters with CR and LF by name; what is far too long is cut off."""
     frame, more = wire.frame[:LONGEST], " ..." * (len(wire.frame) > LONGEST)

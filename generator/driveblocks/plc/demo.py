@@ -43,7 +43,11 @@ def _all(pin: str, *names: str) -> dict[str, Value]:
 
 
 ACTS = (
-    Act("power-up: every drive is told to stop, and then read", {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES}, then=_all("Ready")),
+    Act(
+        "power-up: every drive is told to stop, and then read",
+        {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
+        then=_all("Ready"),
+    ),
     Act(
         "start: all run pins rise, and the motors ramp up",
         dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True),

@@ -18,6 +18,8 @@ REPLY_US = 300_000
 SILENCE_US = 20_000
 """Before each request."""
 LOOK_US = 2_000
+HURRY_US = 50_000
+"""The same for who does not wait: the request itself has to leave."""
 SILENT = "no reply to the stop"
 
 
@@ -29,12 +31,14 @@ class Ending:
     hurry: bool = False
     """Asked a second time: do not wait for the motors."""
 
-    def ask(self, reason: str) -> None:
-        """End the run."""
-        if self.reason:
+    def ask(self, reason: str, *, insists: bool = False) -> None:
+        """End the run; who insists while it ends does not wait any longer.
+
+        A terminal that goes brings a signal, the end of the input and a failing screen at once: these do not insist.
+        """
+        if self.reason and insists:
             self.hurry = True
-        else:
-            self.reason = reason
+        self.reason = self.reason or reason
 
 
 class Stopper:
@@ -54,16 +58,19 @@ class Stopper:
         """
         end = self._clock.now_us() + within_us
         told = dict.fromkeys(drives, SILENT)
-        while (waiting := {unit: drives[unit] for unit, why in told.items() if why}) and self._goes_on(end):
-            acknowledged = [
-                unit for unit, drive in waiting.items() if self._goes_on(end) and self._stopped(unit, drive)
-            ]
-            for unit in acknowledged:
-                if self._goes_on(end):
-                    told[unit] = self._moves(unit, drives[unit])
-                elif told[unit] == SILENT:
-                    told[unit] = "stop acknowledged, not read since"
+        self._confirm([unit for unit, drive in drives.items() if self._stopped(unit, drive)], drives, told, end)
+        while (waiting := [unit for unit, why in told.items() if why]) and self._goes_on(end):
+            stopped = [unit for unit in waiting if self._goes_on(end) and self._stopped(unit, drives[unit])]
+            self._confirm(stopped, drives, told, end)
         return told
+
+    def _confirm(self, stopped: list[int], drives: dict[int, Drive], told: dict[int, str], end: int) -> None:
+        """Read whether drives that have acknowledged their stop stand."""
+        for unit in stopped:
+            if self._goes_on(end):
+                told[unit] = self._moves(unit, drives[unit])
+            elif told[unit] == SILENT:
+                told[unit] = "stop acknowledged, not read since"
 
     def _goes_on(self, end: int) -> bool:
         return self._clock.now_us() < end and not self._ending.hurry
@@ -97,8 +104,8 @@ class Stopper:
         self._clock.sleep_until(self._clock.now_us() + SILENCE_US)
         self._port.receive()
         self._port.send(request)
-        heard, end = b"", self._clock.now_us() + REPLY_US
-        while self._clock.now_us() < end and not self._ending.hurry:
+        heard, begun = b"", self._clock.now_us()
+        while self._clock.now_us() - begun < (HURRY_US if self._ending.hurry else REPLY_US):
             self._clock.sleep_until(self._clock.now_us() + LOOK_US)
             heard += self._port.receive()
             for text in (heard, heard.removeprefix(request)):

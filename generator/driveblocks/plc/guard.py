@@ -71,4 +71,4 @@ class Guard:
             return ""
         if write is None:
             return f"function {function:02X}H to unit {unit}"
-        return f"write to unit {unit}, {write[0]:04X}H := {write[1]:04X}H"
+        return f"write to {write[0]:04X}H of unit {unit}"

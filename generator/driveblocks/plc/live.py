@@ -15,6 +15,8 @@ from driveblocks.plc.session import Result, Session
 
 SIGNALS = {"SIGINT": "Ctrl-C", "SIGTERM": "SIGTERM", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
 """What ends a run, where the platform has it."""
+INSISTS = ("SIGINT", "SIGBREAK")
+"""What a person does who does not want to wait."""
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
@@ -30,7 +32,7 @@ def run(
         scans.start()
         try:
             if keyboard is not None:
-                _listen_to(keyboard, session, screen, end_of_input=end_of_input)
+                _listen_to(keyboard, session, end_of_input=end_of_input)
             _watch(session, screen, scans)
         except BaseException as error:  # a lost terminal must not leave drives running
             session.ending.ask(f"the screen has failed: {error or type(error).__name__}")
@@ -63,7 +65,8 @@ def listening(ending: Ending) -> Iterator[None]:
     """Let signals end the run."""
 
     def ask(number: int, _: FrameType | None) -> None:
-        ending.ask(SIGNALS[signal.Signals(number).name])
+        name = signal.Signals(number).name
+        ending.ask(SIGNALS[name], insists=name in INSISTS)
 
     numbers = [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
     before = [(number, signal.signal(number, ask)) for number in numbers]
@@ -74,11 +77,10 @@ def listening(ending: Ending) -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _listen_to(keyboard: Keyboard, session: Session, screen: Screen, *, end_of_input: bool) -> None:
+def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:
     inputs, instance = session.controller.wiring.inputs, session.controller.instance
 
     def taken(line: str) -> None:
-        screen.typed()
         if line.strip():
             try:
                 session.settings.put(typed(line, inputs, instance))

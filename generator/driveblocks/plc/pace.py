@@ -46,10 +46,8 @@ class Pace:
         return 100.0 * (self.scans - self.late) / due if due else 100.0
 
     def __str__(self) -> str:
-        """In one line."""
-        times = ", ".join(
-            f"{us / 1000:.2f} ms {what}"
-            for us, what in ((self.share_us(50), "median"), (self.share_us(99), "99 %"), (self.worst_us, "worst"))
-        )
+        """In two lines."""
+        took = {"median": self.share_us(50), "99 %": self.share_us(99), "worst": self.worst_us}
+        times = ", ".join(f"{us / 1000:.2f} ms ({what})" for what, us in took.items())
         scan = f"{self.scan_us / 1000:g} ms"
-        return f"{self.scans} scans of {scan}: {self.kept:.1f} % kept, {self.missed} missed; {times}"
+        return f"{self.scans} scans of {scan}: {self.kept:.1f} % kept, {self.missed} missed\na scan took {times}"

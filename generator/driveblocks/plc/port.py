@@ -146,9 +146,14 @@ class _Serial:
     def __init__(self, name: str, bit_rate: int, form: str) -> None:
         import serial
 
-        self._port = serial.Serial(
-            name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
-        )
+        try:
+            self._port = serial.Serial(
+                name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
+            )
+        except (OSError, ValueError):
+            raise
+        except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
+            raise OSError(errno.EINVAL, f"the port refuses {bit_rate} bit/s {form}") from error
 
     def write(self, data: bytes) -> None:
         self._port.write(data)

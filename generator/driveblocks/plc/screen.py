@@ -1,11 +1,13 @@
 """What a person sees of a run: a live table on a terminal, lines elsewhere. Whose port it is stands on all of it."""
 
 import sys
+from collections import deque
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
+from rich.columns import Columns
 from rich.console import Group
-from rich.control import Control
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
@@ -15,6 +17,7 @@ from driveblocks.host.engine import Value
 from driveblocks.plc.view import Seen, View, spelled
 
 HELP = "Enter: NUMBER toggles, NAME := VALUE sets; Ctrl-C stops every drive and ends"
+MOST_SAID = 200
 EVERY_US = 1_000_000
 """Between two lines on a number that changes all the time."""
 
@@ -27,9 +30,6 @@ class Screen(Protocol):
 
     def show(self, view: View) -> None:
         """How things are."""
-
-    def typed(self) -> None:
-        """A person has pressed Enter."""
 
     def close(self) -> None:
         """No more."""
@@ -59,13 +59,10 @@ class Lines:
                 self._at(view, f"  {drive.name} {hertz}{now}")
         for name, value in view.shown.items():
             at, old = self._shown.get(name, (-EVERY_US, None))
-            settled = not isinstance(value, float) or view.at_us - at >= EVERY_US
+            settled = isinstance(value, bool) or view.at_us - at >= EVERY_US
             if old != value and settled:
                 self._shown[name] = view.at_us, value
                 self._at(view, f"  {name} = {spelled(value)}")
-
-    def typed(self) -> None:
-        """Nothing moves."""
 
     def close(self) -> None:
         """Nothing to be put right."""
@@ -74,12 +71,21 @@ class Lines:
         self.say(f"{view.at_us / 1e6:5.1f} s{text}")
 
 
-class LiveTable:
-    """A table on a terminal, drawn anew in its place."""
+@dataclass(frozen=True)
+class Heading:
+    """What stands above a table: whose port it is, and the program."""
 
-    def __init__(self, label: str, title: str, *, real: bool, keys: bool) -> None:
-        """Begin; `keys`: a person may set inputs."""
-        self._label, self._title, self._real, self._keys = label, title, real, keys
+    label: str
+    title: str
+    real: bool
+
+
+class LiveTable:
+    """A table on a terminal, drawn anew in its place; what is said goes above it."""
+
+    def __init__(self, heading: Heading) -> None:
+        """Begin."""
+        self._heading = heading
         self._console = console.terminal()
         self._live = Live(console=self._console, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)
         self._live.start()
@@ -90,32 +96,70 @@ class LiveTable:
 
     def show(self, view: View) -> None:
         """Draw the table."""
-        self._live.update(Group(*self._parts(view)), refresh=True)
-
-    def typed(self) -> None:
-        """Enter has moved the cursor below the table."""
-        self._console.control(Control.move(0, -1))
+        self._live.update(Group(*_parts(self._heading, view)), refresh=True)
 
     def close(self) -> None:
         """Leave the last table as it is, and the cursor visible."""
         self._live.stop()
 
-    def _parts(self, view: View) -> Sequence[Table | Text]:
-        head = Text.assemble(
-            (f" {self._label} ", "bold white on red" if self._real else "bold reverse"),
-            f"  {self._title}  {view.at_us / 1e6:.1f} s",
-        )
-        parts: list[Table | Text] = [head, _drives(view.drives)]
-        if view.port_error:
-            parts.append(Text(f"the port does not work: {view.port_error}", "bold red"))
-        if view.dropped:
-            parts.append(Text(f"{view.dropped} frames not sent: only reads and stops leave", "bold"))
-        if view.shown:
-            parts.append(_values(view.shown))
-        if self._keys and view.inputs:
-            parts.append(_listed(view.inputs))
-            parts.append(Text(HELP, "dim"))
-        return parts
+
+class Desk:
+    """A whole terminal: a table at its top, and its last row for what a person types, which no drawing touches."""
+
+    def __init__(self, heading: Heading) -> None:
+        """Begin."""
+        self._heading = heading
+        self._console = console.terminal()
+        self._said: deque[str] = deque(maxlen=MOST_SAID)
+        self._view: View | None = None
+        self._console.set_alt_screen(True)
+        self._console.file.write(f"\x1b[{self._console.height};1H")
+
+    def say(self, text: str) -> None:
+        """One line below the table; all of them stay behind the end."""
+        self._said.append(text)
+
+    def show(self, view: View) -> None:
+        """Draw everything but the last row, and leave the cursor where it is."""
+        self._view = view
+        height = self._console.height - 1
+        with self._console.capture() as capture:
+            self._console.print(Group(*_parts(self._heading, view), *_keys(view)))
+        table = capture.get().splitlines()[:height]
+        rows = [*table, *list(self._said)[max(0, len(self._said) + len(table) - height) :]]
+        rows += [""] * (height - len(rows))
+        drawn = "\r\n".join(f"{row}\x1b[K" for row in rows)
+        self._console.file.write(f"\x1b7\x1b[H{drawn}\x1b8")
+        self._console.file.flush()
+
+    def close(self) -> None:
+        """Give the terminal back, with what was said and the last table."""
+        self._console.set_alt_screen(False)
+        for text in self._said:
+            self._console.print(Text(text, overflow="fold"))
+        if self._view is not None:
+            self._console.print(Group(*_parts(self._heading, self._view)))
+
+
+def _parts(heading: Heading, view: View) -> list[Table | Text]:
+    head = Text.assemble(
+        (f" {heading.label} ", "bold white on red" if heading.real else "bold reverse"),
+        f"  {heading.title}  {view.at_us / 1e6:.1f} s",
+    )
+    parts: list[Table | Text] = [head, _drives(view.drives)]
+    if view.port_error:
+        parts.append(Text(f"the port does not work: {view.port_error}", "bold red"))
+    if view.dropped:
+        parts.append(Text(f"{view.dropped} frames not sent: only reads and stops leave", "bold"))
+    if view.shown:
+        parts.append(_values(view.shown))
+    return parts
+
+
+def _keys(view: View) -> list[Columns | Text]:
+    """The inputs by number, and how they are set."""
+    words = [f"{number} {name} {spelled(value)}" for number, (name, value) in enumerate(view.inputs.items(), 1)]
+    return [Columns(words, padding=(0, 3)), Text(HELP, "dim")] if words else []
 
 
 def _drives(drives: Sequence[Seen]) -> Table:
@@ -141,8 +185,3 @@ def _values(values: dict[str, Value]) -> Table:
     for name, value in values.items():
         table.add_row(name, spelled(value))
     return table
-
-
-def _listed(inputs: dict[str, Value]) -> Text:
-    words = (f"{number} {name} {spelled(value)}" for number, (name, value) in enumerate(inputs.items(), 1))
-    return Text("   ".join(word.replace(" ", "\N{NO-BREAK SPACE}") for word in words))

@@ -120,7 +120,7 @@ class Session:
     def _tell(self) -> None:
         for what in self.controller.dropped.keys() - self._seen_drops:
             self._seen_drops.add(what)
-            self.told.put(f"not sent: {what}; only reads and stops leave without --allow-run")
+            self.told.put(f"not sent: {what} (needs --allow-run)")
         if self._port.error != self._port_error:
             self._port_error = self._port.error
             self.told.put(f"the port does not work: {self._port_error}" if self._port_error else "the port works again")

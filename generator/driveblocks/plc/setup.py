@@ -20,7 +20,7 @@ from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
 from driveblocks.plc.port import Port, WirePort
 from driveblocks.plc.record import Timing, Trace
-from driveblocks.plc.screen import Lines, LiveTable, Screen
+from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import chosen, words
@@ -213,8 +213,10 @@ class Setup:
 
     def _screen(self) -> Screen:
         terminal, title = console.terminal(), console.name(self._path.name)
-        if terminal.is_terminal and not terminal.is_dumb_terminal and not self._options.fast:
-            return LiveTable(self._head(), title, real=self._options.real, keys=not self._options.demo)
+        drawn = terminal.is_terminal and not terminal.is_dumb_terminal and not terminal.legacy_windows
+        if drawn and not self._options.fast:
+            heading = Heading(self._head(), title, self._options.real)
+            return LiveTable(heading) if self._options.demo else Desk(heading)
         screen = Lines(self.label, brief=self._options.demo)
         screen.say(f"{self._head().removeprefix(self.label)} {title}".strip())
         return screen

@@ -1,7 +1,7 @@
 """A simulated RS-485 line with its drives, in a time that is handed in: of a test, a demonstration or the clock."""
 
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from driveblocks.modbus.checksum import crc16, lrc
 from driveblocks.modbus.frame import seal
@@ -34,8 +34,7 @@ class Wire:
 
     def send(self, data: bytes, now_us: int) -> None:
         """Characters of the master go onto the wire; one that meets a reply spoils it."""
-        if self._asked and now_us - self._asked_us > _PATIENCE_US:
-            self._asked = b""
+        self._give_up(now_us)
         if self._said and self._said[-1][0] + len(self._said[-1][1]) * self._character_us > now_us:
             self._said.clear()
             return
@@ -48,15 +47,28 @@ class Wire:
 
     def _answer(self, body: bytes) -> None:
         self._pass(self._asked_us)
+        for turn_us, frame in self.replies(body):
+            self._said.append((self._asked_us + turn_us, frame))
+
+    def replies(self, body: bytes) -> Iterator[tuple[int, bytes]]:
+        """What the drives reply to a request, each with the time until it begins."""
         for drive in self.drives:
             reply = drive.reply(body)
             if reply is not None:
-                frame = seal("ascii" if self._ascii else "rtu", reply)
-                self._said.append((self._asked_us + drive.turn_us, frame))
+                yield drive.turn_us, seal("ascii" if self._ascii else "rtu", reply)
+
+    def given_up(self, data: bytes) -> None:
+        """Characters that are no request."""
+
+    def _give_up(self, now_us: int) -> None:
+        if self._asked and now_us - self._asked_us > _PATIENCE_US:
+            self.given_up(self._asked)
+            self._asked = b""
 
     def receive(self, now_us: int) -> bytes:
         """Characters of the drives that have ended by now."""
         self._pass(now_us)
+        self._give_up(now_us)
         heard = b""
         while self._said:
             begin, frame = self._said.popleft()

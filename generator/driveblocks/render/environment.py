@@ -76,10 +76,11 @@ def render(template: str, **context: object) -> str:
 
 def needed(text: str) -> str:
     """The text without those inner variables that nothing names: a template declares all that its parts may need."""
-    named = Counter(_NAME.findall(_COMMENT.sub("", text)))
+    named = Counter(_NAME.findall(_COMMENT.sub("", text).upper()))
 
     def kept(section: re.Match[str]) -> str:
-        lines = [line for line in section[2].splitlines(True) if not (one := _INNER.match(line)) or named[one[1]] > 1]
+        lines = section[2].splitlines(keepends=True)
+        lines = [line for line in lines if not (one := _INNER.match(line)) or named[one[1].upper()] > 1]
         return f"{section[1]}{''.join(lines)}END_VAR\n" if any(map(_INNER.match, lines)) else ""
 
     return _SECTION.sub(kept, text)

@@ -67,6 +67,13 @@ def generic(languages: list[Language]) -> Iterator[File]:
         yield _file("drive", "CodeText", text.reason_texts(language))
 
 
+def linux(languages: list[Language]) -> Iterator[File]:
+    """The line at a serial port of Linux, in what matiec alone compiles: C in a pragma."""
+    yield File("linux", "LX_Port", render("linux/LX_Port.st.j2"))
+    for slots in LINE_SIZES:
+        yield File("linux", f"LX_Line{slots}", render("linux/LX_Line.st.j2", slots=slots, **_texts_of(languages)))
+
+
 def _line_types(languages: list[Language]) -> Iterator[File]:
     """What a line, its slots and its port are made of."""
     for name in LINE_TYPES:

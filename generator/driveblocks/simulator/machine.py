@@ -80,6 +80,11 @@ class Machine:
         return self.motor.shaft / 1000
 
     @property
+    def asked_hertz(self) -> float:
+        """The speed that it goes to; 0 while it stops or has let go."""
+        return self._goal() / 1000 if self.motor.driven else 0.0
+
+    @property
     def stores(self) -> int:
         """How often parameters were stored in EEPROM."""
         return self.memory.stores

@@ -1,0 +1,177 @@
+"""From the words of the command line to drives on a line."""
+
+import re
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks import console
+from driveblocks.maps import catalog
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.plc import live, port, wanted
+from driveblocks.plc.clock import RealClock
+from driveblocks.plc.ending import Ending
+from driveblocks.plc.options import LOOPBACK, Refused, time
+from driveblocks.plc.screen import Lines, LiveTable, Screen
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.stand import scenario
+from driveblocks.stand.bus import Bus
+from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
+from driveblocks.stand.neighbour import Neighbours
+from driveblocks.stand.stand import Stand, view
+from driveblocks.stand.trace import Tracer
+
+LABEL = "SIMULATED"
+TCP = 5020
+_FORM = re.compile(r"[78][NEO][12]")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """The words of the command line."""
+
+    drives: Sequence[str]
+    port: str | None = None
+    tcp: str | None = None
+    pty: bool = False
+    baud: int = 19200
+    form: str = "8N1"
+    ascii: bool = False
+    scenario: Path | None = None
+    trace: bool = False
+    length: str | None = None
+
+
+class Setup:
+    """Drives that are ready to be put on a line."""
+
+    def __init__(self, words: Words) -> None:
+        """Judge the words. Raises Refused with all that is wrong with them."""
+        self._words = words
+        if mistakes := list(self._wrong()):
+            raise Refused("\n".join(mistakes))
+        self._for_us = None if words.length is None else time("--for", words.length, 1, 10**15)
+        self._clock, self._ending = RealClock(), Ending()
+        try:
+            self.maps = _maps(words.drives)
+            happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
+        except (catalog.UnknownDrive, MapError) as error:
+            raise Refused(str(error)) from None
+        drives = [SimulatedDrive(drive, unit, ascii_mode=words.ascii) for unit, drive in self.maps.items()]
+        bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
+        self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
+        self._happenings = happenings
+        self._tracer = Tracer(self.maps)
+
+    def _wrong(self) -> list[str]:
+        words, found = self._words, []
+        ways = [name for name, given in (("--port", words.port), ("--tcp", words.tcp), ("--pty", words.pty)) if given]
+        if len(ways) > 1:
+            found.append(f"{' and '.join(ways)} exclude each other; name one place for the master")
+        host, colon, number = (words.tcp or "").rpartition(":")
+        good = colon and host in LOOPBACK and number.isdecimal() and int(number) <= 0xFFFF
+        if words.tcp is not None and not good:
+            found.append(f"--tcp {words.tcp}: a simulator serves this computer only; write --tcp {HOST}:{TCP}")
+        if not 300 <= words.baud <= 1_000_000:
+            found.append(f"--baud {words.baud} is no rate; write 300 to 1000000")
+        if not _FORM.fullmatch(words.form):
+            found.append(f"--format {words.form} is none; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+        return found
+
+    # ------------------------------------------------------------ the run
+
+    def run(self) -> None:
+        """Serve until the end. Raises Refused if the line cannot be had."""
+        with ExitStack() as stack, live.listening(self._ending):
+            link, place = self._link()
+            stack.callback(link.close)
+            if self._words.port is not None:
+                link = self._alone(link)
+            screen = self._screen(place)
+            stack.callback(screen.close)
+            screen.say(f"{'' if isinstance(screen, Lines) else LABEL + '  '}{self._told(place)}")
+            Stand(self._bus, link, self._clock, self._ending, self._happenings).run(
+                self._sayer(screen), self._looker(screen), self._for_us
+            )
+            self._looker(screen)(self._clock.now_us() - self._begun_us)
+        console.write(*(f"{LABEL}  {line}" for line in (self._ending.reason, *self._summary())))
+
+    def _link(self) -> tuple[Link, str]:
+        words = self._words
+        try:
+            if words.port is not None:
+                return port.serial_port(words.port, words.baud, words.form, self._clock), words.port
+            if words.pty:
+                pty = PtyLink()
+                return pty, pty.place
+            tcp = TcpLink(int((words.tcp or f":{TCP}").rpartition(":")[2]))
+        except (UnavailableError, ImportError) as error:
+            raise Refused(str(error)) from None
+        except (OSError, ValueError) as error:
+            place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
+            raise Refused(f"{place}: {error}; name another place by --tcp, --pty or --port") from None
+        return tcp, tcp.place
+
+    def _alone(self, link: Link) -> Link:
+        """The real port, when no real unit is there. Raises Refused."""
+        neighbours = Neighbours(link, self._clock, self.maps, ascii_mode=self._words.ascii)
+        why = neighbours.found(lambda text: console.write(f"{LABEL} on REAL PORT {self._words.port}  {text}"))
+        if why:
+            raise Refused(f"{self._words.port}: {why}")
+        return WithoutEcho(link) if neighbours.echo else link
+
+    def _screen(self, place: str) -> Screen:
+        terminal = console.terminal()
+        self._begun_us = self._clock.now_us()
+        if terminal.is_terminal and not terminal.is_dumb_terminal:
+            return LiveTable(LABEL, place, real=self._words.port is not None, keys=False)
+        return Lines(LABEL, brief=True)
+
+    def _told(self, place: str) -> str:
+        words = self._words
+        drives = ", ".join(f"{drive.prefix} at unit {unit}" for unit, drive in self.maps.items())
+        real = "REAL PORT " if words.port is not None else ""
+        mode = "ASCII" if words.ascii else "RTU"
+        return f"{drives}; MODBUS {mode}, {words.baud} bit/s {words.form}, on {real}{place}; Ctrl-C ends"
+
+    def _sayer(self, screen: Screen) -> Callable[[str], None]:
+        head = "" if isinstance(screen, Lines) else f"{LABEL}  "
+        return lambda text: screen.say(f"{head}{text}")
+
+    def _looker(self, screen: Screen) -> Callable[[int], None]:
+        say = self._sayer(screen)
+
+        def look(at_us: int) -> None:
+            while self._bus.frames:
+                frame = self._bus.frames.popleft()
+                if self._words.trace:
+                    for line in self._tracer.lines(frame):
+                        say(line)
+            screen.show(view(self._bus, self.maps, at_us, counted=isinstance(screen, LiveTable)))
+
+        return look
+
+    def _summary(self) -> list[str]:
+        bus, loss = self._bus, self._bus.loss
+        lines = [
+            f"{drive.prefix} at unit {unit}: {bus.counts[unit].heard} requests, {bus.counts[unit].replied} replies, "
+            f"{bus.counts[unit].refused} of them refusals"
+            for unit, drive in self.maps.items()
+        ]
+        return [*lines, f"{loss.dropped} frames lost, {loss.damaged} damaged, {bus.strange} characters not understood"]
+
+
+def _maps(named: Sequence[str]) -> dict[int, Drive]:
+    """Drives by their units, in the order of the command line. Raises Refused, UnknownDrive, MapError."""
+    found: dict[int, Drive] = {}
+    for name, text in wanted.words(named):
+        free = next(unit for unit in range(1, wanted.HIGHEST_UNIT + 2) if unit not in found)
+        unit = free if not text else int(text) if text.isdecimal() else 0
+        if not 1 <= unit <= wanted.HIGHEST_UNIT or unit in found:
+            why = f"units are 1 to {wanted.HIGHEST_UNIT}, one drive each"
+            raise Refused(f"{name}@{text}: {why}; write {name}@{min(free, wanted.HIGHEST_UNIT)}")
+        found[unit] = load(catalog.resolve(name))
+    return found

@@ -1,0 +1,36 @@
+"""Frames written down as `driveblocks explain` says them."""
+
+from collections.abc import Iterator, Mapping
+
+from driveblocks.explain import page
+from driveblocks.explain.explanation import Explainer
+from driveblocks.explain.paste import Paste
+from driveblocks.explain.unreadable import UnreadableError
+from driveblocks.explain.wire import open_
+from driveblocks.maps.model import Drive
+from driveblocks.stand.bus import Frame
+
+
+class Tracer:
+    """Explains one frame after the other; a reply by the request before it."""
+
+    def __init__(self, drives: Mapping[int, Drive]) -> None:
+        """Drives by their units."""
+        self._explainers = {unit: Explainer(drive) for unit, drive in drives.items()}
+        self._anyone = Explainer()
+        self._request: Paste | None = None
+
+    def lines(self, frame: Frame) -> Iterator[str]:
+        """A frame."""
+        body = open_(frame.data).body
+        explainer = self._explainers.get(body[0], self._anyone) if body else self._anyone
+        paste = Paste(frame.data, "characters" if frame.data[:1] == b":" else "hexadecimal")
+        try:
+            made = explainer.explain(paste, self._request if frame.reply else None)
+        except UnreadableError:  # the request before it is none
+            made = explainer.explain(paste)
+        if not frame.reply:
+            self._request = None if frame.fate else paste
+        fate = f"  ({frame.fate})" if frame.fate else ""
+        yield f"{frame.at_us / 1e6:9.3f} s {'<' if frame.reply else '>'} {page.written(made.wire)}{fate}"
+        yield from (f"    {line}" for line in page.brief(made))
