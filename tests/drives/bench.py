@@ -136,6 +136,12 @@ class Bench:
         self.changes += 1
         return self
 
+    def leave(self, what: str, *, on: bool = True) -> "Bench":
+        """Call a block no longer, `SkipLine` or `Skip0`, or again."""
+        self.block[what] = on
+        self.changes += 1
+        return self
+
     def out(self, name: str, drive: int = 0) -> Value:
         """An output of a drive block."""
         return self.block[f"Drive{drive}.{name}"]
@@ -294,10 +300,10 @@ class Bench:
         """All is well again: a release and a new edge run each motor, and its pin stops it."""
         self.faults, self.deaf, self.spoil = Faults(), set(), lambda _, reply: reply
         self.line(StopAll=False, Acknowledge=False, Restart=False)
-        self.block["SkipLine"] = False
+        self.leave("SkipLine", on=False)
         calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
         for index, drive in enumerate(self.drives):
-            self.block[f"Skip{index}"] = False
+            self.leave(f"Skip{index}", on=False)
             self.put(index, Enable=True, SupplyOn=True, SpeedReferenceHz=25.0, **calm)
             drive.power(on=True)
             drive.inhibit(on=False)

@@ -121,8 +121,7 @@ def left(what: str) -> Doing:
     """A block that is not called."""
 
     def happens(bench: Bench) -> None:
-        bench.block[what] = True
-        bench.run(2500)
+        bench.leave(what).run(2500)
 
     return happens
 

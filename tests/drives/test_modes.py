@@ -142,7 +142,7 @@ def test_a_scan_beyond_the_limit_acts_like_power_up() -> None:
     assert bench.shows("StopConfirmed")
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_stale_memory_starts_nothing(seed: int) -> None:
     """Whatever retained memory, or another program before an online change, has left there."""
     chance = Random(seed)

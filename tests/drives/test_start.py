@@ -110,12 +110,12 @@ def line(**wanted: bool) -> Callable[[Bench], object]:
 
 
 def neglect(bench: Bench) -> None:
-    bench.block["SkipLine"] = True
+    bench.leave("SkipLine")
     bench.run(2200)
 
 
 def serve(bench: Bench) -> None:
-    bench.block["SkipLine"] = False
+    bench.leave("SkipLine", on=False)
 
 
 def meaning(word: int) -> Callable[[Bench], object]:

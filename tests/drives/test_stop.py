@@ -203,23 +203,23 @@ def test_nothing_stale_is_shown_as_good() -> None:
 
 def test_a_line_that_is_no_longer_called_is_told() -> None:
     bench = watched("CHF").running()
-    bench.block["SkipLine"] = True
+    bench.leave("SkipLine")
     bench.run(2500)
     assert bench.reason() == "NO_LINE"
     assert bench.shows("StopOverdue")
     assert not bench.shows("CommOk")
-    bench.block["SkipLine"] = False
+    bench.leave("SkipLine", on=False)
     assert stops(bench, bench.run(300))
 
 
 def test_a_drive_block_that_is_no_longer_called_is_stopped_by_the_line() -> None:
     bench = watched("CHF").running()
-    bench.block["Skip0"] = True
+    bench.leave("Skip0")
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, stops(bench, frames))
     assert bench.drives[0].mode == "standing"
-    bench.block["Skip0"] = False
+    bench.leave("Skip0", on=False)
     assert not motions(bench, bench.run(4000))
     edge(bench)
     bench.until(lambda: bench.drives[0].hertz > 24.0)

@@ -146,7 +146,7 @@ class Walk:
 
     def skip(self, drive: int) -> None:
         name = self.chance.choice([f"Skip{drive}", "SkipLine"])
-        self.bench.block[name] = not self.bench.block[name]
+        self.bench.leave(name, on=not self.bench.block[name])
 
     def late(self, _: int) -> None:
         self.bench.scan(self.chance.choice([40, 150, 900, 1600]))
