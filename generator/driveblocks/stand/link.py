@@ -13,8 +13,9 @@ HOST = "127.0.0.1"
 class Link(Protocol):
     """Bytes to and fro, without ever waiting."""
 
-    error: str
-    """Why it does not work; empty while it does."""
+    @property
+    def error(self) -> str:
+        """Why it does not work; empty while it does."""
 
     def send(self, data: bytes) -> None:
         """Bytes to the master; lost where there is none."""
