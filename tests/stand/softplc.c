@@ -1,16 +1,18 @@
 /* A soft PLC: the program every 10 ms. A line on standard input sets an input, "start 1"; every 100 ms one goes out with
  * what is to be seen, and another at once when Running, Fault, StopConfirmed or CommOk change. The end of the input ends
  * it. */
+#define _GNU_SOURCE
+#include <poll.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
 #include "iec_std_lib.h"
 #include "accessor.h"
 #include "POUS.h"
 TIME __CURRENT_TIME;
 BOOL __DEBUG;
 #include "POUS.c"
-
-#include <poll.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 static DESK desk;
 

@@ -17,6 +17,7 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, run, translate
 from tests.simulator.talk import MAPS
 
+from driveblocks.host.matiec.installation import Installation
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.simulator.drive import SimulatedDrive
@@ -32,16 +33,17 @@ QUICK = Habits(ramp=100, coast_ramp=200)
 """A motor for which nobody has to wait."""
 
 
-def built(folder: Path) -> Path:
+def built(folder: Path, tool: Installation | None = None) -> Path:
     """The soft PLC as a program."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     mine = ("types/", "modbus/", "line/", "drive/", "invt_chf/")
     files = [BLOCKS / name for name in names if name.startswith(mine)]
     linux = [BLOCKS.parent / "linux" / f"{name}.st" for name in ("LX_Port", "LX_Line8", "LX_Line32")]
     texts = [path.read_text(encoding="utf-8") for path in (*files, *linux, HERE / "softplc.st")]
-    translate(FOUND[0], texts, folder)
+    tool = tool or FOUND[0]
+    translate(tool, texts, folder)
     program = folder / "softplc"
-    headers = ["-isystem", str(FOUND[0].headers), "-I", "."]
+    headers = ["-isystem", str(tool.headers), "-I", "."]
     flags = ["-std=gnu11", "-O1", "-fwrapv", "-fno-strict-aliasing", "-w"]
     run([str(COMPILER), *flags, *headers, "-o", str(program), str(HERE / "softplc.c"), "-lm"], folder)
     return program

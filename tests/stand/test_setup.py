@@ -10,7 +10,7 @@ from tests.simulator.talk import MAPS, body, pairs, prepared
 from typer.testing import CliRunner
 
 from driveblocks.cli import app
-from driveblocks.modbus.frame import seal
+from driveblocks.modbus.frame import Mode, seal
 from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
@@ -210,3 +210,15 @@ def test_a_bus_answers_an_example_of_each_family() -> None:
         bus.send(request.correct, 0)
         assert bus.receive(1_000_000) == reply.correct
         assert body(reply)[0] in bus.counts
+
+
+@pytest.mark.parametrize("ascii_mode", [False, True])
+def test_a_request_is_heard_behind_the_frames_of_others(ascii_mode: bool) -> None:
+    """On a busy line no pause is long enough to say where it begins."""
+    mode: Mode = "ascii" if ascii_mode else "rtu"
+    bus = Bus([SimulatedDrive(MAPS["JSCC"], 1)], 19200, 10, ascii_mode=ascii_mode)
+    other = seal(mode, bytes.fromhex("09 03 02 12 34"))
+    for number, request in enumerate(("01 03 20 00 00 01", "01 10 10 00 00 01 02 00 04")):
+        bus.send(other + seal(mode, bytes.fromhex(request)), number * 1_000_000)
+        assert bus.receive(number * 1_000_000 + 900_000)
+    assert bus.strange == 2 * len(other)

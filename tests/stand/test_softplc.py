@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
+from tests.blocks.toolchains import FOUND
 from tests.stand.softplc import WHY_NOT, Desk, built, plc
 
 pytestmark = [
@@ -12,9 +13,10 @@ pytestmark = [
 ]
 
 
-@pytest.fixture(scope="module")
-def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return built(tmp_path_factory.mktemp("softplc"))
+@pytest.fixture(scope="module", params=range(max(1, len(FOUND))))
+def program(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The soft PLC by each line of matiec."""
+    return built(tmp_path_factory.mktemp("softplc"), FOUND[request.param])
 
 
 def test_a_motor_starts_trips_is_reset_and_stops_and_both_sides_count_the_same(program: Path) -> None:

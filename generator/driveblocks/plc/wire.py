@@ -40,10 +40,14 @@ class Wire:
             return
         self._asked_us = max(now_us, self._asked_us) + len(data) * self._character_us
         self._asked = (self._asked + data)[-_LONGEST:]
-        body = opened(self._asked, ascii_mode=self._ascii)
-        if body is not None:
-            self._asked = b""
-            self._answer(body)
+        for begun in _beginnings(self._asked, ascii_mode=self._ascii):
+            body = opened(self._asked[begun:], ascii_mode=self._ascii)
+            if body is not None:
+                if begun:
+                    self.given_up(self._asked[:begun])
+                self._asked = b""
+                self._answer(body)
+                return
 
     def _answer(self, body: bytes) -> None:
         self._pass(self._asked_us)
@@ -86,6 +90,19 @@ class Wire:
             self._stepped_ms += passed
             for drive in self.drives:
                 drive.step(passed)
+
+
+def _beginnings(text: bytes, *, ascii_mode: bool) -> Iterator[int]:
+    """Where a request may begin that ends here; other units' frames may stand before it."""
+    yield 0
+    if ascii_mode:
+        yield max(0, text.rfind(b":"))
+        return
+    if len(text) > 8:
+        yield len(text) - 8
+    for begun in range(1, len(text) - 8):
+        if text[begun + 1] == 16 and len(text) - begun == 9 + text[begun + 6]:
+            yield begun
 
 
 def opened(text: bytes, *, ascii_mode: bool) -> bytes | None:

@@ -69,7 +69,7 @@ class Neighbours:
     def _asked(self, unit: int, *, busy: bool) -> bool:
         """Whether a unit answers a read; on a line that was quiet, anything that comes is an answer."""
         self._wait_for_silence()
-        question = seal(self._mode, _question(unit, self._drives[unit]))  # type: ignore[arg-type]  # one of both
+        question = seal(self._mode, _question(unit, self._drives[unit]))
         self._link.send(question)
         heard = self._heard(REPLY_US)
         if heard.startswith(question):

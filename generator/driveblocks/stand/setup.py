@@ -127,7 +127,8 @@ class Setup:
         terminal = console.terminal()
         self._begun_us = self._clock.now_us()
         if terminal.is_terminal and not terminal.is_dumb_terminal:
-            return LiveTable(Heading(LABEL, place, real=self._words.port is not None))
+            title = f"REAL PORT {place}" if self._words.port is not None else place
+            return LiveTable(Heading(LABEL, title, real=self._words.port is not None))
         return Lines(LABEL, brief=True)
 
     def _told(self, place: str) -> str:

@@ -72,7 +72,7 @@ def view(bus: Bus, maps: Mapping[int, Drive], at_us: int, *, counted: bool) -> V
 
 def _seen(drive: SimulatedDrive, known: Drive, bus: Bus) -> Seen:
     counts = bus.counts[drive.unit]
-    told = f"{counts.heard} requests, {counts.replied} replies, {counts.refused} of them refusals"
+    told = f"{counts.heard} heard, {counts.replied} answered, {counts.refused} refused"
     return Seen(known.prefix, drive.unit, _state(drive, known), drive.asked_hertz, drive.hertz, told)
 
 
