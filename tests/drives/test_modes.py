@@ -1,7 +1,6 @@
 """What else a drive block may be told, and what may be wrong around it."""
 
 from contextlib import suppress
-from random import Random
 
 import pytest
 from tests.drives.bench import SETTINGS, Bench
@@ -145,12 +144,11 @@ def test_a_scan_beyond_the_limit_acts_like_power_up() -> None:
 @pytest.mark.parametrize("seed", range(6))
 def test_stale_memory_starts_nothing(seed: int) -> None:
     """Whatever retained memory, or another program before an online change, has left there."""
-    chance = Random(seed)
     kind = FAMILIES[seed % 3]
-    bench = watched(kind, start=False)
+    bench = watched(kind, start=False, seed=seed)
     for path, value in bench.block.state().items():
         if path.startswith(("DRIVE0.", "SLOTS[0].")) and not path.startswith("DRIVE0.SLOT."):
-            _fill(bench, chance, path, value)
+            _fill(bench, path, value)
     bench.put(**SETTINGS, Address=1, SupplyOn=True, RunForward=True)
     bench.put(**dict.fromkeys(("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "Restart"), False))
     bench.put(**dict.fromkeys(("JogForward", "JogReverse", "RunReverse"), False))
@@ -167,8 +165,9 @@ def test_stale_memory_starts_nothing(seed: int) -> None:
     bench.until(lambda: bench.drives[0].hertz > 24.0, 8000)
 
 
-def _fill(bench: Bench, chance: Random, path: str, value: Value) -> None:
+def _fill(bench: Bench, path: str, value: Value) -> None:
     """Any value that fits; a constant stays."""
+    chance = bench.chance
     small = path.endswith(("STATE", "RESETTING", "STEPNUMBER", "KIND", "ORDER", "SENT", "WISH"))
     wanted: Value = chance.randrange(8 if small else 256)
     if isinstance(value, bool):

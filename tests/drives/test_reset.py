@@ -75,7 +75,7 @@ def test_a_reset_that_nobody_answers_is_tried_three_times() -> None:
     bench.spoil = lambda frame, reply: None if sent(bench, [frame], "fault_reset") else reply
     bench.put(FaultReset=True)
     assert len(sent(bench, bench.run(9000), "fault_reset")) == 3
-    assert bench.reason() == "FAULT"
+    assert bench.reason() == "NO_RESET"
 
 
 def test_another_fault_is_not_reset_by_a_repetition() -> None:
