@@ -31,23 +31,26 @@ def test_jscc_needs_two_reads() -> None:
 
 
 def test_chf_needs_three_reads() -> None:
-    """1001H is the status; 3000H-3006H all measures, 7 words, just what an ASCII reply of 16 data bytes holds."""
+    """1001H is the status; 3000H-3006H all measures, 7 words, just what an ASCII reply of 16 data bytes holds.
+
+    5000H is the fault; read with 5001H behind it, its reply cannot pass for one to 1001H.
+    """
     assert polls(SHIPPED["CHF"]) == (
         Poll(3, 0x1001, 1, fast=True),
         Poll(3, 0x3000, 7, fast=True),
-        Poll(3, 0x5000, 1, fast=False),
+        Poll(3, 0x5000, 2, fast=False),
     )
 
 
 def test_the_smaller_limit_of_both_modes_holds() -> None:
-    """With 6 words in ASCII, 3000H-3006H no longer fit into one: 1 + 5 words, of which the fast read gets the one."""
+    """With 6 words in ASCII, 3000H-3006H no longer fit into one: 1 + 5 words, of which the fast read gets the one, and another."""
     drive = SHIPPED["CHF"]
     assert drive.limits.ascii_data_bytes
     small = replace(
         drive, limits=replace(drive.limits, ascii_data_bytes=replace(drive.limits.ascii_data_bytes, value=13))
     )
     assert [(poll.address, poll.words, poll.fast) for poll in polls(small)] == [
-        (0x1001, 1, True), (0x3000, 1, True), (0x3002, 5, False), (0x5000, 1, False)
+        (0x1001, 1, True), (0x3000, 2, True), (0x3002, 5, False), (0x5000, 1, False)
     ]  # fmt: skip
 
 
@@ -70,7 +73,7 @@ def made_up(
 
 
 @pytest.mark.parametrize(
-    ("hole", "reads"), [(11, [(0, 13)]), (12, [(0, 1), (13, 1)])], ids=["as dear as 22", "dearer than 23 characters"]
+    ("hole", "reads"), [(11, [(0, 13)]), (12, [(0, 1), (13, 2)])], ids=["as dear as 22", "dearer than 23 characters"]
 )
 def test_a_hole_is_read_over_while_that_is_cheaper(hole: int, reads: list[tuple[int, int]]) -> None:
     assert [(poll.address, poll.words) for poll in polls(made_up([0], hole + 1))] == reads
@@ -130,7 +133,14 @@ def test_no_other_way_is_cheaper(words: tuple[int, ...]) -> None:
             runs = [words[a:b] for a, b in zip((0, *at), (*at, len(words)), strict=True)]
             if all(run[-1] - run[0] < 16 for run in runs):
                 costs.append(sum(23 + 2 * (run[-1] - run[0] + 1) for run in runs))
-    assert min(costs) == sum(poll.cost for poll in found)
+    needed = [[word for word in words if poll.address <= word < poll.address + poll.words] for poll in found]
+    assert min(costs) == sum(23 + 2 * (each[-1] - each[0] + 1) for each in needed)
+
+
+def test_no_two_reads_have_one_length() -> None:
+    """A late reply to one would pass for that to the other; only where nothing may be read beyond, two are alike."""
+    assert [poll.words for poll in polls(made_up([0], 0x20, others=[0x30, 0x40, 0x48]))] == [1, 2, 3, 9]
+    assert [poll.words for poll in polls(made_up([0], 2, rows=(Span(0, 0), Span(2, 2))))] == [1, 1]
 
 
 def test_the_schedule_sends_all_fast_ones_before_each_slow_one() -> None:

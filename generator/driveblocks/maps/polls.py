@@ -1,6 +1,7 @@
 """The reads that keep the pins of a drive block fresh: which words, in which transactions, in which order."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
@@ -64,20 +65,48 @@ def slow_words(drive: Drive) -> frozenset[int]:
 
 
 def polls(drive: Drive) -> tuple[Poll, ...]:
-    """The cheapest reads of all words, the fast ones first, each class by address.
+    """The cheapest reads of all words, the fast ones first, each class by address, no two of one length if it can be.
+
+    A reply does not say what it answers: one that comes late, or twice, would pass for that to another read as long.
 
     Raises ValueError for a word that cannot be read, and where more than `MOST_POLLS` reads are needed.
     """
     found = sorted(_cheapest(drive, sorted(fast_words(drive) | slow_words(drive))), key=lambda poll: not poll.fast)
     if len(found) > MOST_POLLS:
         raise ValueError(f"what its pins show takes {len(found)} reads; {MOST_POLLS} fit into the drive block's plan")
-    return tuple(found)
+    return tuple(_apart(drive, found))
+
+
+def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:
+    """A length from the poll's own on that no other read has, over listed registers that may be read; else 0."""
+    allowed, most = plan(drive).readable, most_words(drive)
+    words = poll.words
+    while words in taken:
+        last = Span(poll.address, poll.address + words)
+        words += 1
+        if words > most or drive.register_at(last.last) is None or not _together(drive, allowed, last):
+            return 0
+    return words
+
+
+def _apart(drive: Drive, found: list[Poll]) -> Iterator[Poll]:
+    """The reads, each as long as none before it."""
+    taken: set[int] = set()
+    for poll in found:
+        words = beyond(drive, poll, taken) or poll.words
+        taken.add(words)
+        yield replace(poll, words=words)
+
+
+def most_words(drive: Drive) -> int:
+    """Most registers of one read, in each mode of the drive and in an answer of the line."""
+    return min([MOST_WORDS, *(most(drive, mode).read for mode in drive.serial.mode.modes)])
 
 
 def _cheapest(drive: Drive, words: list[int]) -> tuple[Poll, ...]:
     """The cheapest way to read the words, by address; of ways that cost the same, the one with fewest fast words."""
     allowed = plan(drive)
-    least = min([MOST_WORDS, *(most(drive, mode).read for mode in drive.serial.mode.modes)])
+    least = most_words(drive)
     function = 3 if 3 in allowed.functions else 4
     fast = fast_words(drive)
     best: list[tuple[int, int, tuple[Poll, ...]]] = [(0, 0, ())]

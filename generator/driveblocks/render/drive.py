@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps import names
 from driveblocks.maps.model import Command, Condition, Drive, Measured
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import MOST_WORDS, Poll, fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, beyond, fast_words, polls, schedule, slow_words
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.context import Context, word_input
@@ -44,7 +44,9 @@ def drive_block(drive: Drive) -> Context:
         "source": context.source_of(drive, commands["stop"].source),
         "prefix": drive.prefix,
         "unit": drive.serial.unit,
-        "reads": [_read(drive, index, read, places) for index, read in enumerate(reads, 1)],
+        "reads": [
+            _read(drive, index, read, places, {each.words for each in reads}) for index, read in enumerate(reads, 1)
+        ],
         "number": number,
         "turns": turns,
         "places": {index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
@@ -117,12 +119,9 @@ def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
                 yield {**word_input(drive, address), "number": number, "index": address - read.address}
 
 
-def _read(drive: Drive, number: int, read: Poll, places: list[Context]) -> Context:
+def _read(drive: Drive, number: int, read: Poll, places: list[Context], taken: set[int]) -> Context:
     words = [place for place in places if place["number"] == number]
-    beyond = read.address + read.words
-    others = plan(drive).readable
-    varied = any(read.address in span and beyond in span for span in others) and read.words < MOST_WORDS
-    return {"number": number, "read": read, "words": words, "other": read.words + 1 if varied else 0}
+    return {"number": number, "read": read, "words": words, "other": beyond(drive, read, taken)}
 
 
 def _proof(drive: Drive) -> list[int]:
