@@ -43,7 +43,7 @@ def test_chf_needs_three_reads() -> None:
 
 
 def test_the_smaller_limit_of_both_modes_holds() -> None:
-    """With 6 words in ASCII, 3000H-3006H no longer fit into one; the fast read gets 3000H, and one more against 1001H."""
+    """With 6 words in ASCII, 3000H-3006H no longer fit into one; the fast read gets 3000H, and one more word."""
     drive = SHIPPED["CHF"]
     assert drive.limits.ascii_data_bytes
     small = replace(
