@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [
     ROOT / name
     for name in (
-        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/line.md", "docs/linux.md", "docs/run.md",
+        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/drives.md", "docs/line.md", "docs/linux.md", "docs/run.md",
         "docs/simulate.md", "docs/testing.md", "vendor_maps/README.md",
     )
 ]  # fmt: skip
