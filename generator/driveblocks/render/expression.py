@@ -40,7 +40,9 @@ def within(span: Span, pin: str) -> str:
 
 
 def label(span: Span) -> str:
-    """The label of a branch for the numbers of a span."""
+    """The label of a branch for the numbers of a span; none begins at 0, where C calls a comparison always true."""
+    if span.first == 0 and len(span) > 1:
+        return f"0, {label(Span(1, span.last))}"
     return str(span.first) if len(span) == 1 else f"{span.first}..{span.last}"
 
 
