@@ -59,7 +59,7 @@ class Scans:
         types = [family] * drives
         bench = Bench(*types, stations=library)
         for drive in range(drives):
-            bench.until(lambda drive=drive: bench.out("Ready", drive), 12_000)  # type: ignore[misc]
+            bench.until(lambda drive=drive: bench.out("Ready", drive), 12_000)  # type: ignore[misc]  # a default
             bench.put(drive, RunForward=True)
         bench.until(lambda: all(bench.out("AtSpeed", drive) for drive in range(drives)), 20_000)
         bench.until(lambda: bench.block["TheLine.Phase"], 1000)

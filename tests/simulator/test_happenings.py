@@ -173,7 +173,7 @@ def test_the_status_may_say_stopped_while_the_motor_ramps_down() -> None:
 
 @pytest.mark.parametrize(("action", "mode"), [("trip", "fault"), ("stop", "ramping down"), ("coast", "coasting")])
 def test_a_watchdog_acts_without_a_good_request_to_its_own_address(action: str, mode: str) -> None:
-    one = talk("CHF", Habits(watchdog_ms=2000, watchdog=action, watchdog_code=18))  # type: ignore[arg-type]
+    one = talk("CHF", Habits(watchdog_ms=2000, watchdog=action, watchdog_code=18))  # type: ignore[arg-type]  # one of three
     one.drive.keypad_run(10)
     for _ in range(3):
         one.drive.step(1500)

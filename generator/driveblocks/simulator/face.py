@@ -84,7 +84,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
     shown = {status.shows: status.any for status in operation.status}
 
     def fact(name: str, *, wanted: bool) -> Fact:
-        return Fact(wanted, tuple((of_condition(each),) for each in shown.get(name, ())))  # type: ignore[call-overload]
+        return Fact(wanted, tuple((of_condition(each),) for each in shown.get(name, ())))  # type: ignore[call-overload]  # any name
 
     named = {each.name: Fact(each.name == state, ((of_condition(each),),)) for each in operation.states}
     now = [named.pop(state)] if state in named else []
