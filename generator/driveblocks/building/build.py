@@ -1,13 +1,15 @@
 """Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from driveblocks.building import manifest, transaction
 from driveblocks.building.manifest import Manifest, Refused, State
 from driveblocks.docs.page import documents
+from driveblocks.export import CANONICAL, TARGETS, target
+from driveblocks.export.part import shelf
 from driveblocks.host.engine import Source as Text
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
@@ -17,21 +19,27 @@ from driveblocks.render.text import Language, told
 from driveblocks.testing.suite import drive_suite, programs, shared_suite
 from driveblocks.testing.unit import Unit
 
-PLATFORM = "iec61131"
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
 
-def files(sources: list[Source], languages: list[Language]) -> dict[str, str]:
-    """Every file of the output, path below the output folder -> text. The same input gives the same text."""
+def files(sources: list[Source], languages: list[Language], targets: Collection[str] = (CANONICAL,)) -> dict[str, str]:
+    """Every file of the output, path below the output folder -> text. The same input gives the same text.
+
+    Raises ExportError with everything that a target cannot say.
+    """
     made = [*library.generic(languages)]
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
-    texts = {f"{PLATFORM}/{file.path}": file.text for file in made}
-    texts[f"{PLATFORM}/order.txt"] = "".join(f"{file.path}\n" for file in made)
-    texts |= {file.path: file.text for file in library.linux(languages)}
-    return texts | documents(made, [source.drive for source in sources]) | programs(sources, languages)
+    texts = documents(made, [source.drive for source in sources])
+    if CANONICAL in targets:
+        texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
+        texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
+        texts |= {file.path: file.text for file in library.adapter("linux", languages)}
+        texts |= programs(sources, languages)
+    drives = {source.path.stem: source.drive for source in sources}
+    return texts | target.files(lambda: shelf(made, drives, languages), targets)
 
 
 def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
@@ -46,7 +54,7 @@ def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
 
 def _sources(files: Iterator[library.File]) -> Iterator[Text]:
     for file in files:
-        yield Text(f"{PLATFORM}/{file.path}", file.text)
+        yield Text(f"{CANONICAL}/{file.path}", file.text)
 
 
 @dataclass(frozen=True)
@@ -59,12 +67,21 @@ class Plan:
     states: dict[str, State]
 
 
-def plan(folder: Path, named: list[Path], languages: list[Language], *, only: bool = False) -> Plan:
-    """The output of the named maps and, unless only those are wanted, of those that the folder was built from.
+def plan(
+    folder: Path,
+    named: list[Path],
+    languages: list[Language],
+    targets: Collection[str] = (CANONICAL,),
+    *,
+    only: bool = False,
+) -> Plan:
+    """The output of the named maps for the named targets.
 
-    Raises MapError, Refused and OSError.
+    Unless only those are wanted, also of the maps and for the targets that the folder was built from and for.
+    Raises MapError, ExportError, Refused and OSError.
     """
     old = manifest.read(folder)
+    wanted = [name for name in TARGETS if name in targets or (name in old.targets and not only)]
     others = [] if only else _others(folder, old, named)
     try:
         sources = read(sorted([*named, *others], key=lambda path: (path.stem, str(path))))
@@ -73,9 +90,9 @@ def plan(folder: Path, named: list[Path], languages: list[Language], *, only: bo
             there = ", ".join(map(str, others))
             error.add_note(f"{folder} was built from {there} as well; --only builds without")
         raise
-    texts = files(sources, languages)
+    texts = files(sources, languages, wanted)
     words = [_word(source.path, folder) for source in sources]
-    texts[manifest.NAME] = manifest.made(words, texts, folder, old).text
+    texts[manifest.NAME] = manifest.made(words, wanted, texts, folder, old).text
     return Plan(sources, old, texts, manifest.compare(folder, old, texts))
 
 
@@ -102,7 +119,7 @@ def _refusal(folder: Path, plan: Plan, names: list[str]) -> str:
         lines.append("keep what was edited in a copy elsewhere, then build with --force, which replaces it")
     if State.FOREIGN in states:
         lines.append("move away what is in the way, or build into another folder")
-    if not plan.old.files and (folder / PLATFORM).is_dir():
+    if not plan.old.files and (folder / CANONICAL).is_dir():
         lines.append(f"if an older version built {folder}, delete what it wrote there; it kept no {manifest.NAME}")
     return "\n".join([*lines, "nothing was written"])
 

@@ -11,6 +11,8 @@ from typing import Any
 
 NAME = ".driveblocks.json"
 FORMAT = 1
+OLDEST = "iec61131"
+"""The target of a folder whose manifest names none: there was no other."""
 
 
 class Refused(Exception):  # noqa: N818  (what the user has there is no error of the program)
@@ -29,17 +31,17 @@ class State(StrEnum):
 
 @dataclass(frozen=True)
 class Manifest:
-    """The maps that a folder was built from, its files with their digests, and the folders made for them."""
+    """The maps and targets that a folder was built from and for, its files with their digests, the folders made."""
 
     maps: tuple[str, ...] = ()
+    targets: tuple[str, ...] = ()
     files: Mapping[str, str] = field(default_factory=dict)
     folders: tuple[str, ...] = ()
 
     @property
     def text(self) -> str:
         """The same manifest gives the same text, a line per entry."""
-        content = {"format": FORMAT, "maps": self.maps, "folders": self.folders, "files": self.files}
-        return json.dumps(content, indent=1, sort_keys=True) + "\n"
+        return json.dumps({"format": FORMAT, **vars(self)}, indent=1, sort_keys=True) + "\n"
 
 
 def read(folder: Path) -> Manifest:
@@ -57,11 +59,12 @@ def read(folder: Path) -> Manifest:
 def _parsed(content: Any) -> Manifest:
     """Raises ValueError, TypeError, KeyError or AttributeError when it is anything but a manifest."""
     maps, folders, files = content["maps"], content["folders"], content["files"]
+    targets = content.get("targets", [OLDEST])
     if content["format"] != FORMAT or not all(map(is_below, [*folders, *files])):
         raise ValueError
-    if not all(isinstance(word, str) for word in [*maps, *files.values()]):
+    if not all(isinstance(word, str) for word in [*maps, *targets, *files.values()]):
         raise ValueError
-    return Manifest(tuple(maps), dict(files), tuple(folders))
+    return Manifest(tuple(maps), tuple(targets), dict(files), tuple(folders))
 
 
 def is_below(name: str) -> bool:
@@ -70,10 +73,13 @@ def is_below(name: str) -> bool:
     return bool(path.parts) and not path.anchor and ".." not in path.parts
 
 
-def made(maps: Iterable[str], texts: Mapping[str, str], folder: Path, old: Manifest) -> Manifest:
+def made(
+    maps: Iterable[str], targets: Iterable[str], texts: Mapping[str, str], folder: Path, old: Manifest
+) -> Manifest:
     """The manifest of what is to be written. A folder that was there before is not the generator's."""
     mine = (name for name in parents(texts) if name in old.folders or not (folder / name).is_dir())
-    return Manifest(tuple(maps), {name: text_digest(text) for name, text in sorted(texts.items())}, tuple(mine))
+    digests = {name: text_digest(text) for name, text in sorted(texts.items())}
+    return Manifest(tuple(maps), tuple(targets), digests, tuple(mine))
 
 
 def parents(names: Iterable[str]) -> list[str]:
@@ -84,7 +90,7 @@ def parents(names: Iterable[str]) -> list[str]:
 
 def text_digest(text: str) -> str:
     """What `digest` gives for a file with this text."""
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
+    return hashlib.sha256(text.replace("\r\n", "\n").encode("utf-8")).hexdigest()
 
 
 def digest(path: Path) -> str | None:

@@ -2,19 +2,21 @@
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from driveblocks.commands import Maps
+from driveblocks.export import TARGETS
 
 if TYPE_CHECKING:
     from driveblocks.building.build import Plan
     from driveblocks.render.text import Language
 
 Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when the folder is not current.")]
-Only = Annotated[bool, typer.Option("--only", help="Remove the blocks of drives that are not named.")]
+Only = Annotated[bool, typer.Option("--only", help="Remove the blocks of drives and targets that are not named.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace also those files of an earlier build that were edited.")]
 
 
@@ -23,15 +25,16 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     output: Annotated[str, typer.Option("-o", "--output", help="Folder to write to.")] = "blocks",
     lang: Annotated[str, typer.Option(help="Languages of the texts: en, zh or en,zh.")] = "en,zh",
     encoding: Annotated[str, typer.Option(help="Bytes of Chinese texts: utf-8 or gb18030.")] = "utf-8",
+    target: Annotated[str, typer.Option(help=f"Forms to write: {', '.join(TARGETS)} or all.")] = "all",
     check: Check = False,
     only: Only = False,
     force: Force = False,
 ) -> None:
     """Write the function blocks of the drives. The old output stays whole when anything is wrong.
 
-    Drives that are built one after another into one folder join: each build brings all of them up to date, in the
-    languages asked for. What was written is listed in .driveblocks.json there; nothing else is replaced or removed, and
-    nothing that you have edited since, unless with --force.
+    Drives and targets that are built one after another into one folder join: each build brings all of them up to date,
+    in the languages asked for. What was written is listed in .driveblocks.json there; nothing else is replaced or
+    removed, and nothing that you have edited since, unless with --force.
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
@@ -39,38 +42,49 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     from driveblocks.building.manifest import NAME
     from driveblocks.render.text import missing
 
-    languages, folder = _languages(lang, encoding), _folder(output)
-    plan = _planned(folder, maps, languages, only) if check else _carried_out(folder, maps, languages, only, force)
+    folder = _folder(output)
+    wanted = _Wanted(maps, _languages(lang, encoding), _targets(target), only)
+    plan = _planned(folder, wanted) if check else _carried_out(folder, wanted, force)
     wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
     if check and transaction.interrupted(folder):
         wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
     if check and wrong:
-        again = _again({"-o": output, "--lang": lang, "--encoding": encoding}, maps, only)
+        again = _again({"-o": output, "--lang": lang, "--encoding": encoding, "--target": target}, maps, only)
         typer.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
         raise typer.Exit(1)
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
     typer.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
-    for note in filter(None, (missing(source.drive, languages) for source in plan.sources)):
+    for note in filter(None, (missing(source.drive, wanted.languages) for source in plan.sources)):
         typer.echo(note)
 
 
-def _planned(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool) -> "Plan":
+@dataclass(frozen=True)
+class _Wanted:
+    """What the command line asks for."""
+
+    maps: list[str] | None
+    languages: "list[Language]"
+    targets: list[str]
+    only: bool
+
+
+def _planned(folder: Path, wanted: _Wanted) -> "Plan":
     from driveblocks.building import build
     from driveblocks.maps import catalog
 
     with _told(folder):
-        return build.plan(folder, catalog.chosen(maps), languages, only=only)
+        named = catalog.chosen(wanted.maps)
+        return build.plan(folder, named, wanted.languages, wanted.targets, only=wanted.only)
 
 
-def _carried_out(folder: Path, maps: list[str] | None, languages: "list[Language]", only: bool, force: bool) -> "Plan":
+def _carried_out(folder: Path, wanted: _Wanted, force: bool) -> "Plan":
     from driveblocks.building import build, transaction
-    from driveblocks.maps import catalog
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
             typer.echo(f"{folder}: took back a build that was interrupted", err=True)
-        plan = build.plan(folder, catalog.chosen(maps), languages, only=only)
+        plan = _planned(folder, wanted)
         build.write(folder, plan, force=force)
         return plan
 
@@ -80,12 +94,13 @@ def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
     from driveblocks.building.manifest import Refused
     from driveblocks.building.transaction import interrupted
+    from driveblocks.export.problem import ExportError
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
 
     try:
         yield
-    except (MapError, UnknownDrive, Refused) as error:
+    except (MapError, ExportError, UnknownDrive, Refused) as error:
         typer.echo("\n".join([str(error), *getattr(error, "__notes__", ())]), err=True)
         raise typer.Exit(2) from None
     except OSError as error:
@@ -102,9 +117,18 @@ def _folder(output: str) -> Path:
 
 def _again(options: dict[str, str], maps: list[str] | None, only: bool) -> str:
     """The words of the command line that are not the usual ones."""
-    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8"}
+    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--target": "all"}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
     return "".join(f" {word}" for word in [*(maps or ()), *given, *(["--only"] if only else ())])
+
+
+def _targets(target: str) -> list[str]:
+    names = [name.strip() for name in target.split(",") if name.strip()]
+    unknown = [name for name in names if name not in (*TARGETS, "all")]
+    if unknown or not names:
+        wrong = f"`{target}` is no list of targets; write {', '.join(TARGETS)} or all"
+        raise typer.BadParameter(wrong, param_hint="--target")
+    return list(TARGETS) if "all" in names else names
 
 
 def _languages(lang: str, encoding: str) -> "list[Language]":

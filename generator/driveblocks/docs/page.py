@@ -13,6 +13,7 @@ from driveblocks.render import context
 from driveblocks.render.drive import MEASURES, drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
+from driveblocks.render.motor import SCAN_MS, motor
 from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.st.checker import check
@@ -24,8 +25,8 @@ FOLDER = "docs"
 STATES = "drive_states.svg"
 RATES = (9600, 19200)
 DRIVES = (1, 3, 7)
-SCAN_MS, TURN_ROUND_MS, BITS = 10, 5, 10
-"""Under what the page's figures hold: the task, a turn-round that no manual promises, and 8N1."""
+TURN_ROUND_MS, BITS = 5, 10
+"""Under what the page's figures hold: a turn-round that no manual promises, and 8N1."""
 ABILITIES = {
     "run_reverse": "run in reverse", "jog_forward": "jog forward", "jog_reverse": "jog in reverse",
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
@@ -68,9 +69,6 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     return render(
         "docs/Drive.md.j2",
-        drive=drive,
-        name=block.name,
-        family=context.identity(drive).family,
         manual=context.title(drive),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle and not pin.name.endswith("Valid")],
@@ -88,16 +86,12 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         unlisted=[rate for rate in RATES if listed and rate not in listed],
         bytes=block.type.size if block.type else 0,
         slot=slot,
-        port=_port(drive),
-        has_reset=can(drive, "fault_reset"),
-        unscaled=drive_block(drive)["scaled"] is False,
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
-        scan=SCAN_MS,
         turn_round=TURN_ROUND_MS,
-        ascii="rtu" not in drive.serial.mode.modes,
+        **motor(drive),
         **values,
     )
 
@@ -156,14 +150,6 @@ def _open(drive: Drive, one: Absence) -> bool:
     about = {"serial", "operation", *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
-
-
-def _port(drive: Drive) -> dict[str, int]:
-    """Bit rate and bits of a character for the example: the drive's factory settings where the manual has them."""
-    rates, formats = drive.serial.baud, drive.serial.format
-    rate = next((each.baud for each in rates.codes if each.code == rates.default), 9600) if rates else 9600
-    parity = next((each.parity for each in formats.codes if each.code == formats.default), "") if formats else ""
-    return {"rate": rate, "bits": 11 if parity in ("even", "odd") else 10, "known": int(rates is not None)}
 
 
 # ---------------------------------------------------------------- what is read

@@ -7,6 +7,7 @@ from typing import Any
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Bit, Drive, Entry, ErrorCode, Named, Register, Section
+from driveblocks.maps.revision import revision
 from driveblocks.maps.shape import keys_of
 
 Plain = dict[str, Any]
@@ -19,6 +20,7 @@ def of_drive(drive: Drive, stem: str) -> Plain:
     """Everything that a map says; `stem` is the name of its file without `.yaml`."""
     return {
         "drive": stem,
+        "revision": f"{revision(drive):08X}",
         **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
         **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
         "registers": [one for section, row in drive.registers() for one in of_row(section, row)],

@@ -1,15 +1,18 @@
 """Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Command, Condition, Drive, Register, Section, State, Value
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
+from driveblocks.maps.revision import revision
 from driveblocks.render.expression import Test, is_real
 
 Context = dict[str, Any]
@@ -32,6 +35,16 @@ def identity(drive: Drive) -> Identity:
     manual = f"{title(drive)}, {drive.manual.publisher.en}{edition}".rstrip(".") + "."
     vendor = "" if drive.vendor.en in drive.family.en else f"{drive.vendor.en} "
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
+
+
+def version(drive: Drive) -> Context:
+    """For Version."""
+    major, minor, patch = (int(each) for each in re.findall("[0-9]+", __version__)[:3])
+    return {
+        "version": __version__,
+        "number": 10000 * major + 100 * minor + patch,
+        "revision": revision(drive),
+    }
 
 
 def source_of(drive: Drive, source: str) -> str:

@@ -11,6 +11,7 @@ from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import expression, reasons, results
 from driveblocks.st import writing
+from driveblocks.st.fingerprint import body, fingerprint, stream
 
 ABI = 1
 """Version of the shared types; blocks of one ABI number fit together."""
@@ -20,6 +21,8 @@ _INNER = re.compile(r"  (\w+) : ")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 _NAME = re.compile(r"\w+")
 _RULE = "   " + "-" * 97
+_UNMARKED = "@@@@@@@@"
+_BODY = ("Body", f"{_UNMARKED}, a hash of its tokens, which is the same in every form of this block")
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so changes belong into its template or map.")
 
 
@@ -71,7 +74,8 @@ def environment() -> jinja2.Environment:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    return writing.aligned(needed(environment().get_template(template).render(**context)))
+    text = writing.aligned(needed(environment().get_template(template).render(**context)))
+    return text.replace(_UNMARKED, fingerprint(stream(body(text)))) if _UNMARKED in text else text
 
 
 def needed(text: str) -> str:
@@ -86,12 +90,12 @@ def needed(text: str) -> str:
     return _SECTION.sub(kept, text)
 
 
-def head(  # noqa: PLR0913  (the five parts of every head)
+def head(  # noqa: PLR0913  (the parts of every head)
     name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
 ) -> str:
     """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs."""
     parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops)]
-    return _comment(f"{name}: {title}", [(label, text) for label, text in parts if text])
+    return _comment(f"{name}: {title}", [(label, text) for label, text in (*parts, _BODY) if text])
 
 
 def type_head(name: str, title: str, note: str) -> str:

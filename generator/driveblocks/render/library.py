@@ -8,6 +8,7 @@ from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
+from driveblocks.render.motor import motor
 from driveblocks.render.text import Language
 
 TYPES = ("MB_Adu", "MB_Chars", "MB_Words", "MB_Registers", "MB_Request")
@@ -24,6 +25,8 @@ LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters
 CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
+PLATFORMS = {"linux": ("LX", "a serial port of Linux")}
+"""Platform -> the prefix of its blocks, and where its line is."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -67,11 +70,21 @@ def generic(languages: list[Language]) -> Iterator[File]:
         yield _file("drive", "CodeText", text.reason_texts(language))
 
 
-def linux(languages: list[Language]) -> Iterator[File]:
-    """The line at a serial port of Linux, in what matiec alone compiles: C in a pragma."""
-    yield File("linux", "LX_Port", render("linux/LX_Port.st.j2"))
+def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
+    """The blocks of a platform's serial port and the lines on top of it, which name what only that platform has."""
+    prefix, where = PLATFORMS[platform]
+    yield File(platform, f"{prefix}_Port", render(f"{platform}/{prefix}_Port.st.j2", where=where))
     for slots in LINE_SIZES:
-        yield File("linux", f"LX_Line{slots}", render("linux/LX_Line.st.j2", slots=slots, **_texts_of(languages)))
+        values = {"slots": slots, "where": where, "busy": platform != "linux"}
+        line = render(f"{platform}/{prefix}_Line.st.j2", **values, **_texts_of(languages))
+        yield File(platform, f"{prefix}_Line{slots}", line)
+
+
+def first_motor(platform: str, drive: Drive) -> File:
+    """A program for a first motor at a platform's serial port."""
+    prefix, where = PLATFORMS[platform]
+    values = {"platform": platform, "where": where, "line": f"{prefix}_Line{LINE_SIZES[0]}", **motor(drive)}
+    return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
@@ -99,11 +112,11 @@ def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """The blocks of one drive. Raises ValueError when a name makes no identifier."""
     shared = {"drive": context.identity(drive), **_texts_of(languages)}
-    for template, values in (*_blocks(drive), *_texts(drive, languages)):
+    for template, values in (*_blocks(stem, drive), *_texts(drive, languages)):
         yield _file(stem, template, {"name": f"{drive.prefix}_{template}", **shared, **values})
 
 
-def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
+def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
     yield "CanAccess", context.access(drive, "r", allowed.readable)
@@ -126,6 +139,7 @@ def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     for one in context.scales(drive):
         yield "Scale", one
     yield "Drive", {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+    yield "Version", {**context.version(drive), "stem": stem}
 
 
 def _texts_of(languages: list[Language]) -> context.Context:

@@ -1,11 +1,11 @@
 """Contexts of the text functions: faults, errors, bits and values of a drive, and the result codes, per language."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Entry, Returned, Worded
+from driveblocks.maps.model import Bit, Drive, Returned, Worded
+from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
 from driveblocks.render.context import Context, source_of
@@ -55,19 +55,7 @@ def told(drive: Drive, languages: list[Language]) -> Drive:
     """The map as blocks in some languages tell it: for English alone, without a word in another language."""
     if any(language.suffix != "En" for language in languages):
         return drive
-    plain: Drive = _english(drive)
-    return plain
-
-
-def _english(value: Any) -> Any:
-    if isinstance(value, tuple):
-        return tuple(map(_english, value))
-    if not isinstance(value, Entry):
-        return value
-    said: dict[str, Any] = {one.name: _english(getattr(value, one.name)) for one in fields(value)}
-    if isinstance(value, Worded):
-        said.update(zh=None, zh_used=None, wording=None)
-    return replace(value, **said)
+    return english(drive)
 
 
 def _shown(drive: Drive) -> dict[str, Sequence[Worded]]:

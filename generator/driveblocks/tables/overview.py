@@ -8,6 +8,7 @@ from rich.console import RenderableType
 from driveblocks.maps import counts, view
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Command, Drive, Reference, Step, Text
+from driveblocks.maps.revision import revision
 from driveblocks.tables.layout import both, facts, heading, listed, table
 from driveblocks.tables.line import line, settings
 from driveblocks.tables.register import condition, value_text
@@ -38,7 +39,7 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
     yield heading(f"{drive.prefix}  {_text(drive.vendor)}")
     yield facts(
         ("family", _text(drive.family)),
-        ("map", file),
+        ("map", f"{file}, revision {revision(drive):08X}"),
         ("manual", _text(manual.title)),
         ("publisher", _text(manual.publisher)),
         ("edition", manual.edition or "none printed"),

@@ -1,0 +1,7 @@
+"""What a target cannot say."""
+
+from driveblocks.st.problems import SourceError
+
+
+class ExportError(SourceError):
+    """Parts that a target has no form for; `problems` names the canonical file, line and column of each."""

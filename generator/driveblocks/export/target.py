@@ -1,0 +1,35 @@
+"""The writer of each target that can be built beside the canonical text."""
+
+from collections.abc import Callable, Collection
+
+from driveblocks.export.part import Shelf
+from driveblocks.export.problem import ExportError
+from driveblocks.st.problems import Problem
+
+Writer = Callable[[Shelf], dict[str, str]]
+"""From a shelf to every file of a target: path below the output folder, `twincat/CHF.plcproj`, -> text.
+
+A text is written in UTF-8 as it is: with the line ends and the byte order mark that the writer gave it.
+"""
+WRITERS: dict[str, Writer] = {}
+
+
+def files(shelf: Callable[[], Shelf], targets: Collection[str]) -> dict[str, str]:
+    """The files of some targets; the shelf is made if one needs it.
+
+    Raises ExportError with everything that they cannot say.
+    """
+    writers = [writer for target, writer in WRITERS.items() if target in targets]
+    if not writers:
+        return {}
+    made: dict[str, str] = {}
+    problems: list[Problem] = []
+    stock = shelf()
+    for writer in writers:
+        try:
+            made |= writer(stock)
+        except ExportError as error:
+            problems += error.problems
+    if problems:
+        raise ExportError(problems)
+    return made
