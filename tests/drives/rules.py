@@ -118,7 +118,8 @@ class Observer:
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
-            self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
+            self.frames = len(bench.frames)
+            self._acknowledge()
             return
         self.skipped_us = 0
         shows = {name: bench.shows(name, self.drive) for name in PINS}
@@ -179,6 +180,10 @@ class Observer:
         if rising and self.free and not stops and self.was_confirmed:
             self.wish, self.referred, self.commanded, self.ran = wish, False, False, False
         self.free = not stops and not asked
+        self._acknowledge()
+
+    def _acknowledge(self) -> None:
+        """Take note of what the drive has acknowledged, which the line goes on asking while the block is left out."""
         for frame in self.bench.acknowledged[self.acknowledged :]:
             if frame.unit == self.drive + 1 and not frame.read:
                 does = self.meaning.does(frame)
