@@ -117,6 +117,7 @@ class Observer:
             self.turning_us = self.stopping_us = 0
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
+                self.only_reads = False  # the line stops whom nobody attends
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames = len(bench.frames)
             self._acknowledge()
