@@ -18,6 +18,8 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+UNATTENDED_US = 950_000
+"""From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 LEFT_US = 1_050_000
 """A block that was not called for so long: the line has stopped its drive."""
 ONLY_READS = 5
@@ -117,7 +119,7 @@ class Observer:
             self.turning_us = self.stopping_us = 0
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
-                self.only_reads = False  # the line stops whom nobody attends
+            self.only_reads &= self.skipped_us < UNATTENDED_US
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames = len(bench.frames)
             self._acknowledge()
