@@ -98,7 +98,7 @@ class Observer:
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
-        self.only_reads: Value = False
+        self.only_reads = False
         self.asked_before = self.reset_before = True
 
     def fail(self, what: str) -> None:
