@@ -98,7 +98,7 @@ class Observer:
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
-        self.only_reads = False
+        self.only_reads = self.owed = False
         self.asked_before = self.reset_before = True
 
     def fail(self, what: str) -> None:
@@ -193,6 +193,8 @@ class Observer:
                 self.referred |= frame.address == self.meaning.reference
                 self.commanded |= self.wish in does and not does & set(STOPS)
                 self.stood &= not does & set(STOPS)
+                self.owed &= not does & set(STOPS)
+        self.owed |= bool(self.bench.line_pins.get("StopAll"))
         self.acknowledged = len(self.bench.acknowledged)
 
     def _reset(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> None:
@@ -202,10 +204,10 @@ class Observer:
         self.reset_before = bool(pins.get("FaultReset")) or bool(pins.get("Restart"))
 
     def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
-        """By the line, by a restart, or because the drive is not only to be watched any more."""
+        """By the line, which gives no stop up, by a restart, or because the drive is to be more than watched."""
         line = self.bench.line_pins
         restarted = line.get("Restart") or pins.get("Restart") or self.bench.elapsed > 1000
-        return bool(restarted or line.get("StopAll") or pins.get("SpeedOnly"))
+        return bool(restarted or self.owed or pins.get("SpeedOnly"))
 
     def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:
         pins, does = self.bench.pins[self.drive], self.meaning.does(frame)
