@@ -18,6 +18,8 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+READ_US = 100_000
+"""How old the words can be that prove standstill: somebody may start the motor behind them, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 LEFT_US = 1_050_000
@@ -83,8 +85,10 @@ class Observer:
     stopping_us: int = 0
     skipped_us: int = 0
     turning_us: int = 0
-    stood: bool = True
-    """The motor has stood since the drive last acknowledged a stop."""
+    stood_us: int = 0
+    """When the motor was last seen to stand."""
+    acknowledged_us: int = 0
+    """When the drive last acknowledged a stop."""
     frames: int = 0
     acknowledged: int = 0
 
@@ -192,8 +196,8 @@ class Observer:
                 does = self.meaning.does(frame)
                 self.referred |= frame.address == self.meaning.reference
                 self.commanded |= self.wish in does and not does & set(STOPS)
-                self.stood &= not does & set(STOPS)
-                self.owed &= not does & set(STOPS)
+                if does & set(STOPS):
+                    self.acknowledged_us, self.owed = self.bench.now, False
         self.owed |= bool(self.bench.line_pins.get("StopAll"))
         self.acknowledged = len(self.bench.acknowledged)
 
@@ -248,10 +252,10 @@ class Observer:
         """StopConfirmed against the true motor, and the time that a stop takes."""
         motor, shows = self.bench.drives[self.drive].motor, self.shows
         turns = motor.output != 0
-        self.stood = self.stood or not turns
+        self.stood_us = self.stood_us if turns else self.bench.now
         self.turning_us = self.turning_us + 1000 * self.bench.ms if turns else 0
         if shows["StopConfirmed"] and not self.lies:
-            if not self.was_confirmed and not self.stood:
+            if not self.was_confirmed and self.stood_us < self.acknowledged_us - READ_US:
                 self.fail("StopConfirmed, and the motor has not stood since the stop")
             if self.turning_us > SEEN_US:
                 self.fail("StopConfirmed, and the motor turns")
