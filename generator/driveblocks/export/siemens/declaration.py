@@ -170,7 +170,7 @@ def type_lines(part: Part, names: Names) -> Iterator[str]:
 
 
 def opening(part: Part, names: Names) -> Iterator[str]:
-    """The first lines of a block, as far as BEGIN. A program is a function block, since organization blocks keep nothing."""
+    """The first lines of a block, as far as BEGIN. A program is a function block, which keeps its variables."""
     pou = part.element
     assert isinstance(pou, (Function, FunctionBlock, Program))  # noqa: S101  (called for blocks alone)
     if isinstance(pou, Function):

@@ -7,7 +7,6 @@ from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens.body import body
 from driveblocks.export.siemens.declaration import head, opening, spelled, type_lines
 from driveblocks.export.siemens.names import Names
-from driveblocks.maps.model import Drive
 from driveblocks.st.tree import ArraySpec, Function, Spec, TypeDecl
 
 PLATFORM = "siemens"
@@ -19,7 +18,7 @@ _CLOSE = {True: "END_FUNCTION", False: "END_FUNCTION_BLOCK"}
 def files(shelf: Shelf) -> dict[str, str]:
     """Every file of the target. Raises ExportError with everything that SCL cannot say."""
     port = shelf.adapter(PLATFORM)
-    programs = {name: part for drive in shelf.drives.values() for name, part in _programs(shelf, drive)}
+    programs = [part for drive in shelf.drives.values() for part in shelf.programs(PLATFORM, drive)]
     names = Names({part.name.upper(): part for part in (*shelf.parts, *port)})
     types = [part for part in shelf.parts if isinstance(part.element, TypeDecl)]
     blocks = [part for part in shelf.parts if not isinstance(part.element, TypeDecl)]
@@ -28,16 +27,10 @@ def files(shelf: Shelf) -> dict[str, str]:
     for folder, drive in shelf.drives.items():
         made[f"{drive.prefix}.scl"] = _blocks([part for part in blocks if part.folder == folder], names)
     made[f"{PORT}.scl"] = _blocks(port, names)
-    made |= {f"{name}.scl": _blocks([part], names) for name, part in programs.items()}
+    made |= {f"{part.name}.scl": _blocks([part], names) for part in programs}
     if names.problems:
         raise ExportError(sorted(names.problems))
     return {f"{PLATFORM}/{name}": text for name, text in made.items()}
-
-
-def _programs(shelf: Shelf, drive: Drive) -> Iterator[tuple[str, Part]]:
-    """The programs of a user for one drive."""
-    part = shelf.motor(PLATFORM, drive)
-    yield part.name, part
 
 
 def _types(parts: Iterable[Part], names: Names) -> str:
