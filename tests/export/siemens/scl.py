@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 _TOKEN = re.compile(
     r"""(?P<space>\s+) | (?P<line>//[^\n]*) | (?P<comment>\(\*.*?\*\)) | (?P<pragma>\{[^}\n]*\})
-    | (?P<string>'(?:\$.|[^$'\n])*') | (?P<quoted>"[^"\n]+") | (?P<local>\#[A-Za-z_]\w*)
+    | (?P<string>'(?:\$.|[^$'\n])*') | (?P<quoted>"[^"\n]+") | (?P<local>\#(?:[A-Za-z_]\w*|"[^"\n]+"))
     | (?P<literal>[A-Za-z]+\#[-\w#.]+ | \d[\d_]*\#\w+ | \d+\.\d+(?:E[+-]?\d+)? | \d+(?!\w))
     | (?P<word>[A-Za-z_]\w*) | (?P<sign>:=|=>|<=|>=|<>|\.\.|[-+*/=<>()\[\],;:.])""",
     re.VERBOSE | re.DOTALL,
@@ -24,6 +24,7 @@ def _words(text: str) -> frozenset[str]:
 
 _TYPES = _words("BOOL BYTE WORD DWORD SINT INT DINT USINT UINT UDINT REAL LREAL TIME STRING PORT")
 _KEYWORDS = _words("IF THEN ELSIF ELSE END_IF CASE OF END_CASE WHILE DO END_WHILE AND OR XOR NOT MOD TRUE FALSE")
+_RESERVED = _KEYWORDS | _TYPES | _words("VERSION NAME TITLE TYPE BEGIN STRUCT ARRAY REGION RETURN EXIT FOR REPEAT")
 _OPERATORS = _words("OR XOR AND = <> < > <= >= + - * / MOD")
 _STANDARD = {"SHR": ["IN", "N"], "SHL": ["IN", "N"], "MAX": ["IN1", "IN2"]}
 _ENDS = frozenset({"ELSIF", "ELSE", "END_IF", "END_CASE", "END_WHILE", "END_FUNCTION", "END_FUNCTION_BLOCK"})
@@ -148,9 +149,15 @@ class _Reader:
     def put(self, *wanted: str, kind: str = "") -> str:
         """Take a token into the body."""
         text = self.take(*wanted, kind=kind)
-        plain = text.strip('"').removeprefix("#")
+        plain = text.removeprefix("#").strip('"')
         self.block.tokens.append(text if text[0] in "'" or plain[:1].isdigit() or "#" in plain else plain.upper())
         return text
+
+    def named(self, keep: bool = True) -> str:
+        """A name of a declaration, a member or a parameter: with quotes where SCL reserves it."""
+        if self.next.kind not in ("word", "quoted") or (self.next.kind == "word" and self.at(*_RESERVED)):
+            raise self.fail("a name, in quotes if SCL reserves it")
+        return (self.put() if keep else self.take()).strip('"').upper()
 
     def at(self, *words: str) -> bool:
         """Whether one of these words comes next."""
@@ -206,8 +213,9 @@ class _Reader:
 
     def variable(self, section: str) -> None:
         """One declaration with the comment behind it."""
-        name = self.take(kind="word")
-        if self.block.variable(name) or name.upper() in _KEYWORDS:
+        written = self.next.text.strip('"')
+        name = self.named(keep=False)
+        if self.block.variable(name):
             raise self.fail("a name that is not taken")
         self.take(":")
         kind = self.type()
@@ -221,7 +229,9 @@ class _Reader:
         beside = self.all[self.i]
         said = beside.text if beside.kind == "line" and beside.line == line else ""
         self.i += bool(said)
-        self.block.variables.append(Variable(section, name, kind, initial, " ".join(said.removeprefix("//").split())))
+        self.block.variables.append(
+            Variable(section, written, kind, initial, " ".join(said.removeprefix("//").split()))
+        )
 
     def type(self) -> str:
         """A type: elementary, in quotes, or an array of one."""
@@ -343,6 +353,9 @@ class _Reader:
     def path(self) -> str:
         """A variable of this block with indices and members; its type."""
         name = self.put(kind="local").removeprefix("#")
+        if name.upper() in _RESERVED:
+            raise self.fail(f"quotes around {name}")
+        name = name.strip('"')
         found = self.block.variable(name)
         kind = found.type if found else self.block.returns if name.upper() == self.block.name.upper() else ""
         if not kind:
@@ -353,7 +366,7 @@ class _Reader:
                 self.put("]")
                 kind = kind.partition(" OF ")[2]
             else:
-                kind = self.member(kind, self.put(kind="word").upper())
+                kind = self.member(kind, self.named())
         return kind
 
     def member(self, kind: str, name: str) -> str:
@@ -390,7 +403,7 @@ class _Reader:
         while not self.at(")"):
             if given:
                 self.put(",")
-            given.append(self.put(kind="word").upper())
+            given.append(self.put(kind="word").upper() if name in _SYSTEM else self.named())
             self.put(":=", "=>")
             self.expression()
         if name in _SYSTEM:

@@ -84,7 +84,16 @@ CALLS = {
     "an output that is not there": (".Crc", ".Lrc", "LRC as a member of MB_CRC16"),
     "a block above what it uses": ('FUNCTION_BLOCK "MB_RtuSeal"', 'FUNCTION_BLOCK "MB_Crc16"', "of a block above"),
 }
-MISTAKES = [("MB_Crc16", *each) for each in WRONG.items()] + [("MB_RtuSeal", *each) for each in CALLS.items()]
+QUOTED = {
+    "a reserved name without quotes": ('#"Port".LateMs', "#Port.LateMs", "quotes around Port"),
+    "a reserved name declared without quotes": ('"Port" : ', "Port : ", "in quotes if SCL reserves it"),
+    "a reserved parameter without quotes": ('"Port" := ', "Port := ", "in quotes if SCL reserves it"),
+}
+MISTAKES = [
+    (block, *each)
+    for block, edits in {"MB_Crc16": WRONG, "MB_RtuSeal": CALLS, "MB_ByteLine8": QUOTED}.items()
+    for each in edits.items()
+]
 
 
 @pytest.mark.parametrize(("block", "name", "edit"), MISTAKES, ids=[each[1] for each in MISTAKES])
@@ -134,7 +143,7 @@ TYPE
 END_TYPE
 TYPE
   Plain : STRUCT
-    Version : UINT; (* a word of SCL *)
+    Other : UINT;   (* good *)
     Long : LWORD;   (* an S7-1200 has none *)
   END_STRUCT;
 END_TYPE
@@ -183,7 +192,6 @@ REFUSED = [
     "Half.st:2:10: Half: SCL gives no value to a result that a path leaves out",
     "Half.st:7:3: Kept: a function has no initial values in SCL; assign it in the body",
     "Half.st:10:13: DWORD_TO_REAL: SCL has no such function, or means something else by it",
-    "Plain.st:4:5: Version is a word of SCL; name it otherwise",
     "Plain.st:5:12: LWORD: an S7-1200 has no such type",
 ]
 

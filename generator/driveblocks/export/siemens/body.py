@@ -2,8 +2,9 @@
 
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
-from driveblocks.export.siemens.words import ELEMENTARY, FORMAL, UNNAMED, converts
+from driveblocks.export.siemens.words import ELEMENTARY, FORMAL, RESERVED, UNNAMED, converts
 from driveblocks.st import walk
+from driveblocks.st.lexer import tokenize
 from driveblocks.st.tree import (
     Assign,
     Binary,
@@ -44,6 +45,7 @@ class _Body:
         self.variables = {one.name.upper(): one for block in pou.blocks for one in block.variables}
         self.result = pou.name.upper() if isinstance(pou, Function) else ""
         self.puts: dict[int, str] = {}
+        self.bare: set[int] = set()
 
     def text(self) -> str:
         """The canonical text with everything put in."""
@@ -53,8 +55,9 @@ class _Body:
             self.refuse(self.pou.name_at, f"{self.pou.name}: SCL gives no value to a result that a path leaves out")
         self.comments()
         made, whole = "", self.part.unit.text
-        start = whole.index(self.part.body, self.pou.blocks[-1].end if self.pou.blocks else self.pou.name_at)
-        here, end = start, start + len(self.part.body)
+        here = whole.index(self.part.body, self.pou.blocks[-1].end if self.pou.blocks else self.pou.name_at)
+        end = here + len(self.part.body)
+        self.quotes(here)
         for at in sorted(self.puts):
             made += whole[here:at] + self.puts[at]
             here = at
@@ -65,6 +68,14 @@ class _Body:
         for one in self.part.unit.comments:
             if one.style != "(*" or "(*" in one.text:
                 self.refuse(one.at, "expected a plain (* comment *); SCL would read it as something else")
+
+    def quotes(self, start: int) -> None:
+        """Quotes around names that SCL reserves, but for the parameters of what the PLC brings."""
+        tokens = tokenize(self.part.body)
+        for kind, text, at in zip(tokens.kinds, tokens.texts, tokens.ats, strict=True):
+            if kind == "name" and text.upper() in RESERVED and start + at not in self.bare:
+                self.put(start + at, '"')
+                self.put(start + at + len(text), '"')
 
     def refuse(self, at: int, text: str) -> None:
         """Note what SCL cannot say."""
@@ -92,8 +103,6 @@ class _Body:
         elif isinstance(value, Literal):
             self.literal(value)
         elif isinstance(value, Member | Index | Unary | Binary):
-            if isinstance(value, Member):
-                self.names.check(self.part, value.at, value.name)
             for each in walk.children(value):
                 self.expression(each)
         else:
@@ -137,7 +146,9 @@ class _Body:
     def in_outs(self, call: Call, instance: VarDecl) -> None:
         """An in-out is a reference, so that each call names it."""
         found = self.names.find(instance.spec.name) if isinstance(instance.spec, NamedSpec) else None
-        if found is not None and isinstance(found.element, FunctionBlock):
+        if found is None:
+            self.bare |= {argument.at for argument in call.arguments}
+        elif isinstance(found.element, FunctionBlock):
             self.given(call, instance.name, _parameters(found, VarKind.IN_OUT))
 
     def given(self, call: Call, name: str, wanted: dict[str, str]) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
-from driveblocks.export.siemens.words import ELEMENTARY, SYSTEM
+from driveblocks.export.siemens.words import ELEMENTARY, SYSTEM, quoted
 from driveblocks.st.library import fold
 from driveblocks.st.tree import (
     ArrayInitial,
@@ -82,9 +82,8 @@ def _section(part: Part, one: VarDecl, names: Names) -> str:
 def lines(part: Part, variables: Iterable[VarDecl], names: Names) -> Iterator[str]:
     """Declarations, each with its comment behind it."""
     for one in variables:
-        name = names.check(part, one.at, one.name)
         first, *rest = _initial(part, one.initial, names) if one.initial is not None else [""]
-        made = [f"      {name} : {spelled(part, one.spec, names)}{first}", *rest]
+        made = [f"      {quoted(one.name)} : {spelled(part, one.spec, names)}{first}", *rest]
         made[-1] += ";"
         if said := " ".join(" ".join(each.text for each in _comments(one)).split()):
             made[-1] += f"   // {said}"

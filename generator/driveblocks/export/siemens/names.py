@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 
 from driveblocks.export.part import Part
-from driveblocks.export.siemens.words import RESERVED
 from driveblocks.st.problems import Problem
 from driveblocks.st.tree import ArraySpec, TypeDecl
 
@@ -30,9 +29,3 @@ class Names:
         if part is None or not isinstance(part.element, TypeDecl):
             return None
         return part.element.spec if isinstance(part.element.spec, ArraySpec) else None
-
-    def check(self, part: Part, at: int, name: str) -> str:
-        """A name that stands bare. What SCL reserves is refused."""
-        if name.upper() in RESERVED:
-            self.refuse(part, at, f"{name} is a word of SCL; name it otherwise")
-        return name
