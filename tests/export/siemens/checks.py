@@ -10,6 +10,7 @@ from tests.export.siemens.scl import Block, read
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.part import shelf as made_shelf
 from driveblocks.maps import catalog, collection
+from driveblocks.maps.model import Drive
 from driveblocks.render import library, text
 from driveblocks.st.fingerprint import fingerprint, stream
 from driveblocks.st.tree import ArraySpec, Function, NamedSpec, Pou, Spec, TypeDecl, VarDecl, VarKind
@@ -45,7 +46,11 @@ def shelf() -> Shelf:
     """The shipped library."""
     languages = text.languages(["en", "zh"], "utf-8")
     sources = collection.read(list(catalog.shipped()))
-    drives = {source.path.stem: text.told(source.drive, languages) for source in sources}
+    return stocked({source.path.stem: text.told(source.drive, languages) for source in sources}, languages)
+
+
+def stocked(drives: dict[str, Drive], languages: list[text.Language]) -> Shelf:
+    """The library of some drives."""
     files = [*library.generic(languages)]
     for stem, drive in drives.items():
         files.extend(library.drive(stem, drive, languages))

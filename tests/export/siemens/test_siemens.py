@@ -9,6 +9,7 @@ from tests.export.siemens import checks
 from tests.export.siemens.checks import CHECKS, Read, opened
 from tests.export.siemens.planted import PLANTED, Planted, few
 from tests.export.siemens.scl import SclError, read
+from tests.shapes import shapes
 
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.problem import ExportError
@@ -33,6 +34,15 @@ def whole() -> Read:
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__)
 def test_what_was_written_reads_back_equal(check: Callable[[Read], None]) -> None:
     check(whole())
+
+
+def test_drives_of_other_shapes_read_back_equal_and_those_of_several_writes_have_no_master() -> None:
+    stock = checks.stocked({name.lower(): drive for name, drive in shapes().items() if name in ("CIA", "LOW")}, [])
+    made = library.files(stock)
+    found = opened(stock, made)
+    for check in CHECKS:
+        check(found)
+    assert ("siemens/CIA_Master.scl" in made, "siemens/LOW_Master.scl" in made) == (False, True)
 
 
 def test_no_file_is_beside_those_that_the_page_names() -> None:
