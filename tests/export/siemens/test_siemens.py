@@ -37,7 +37,7 @@ def test_what_was_written_reads_back_equal(check: Callable[[Read], None]) -> Non
 
 
 def test_drives_of_other_shapes_read_back_equal_and_those_of_several_writes_have_no_master() -> None:
-    stock = checks.stocked({name.lower(): drive for name, drive in shapes().items() if name in ("CIA", "LOW")}, [])
+    stock = checks.stocked({name: drive for name, drive in shapes().items() if name in ("cia402", "active_low")}, [])
     made = library.files(stock)
     found = opened(stock, made)
     for check in CHECKS:
