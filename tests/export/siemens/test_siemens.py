@@ -227,6 +227,73 @@ def _part(text: str) -> Part:
     return Part("", parse(f"(* head *)\n{text}", f"{text.split()[1]}.st"))
 
 
+MORE = """
+FUNCTION_BLOCK More
+VAR_INPUT
+  Title : STRING[20]; (* a word of SCL *)
+END_VAR
+VAR_TEMP
+  Step : DINT; (* counts *)
+END_VAR
+VAR
+  Wait : TON;      (* a time *)
+  Edge : R_TRIG;   (* an edge *)
+  Table : ARRAY[0..1, 1..2] OF REAL := [1.0, -2.0, 3.0, 4.0]; (* numbers *)
+END_VAR
+  Wait(IN := Edge.Q, PT := T#500ms);
+  Edge(CLK := Title = 'a$'b');
+  FOR Step := 0 TO 3 DO
+    IF Wait.Q THEN
+      EXIT;
+    END_IF;
+  END_FOR;
+  REPEAT
+    Step := LIMIT(0, MIN(Step, 7) + 1, 9);
+  UNTIL ABS(Step) > 3
+  END_REPEAT;
+  RETURN;
+END_FUNCTION_BLOCK
+"""
+SAID = """
+   VAR_INPUT
+      "Title" : String[20];   // a word of SCL
+   END_VAR
+
+   VAR
+      Wait : TON_TIME;   // a time
+      Edge : R_TRIG;   // an edge
+      Table : Array[0..1, 1..2] of Real := [
+         1.0, -2.0, 3.0, 4.0
+      ];   // numbers
+   END_VAR
+
+   VAR_TEMP
+      Step : DInt;   // counts
+   END_VAR
+
+BEGIN
+  #Wait(IN := #Edge.Q, PT := T#500ms);
+  #Edge(CLK := #"Title" = 'a$'b');
+  FOR #Step := 0 TO 3 DO
+    IF #Wait.Q THEN
+      EXIT;
+    END_IF;
+  END_FOR;
+  REPEAT
+    #Step := LIMIT(MN := 0, IN := MIN(IN1 := #Step, IN2 := 7) + 1, MX := 9);
+  UNTIL ABS(#Step) > 3
+  END_REPEAT;
+  RETURN;
+END_FUNCTION_BLOCK
+"""
+
+
+def test_what_no_block_uses_yet_is_written_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Shelf, "adapter", lambda *_: ())
+    made = library.files(Shelf((_part(MORE.strip()),), {}, ()))["siemens/DriveBlocks.scl"].replace("\r\n", "\n")
+    assert made.partition("// head\n")[2].strip("\n") == SAID.strip("\n")
+
+
 @functools.cache
 def running() -> Library:
     """The library, the port and the programs of the platform, with stand-ins for its instructions."""
