@@ -402,7 +402,7 @@ def test_the_first_motor_speaks_to_its_drive() -> None:
         for _ in range(50):
             motor["Bus.Port.Meter"] = 0.01
             motor.scan()
-        assert (motor["Bus.ElapsedMs"], motor["Bus.Error"]) == (10, False) or motor["Bus.ErrorID"] == 61
+        assert motor["Bus.ElapsedMs"] == 10
         assert motor["Bus.Port.Send.Sent"]
         assert motor["Bus.Port.Send.Wire[0]"] == drive.serial.unit.min
 
