@@ -8,7 +8,7 @@ from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
-from driveblocks.render.motor import motor
+from driveblocks.render.motor import master, motor
 from driveblocks.render.text import Language
 
 TYPES = ("MB_Adu", "MB_Chars", "MB_Words", "MB_Registers", "MB_Request")
@@ -25,8 +25,13 @@ LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters
 CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
-PLATFORMS = {"linux": ("LX", "a serial port of Linux")}
+PLATFORMS = {
+    "linux": ("LX", "a serial port of Linux"),
+    "siemens": ("SI", "an RS-485 module of the S7-1200 or S7-1500"),
+}
 """Platform -> the prefix of its blocks, and where its line is."""
+MASTERS = ("siemens",)
+"""Platforms with a Modbus master of their own, and a program for it."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -85,6 +90,16 @@ def first_motor(platform: str, drive: Drive) -> File:
     prefix, where = PLATFORMS[platform]
     values = {"platform": platform, "where": where, "line": f"{prefix}_Line{LINE_SIZES[0]}", **motor(drive)}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
+
+
+def programs(platform: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
+    """Beside the first motor: where the PLC itself is the master and owns the frames, a program for such a drive."""
+    if platform in MASTERS and drive.operation.in_one_word:
+        yield File(
+            platform,
+            f"{drive.prefix}_Master",
+            render(f"{platform}/Master.st.j2", **master(drive), **_texts_of(languages)),
+        )
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
