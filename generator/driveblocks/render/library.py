@@ -25,7 +25,10 @@ LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters
 CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
-PLATFORMS = {"linux": ("LX", "a serial port of Linux")}
+PLATFORMS = {
+    "linux": ("LX", "a serial port of Linux"),
+    "twincat": ("TC", "a serial terminal of Beckhoff"),
+}
 """Platform -> the prefix of its blocks, and where its line is."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
