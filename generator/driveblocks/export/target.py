@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection
 
-from driveblocks.export import twincat
+from driveblocks.export import openplc, twincat
 from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.st.problems import Problem
@@ -13,6 +13,7 @@ Writer = Callable[[Shelf], dict[str, str]]
 A text is written in UTF-8 as it is: with the line ends and the byte order mark that the writer gave it.
 """
 WRITERS: dict[str, Writer] = {
+    "openplc": openplc.files,
     "twincat": twincat.files,
 }
 
