@@ -2,6 +2,7 @@
 
 import functools
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -33,7 +34,7 @@ def written() -> dict[str, str]:
 def pieces(text: str) -> list[str]:
     """A library cut behind each type, function and block; its own head goes before the first."""
     ends = [0, *(match.end() for match in END.finditer(text))]
-    return [text[start:end] for start, end in zip(ends, ends[1:], strict=False)]
+    return [text[start:end] for start, end in pairwise(ends)]
 
 
 def libraries() -> dict[str, set[str]]:

@@ -21,7 +21,7 @@ def files(shelf: Shelf) -> dict[str, str]:
         program = render("openplc/Bytes.st.j2", **motor(drive))
         made[f"{first}.st"] = "\n".join([port, line, library.first_motor("linux", drive).text, _task(first)])
         made[f"{other}.st"] = f"{program}\n{_task(other)}"
-    made["README.md"] = render("openplc/README.md.j2", libraries=list(map(_counted, shelf.libraries())))
+    made["README.md"] = _page(shelf)
     return {f"{TARGET}/{path}": text for path, text in made.items()}
 
 
@@ -37,3 +37,8 @@ def _counted(one: Library) -> dict[str, object]:
     types = sum(isinstance(part.element, TypeDecl) for part in one.parts)
     drives = [drive.prefix for drive in one.drives]
     return {"name": one.name, "types": types, "blocks": len(one.parts) - types, "drives": drives}
+
+
+def _page(shelf: Shelf) -> str:
+    libraries = list(map(_counted, shelf.libraries()))
+    return render("openplc/README.md.j2", libraries=libraries, one=libraries[1]["name"])

@@ -82,16 +82,12 @@ def _item(part: Part, folder: str) -> Item:
     name, id_ = part.name, _id(part.name)
     if isinstance(part.element, TypeDecl):
         text = part.text.rstrip("\n").replace("\n  END_STRUCT;\n", "\n  END_STRUCT\n")
-        return Item(folder, name, "TcDUT", _object(f'  <DUT Name="{name}" Id="{id_}">\n{_declared(text)}  </DUT>\n'))
-    head = part.text[: part.element.at]
+        inner = f'  <DUT Name="{name}" Id="{id_}">\n{_declared(text)}  </DUT>\n'
+        return Item(folder, name, "TcDUT", _object(inner))
+    text = part.text[: part.element.at] + part.declaration
     body = f"    <Implementation>\n      <ST><![CDATA[{part.body}]]></ST>\n    </Implementation>\n"
-    inner = f"{_declared(head + part.declaration)}{body}"
-    return Item(
-        folder,
-        name,
-        "TcPOU",
-        _object(f'  <POU Name="{name}" Id="{id_}" SpecialFunc="None">\n{inner}  </POU>\n'),
-    )
+    inner = f'  <POU Name="{name}" Id="{id_}" SpecialFunc="None">\n{_declared(text)}{body}  </POU>\n'
+    return Item(folder, name, "TcPOU", _object(inner))
 
 
 def _declared(text: str) -> str:
