@@ -18,6 +18,7 @@ def motor(drive: Drive) -> Context:
         "port": _port(drive),
         "scan": SCAN_MS,
         "has_reset": any(one.does == "fault_reset" for one in drive.operation.commands),
+        "second_hand": drive.manual.second_hand,
         "unscaled": drive_block(drive)["scaled"] is False,
         "ascii": "rtu" not in drive.serial.mode.modes,
     }
