@@ -143,13 +143,25 @@ def test_the_first_motor_on_linux_runs_and_says_that_its_port_is_missing(matiec:
     assert program["Motor.CommOk"] is False
 
 
+def with_addresses(text: str) -> str:
+    """A first motor after step 4.2 of the page."""
+    section = re.search(r"^   VAR\n.*?END_VAR\n", written()["README.md"], re.MULTILINE | re.DOTALL)
+    assert section is not None
+    names = re.findall(r"(\w+) AT %", section[0])
+    assert all(len(re.findall(f"^  {name} : BOOL;", text, re.MULTILINE)) == 1 for name in names)
+    rest = re.sub(rf"^  (?:{'|'.join(names)}) : BOOL;.*\n", "", text, flags=re.MULTILINE)
+    return rest.replace("END_VAR\n", f"END_VAR\n{section[0]}", 1)
+
+
 @TOOLS
-def test_every_first_motor_compiles(tool: Installation, tmp_path: Path) -> None:
+def test_every_first_motor_compiles_with_addresses_as_the_page_says(tool: Installation, tmp_path: Path) -> None:
     prefixes = [drive.prefix for drive in made().drives.values()]
-    port, program, rest = programs(prefixes[0], "Motor").partition(f"(* {prefixes[0]}_Motor")
-    later = [programs(prefix, "Motor").removeprefix(port) for prefix in prefixes[1:]]
+    port = programs(prefixes[0], "Motor").partition(f"(* {prefixes[0]}_Motor")[0]
+    linux = [programs(prefix, "Motor").removeprefix(port) for prefix in prefixes]
     others = [programs(prefix, "MotorBytes") for prefix in prefixes]
-    translate(tool, [written()["DriveBlocks.st"], port, program + rest, *later, *others], tmp_path)
+    located = [with_addresses(text) for text in [*linux, *others]]
+    translate(tool, [written()["DriveBlocks.st"], port, *located], tmp_path)
+    assert "__IX0_0" in (tmp_path / "LOCATED_VARIABLES.h").read_text(encoding="utf-8")
 
 
 @TOOLS
