@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection
 
+from driveblocks.export import openplc, twincat
 from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens import library as siemens
@@ -12,7 +13,11 @@ Writer = Callable[[Shelf], dict[str, str]]
 
 A text is written in UTF-8 as it is: with the line ends and the byte order mark that the writer gave it.
 """
-WRITERS: dict[str, Writer] = {"siemens": siemens.files}
+WRITERS: dict[str, Writer] = {
+    "openplc": openplc.files,
+    "twincat": twincat.files,
+    "siemens": siemens.files,
+}
 
 
 def files(shelf: Callable[[], Shelf], targets: Collection[str]) -> dict[str, str]:

@@ -28,6 +28,7 @@ LINE_SIZES = (8, 32)
 PLATFORMS = {
     "linux": ("LX", "a serial port of Linux"),
     "siemens": ("SI", "an RS-485 module of the S7-1200 or S7-1500"),
+    "twincat": ("TC", "a serial terminal of Beckhoff"),
 }
 """Platform -> the prefix of its blocks, and where its line is."""
 MASTERS = ("siemens",)
