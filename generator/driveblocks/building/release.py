@@ -18,7 +18,7 @@ BESIDE = {CANONICAL: ("linux",)}
 """Target -> folders that go with its own."""
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every file: the same files make the same archive on every day."""
-_LINK = re.compile(r"\]\(([^)#:\s]+)")
+_LINK = re.compile(r"\]\((?!\w+:)([^)#\s]+)")
 
 
 def release(root: Path, out: Path) -> list[Path]:

@@ -97,7 +97,7 @@ _CODESYS = _words(
     """
 )
 
-# Reserved words of S7-SCL and types of TIA Portal that no other list has (manual of S7-SCL, appendix of the language).
+# Reserved words of S7-SCL and types of TIA Portal that no other list has, as commonly known; no list was at hand.
 _SIEMENS = _words(
     """
     ANY_TYPE AUTHOR BEGIN BLOCK_DB BLOCK_FB BLOCK_FC BLOCK_SDB BLOCK_SFB BLOCK_SFC CONST COUNTER DATA_BLOCK DB_ANY DTL
