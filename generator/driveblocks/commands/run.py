@@ -90,7 +90,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     options = Options(
         program=program, name=name, maps=tuple(maps or ()), simulate=tuple(simulate or ()), tcp=tcp, port=port,
-        simulated=simulated, form=form, scan=scan, length=for_, show=tuple(",".join(show or ()).replace(",", " ").split()),
+        simulated=simulated, form=form, scan=scan, length=for_,
+        show=tuple(",".join(show or ()).replace(",", " ").split()),
         script=script, trace=trace, picture=picture, allow_run=allow_run, demo=demo, fast=fast,
     )  # fmt: skip
     try:
