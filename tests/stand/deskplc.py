@@ -24,12 +24,13 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.desk import ONE
 from tests.stand.softplc import SoftPlc
 
-from driveblocks.plc.wire import opened
 from driveblocks.stand.bus import Loss
 
 UNIT = 7
 RATE, BITS = 19200, 10
 MOST = 4096
+REQUEST = 8
+"""Bytes of each: this drive is read by 03H, and written by 06H."""
 NET = 600
 """Seconds that no machine needs, for what would hang."""
 CHF = ONE.replace("JSCC", "CHF").replace("ReferenceScale := 100.0", "FrequencyScale := 0.01")
@@ -124,9 +125,9 @@ class Cable:
         return self.loss.spoiled(data)
 
     def _request(self, silence: Callable[[], None]) -> None:
-        self._begun += os.read(self._master, MOST)
-        if opened(self._begun, ascii_mode=False) is not None:
-            whole, self._begun = self._begun, b""
+        self._begun += os.read(self._master, MOST)  # more than one where this computer was busy
+        while len(self._begun) >= REQUEST:
+            whole, self._begun = self._begun[:REQUEST], self._begun[REQUEST:]
             self.asked += 1
             silence()
             _later(self._server, self.loss.spoiled(whole) if self.loss.fate() else whole)
