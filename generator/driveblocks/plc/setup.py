@@ -105,7 +105,7 @@ class Setup:
         except ImportError as error:
             raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
         except (OSError, ValueError, OverflowError) as error:
-            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {error}") from None
+            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {port.reason(error)}") from None
 
     def _form(self) -> str:
         """Data bits, parity and stop bits. Raises Refused."""

@@ -113,7 +113,7 @@ class Setup:
             raise Refused(str(error)) from None
         except (OSError, ValueError) as error:
             place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
-            raise Refused(f"{place}: {error}; name another place by --tcp, --pty or --port") from None
+            raise Refused(f"{place}: {port.reason(error)}; name another place by --tcp, --pty or --port") from None
         return tcp, tcp.place
 
     def _alone(self, link: Link) -> Link:
