@@ -1,7 +1,6 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
-import os
 import subprocess
 import sys
 import tomllib
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 import typer
 from tests.plc.desk import EXAMPLE, ONE
+from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
@@ -26,7 +26,6 @@ app.command()(command.run)
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
 _read, _whole = collection.read, source.load
-HIDDEN = "import sys\nfor name in ('pty', 'termios', 'tty', 'fcntl'):\n    sys.modules[name] = None\n"
 
 
 def run(*words: str | Path) -> Result:
@@ -150,8 +149,7 @@ def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
 @pytest.fixture
 def windows(tmp_path: Path) -> dict[str, str]:
     """An environment in which every process lacks what Windows lacks."""
-    (tmp_path / "sitecustomize.py").write_text(HIDDEN, encoding="utf-8")
-    return {**os.environ, "PYTHONPATH": str(tmp_path)}
+    return environment(tmp_path)
 
 
 def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[str, str]) -> None:
