@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from csv import DictReader
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.desk import ONE
 from tests.stand.softplc import SoftPlc
 
+from driveblocks.render.reasons import REASONS
 from driveblocks.stand.bus import Loss
 
 UNIT = 7
@@ -41,7 +43,8 @@ RUNNING, STANDING = 1, 3
 STEP = 500
 """So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
 COUNTERS = ("Requests", "Good", "Bad", "Timeouts", "Retries", "LateReplies", "Refusals")
-SHOWN = ("CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", "OutputFrequencyValid")
+HELD = next(reason.code for reason in REASONS if reason.en == "a run or jog pin is held since before")
+SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", "OutputFrequencyValid")
 
 
 class Motor:
@@ -207,10 +210,25 @@ class DeskPlc(SoftPlc):
             self.over = True
             self.changed.notify_all()
 
-    def reach(self, name: str) -> None:
-        """Wait until an output of the motor is TRUE. Raises AssertionError where the soft PLC has ended before."""
-        self.until(lambda seen: self.over or seen.get(f"Motor.{name}") == 1, NET)
+    def reach(self, what: Callable[[dict[str, float]], bool]) -> None:
+        """Wait for something of the motor's. Raises AssertionError where the soft PLC has ended before."""
+        self.until(lambda seen: self.over or what({name: seen.get(f"Motor.{name}", -1) for name in SHOWN}), NET)
         assert not self.over, self.lines
+
+    def stop(self) -> None:
+        """Stop, and wait until the motor stands."""
+        self.set("Start", on=False)
+        self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (1, 0) and seen["Reason"] != HELD)
+
+    def start(self) -> int:
+        """Start, and wait until the motor turns; how many edges were in vain."""
+        for vain in count():
+            self.set("Start", on=True)
+            self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (0, 1) or seen["Reason"] == HELD)
+            if self.seen["Motor.Reason"] != HELD:
+                return vain
+            self.stop()
+        return 0
 
     def set(self, name: str, *, on: bool) -> None:
         """Set an input."""
@@ -257,6 +275,8 @@ class Exchange:
     peer: Peer
     rounds: int = 0
     lost_stops: int = 0
+    held_starts: int = 0
+    """When this computer was away for so long that the line acted as at a restart: a start needs a new edge then."""
     memory: list[float] = field(default_factory=list)
     """Of the soft PLC at its first stop, and at its last."""
     rows: list[dict[str, str]] = field(default_factory=list)
@@ -266,14 +286,12 @@ class Exchange:
 
     def turn(self, soft: DeskPlc, seconds: float) -> None:
         """Start, turn and stop, once and then over and over for so long."""
-        soft.reach("StopConfirmed")
+        soft.stop()
         self.memory.append(soft.memory())
         end = time.monotonic() + seconds
         while not self.rounds or time.monotonic() < end:
-            soft.set("Start", on=True)
-            soft.reach("AtSpeed")
-            soft.set("Start", on=False)
-            soft.reach("StopConfirmed")
+            self.held_starts += soft.start()
+            soft.stop()
             self.lost_stops += not self.peer.motor.stands
             self.rounds += 1
         self.memory.append(soft.memory())
@@ -327,7 +345,8 @@ def figures(made: Exchange) -> Iterator[str]:
     """All of them, each in a line."""
     peer, cable = made.peer, made.peer.cable
     numbers = {
-        "rounds": made.rounds, "lost stops": made.lost_stops, "wrong values": made.wrong_values(),
+        "rounds": made.rounds, "starts held": made.held_starts, "lost stops": made.lost_stops,
+        "wrong values": made.wrong_values(),
         "memory, KiB": made.memory[-1], "at first": made.memory[0], **made.counted(), **made.explained(),
         "frames of the PLC": cable.asked, "heard": peer.heard, "replied": peer.replied, "damaged": cable.loss.damaged,
         "... replies": cable.replies_damaged, "exit status": made.status,
