@@ -14,7 +14,6 @@ from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from csv import DictReader
 from dataclasses import dataclass, field
-from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -222,13 +221,14 @@ class DeskPlc(SoftPlc):
 
     def start(self) -> int:
         """Start, and wait until the motor turns; how many edges were in vain."""
-        for vain in count():
+        vain = 0
+        while True:
             self.set("Start", on=True)
             self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (0, 1) or seen["Reason"] == HELD)
             if self.seen["Motor.Reason"] != HELD:
                 return vain
             self.stop()
-        return 0
+            vain += 1
 
     def set(self, name: str, *, on: bool) -> None:
         """Set an input."""
