@@ -175,7 +175,7 @@ def _drives(drives: Sequence[Seen], remark: str) -> Table:
     table.add_column("state", min_width=len(LONGEST_STATE))
     for name in ("asked", "Hz"):
         table.add_column(name, justify="right", no_wrap=True, min_width=5)
-    table.add_column(remark, min_width=20)
+    table.add_column(remark, min_width=max(20, len(remark)))
     for each in drives:
         hertz = "-" if each.hertz is None else f"{each.hertz:.1f}"
         state = Text(each.state, _style(each.state))
