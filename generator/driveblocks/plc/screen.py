@@ -19,6 +19,7 @@ from driveblocks.plc.view import Seen, View, spelled
 HELP = "Type a number to toggle, or NAME := VALUE, and Enter; Ctrl-C stops all and ends."
 BAD, GOOD = "bold red1", "bold green4"
 """Colours of fixed shade, readable on black and on white; the red and green of a palette are too dark or too bright."""
+WHY = "why"
 LONGEST_STATE = "reverse, at speed"
 """For which there is always room, lest columns jump."""
 MOST_SAID = 200
@@ -82,7 +83,7 @@ class Heading:
     label: str
     title: str
     real: bool
-    remark: str = "why"
+    remark: str = WHY
     """What the last column of the table tells."""
 
 
@@ -175,7 +176,7 @@ def _drives(drives: Sequence[Seen], remark: str) -> Table:
     table.add_column("state", min_width=len(LONGEST_STATE))
     for name in ("asked", "Hz"):
         table.add_column(name, justify="right", no_wrap=True, min_width=5)
-    table.add_column(remark, min_width=max(20, len(remark)))
+    table.add_column(remark, min_width=20, no_wrap=remark != WHY)  # a reason is a sentence, anything else numbers
     for each in drives:
         hertz = "-" if each.hertz is None else f"{each.hertz:.1f}"
         state = Text(each.state, _style(each.state))
