@@ -25,8 +25,10 @@ LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters
 CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
-PLATFORMS = {"linux": ("LX", "a serial port of Linux")}
+PLATFORMS = {"linux": ("LX", "a serial port of Linux"), "plcopen": ("MB", "any serial port")}
 """Platform -> the prefix of its blocks, and where its line is."""
+BYTES = "plcopen"
+"""The platform without an adapter: the program gives and takes the bytes."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -83,7 +85,8 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
 def first_motor(platform: str, drive: Drive) -> File:
     """A program for a first motor at a platform's serial port."""
     prefix, where = PLATFORMS[platform]
-    values = {"platform": platform, "where": where, "line": f"{prefix}_Line{LINE_SIZES[0]}", **motor(drive)}
+    line = f"{prefix}_{'ByteLine' if platform == BYTES else 'Line'}{LINE_SIZES[0]}"
+    values = {"platform": platform, "where": where, "line": line, **motor(drive)}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 
