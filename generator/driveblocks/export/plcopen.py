@@ -43,4 +43,6 @@ def _instances(prefixes: list[str]) -> Element:
     runs = [element("pouInstance", {"name": f"{one}_1", "typeName": f"{one}_Motor"}) for one in prefixes]
     task = element("task", {"name": "Motors", "priority": "0", "interval": f"T#{SCAN_MS}ms"}, *runs)
     resource = element("resource", {"name": "Cpu"}, task)
-    return element("instances", {}, element("configurations", {}, element("configuration", {"name": "Config"}, resource)))
+    return element(
+        "instances", {}, element("configurations", {}, element("configuration", {"name": "Config"}, resource))
+    )

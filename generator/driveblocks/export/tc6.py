@@ -106,10 +106,7 @@ class _Sheet:
         one = self.part.element
         self.used.add(self.part.unit.comments[0].at)
         head = "\n".join(line.removeprefix("   ") for line in self.part.head.split("\n"))
-        if isinstance(one, tree.TypeDecl):
-            made = self.type(one, head, extra)
-        else:
-            made = self.pou(one, head, extra)
+        made = self.type(one, head, extra) if isinstance(one, tree.TypeDecl) else self.pou(one, head, extra)
         self.characters()
         self.comments(one)
         return made

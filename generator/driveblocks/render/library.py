@@ -8,6 +8,7 @@ from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
+from driveblocks.render.master import master
 from driveblocks.render.motor import motor
 from driveblocks.render.text import Language
 
@@ -25,7 +26,11 @@ LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters
 CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
-PLATFORMS = {"linux": ("LX", "a serial port of Linux"), "plcopen": ("MB", "any serial port")}
+PLATFORMS = {
+    "linux": ("LX", "a serial port of Linux"),
+    "plcopen": ("MB", "any serial port"),
+    "codesys": ("CD", "a serial port of CODESYS"),
+}
 """Platform -> the prefix of its blocks, and where its line is."""
 BYTES = "plcopen"
 """The platform without an adapter: the program gives and takes the bytes."""
@@ -88,6 +93,13 @@ def first_motor(platform: str, drive: Drive) -> File:
     line = f"{prefix}_{'ByteLine' if platform == BYTES else 'Line'}{LINE_SIZES[0]}"
     values = {"platform": platform, "where": where, "line": line, **motor(drive)}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
+
+
+def own_master(platform: str, drive: Drive) -> File | None:
+    """A program for a motor where the platform's own library is the master; None where commands are no single word."""
+    if not drive.operation.in_one_word:
+        return None
+    return File(platform, f"{drive.prefix}_Master", render(f"{platform}/Master.st.j2", **master(drive)))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:
