@@ -40,9 +40,7 @@ def _programs(shelf: Shelf, drive: Drive) -> Iterator[Part]:
         yield Part(file.folder, parse(file.text, file.path))
 
 
-def _file(
-    library: Library, port: Iterable[Part], programs: Iterable[Iterable[Part]], made: dict[str, Element]
-) -> str:
+def _file(library: Library, port: Iterable[Part], programs: Iterable[Iterable[Part]], made: dict[str, Element]) -> str:
     parts = (*library.parts, *port, *(one for some in programs for one in some))
     data = element("addData", {}, vendor("projectstructure", _structure(parts)))
     content = types(made[part.name] for part in parts)

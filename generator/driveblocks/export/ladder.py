@@ -13,7 +13,11 @@ _RAIL = 40
 _CONTACT = 160
 _BLOCK = 420
 _LINE = 20
-"""Height of a line in a block, as Beremiz draws it; contacts and coils are 21 x 15, their pins 8 below the top."""
+_FIRST = 30
+"""Height of a line in a block, as Beremiz draws it; the first pin is _FIRST below the top.
+
+Contacts and coils are 21 x 15, their pins 8 below the top.
+"""
 
 
 def ladder(written: Element, part: Part, parts: Mapping[str, Part]) -> Element:
@@ -80,9 +84,9 @@ class _Drawing:
         left, right = self.pins(name)
         given = {each.name: each.value for each in call.arguments}
         width = 8 * (max(len(v.name) for v in left) + max(len(v.name) for v in right)) + 30
-        at = {v.name: self.y + _LINE * (row + 3) // 2 + _LINE * row // 2 for row, v in enumerate(left)}
+        at = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(left)}
         wired = [self.pin(v, at[v.name], given.get(v.name)) for v in left]
-        outs = {v.name: self.y + 30 + _LINE * row for row, v in enumerate(right)}
+        outs = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(right)}
         made = _Block(self.number(), {pin: (_BLOCK + width, y) for pin, y in outs.items()})
         height = _LINE * (max(len(left), len(right)) + 1)
         spec = self.declared(name).spec
