@@ -1,5 +1,6 @@
 """Both dialects of TC6: what is written reads back as the canonical text, and what cannot be said is refused."""
 
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -11,9 +12,13 @@ from tests.export.tc6_planted import PLANTED, Planted
 from driveblocks.export.part import Part, Shelf, shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.target import WRITERS
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Library, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render import library, text
 from driveblocks.render.library import File
+from driveblocks.render.results import code
+from driveblocks.st.lint import lint_sources
 from driveblocks.st.parser import parse
 
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
@@ -59,7 +64,17 @@ def test_what_is_written_reads_back(target: str, check: Callable[[Made], None]) 
 @pytest.mark.parametrize("target", ["plcopen", "codesys"])
 def test_the_same_library_gives_the_same_bytes(target: str) -> None:
     again = WRITERS[target](stock())
-    assert list(again.values()) == [one.file.text for one in written(target)]
+    assert [text for name, text in again.items() if name.endswith(".xml")] == [one.file.text for one in written(target)]
+
+
+@pytest.mark.parametrize("target", ["plcopen", "codesys"])
+def test_the_page_counts_what_is_there_and_shows_a_motor(target: str) -> None:
+    page = WRITERS[target](stock())[f"{target}/README.md"]
+    for one in written(target):
+        kinds = Counter(unit.kind for unit in one.file.units)
+        cells = [kinds[kind] for kind in ("TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM")]
+        assert f"| `{one.library}.xml` | {' | '.join(map(str, cells))} |" in page
+    assert stock().motor(target, next(iter(stock().drives.values()))).text in page
 
 
 BLOCK = """(* X: a sample *)
@@ -74,6 +89,33 @@ END_FUNCTION_BLOCK
 """
 NO_OWNER = "a comment that belongs to no declaration would be lost; put it behind one"
 MARK = "has no form in this XML; write it with a blank in it"
+
+
+@cache
+def _motors() -> Library:
+    """The first motors for any port, with the library."""
+    parts = [*stock().parts, *(stock().motor("plcopen", drive) for drive in stock().drives.values())]
+    return EmbeddedEngine().build([Source(part.unit.path, part.text) for part in parts])
+
+
+@pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
+def test_a_first_motor_for_any_port_lints_clean_and_asks_its_drive(prefix: str) -> None:
+    (drive,) = (one for one in stock().drives.values() if one.prefix == prefix)
+    motor = stock().motor("plcopen", drive)
+    problems = lint_sources((part.unit.path, part.text) for part in (*stock().parts, motor))
+    assert [each for each in problems if each.path == motor.unit.path] == []
+    program = _motors().instance(motor.name)
+    program["ElapsedMs"] = 10
+    frames = []
+    for _ in range(100):
+        program.scan()
+        frames += [program["Tx[0]"]] if program["TxCount"] else []
+    assert frames
+    assert set(frames) == {drive.serial.unit.min}
+    program["ElapsedMs"] = 0
+    for _ in range(200):
+        program.scan()
+    assert program["Bus.ErrorID"] == code("TIME_STANDS")
 
 
 @cache

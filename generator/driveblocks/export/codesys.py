@@ -5,6 +5,7 @@ from uuid import NAMESPACE_URL, uuid5
 
 from driveblocks import __version__
 from driveblocks.export.element import Element, element
+from driveblocks.export.page import page
 from driveblocks.export.part import WHOLE, Library, Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.tc6 import CODESYS, project, types, vendor, written
@@ -26,10 +27,11 @@ def write(shelf: Shelf) -> dict[str, str]:
     made = {part.name: _written(part, problems) for part in every}
     if problems:
         raise ExportError(problems)
-    return {
+    files = {
         f"codesys/{library.name}.xml": _file(library, port, [programs[drive.prefix] for drive in library.drives], made)
         for library in shelf.libraries()
     }
+    return files | page(_PLATFORM, shelf, programs, port)
 
 
 def _programs(shelf: Shelf, drive: Drive) -> Iterator[Part]:
