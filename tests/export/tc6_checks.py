@@ -60,9 +60,11 @@ def _own(shelf: Shelf, target: str, prefixes: list[str]) -> Iterator[str]:
         yield from (part.text for part in shelf.adapter(target))
     for drive in shelf.drives.values():
         if drive.prefix in prefixes:
-            motor = shelf.motor(target, drive).text
-            master = own_master(target, drive) if target == "codesys" else None
-            yield from (motor, master.text if master else motor.replace("_Motor", "_Ladder"))
+            yield shelf.motor(target, drive).text
+            if target == "plcopen":
+                yield shelf.motor(target, drive).text.replace("_Motor", "_Ladder")
+            elif master := own_master(target, drive):
+                yield master.text
 
 
 def names(one: Made) -> None:

@@ -6,8 +6,9 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from tests.export.tc6_checks import CHECKS, Made, made, schema
+from tests.export.tc6_checks import CHECKS, Made, declarations, made, names, schema
 from tests.export.tc6_planted import PLANTED, Planted
+from tests.shapes import shapes
 
 from driveblocks.export.part import Part, Shelf, shelf
 from driveblocks.export.problem import ExportError
@@ -75,6 +76,16 @@ def test_the_page_counts_what_is_there_and_shows_a_motor(target: str) -> None:
         cells = [kinds[kind] for kind in ("TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM")]
         assert f"| `{one.library}.xml` | {' | '.join(map(str, cells))} |" in page
     assert stock().motor(target, next(iter(stock().drives.values()))).text in page
+
+
+def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:
+    drive = shapes()["cia402"]
+    files = [*library.generic(LANGUAGES), *library.drive("cia402", drive, LANGUAGES)]
+    for target in ("plcopen", "codesys"):
+        for one in made(WRITERS[target], shelf(files, {"cia402": drive}, LANGUAGES), target):
+            names(one)
+            declarations(one)
+            assert not any(name.endswith("_Master") for name in one.file.named())
 
 
 BLOCK = """(* X: a sample *)
