@@ -73,8 +73,9 @@ def originals() -> tuple[Original, ...]:
 
 
 def rendered(stem: str, drive: Drive) -> dict[str, str]:
-    """A drive's blocks by name."""
-    return {file.name: file.text for file in library.drive(stem, drive, LANGUAGES)}
+    """A drive's blocks by name, but for the revision of its map, which every fact alters."""
+    files = library.drive(stem, drive, LANGUAGES)
+    return {file.name: file.text for file in files if not file.name.endswith("_Version")}
 
 
 def changes(original: Original, leaf: mutate.Leaf, chance: random.Random) -> mutate.Change | None:

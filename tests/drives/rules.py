@@ -18,6 +18,10 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 """What may not be shown without CommOk."""
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
+READ_US = 100_000
+"""How old the words can be that prove standstill: somebody may start the motor behind them, and the line stop it."""
+UNATTENDED_US = 950_000
+"""From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 LEFT_US = 1_050_000
 """A block that was not called for so long: the line has stopped its drive."""
 ONLY_READS = 5
@@ -81,8 +85,10 @@ class Observer:
     stopping_us: int = 0
     skipped_us: int = 0
     turning_us: int = 0
-    stood: bool = True
-    """The motor has stood since the drive last acknowledged a stop."""
+    stood_us: int = 0
+    """When the motor was last seen to stand."""
+    acknowledged_us: int = 0
+    """When the drive last acknowledged a stop."""
     frames: int = 0
     acknowledged: int = 0
 
@@ -96,7 +102,7 @@ class Observer:
         self.shows: dict[str, bool] = dict.fromkeys(PINS, False)
         self.calm = 0
         self.now: tuple[int, ...] = ()
-        self.only_reads: Value = False
+        self.only_reads = self.owed = False
         self.asked_before = self.reset_before = True
 
     def fail(self, what: str) -> None:
@@ -117,8 +123,10 @@ class Observer:
             self.turning_us = self.stopping_us = 0
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
+            self.only_reads &= self.skipped_us < UNATTENDED_US
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
-            self.frames, self.acknowledged = len(bench.frames), len(bench.acknowledged)
+            self.frames = len(bench.frames)
+            self._acknowledge()
             return
         self.skipped_us = 0
         shows = {name: bench.shows(name, self.drive) for name in PINS}
@@ -179,12 +187,18 @@ class Observer:
         if rising and self.free and not stops and self.was_confirmed:
             self.wish, self.referred, self.commanded, self.ran = wish, False, False, False
         self.free = not stops and not asked
+        self._acknowledge()
+
+    def _acknowledge(self) -> None:
+        """Take note of what the drive has acknowledged, which the line goes on asking while the block is left out."""
         for frame in self.bench.acknowledged[self.acknowledged :]:
             if frame.unit == self.drive + 1 and not frame.read:
                 does = self.meaning.does(frame)
                 self.referred |= frame.address == self.meaning.reference
                 self.commanded |= self.wish in does and not does & set(STOPS)
-                self.stood &= not does & set(STOPS)
+                if does & set(STOPS):
+                    self.acknowledged_us, self.owed = self.bench.now, False
+        self.owed |= bool(self.bench.line_pins.get("StopAll"))
         self.acknowledged = len(self.bench.acknowledged)
 
     def _reset(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> None:
@@ -194,10 +208,10 @@ class Observer:
         self.reset_before = bool(pins.get("FaultReset")) or bool(pins.get("Restart"))
 
     def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
-        """By the line, by a restart, or because the drive is not only to be watched any more."""
+        """By the line, which gives no stop up, by a restart, or because the drive is to be more than watched."""
         line = self.bench.line_pins
         restarted = line.get("Restart") or pins.get("Restart") or self.bench.elapsed > 1000
-        return bool(restarted or line.get("StopAll") or pins.get("SpeedOnly"))
+        return bool(restarted or self.owed or pins.get("SpeedOnly"))
 
     def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:
         pins, does = self.bench.pins[self.drive], self.meaning.does(frame)
@@ -238,10 +252,10 @@ class Observer:
         """StopConfirmed against the true motor, and the time that a stop takes."""
         motor, shows = self.bench.drives[self.drive].motor, self.shows
         turns = motor.output != 0
-        self.stood = self.stood or not turns
+        self.stood_us = self.stood_us if turns else self.bench.now
         self.turning_us = self.turning_us + 1000 * self.bench.ms if turns else 0
         if shows["StopConfirmed"] and not self.lies:
-            if not self.was_confirmed and not self.stood:
+            if not self.was_confirmed and self.stood_us < self.acknowledged_us - READ_US:
                 self.fail("StopConfirmed, and the motor has not stood since the stop")
             if self.turning_us > SEEN_US:
                 self.fail("StopConfirmed, and the motor turns")

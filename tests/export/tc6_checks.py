@@ -13,7 +13,6 @@ from tests.export.tc6_reader import File
 
 from driveblocks.export.part import Shelf
 from driveblocks.export.target import Writer
-from driveblocks.render.library import own_master
 from driveblocks.st.fingerprint import fingerprint, stream
 
 DIALECTS = {
@@ -22,6 +21,7 @@ DIALECTS = {
 }
 _CALL = re.compile(r"^  (\w+)\((.*?)\);", re.DOTALL | re.MULTILINE)
 _WIRED = re.compile(r"(\w+) := ([^,]+)")
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 _ASSIGNED = re.compile(r"^  (\w+) := (.*);", re.MULTILINE)
 
 
@@ -60,11 +60,9 @@ def _own(shelf: Shelf, target: str, prefixes: list[str]) -> Iterator[str]:
         yield from (part.text for part in shelf.adapter(target))
     for drive in shelf.drives.values():
         if drive.prefix in prefixes:
-            yield shelf.motor(target, drive).text
+            yield from (part.text for part in shelf.programs(target, drive))
             if target == "plcopen":
                 yield shelf.motor(target, drive).text.replace("_Motor", "_Ladder")
-            elif master := own_master(target, drive):
-                yield master.text
 
 
 def names(one: Made) -> None:
@@ -163,7 +161,9 @@ def ladders(one: Made) -> None:
     for prefix in one.prefixes if one.target == "plcopen" else ():
         (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
         drawn, body = one.file.ladder(node), bodies[f"{prefix}_Motor"]
-        assert drawn.calls == {name: dict(_WIRED.findall(given)) for name, given in _CALL.findall(body)}
+        assert drawn.calls == {
+            name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
+        }
         assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
         assert drawn.loose == []
 

@@ -126,7 +126,7 @@ def test_no_call_exceeds_the_loops_that_its_head_states() -> None:
     bench.scan()
     rounds = turns(library) - before
     text = next(each.text for each in line_sources() if each.path == "line/MB_Line8.st")
-    stated = re.search(r"Loops .*?(\d+)\n {3}Made", text, re.DOTALL)
+    stated = re.search(r"Loops .*?(\d+)\n {3}Body", text, re.DOTALL)
     assert stated is not None
     assert 200 < rounds <= int(stated[1])
 

@@ -60,6 +60,20 @@ def test_one_probe_in_vain_per_round() -> None:
     assert not any(one and other for one, other in pairwise(dead))
 
 
+def test_a_stalled_scan_does_not_hold_up_the_stops_of_a_dead_drive() -> None:
+    bench = Bench(Config(drives=1))
+    bench.drives[0].alive = False
+    bench.run(3000)
+    bench.stop(0)
+    before = len(bench.sent)
+    while len(bench.sent) == before:
+        bench.scan()
+    bench.scan(900_000)
+    bench.run(4000)
+    stops = [each.ms for each in bench.sent[before:] if each.stop]
+    assert max(later - first for first, later in pairwise(stops)) < 2000
+
+
 def test_a_new_address_is_a_new_drive() -> None:
     bench = Bench().ready()
     bench.drives[1].unit = 20

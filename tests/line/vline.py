@@ -22,6 +22,8 @@ from driveblocks.render.results import RESULTS
 STOP, COMMAND, PARAMETER, POLL = range(4)
 """The compartments of a slot."""
 NAMES = {result.code: result.name for result in RESULTS}
+RX = [f"Port.Rx[{place}]" for place in range(256)]
+ALIVE = [f"Slots[{slot}].Alive" for slot in range(32)]
 Edit = Callable[[str], str]
 
 
@@ -263,7 +265,7 @@ class Bench:
         self._receive()
         for slot in self.attended:
             self._alive[slot] = (self._alive[slot] + 1) % 256
-            self.block[f"Slots[{slot}].Alive"] = self._alive[slot]
+            self.block[ALIVE[slot]] = self._alive[slot]
         self.block["ElapsedMs"] = self.now // 1000 - self.called if elapsed is None else elapsed
         self.called = self.now // 1000
         self.block.scan()
@@ -286,7 +288,7 @@ class Bench:
         while self._wire and self._wire[0][0] <= until and not (self.config.whole and self._going_on(until)):
             at, _, octet = heapq.heappop(self._wire)
             self._last = max(self._last, at)
-            self.block[f"Port.Rx[{place}]"] = octet
+            self.block[RX[place]] = octet
             place = (place + 1) % 256
         self.block["Port.RxIn"] = place
 

@@ -1,6 +1,6 @@
 """The dialect of PLCopen's XML that CODESYS and its relatives import: declarations also as text, and folders."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from uuid import NAMESPACE_URL, uuid5
 
 from driveblocks import __version__
@@ -9,9 +9,6 @@ from driveblocks.export.page import page
 from driveblocks.export.part import WHOLE, Library, Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.tc6 import CODESYS, project, types, vendor, written
-from driveblocks.maps.model import Drive
-from driveblocks.render.library import own_master
-from driveblocks.st.parser import parse
 from driveblocks.st.problems import Problem
 from driveblocks.st.tree import TypeDecl
 
@@ -22,7 +19,7 @@ def write(shelf: Shelf) -> dict[str, str]:
     """A file of each library, with the serial port and the first motor of each drive. Raises ExportError."""
     problems: list[Problem] = []
     port = shelf.adapter(_PLATFORM)
-    programs = {drive.prefix: tuple(_programs(shelf, drive)) for drive in shelf.drives.values()}
+    programs = {drive.prefix: shelf.programs(_PLATFORM, drive) for drive in shelf.drives.values()}
     every = (*shelf.parts, *port, *(one for some in programs.values() for one in some))
     made = {part.name: _written(part, problems) for part in every}
     if problems:
@@ -32,14 +29,6 @@ def write(shelf: Shelf) -> dict[str, str]:
         for library in shelf.libraries()
     }
     return files | page(_PLATFORM, shelf, programs, port)
-
-
-def _programs(shelf: Shelf, drive: Drive) -> Iterator[Part]:
-    """A first motor, and one by CODESYS's own master."""
-    yield shelf.motor(_PLATFORM, drive)
-    file = own_master(_PLATFORM, drive)
-    if file:
-        yield Part(file.folder, parse(file.text, file.path))
 
 
 def _file(library: Library, port: Iterable[Part], programs: Iterable[Iterable[Part]], made: dict[str, Element]) -> str:

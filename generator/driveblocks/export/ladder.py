@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from driveblocks.export.element import Element, element
 from driveblocks.export.part import Part
 from driveblocks.st import tree
-from driveblocks.st.tree import Expression, LiteralKind, VarDecl, VarKind
+from driveblocks.st.tree import Expression, VarDecl, VarKind
 
 Point = tuple[int, int]
 _RAIL = 40
@@ -117,8 +117,8 @@ class _Drawing:
         here, below = (_BLOCK, y), (0, y - self.y)
         if value is None:
             return formal.name, _pin("In", below)
-        if isinstance(value, tree.Literal) and value.kind is LiteralKind.BOOL:
-            return formal.name, _pin("In", below, self.rail(here)) if value.value else _pin("In", below)
+        if isinstance(value, tree.Literal) and value.value is True:
+            return formal.name, _pin("In", below, self.rail(here))
         if isinstance(value, tree.Name) and _is_bool(self.declared(value.name)):
             number, there = self.contact(value.name, y)
         else:

@@ -97,6 +97,10 @@ class Shelf:
         """The first program of a user: one motor at the platform's serial port. Parsed, not typed."""
         return next(_read([library.first_motor(platform, drive)]))
 
+    def programs(self, platform: str, drive: Drive) -> tuple[Part, ...]:
+        """The first motor, and what else a platform has for a drive that is a program of a user. Parsed, not typed."""
+        return (self.motor(platform, drive), *_read(library.programs(platform, drive, list(self.languages))))
+
 
 def shelf(files: Iterable[File], drives: dict[str, Drive], languages: list[Language]) -> Shelf:
     """Read the canonical files, in the order of their use, into a shelf."""

@@ -5,6 +5,7 @@ from collections.abc import Callable, Collection
 from driveblocks.export import codesys, plcopen
 from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
+from driveblocks.export.siemens import library as siemens
 from driveblocks.st.problems import Problem
 
 Writer = Callable[[Shelf], dict[str, str]]
@@ -12,7 +13,7 @@ Writer = Callable[[Shelf], dict[str, str]]
 
 A text is written in UTF-8 as it is: with the line ends and the byte order mark that the writer gave it.
 """
-WRITERS: dict[str, Writer] = {"plcopen": plcopen.write, "codesys": codesys.write}
+WRITERS: dict[str, Writer] = {"plcopen": plcopen.write, "codesys": codesys.write, "siemens": siemens.files}
 
 
 def files(shelf: Callable[[], Shelf], targets: Collection[str]) -> dict[str, str]:

@@ -18,6 +18,7 @@ def motor(drive: Drive) -> Context:
         "port": _port(drive),
         "scan": SCAN_MS,
         "has_reset": any(one.does == "fault_reset" for one in drive.operation.commands),
+        "second_hand": drive.manual.second_hand,
         "unscaled": drive_block(drive)["scaled"] is False,
         "ascii": "rtu" not in drive.serial.mode.modes,
     }
@@ -30,3 +31,21 @@ def _port(drive: Drive) -> dict[str, int]:
     parity = next((each.parity for each in formats.codes if each.code == formats.default), "") if formats else ""
     number = {"odd": 1, "even": 2}.get(parity, 0)
     return {"rate": rate, "bits": 11 if number else 10, "parity": number, "known": int(rates is not None)}
+
+
+def master(drive: Drive) -> Context:
+    """For a Master: the words that it reads in turn, which of them prove standstill, and what a run waits for."""
+    proof = context.standstill(drive)["words"]
+    verify = drive.operation.reference.verify
+    registers = dict.fromkeys((*(word["address"] for word in proof), *(one.register for one in verify)))
+    names = {register: context.word_input(drive, register) for register in registers}
+    return {
+        **motor(drive),
+        "words": list(names.values()),
+        "proof": [word["name"] for word in proof],
+        "verify": [
+            {"number": list(names).index(one.register) + 1, "test": context.tested(names[one.register]["name"], one)}
+            for one in verify
+        ],
+        "mode": 1 if drive_block(drive)["write"] == 6 else 2,
+    }

@@ -11,7 +11,7 @@ from driveblocks.st.tree import Checked, Function, FunctionBlock, VarDecl, VarKi
 from driveblocks.st.types import Type
 
 _TITLE = re.compile(r"\(\* \w+: (.*?)\n\s+-{20,}", re.DOTALL)
-_LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Made by", re.DOTALL | re.MULTILINE)
+_LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Body", re.DOTALL | re.MULTILINE)
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 

@@ -161,7 +161,7 @@ def code(name: str) -> int:
     return _BY_NAME[name].code
 
 
-def given(name: str) -> str:
+def given(name: str, variable: str = "Reason") -> str:
     """The statement that gives a reason, with its text beside the number. Raises KeyError."""
     reason = _BY_NAME[name]
-    return f"Reason := {reason.code}; (* {reason.en} *)"
+    return f"{variable} := {reason.code}; (* {reason.en} *)"

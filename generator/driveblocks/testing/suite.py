@@ -17,6 +17,7 @@ from driveblocks.testing import (
     speed,
     text,
     vector,
+    version,
 )
 from driveblocks.testing.bench import GENERIC
 from driveblocks.testing.script import Program, Script, Suite
@@ -38,7 +39,7 @@ def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
     scripts: list[Script] = []
-    for subject in (vector, access, parameter, request, reply, register, command, speed, proof):
+    for subject in (vector, access, parameter, request, reply, register, command, speed, proof, version):
         scripts += subject.scripts(drive, stem)
     scripts += text.scripts(drive, stem, languages)
     return Suite(stem, tuple(_finished(scripts)), len(drive.frames))

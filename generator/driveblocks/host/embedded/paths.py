@@ -13,22 +13,39 @@ from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.embedded.values import Values, members
 from driveblocks.host.engine import Value
 from driveblocks.st.tree import Array, Block, Struct
-from driveblocks.st.types import Type, plain
+from driveblocks.st.types import Elementary, Kind, Type, plain
 
 _STEP = re.compile(r"\.?(?P<name>[A-Za-z_]\w*)|\[(?P<indices>\s*-?\d+\s*(?:,\s*-?\d+\s*)*)\]")
 
 # A step inwards: the name of a slot, or an offset in a list.
 Step = str | int
+OFTEN = 8
+"""A variable that was read or written so often gets a function of its own, which costs as much as some accesses."""
+QUICK = (Kind.BOOL, Kind.INTEGER, Kind.BITS)
+_STORE = """
+def store(s, v):
+    if {fits}:
+        s{place} = v
+    else:
+        slow(s, v)
+"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Place:
-    """Where a variable is: the steps to what holds it, the last step, and its type."""
+    """Where a variable is: the steps to what holds it, the last step, and its type; how often it was asked for."""
 
     owner: tuple[Step, ...]
     last: Step
     kind: Type
     protected: bool
+    uses: int = 0
+
+    @property
+    def expression(self) -> str:
+        """The steps as Python writes them: `.SLOTS[2].ALIVE`."""
+        steps = (*self.owner, self.last)
+        return "".join(f".{step}" if isinstance(step, str) else f"[{step}]" for step in steps)
 
     def holder(self, root: Any) -> Any:
         """The object or list that holds the variable."""
@@ -58,22 +75,65 @@ class Paths:
         self.block = block
         self.values = values
         self._places: dict[str, Place] = {}
+        self._readers: dict[str, Callable[[Any], Value]] = {}
+        self._writers: dict[str, Callable[[Any, Any], None]] = {}
         self._snapshot: Callable[[Any], dict[str, Value]] | None = None
 
     def read(self, root: Any, path: str) -> Value:
         """Read a variable. KeyError."""
+        if (reader := self._readers.get(path)) is not None:
+            return reader(root)
         place = self._places.get(path) or self.find(path)
+        place.uses += 1
+        if place.uses > OFTEN:
+            self._readers[path] = self._reader(place)
         return self.values.read(place.kind, place.get(root))
 
     def write(self, root: Any, path: str, value: Value) -> None:
         """Write a variable. KeyError, ValueError."""
+        if (writer := self._writers.get(path)) is not None:
+            writer(root, value)
+            return
         place = self._places.get(path) or self.find(path)
+        place.uses += 1
+        if place.uses > OFTEN:
+            self._writers[path] = self._writer(place, path)
+        self._write(place, root, path, value)
+
+    def _write(self, place: Place, root: Any, path: str, value: Value) -> None:
         if place.protected:
             raise ValueError(f"{path} is a CONSTANT")
         try:
             place.set(root, self.values.write(place.kind, place.get(root), value))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
+
+    def _reader(self, place: Place) -> Callable[[Any], Value]:
+        """What reads a variable, quickly if it is a scalar or an array of them that looks the same inside."""
+        kind = plain(place.kind)
+        element = plain(kind.element) if isinstance(kind, Array) and len(kind.bounds) == 1 else kind
+        if not is_scalar(element) or not self.values.is_same(element):
+            return lambda root: self.values.read(place.kind, place.get(root))
+        value = f"s{place.expression}"
+        code = f"lambda s: {value}" if element is kind else f"lambda s: list({value})"
+        made: Callable[[Any], Value] = eval(code)  # noqa: S307 - names that the parser took, and numbers
+        return made
+
+    def _writer(self, place: Place, path: str) -> Callable[[Any, Any], None]:
+        """What writes a variable, quickly if it is a BOOL or a whole number that fits."""
+        kind = place.kind
+
+        def slow(root: Any, value: Value) -> None:
+            self._write(place, root, path, value)
+
+        if place.protected or not isinstance(kind, Elementary) or kind.kind not in QUICK:
+            return slow
+        whole = f"type(v) is int and {kind.low} <= v <= {kind.high}"
+        fits = "v is True or v is False" if kind.kind is Kind.BOOL else whole
+        known: dict[str, Any] = {"slow": slow}
+        exec(_STORE.format(fits=fits, place=place.expression), known)  # noqa: S102 - as above
+        store: Callable[[Any, Any], None] = known["store"]
+        return store
 
     def find(self, path: str) -> Place:
         """The place of a path. KeyError with the path and what is wrong with it."""

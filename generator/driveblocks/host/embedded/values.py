@@ -11,6 +11,7 @@ from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
+from driveblocks.host.embedded.shapes import is_scalar
 from driveblocks.host.engine import Overflow, Value
 from driveblocks.st.tree import Array, Block, Enum, Struct
 from driveblocks.st.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
@@ -53,6 +54,8 @@ class Values:
     def _read_list(self, value: list[Any], kind: Array, dimensions: int) -> Value:
         if dimensions > 1:
             return [self._read_list(each, kind, dimensions - 1) for each in value]
+        if is_scalar(kind.element) and self.is_same(plain(kind.element)):
+            return list(value)
         return [self.read(kind.element, each) for each in value]
 
     # ------------------------------------------------------------ writing

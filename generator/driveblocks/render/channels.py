@@ -1,4 +1,4 @@
-"""A program for one motor where the PLC's own library is the Modbus master: it takes our words and gives its own."""
+"""The requests of a program for one motor where the PLC's own master has a channel for each."""
 
 from driveblocks.maps.model import Drive
 from driveblocks.render import context
@@ -7,8 +7,8 @@ from driveblocks.render.drive import drive_block
 from driveblocks.render.motor import motor
 
 
-def master(drive: Drive) -> Context:
-    """For <platform>/Master: the requests with the words that matter, and the blocks that make and read them."""
+def channels(drive: Drive) -> Context:
+    """For codesys/Master: the requests with the words that matter, and the blocks that make and read them."""
     block = drive_block(drive)
     stop = next(one for one in drive.operation.commands if one.does == "stop")
     decoders = {one["address_text"]: one["name"] for one in context.decoders(drive)}

@@ -1,0 +1,472 @@
+"""Target `siemens`: read back by a reader of its own, refused where SCL cannot say it; its port runs on stand-ins."""
+
+import functools
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from tests.export.siemens import checks
+from tests.export.siemens.checks import CHECKS, Read, opened
+from tests.export.siemens.planted import PLANTED, Planted, few
+from tests.export.siemens.scl import SclError, read
+from tests.shapes import shapes
+
+from driveblocks.export.part import Part, Shelf
+from driveblocks.export.problem import ExportError
+from driveblocks.export.siemens import library
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Library, Source
+from driveblocks.st.parser import parse
+
+INSTRUCTIONS = Path(__file__).parent / "instructions.st"
+
+
+@functools.cache
+def written() -> checks.Files:
+    return library.files(checks.shelf())
+
+
+@functools.cache
+def whole() -> Read:
+    return opened(checks.shelf(), written())
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__)
+def test_what_was_written_reads_back_equal(check: Callable[[Read], None]) -> None:
+    check(whole())
+
+
+def test_drives_of_other_shapes_read_back_equal_and_those_of_several_writes_have_no_master() -> None:
+    stock = checks.stocked({name: drive for name, drive in shapes().items() if name in ("cia402", "active_low")}, [])
+    made = library.files(stock)
+    found = opened(stock, made)
+    for check in CHECKS:
+        check(found)
+    assert ("siemens/CIA_Master.scl" in made, "siemens/LOW_Master.scl" in made) == (False, True)
+
+
+def test_no_file_is_beside_those_that_the_page_names() -> None:
+    assert set(written()) - {"siemens/README.md"} == set(checks.importing(checks.shelf()))
+
+
+def test_a_family_alone_has_the_same_shared_files() -> None:
+    stock = checks.shelf()
+    folder, drive = next(iter(stock.drives.items()))
+    others = stock.drives.keys() - {folder}
+    alone = Shelf(tuple(part for part in stock.parts if part.folder not in others), {folder: drive}, stock.languages)
+    made = library.files(alone)
+    assert {name: text for name, text in made.items() if "README" not in name} == {
+        name: written()[name] for name in checks.importing(alone)
+    }
+
+
+def test_writing_again_gives_the_same_bytes() -> None:
+    assert library.files(checks.shelf()) == written()
+
+
+WRONG = {
+    "a local without #": ("#Length;", "Length;", "quotes or # around"),
+    "a missing END_IF": ("  END_IF;\r\n  #Crc :=", "  #Crc :=", "expected END_IF"),
+    "a missing END_FUNCTION_BLOCK": ("END_FUNCTION_BLOCK\r\n", "", "found end of file"),
+    "a missing semicolon": ("#Index := 0;", "#Index := 0", "expected ;"),
+    "a missing VERSION": ("VERSION : 0.1\r\n", "", "expected VERSION"),
+    "a missing BEGIN": ("BEGIN\r\n", "", "expected BEGIN"),
+    "access that is not optimized": ("'TRUE'", "'FALSE'", "optimized access"),
+    "an undeclared local": ("#Length;", "#Longest;", "Longest among the declarations"),
+    "a name that is declared twice": ("Length : UInt;", "Crc : UInt;", "a name that is not taken"),
+    "SHR by position": ("SHR(IN := #Crc, N := 8)", "SHR(#Crc, 8)", "expected IN"),
+    "SHR with one name": ("N := 8)", "8)", "expected N"),
+    "an array type outside a structure": ("Array[0..255] of Byte", "MB_Adu", "MB_ADU is no type of an S7"),
+    "an array of a type that is not there": ("of Byte", 'of "Byte"', "BYTE above its use"),
+    "an array of constants": ("   VAR\r\n", "   VAR CONSTANT\r\n", "a constant of an elementary type"),
+    "an initial value of an in-out": ("of Byte;", "of Byte := [1];", "no initial value"),
+    "an unknown section": ("VAR_INPUT", "VAR_GLOBAL", "expected BEGIN"),
+    "a function that SCL lacks": ("BYTE_TO_WORD", "BYTE_AS_WORD", "a function of SCL instead"),
+    "an open string": ("#Index := 0;", "#Index := '0;", "no token of SCL"),
+    "a comment in a comment": ("BEGIN\r\n", "BEGIN\r\n(* a (* b *)\r\n", "which SCL nests"),
+    "no byte order mark": ("\ufeff", "", "expected a byte order mark"),
+    "lines that end with LF": ("BEGIN\r\n", "BEGIN\n", "CR LF"),
+}
+CALLS = {
+    "an unquoted type": ('"MB_Crc16"', "MB_Crc16", "MB_CRC16 is no type of an S7"),
+    "an in-out that is left out": (", Adu := #Adu)", ")", "the parameters of MB_CRC16"),
+    "a parameter that is not there": ("(Length := #", "(Count := #", "the parameters of MB_CRC16"),
+    "an output that is not there": (".Crc", ".Lrc", "LRC as a member of MB_CRC16"),
+    "a block above what it uses": ('FUNCTION_BLOCK "MB_RtuSeal"', 'FUNCTION_BLOCK "MB_Crc16"', "of a block above"),
+}
+QUOTED = {
+    "a reserved name without quotes": ('#"Port".LateMs', "#Port.LateMs", "quotes around Port"),
+    "a reserved name declared without quotes": ('"Port" : ', "Port : ", "in quotes if SCL reserves it"),
+    "a reserved parameter without quotes": ('"Port" := ', "Port := ", "in quotes if SCL reserves it"),
+}
+MISTAKES = [
+    (block, *each)
+    for block, edits in {"MB_Crc16": WRONG, "MB_RtuSeal": CALLS, "MB_ByteLine8": QUOTED}.items()
+    for each in edits.items()
+]
+
+
+@pytest.mark.parametrize(("block", "name", "edit"), MISTAKES, ids=[each[1] for each in MISTAKES])
+def test_the_reader_finds(block: str, name: str, edit: tuple[str, str, str]) -> None:
+    old, new, said = edit
+    text, known = _one(block), {each: found for each, found in whole().blocks.items() if each != block.upper()}
+    read(text, dict(known))
+    assert old in text
+    with pytest.raises(SclError) as caught:
+        read(text.replace(old, new, 1), known)
+    assert said in str(caught.value)
+
+
+def test_the_reader_wants_a_structure_behind_each_type() -> None:
+    with pytest.raises(SclError, match="STRUCT, since nothing else has a type of its own"):
+        read('\ufeffTYPE "MB_Adu"\r\nVERSION : 0.1\r\n   Array[0..255] of Byte;\r\nEND_TYPE\r\n', {})
+
+
+def _one(block: str) -> str:
+    text = written()["siemens/DriveBlocks.scl"]
+    start = text.index(f'FUNCTION_BLOCK "{block}"')
+    end = text.index("END_FUNCTION_BLOCK\r\n", start)
+    return f"\ufeff{text[start:end]}END_FUNCTION_BLOCK\r\n"
+
+
+@pytest.mark.parametrize("planted", PLANTED, ids=lambda each: each.name)
+def test_a_mistake_of_the_writer_is_found(planted: Planted) -> None:
+    assert planted.found() == planted.by
+
+
+def test_there_is_a_mistake_for_each_check() -> None:
+    read_back = opened(few(), library.files(few()))
+    for check in CHECKS:
+        check(read_back)
+    assert {each.check for each in PLANTED} == {None, *CHECKS}
+
+
+CANNOT = """
+TYPE
+  Colour : (Red, Green);
+END_TYPE
+TYPE
+  Grid : ARRAY[0..1] OF Row;
+END_TYPE
+TYPE
+  Row : ARRAY[0..1] OF WORD;
+END_TYPE
+TYPE
+  Plain : STRUCT
+    Other : UINT;   (* good *)
+    Long : LWORD;   (* an S7-1200 has none *)
+  END_STRUCT;
+END_TYPE
+FUNCTION Half : REAL
+VAR_INPUT
+  Bits : DWORD; (* pattern *)
+END_VAR
+VAR
+  Kept : UINT := 3; (* starts anew in each call *)
+END_VAR
+  IF Kept > 2 THEN
+    Half := DWORD_TO_REAL(Bits);
+  END_IF;
+END_FUNCTION
+FUNCTION_BLOCK Caller
+VAR_INPUT
+  Edge : BOOL R_EDGE; (* rising *)
+END_VAR
+VAR RETAIN
+  Held : REAL; (* kept *)
+END_VAR
+VAR
+  Inner : Callee; (* called *)
+  Power : LREAL;  (* of ten *)
+END_VAR
+  Held := Half(Bits := DWORD#1);
+  Inner();
+  Power := EXPT(Power, 2.0);
+  { pragma }
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Callee
+VAR_IN_OUT
+  Shared : Row; (* shared *)
+END_VAR
+  Shared[0] := WORD#16#0001;
+END_FUNCTION_BLOCK
+"""
+REFUSED = [
+    "Caller.st:4:3: Edge: SCL has no such declaration; a plain VAR can be written",
+    "Caller.st:7:3: Held: SCL has no such declaration; a plain VAR can be written",
+    "Caller.st:14:3: Inner: expected Shared := ..., since SCL has no default for it",
+    "Caller.st:15:12: EXPT: SCL has no such function, or means something else by it",
+    "Caller.st:16:3: expected a plain (* comment *); SCL would read it as something else",
+    "Colour.st:3:3: Colour: SCL has types of structures alone, without an initial value",
+    "Grid.st:3:10: SCL has no arrays of arrays; a structure around the inner one can be written",
+    "Half.st:2:10: Half: SCL gives no value to a result that a path leaves out",
+    "Half.st:7:3: Kept: a function has no initial values in SCL; assign it in the body",
+    "Half.st:10:13: DWORD_TO_REAL: SCL has no such function, or means something else by it",
+    "Plain.st:5:12: LWORD: an S7-1200 has no such type",
+]
+
+
+def test_what_scl_cannot_say_is_refused_with_its_place_and_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Shelf, "adapter", lambda *_: ())
+    texts = ["\n".join(each) for each in _elements(CANNOT)]
+    with pytest.raises(ExportError) as caught:
+        library.files(Shelf(tuple(_part(text) for text in texts), {}, ()))
+    assert [str(problem) for problem in caught.value.problems] == REFUSED
+
+
+def _elements(text: str) -> list[list[str]]:
+    found: list[list[str]] = [[]]
+    for line in text.strip().splitlines():
+        found[-1].append(line)
+        if line.startswith(("END_TYPE", "END_FUNCTION")):
+            found.append([])
+    return found[:-1]
+
+
+def _part(text: str) -> Part:
+    return Part("", parse(f"(* head *)\n{text}", f"{text.split()[1]}.st"))
+
+
+MORE = """
+FUNCTION_BLOCK More
+VAR_INPUT
+  Title : STRING[20]; (* a word of SCL *)
+END_VAR
+VAR_TEMP
+  Step : DINT; (* counts *)
+END_VAR
+VAR
+  Wait : TON;      (* a time *)
+  Edge : R_TRIG;   (* an edge *)
+  Table : ARRAY[0..1, 1..2] OF REAL := [1.0, -2.0, 3.0, 4.0]; (* numbers *)
+END_VAR
+  Wait(IN := Edge.Q, PT := T#500ms);
+  Edge(CLK := Title = 'a$'b');
+  FOR Step := 0 TO 3 DO
+    IF Wait.Q THEN
+      EXIT;
+    END_IF;
+  END_FOR;
+  REPEAT
+    Step := LIMIT(0, MIN(Step, 7) + 1, 9);
+  UNTIL ABS(Step) > 3
+  END_REPEAT;
+  RETURN;
+END_FUNCTION_BLOCK
+"""
+SAID = """
+   VAR_INPUT
+      "Title" : String[20];   // a word of SCL
+   END_VAR
+
+   VAR
+      Wait : TON_TIME;   // a time
+      Edge : R_TRIG;   // an edge
+      Table : Array[0..1, 1..2] of Real := [
+         1.0, -2.0, 3.0, 4.0
+      ];   // numbers
+   END_VAR
+
+   VAR_TEMP
+      Step : DInt;   // counts
+   END_VAR
+
+BEGIN
+  #Wait(IN := #Edge.Q, PT := T#500ms);
+  #Edge(CLK := #"Title" = 'a$'b');
+  FOR #Step := 0 TO 3 DO
+    IF #Wait.Q THEN
+      EXIT;
+    END_IF;
+  END_FOR;
+  REPEAT
+    #Step := LIMIT(MN := 0, IN := MIN(IN1 := #Step, IN2 := 7) + 1, MX := 9);
+  UNTIL ABS(#Step) > 3
+  END_REPEAT;
+  RETURN;
+END_FUNCTION_BLOCK
+"""
+
+
+def test_what_no_block_uses_yet_is_written_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Shelf, "adapter", lambda *_: ())
+    made = library.files(Shelf((_part(MORE.strip()),), {}, ()))["siemens/DriveBlocks.scl"].replace("\r\n", "\n")
+    assert made.partition("// head\n")[2].strip("\n") == SAID.strip("\n")
+
+
+@functools.cache
+def running() -> Library:
+    """The library, the port and the programs of the platform, with stand-ins for its instructions."""
+    stock = checks.shelf()
+    programs = [part for drive in stock.drives.values() for part in stock.programs("siemens", drive)]
+    types = [part for part in stock.parts if part.folder == "types"]
+    blocks = [part for part in stock.parts if part.folder != "types"]
+    sources = [Source(part.unit.path, part.text) for part in types]
+    sources.append(Source.read(INSTRUCTIONS))
+    sources += [Source(part.unit.path, part.text) for part in (*blocks, *stock.adapter("siemens"), *programs)]
+    return EmbeddedEngine().build(sources)
+
+
+class Module:
+    """SI_Port with its instructions."""
+
+    def __init__(self) -> None:
+        self.port = running().instance("SI_Port")
+
+    def receive(self, seconds: float = 0.01, scans: int = 1) -> None:
+        """Scans that receive, so many seconds apart."""
+        for _ in range(scans):
+            self.port["TxCount"], self.port["Meter"] = 0, seconds
+            self.port.scan()
+
+    def send(self, frame: bytes) -> None:
+        """A call that sends."""
+        self.port["TxCount"], self.port["Tx"] = len(frame), frame
+        self.port.scan()
+
+    def shown(self, *names: str) -> list[object]:
+        """Some variables."""
+        return [self.port[name] for name in names]
+
+
+def test_the_port_measures_time_and_loses_none_of_it() -> None:
+    module, told = Module(), []
+    for _ in range(5):
+        module.receive(0.0124)
+        told += module.shown("ElapsedMs")
+    assert told == [0, 12, 13, 12, 13]
+    module.receive(500.0)
+    assert module.shown("ElapsedMs") == [65535]
+    module.receive(-1.0)
+    assert module.shown("ElapsedMs") == [0]
+
+
+def test_the_port_gives_all_messages_in_their_order() -> None:
+    module = Module()
+    module.port["Receive.Waiting"], module.port["Receive.Size"] = 3, 20
+    module.receive()
+    assert module.shown("RxCount", "ErrorID") == [60, 0]
+    heard = module.port["Rx"]
+    assert isinstance(heard, list)
+    assert heard[:60] == list(range(60))
+    module.port["Receive.Waiting"], module.port["Receive.Size"] = 3, 100
+    module.receive()
+    assert module.shown("RxCount", "Receive.Waiting") == [255, 0]
+
+
+def test_the_port_sends_once_and_takes_no_other_before_the_end() -> None:
+    module = Module()
+    module.port["Send.Slow"] = 3
+    module.receive()
+    module.send(b"\x01\x03\x10\x01")
+    assert module.shown("TxBusy", "Send.Sent", "Send.Bytes") == [True, 1, 4]
+    module.port["Tx"] = bytes(4)
+    module.receive(scans=2)
+    assert module.shown("TxBusy", "Send.Sent") == [True, 1]
+    module.receive()
+    assert module.shown("TxBusy", "Send.Sent", "ErrorID", "Send.Wire[2]") == [False, 1, 0, 0x10]
+    module.send(b"\x02")
+    assert module.shown("Send.Sent") == [2]
+
+
+def test_the_port_tells_what_failed_until_something_works() -> None:
+    module = Module()
+    module.port["Send.Fails"] = True
+    module.receive()
+    module.send(b"\x01")
+    module.receive()
+    assert module.shown("TxBusy", "ErrorID", "Flush.Count") == [False, 0x80D1, 1]
+    module.port["Receive.Fails"] = True
+    module.receive(scans=2)
+    assert module.shown("ErrorID", "Flush.Count") == [0x80E1, 2]
+    module.port["Send.Fails"] = False
+    module.send(b"\x01")
+    module.receive()
+    assert module.shown("TxBusy", "ErrorID") == [False, 0]
+
+
+def test_a_send_that_does_not_end_is_given_up() -> None:
+    module = Module()
+    module.port["Send.Slow"] = 60000
+    module.receive()
+    module.send(b"\x01")
+    module.receive(0.1, scans=10)
+    assert module.shown("TxBusy", "ErrorID") == [True, 0]
+    module.receive(0.1)
+    assert module.shown("TxBusy", "ErrorID") == [False, 1]
+
+
+def test_the_first_motor_speaks_to_its_drive() -> None:
+    for drive in checks.shelf().drives.values():
+        motor = running().instance(f"{drive.prefix}_Motor")
+        for _ in range(50):
+            motor["Bus.Port.Meter"] = 0.01
+            motor.scan()
+        assert motor["Bus.ElapsedMs"] == 10
+        assert motor["Bus.Port.Send.Sent"]
+        assert motor["Bus.Port.Send.Wire[0]"] == drive.serial.unit.min
+
+
+class Owned:
+    """A motor at a Modbus_Master, stopped and then asked to run."""
+
+    def __init__(self, prefix: str) -> None:
+        self.motor = running().instance(f"{prefix}_Master")
+        self.wrote: list[tuple[object, object]] = []
+        for name, value in {"UnitAddress": 1, "Enable": True, "SpeedReferenceHz": 25.0, "MaximumHz": 50.0}.items():
+            self.motor[name] = value
+        if "REFERENCESCALE" in self.motor.state():
+            self.motor["ReferenceScale"] = 100.0
+
+    def scan(self, scans: int, **pins: bool) -> None:
+        """Scans with some pins; keeps each register that is written with its word."""
+        for name, value in pins.items():
+            self.motor[name] = value
+        for _ in range(scans):
+            self.motor.scan()
+            if self.motor["Master.DONE"] and self.motor["Mode"]:
+                self.wrote.append((self.motor["Master.Written"], self.motor["Master.Word"]))
+
+
+@pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
+def test_a_master_of_the_plc_stops_first_then_gives_the_speed_and_runs(prefix: str) -> None:
+    owned = Owned(prefix)
+    command, speed = owned.motor["Command.Address"], owned.motor["Reference.Address"]
+    owned.scan(40, RunForward=False)
+    stop = owned.wrote[0][1]
+    assert owned.wrote == [(command, stop), (speed, owned.motor["Reference.Value"])]
+    owned.wrote.clear()
+    owned.scan(40, RunForward=True)
+    assert [where for where, _ in owned.wrote] == [command]
+    assert owned.wrote[0][1] != stop
+    owned.scan(10, RunForward=False)
+    assert owned.wrote[-1] == (command, stop)
+
+
+def test_a_master_of_the_plc_believes_a_standstill_only_behind_the_stop() -> None:
+    owned = Owned("CHF")
+    owned.motor["Master.Registers[1]"] = 3
+    owned.scan(40, RunForward=False)
+    assert owned.motor["StopConfirmed"]
+    owned.scan(20, RunForward=True)
+    assert not owned.motor["StopConfirmed"]
+    owned.scan(1, RunForward=False)
+    assert not owned.motor["StopConfirmed"]
+    owned.scan(40)
+    assert owned.motor["StopConfirmed"]
+
+
+def test_a_master_of_the_plc_runs_on_after_a_loss_by_a_new_edge_alone() -> None:
+    owned = Owned("CHF")
+    owned.scan(40, RunForward=False)
+    owned.scan(40, RunForward=True)
+    run = owned.wrote[-1]
+    owned.motor["Master.Silent"] = True
+    owned.scan(10)
+    assert owned.motor["Status"] == 0x80C8
+    owned.motor["Master.Silent"] = False
+    owned.scan(40)
+    assert owned.wrote[-1] != run
+    owned.scan(5, RunForward=False)
+    owned.scan(40, RunForward=True)
+    assert owned.wrote[-1] == run
