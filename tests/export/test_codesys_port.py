@@ -12,6 +12,8 @@ from tests.export.test_tc6 import LANGUAGES, stock
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Instance, Source, Value
 from driveblocks.render import library
+from driveblocks.st.names import reserved
+from driveblocks.st.tree import Pou
 
 PINS = (
     "xExecute : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT; szBuffer : UINT;"
@@ -165,6 +167,23 @@ def test_a_port_in_trouble_is_opened_again_a_second_later(block: str) -> None:
     assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
     _scan(rig, 1310, Port__Opening__xDone=True)
     assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
+    shelf = stock()
+    parts = [
+        *shelf.adapter("codesys"),
+        *(one for each in shelf.drives.values() for one in shelf.programs("codesys", each)),
+    ]
+    names = {
+        v.name
+        for part in parts
+        if isinstance(part.element, Pou)
+        for block in part.element.blocks
+        for v in block.variables
+    }
+    assert {name: reserved(name) for name in names if reserved(name)} == {}
+    assert reserved("Reference")
 
 
 @cache
