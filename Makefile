@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives linux-line
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives linux-line release
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -68,3 +68,7 @@ linux-line:           ## an hour of a soft PLC by matiec against the simulator, 
 
 bench:                ## every figure, side by side in one run; writes docs/performance.md
 	$(PY) -m tests.bench.run
+
+release:              ## one archive per platform from blocks/ into dist/, the same bytes each time
+	$(DB) build --check
+	$(PY) -m driveblocks.building.release

@@ -144,7 +144,7 @@ def check_bit_texts(blocks: Blocks, drive: Drive) -> None:
     for language in TEXTS if rows else ():
         for address in codes(rows):
             for bit in range(17):
-                pins = {"Address": address, "Bit": bit}
+                pins = {"Address": address, "BitNumber": bit}
                 found = text.bit(drive, address, bit) if address in rows else None
                 check_text(blocks, f"{drive.prefix}_BitText{language}", pins, found)
 

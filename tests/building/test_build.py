@@ -1,5 +1,9 @@
 """What is built from maps: the same text every time, in the languages asked for."""
 
+import os
+import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -7,6 +11,7 @@ from typer.testing import CliRunner
 
 from driveblocks.building import build
 from driveblocks.cli import app
+from driveblocks.export import CANONICAL, target
 from driveblocks.maps import catalog, collection, page
 from driveblocks.render import text
 
@@ -60,3 +65,24 @@ def test_chinese_can_be_gb18030() -> None:
     made = build.files(collection.read([EXAMPLE]), text.languages(["zh"], "gb18030"))
     shown = made["iec61131/modbus/MB_ResultTextZh.st"]
     assert "'" + "".join(f"${byte:02X}" for byte in "无应答".encode("gb18030")) + "'" in shown
+
+
+def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -> None:
+    """The package as it is packed: without what .gitignore names, and nothing of the project beside it."""
+    left_out = (ROOT / ".gitignore").read_text(encoding="utf-8").replace("/\n", "\n").split()
+    shutil.copytree(ROOT / "generator/driveblocks", tmp_path / "driveblocks", ignore=shutil.ignore_patterns(*left_out))
+    code = "import driveblocks.__main__ as start; print(start.__file__); start.main()"
+    words = ["build", str(EXAMPLE), "-o", "out", "--target", "all"]
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith(str(tmp_path / "driveblocks" / "__main__.py"))
+    made = {path.name for path in (tmp_path / "out").iterdir()}
+    assert made >= {CANONICAL, *target.WRITERS}

@@ -75,6 +75,22 @@ def test_select_and_ignore(loop: Path, words: list[str], rules: list[str]) -> No
     assert result.exit_code == (1 if rules else 0)
 
 
+def test_names_are_told_for_the_targets_of_for(tmp_path: Path) -> None:
+    path = tmp_path / "names.st"
+    path.write_text(CLEAN.replace("Count", "Label"), encoding="utf-8")
+    assert run(path).exit_code == run("--for", "twincat", path).exit_code == 0
+    told = f"{path}:3:3: ST130 target-name: Label is a word of siemens: choose another name\n"
+    for words in (["--for", "twincat,siemens"], ["--for", "codesys", "--for", "siemens"], ["--for", "all"]):
+        result = run(*words, path)
+        assert (result.exit_code, result.output) == (1, told)
+
+
+def test_a_target_that_is_none_is_told(loop: Path) -> None:
+    result = run("--for", "step7", loop)
+    assert result.exit_code == 2
+    assert result.stderr == "--for knows no target step7; write openplc, plcopen, codesys, twincat, siemens or all\n"
+
+
 @pytest.mark.parametrize(
     ("word", "hint"), [("for-zero-trip", "for-zero-trips"), ("ST31X", "ST31"), ("comment", "--list"), ("S", "--list")]
 )

@@ -14,8 +14,9 @@ ROOT = Path(__file__).parents[2]
 PAGES = [
     ROOT / name
     for name in (
-        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/drives.md", "docs/line.md", "docs/linux.md", "docs/run.md",
-        "docs/simulate.md", "docs/testing.md", "vendor_maps/README.md",
+        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/drives.md", "docs/line.md", "docs/linux.md",
+        "docs/other-plcs.md", "docs/run.md", "docs/simulate.md", "docs/testing.md", "vendor_maps/README.md",
+        "blocks/openplc/README.md", "blocks/twincat/README.md",
     )
 ]  # fmt: skip
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -65,5 +65,5 @@ def test_no_register_at_all_is_not_permitted(engine: Engine, use: str, address: 
 
 def test_a_text_is_whole(engine: Engine) -> None:
     """It ended after the 80 bytes of a STRING, in the middle of what the bit's second value means."""
-    text = built(engine).call("SN300G5_BitTextZh", {"Address": 0x000F, "Bit": 1})
+    text = built(engine).call("SN300G5_BitTextZh", {"Address": 0x000F, "BitNumber": 1})
     assert text == "总线 PID 目标值: 0 无效 1 有效".encode()

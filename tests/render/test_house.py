@@ -12,8 +12,9 @@ from driveblocks.maps.load import loads
 from driveblocks.render import library as library_of
 from driveblocks.render import text
 from driveblocks.st.checker import check
-from driveblocks.st.lint import lint
+from driveblocks.st.lint import Selection, lint, lint_sources
 from driveblocks.st.parser import parse
+from driveblocks.st.reserved import TARGET_WORDS
 from driveblocks.st.tree import Pou, TypeDecl, Unit
 
 ROOT = Path(__file__).parents[2]
@@ -70,9 +71,21 @@ def test_every_declaration_has_a_comment(units: list[Unit]) -> None:
     assert bare == []
 
 
-def test_every_file_is_clean_by_the_linter(units: list[Unit]) -> None:
+def test_every_file_is_clean_by_the_linter_for_every_target(units: list[Unit]) -> None:
     assert check(units).blocks
-    assert [str(problem) for problem in lint(units)] == []
+    told = [str(problem) for problem in lint(units, None, TARGET_WORDS)]
+    assert told == []
+
+
+@pytest.mark.parametrize("platform", library_of.PLATFORMS)
+def test_adapters_and_first_motors_have_names_for_every_target(platform: str) -> None:
+    drives = [loads(path.read_text("utf-8"), path.name) for path in MAPS]
+    made = [*library_of.adapter(platform, []), *(library_of.first_motor(platform, drive) for drive in drives)]
+    readable = [
+        (file.path, file.text) for file in made if "#include" not in file.text and "extern int" not in file.text
+    ]
+    names = Selection.of(["target-name", "long-name", "reserved-name", "underscore-name", "hidden-value"], [])
+    assert [str(each) for each in lint_sources(readable, names, TARGET_WORDS)] == []
 
 
 def test_every_file_holds_one_thing_named_like_it(units: list[Unit]) -> None:

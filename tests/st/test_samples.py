@@ -14,7 +14,7 @@ from driveblocks.st.parser import parse
 from driveblocks.st.rules import RULES
 
 FINDS = re.compile(r"\(\* finds: ([\w, -]+) \*\)$")
-# Rules about what cannot stand beside the rest in one file, or stops the parser; `rules/` has them.
+# Rules about what cannot stand beside the rest in a file, stops the parser, or counts for a target; `rules/` has them.
 ELSEWHERE = {
     "syntax",
     "long-expression",
@@ -33,6 +33,8 @@ ELSEWHERE = {
     "dialect-assignment",
     "configuration-inside",
     "empty-file",
+    "target-name",
+    "long-name",
     "program-task",
     "program-connection",
 }

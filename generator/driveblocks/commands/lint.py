@@ -24,14 +24,19 @@ Select = Annotated[
     typer.Option(help="Tell only this rule, by name, code or beginning of a code (ST3); may be repeated."),
 ]
 Ignore = Annotated[list[str] | None, typer.Option(help="Do not tell this rule; may be repeated.")]
+For = Annotated[
+    list[str] | None,
+    typer.Option("--for", metavar="TARGET", help="Also tell names that these targets of build, or all, cannot take."),
+]
 Listing = Annotated[bool, typer.Option("--list", help="List the rules and stop.")]
 Format = Annotated[str, typer.Option("--format", metavar="text|json", help="How to print the findings.")]
 
 
-def run(
+def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
     files: Files = None,
     select: Select = None,
     ignore: Ignore = None,
+    targets: For = None,
     listing: Listing = False,
     output: Format = "text",
 ) -> None:
@@ -41,6 +46,8 @@ def run(
     each may use what another declares. Of a file that cannot be read or parsed only that is told, and the others are
     judged all the same. The exit status is 0 without findings, 1 with findings, and 2 if a file could not be judged;
     standard error names it. docs/lint.md explains every rule.
+
+    With --for, also names that the targets of build keep for themselves are told.
 
     Example: driveblocks lint --ignore case-without-else types.st blocks.st
     """
@@ -57,8 +64,9 @@ def run(
         selection = Selection.of(_split(select), _split(ignore))
     except UnknownRuleError as error:
         _stop(str(error))
+    wanted = _targets(_split(targets))
     sources, unread = _read(files or [])
-    problems = lint_sources(sources, selection)
+    problems = lint_sources(sources, selection, wanted)
     _print(problems, output)
     broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
     unjudged = [*unread, *(f"{path}: not judged beyond its syntax" for path in broken)]
@@ -77,6 +85,16 @@ def _stop(text: str) -> None:
 def _split(words: list[str] | None) -> list[str]:
     """Words given one by one or separated by commas."""
     return [each.strip() for word in words or [] for each in word.split(",") if each.strip()]
+
+
+def _targets(words: list[str]) -> list[str]:
+    """The targets that the command line names."""
+    from driveblocks.st.reserved import TARGET_WORDS
+
+    for word in words:
+        if word not in (*TARGET_WORDS, "all"):
+            _stop(f"--for knows no target {word}; write {', '.join(TARGET_WORDS)} or all")
+    return list(TARGET_WORDS) if "all" in words else words
 
 
 def _read(named: list[Path]) -> tuple[list[tuple[str, str]], list[str]]:

@@ -32,6 +32,7 @@ PLATFORMS = {
     "plcopen": ("MB", "any serial port"),
     "codesys": ("CD", "a serial port of CODESYS"),
     "siemens": ("SI", "an RS-485 module of the S7-1200 or S7-1500"),
+    "twincat": ("TC", "a serial terminal of Beckhoff"),
 }
 """Platform -> the prefix of its blocks, and where its line is."""
 BYTES = "plcopen"

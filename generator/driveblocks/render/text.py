@@ -136,12 +136,12 @@ def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
     """For PlaceText: texts of bits and of values, for the kinds that the drive has."""
     bits = [_group(drive, address, "bits", language) for address in _addresses(drive)]
     values = [_group(drive, address, "values", language) for address in _addresses(drive)]
-    kinds = (("Bit", "bit of the word, 0 to 15", bits), ("Value", "value of the word", values))
-    for pin, comment, groups in kinds:
-        if any(group["rows"] for group in groups) and exists(drive, pin, language):
+    kinds = (("Bit", "BitNumber", "bit of the word, 0 to 15", bits), ("Value", "Value", "value of the word", values))
+    for kind, pin, comment, groups in kinds:
+        if any(group["rows"] for group in groups) and exists(drive, kind, language):
             yield {
-                "name": f"{drive.prefix}_{pin}Text{language.suffix}",
-                "title": f"{pin.lower()}s",
+                "name": f"{drive.prefix}_{kind}Text{language.suffix}",
+                "title": f"{kind.lower()}s",
                 "pin": pin,
                 "pin_comment": comment,
                 "groups": [group for group in groups if group["rows"]],

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from driveblocks.st import lint_declaration, lint_expression, lint_literal, lint_statement, lint_text
+from driveblocks.st import lint_declaration, lint_expression, lint_literal, lint_statement, lint_target, lint_text
 from driveblocks.st.checker import analyse
 from driveblocks.st.lint_scope import Scope
 from driveblocks.st.parser import ParseError, parse
@@ -55,9 +55,10 @@ def _named(word: str) -> list[str]:
     return found
 
 
-def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Problem]:
+def lint(units: Sequence[Unit], selection: Selection | None = None, targets: Collection[str] = ()) -> list[Problem]:
     """Everything that the rules say about files that belong together, in order of place. Never raises for their text.
 
+    `targets`, of TARGET_WORDS, are those that the text is to go to: each keeps names for itself.
     Trees that were checked together before can be linted as well. Raises ValueError for a file that was checked with
     others, as `analyse` does.
     """
@@ -67,6 +68,7 @@ def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Prob
         report.unit = unit
         lint_text.unit(unit, report)
         lint_declaration.unit(unit, report)
+        lint_target.unit(unit, targets, report)
     for pou in _pous(units):
         report.unit = pou.unit
         _pou(pou, checked, report)
@@ -74,7 +76,9 @@ def lint(units: Sequence[Unit], selection: Selection | None = None) -> list[Prob
     return sorted({each for each in [*problems, *report.problems()] if chosen.takes(each.rule)})
 
 
-def lint_sources(sources: Iterable[tuple[str, str]], selection: Selection | None = None) -> list[Problem]:
+def lint_sources(
+    sources: Iterable[tuple[str, str]], selection: Selection | None = None, targets: Collection[str] = ()
+) -> list[Problem]:
     """As `lint`, from (path, text).
 
     Of a file that cannot be parsed the syntax errors are told, whatever the selection, and no more. The others are
@@ -88,7 +92,7 @@ def lint_sources(sources: Iterable[tuple[str, str]], selection: Selection | None
         except ParseError as error:
             units.append(error.unit)
             broken[path] = error
-    found = lint(units, selection)
+    found = lint(units, selection, targets)
     if not broken:
         return found
     words = {word.upper() for error in broken.values() for word in _WORD.findall(error.unit.text)}

@@ -14,6 +14,7 @@ from driveblocks.st.tree import (
     Block,
     Checked,
     Configuration,
+    Enum,
     EnumSpec,
     Expression,
     Function,
@@ -61,11 +62,12 @@ def unit(unit: Unit, report: Report) -> None:
 
 def pou(scope: Scope) -> None:
     """All rules about the declarations of one POU."""
-    names = _outer_names(scope.checked)
+    names, values = _outer_names(scope.checked), _values(scope.checked)
     for block in scope.pou.blocks:
         _block(block, scope.report)
         for variable in block.variables:
             _clash(scope, variable, names)
+            _hidden(scope, variable, values)
             _parameter(scope, variable)
             _trigger(scope, variable)
     if isinstance(scope.pou, Function):
@@ -241,6 +243,20 @@ def _clash(scope: Scope, variable: VarDecl, names: dict[str, str]) -> None:
     if what:
         text = f"{variable.name} is also the name of {what}, which matiec refuses: choose another name"
         scope.add(variable.at, "name-clash", text)
+
+
+def _values(checked: Checked) -> dict[str, str]:
+    """Every enumerated value, and its type."""
+    enums = [each for each in checked.types.values() if isinstance(each, Enum)]
+    return {value: enum.name for enum in enums for value in enum.values}
+
+
+def _hidden(scope: Scope, variable: VarDecl, values: dict[str, str]) -> None:
+    """A variable that hides an enumerated value."""
+    enum = values.get(variable.name.upper())
+    if enum:
+        text = f"{variable.name} is also a value of {enum}, which nothing here can then name: choose another name"
+        scope.add(variable.at, "hidden-value", text)
 
 
 def _parameter(scope: Scope, variable: VarDecl) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from functools import lru_cache
 
 from driveblocks.st.reserved import (
@@ -12,6 +13,7 @@ from driveblocks.st.reserved import (
     LIBRARY_VARIABLES,
     OTHER_KEYWORDS,
     STANDARD_NAMES,
+    TARGET_WORDS,
 )
 from driveblocks.st.standard import BLOCKS, FUNCTIONS, conversion_of
 
@@ -44,6 +46,11 @@ def reserved_outside(name: str) -> str | None:
     if name.upper() in LIBRARY_VARIABLES:
         return "the name of a variable in matiec's own library"
     return reserved(name)
+
+
+def kept(name: str, targets: Iterable[str]) -> list[str]:
+    """Those of some targets that keep a name for themselves."""
+    return [target for target in targets if name.upper() in TARGET_WORDS[target]]
 
 
 def badly_underscored(name: str) -> bool:

@@ -83,3 +83,34 @@ LIBRARY_VARIABLES = _words(
     X3 XI XIN XIN1 XIN2 XOUT
     """
 )
+
+LONGEST = 31
+"""Characters of a name that is safe on every target: systems differ widely, and the shortest limits are the oldest."""
+
+# Operators of Instruction List, and names that both CODESYS and TwinCAT keep (lists of keywords in the CODESYS and
+# Beckhoff manuals; compiler message C0543).
+_CODESYS = _words(
+    """
+    ABSTRACT ADR ANDN ANY_CHAR ANY_CHARS ANY_DURATION ANY_SIGNED ANY_UNSIGNED ATAN2 BIT BITADR CAL CALC CALCN CHAR_TO
+    FINAL INDEXOF INI INTERNAL JMP JMPC JMPCN LD LDN ORN OVERRIDE PARAMS PERSISTENT PRIVATE PROTECTED PUBLIC PVOID
+    QUERYINTERFACE R RET RETC RETCN S SIZEOF ST STN TO_CHAR TO_WCHAR UNION USING UXINT WCHAR_TO XADD XINT XORN XWORD
+    """
+)
+
+# Reserved words of S7-SCL and types of TIA Portal that no other list has, as commonly known; no list was at hand.
+_SIEMENS = _words(
+    """
+    ANY_TYPE AUTHOR BEGIN BLOCK_DB BLOCK_FB BLOCK_FC BLOCK_SDB BLOCK_SFB BLOCK_SFC CONST COUNTER DATA_BLOCK DB_ANY DTL
+    END_CONST END_DATA_BLOCK END_LABEL END_ORGANIZATION_BLOCK END_REGION FAMILY GOTO KNOW_HOW_PROTECT LABEL NAME NIL OK
+    ORGANIZATION_BLOCK REGION S5TIME TIMER TITLE VARIANT VERSION
+    """
+)
+
+TARGET_WORDS = {
+    "openplc": _words("CONFIG0 RES0"),  # configuration and resource, by which the runtime names its C files
+    "plcopen": _words(""),
+    "codesys": _CODESYS,
+    "twincat": _CODESYS,
+    "siemens": _SIEMENS,
+}
+"""Target -> what it keeps beside the words above."""

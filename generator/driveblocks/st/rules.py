@@ -92,6 +92,9 @@ _REMARKS = """
 126 typed-string           STRING#'a'
 127 stray-sign             - -n, NOT NOT x, +n
 128 empty-file             a file that declares nothing
+129 hidden-value           a variable with the name of an enumerated value
+130 target-name            a name that a target of --for keeps for itself
+131 long-name              with --for, a name of more than 31 characters
 201 anonymous-array        ARRAY written out for a parameter
 202 array-parameter        an array as VAR_INPUT or VAR_OUTPUT
 203 function-array-input   an array as VAR_INPUT of a FUNCTION

@@ -123,9 +123,10 @@ def _values(drive: Drive, stem: str, language: Language) -> Script:
     return program
 
 
-def _place(drive: Drive, language: Language, pin: str, address: int, number: int) -> Probe:
+def _place(drive: Drive, language: Language, kind: str, address: int, number: int) -> Probe:
     """A check of the text of a bit or value."""
-    found = (reference.bit if pin == "Bit" else reference.value)(drive, address, number)
-    name = f"{drive.prefix}_{pin}Text{language.suffix}"
+    find, pin = {"Bit": (reference.bit, "BitNumber"), "Value": (reference.value, "Value")}[kind]
+    found = find(drive, address, number)
+    name = f"{drive.prefix}_{kind}Text{language.suffix}"
     call = f"{name}(Address := {word(address)}, {pin} := {number & 0xFFFF})"
     return bench.is_text(call, _bytes(found, language), "text")

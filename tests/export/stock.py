@@ -1,0 +1,59 @@
+"""The shipped library as writers get it, and its canonical texts as they are checked in."""
+
+import functools
+from dataclasses import dataclass
+
+from tests.blocks.library import sources
+
+from driveblocks.export.part import Shelf, shelf
+from driveblocks.maps import catalog, collection
+from driveblocks.render import library, text
+from driveblocks.render.library import File
+
+BOTH = text.languages(["en", "zh"], "utf-8")
+
+
+@functools.cache
+def made() -> Shelf:
+    """All shipped families in both languages."""
+    found = collection.read(catalog.shipped())
+    files: list[File] = [*library.generic(BOTH)]
+    for source in found:
+        files.extend(library.drive(source.path.stem, source.drive, BOTH))
+    return shelf(files, {source.path.stem: source.drive for source in found}, BOTH)
+
+
+@dataclass(frozen=True)
+class Canon:
+    """A checked-in file, cut into what stands before its body, and its body."""
+
+    folder: str
+    name: str
+    text: str
+
+    @property
+    def body(self) -> str:
+        """From the line behind the last END_VAR to the line before the end; empty for a type."""
+        lines = self.text.split("\n")
+        if "END_VAR" not in lines:
+            return ""
+        last = len(lines) - 1 - lines[::-1].index("END_VAR")
+        end = next(at for at in range(last, len(lines)) if lines[at].startswith("END_") and at > last)
+        return "\n".join(lines[last + 1 : end]).strip("\n")
+
+    @property
+    def before(self) -> str:
+        """The head and the declaration; all of a type."""
+        if not self.body:
+            return self.text.rstrip("\n")
+        return self.text[: self.text.index("END_VAR\n" + "\n" + self.body) + len("END_VAR")]
+
+
+@functools.cache
+def canon() -> dict[str, Canon]:
+    """Every part of the library by its name, in the order of use."""
+    made = {}
+    for source in sources():
+        folder, _, name = source.path.removesuffix(".st").partition("/")
+        made[name] = Canon(folder, name, source.text)
+    return made

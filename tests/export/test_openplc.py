@@ -1,0 +1,170 @@
+"""The plain text for OpenPLC: it is the canonical text, compilers take it as it is, and first motors run."""
+
+import functools
+import re
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from tests.blocks.toolchains import FOUND, translate
+from tests.examples.port import Port
+from tests.export.stock import canon, made
+
+from driveblocks.export import openplc
+from driveblocks.host.discovery import EMBEDDED
+from driveblocks.host.engine import Engine, Library, Source
+from driveblocks.host.matiec.installation import Installation
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.st.lint import lint_sources
+
+END = re.compile(r"^END_(?:TYPE|FUNCTION|FUNCTION_BLOCK)\n", re.MULTILINE)
+TOOLS = pytest.mark.parametrize(
+    "tool",
+    FOUND or [pytest.param(None, marks=pytest.mark.skip(reason="iec2c was not found"))],
+    ids=lambda tool: tool.iec2c.parent.name if tool else "none",
+)
+
+
+@functools.cache
+def written() -> dict[str, str]:
+    """Path below the folder of the target -> text."""
+    return {path.removeprefix("openplc/"): text for path, text in openplc.files(made()).items()}
+
+
+def pieces(text: str) -> list[str]:
+    """A library cut behind each type, function and block; its own head goes before the first."""
+    ends = [0, *(match.end() for match in END.finditer(text))]
+    return [text[start:end] for start, end in pairwise(ends)]
+
+
+def libraries() -> dict[str, set[str]]:
+    """Library -> the folders that are not in it."""
+    folders = {drive.prefix: folder for folder, drive in made().drives.items()}
+    return {"DriveBlocks": set(), **{name: set(folders.values()) - {own} for name, own in folders.items()}}
+
+
+def test_a_library_is_the_canonical_texts_in_the_order_of_their_use_and_nothing_else() -> None:
+    for name, without in libraries().items():
+        head, *rest = pieces(written()[f"{name}.st"])
+        comment, _, first = head.partition("*)\n\n")
+        wanted = [part.text for part in canon().values() if part.folder not in without]
+        assert [first, *(text.removeprefix("\n") for text in rest)] == wanted, name
+        types, others = (sum(text.count(f"\n{word}") for text in wanted) for word in ("TYPE\n", "FUNCTION"))
+        assert f"{types} types, {others} functions and blocks" in comment
+
+
+def test_a_text_has_no_mark_no_cr_and_ends_with_its_last_line() -> None:
+    for path, text in written().items():
+        assert text.isascii() or "Zh" in text, path
+        assert "\r" not in text, path
+        assert "\ufeff" not in text, path
+        assert text.endswith("\n"), path
+
+
+def test_the_page_counts_what_a_file_holds() -> None:
+    for name in libraries():
+        text = written()[f"{name}.st"]
+        types, others = (len(re.findall(f"^{word}", text, re.MULTILINE)) for word in ("TYPE", "FUNCTION"))
+        assert f"| `{name}.st` | {types} | {others} |" in written()["README.md"]
+
+
+def test_a_first_motor_goes_behind_its_library_as_one_program_that_lints_clean() -> None:
+    for drive in made().drives.values():
+        sources = [(name, written()[name]) for name in (f"{drive.prefix}.st", f"{drive.prefix}_MotorBytes.st")]
+        assert [str(each) for each in lint_sources(sources) if each.rule != "configuration-inside"] == []
+
+
+def test_a_first_motor_says_what_its_line_is_and_how_often_it_comes() -> None:
+    for drive in made().drives.values():
+        linux, other = written()[f"{drive.prefix}_Motor.st"], written()[f"{drive.prefix}_MotorBytes.st"]
+        assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", linux, re.M) == [
+            "LX_Port",
+            "LX_Line8",
+            f"{drive.prefix}_Motor",
+        ]
+        assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", other, re.M) == [f"{drive.prefix}_MotorBytes"]
+        for text in (linux, other):
+            assert text.count("INTERVAL := T#10ms") == 1
+            assert re.search(r"^CONFIGURATION Config0\n  RESOURCE Res0 ON PLC\n", text, re.M)
+            assert text.index("  Motor(Enable") < text.rindex("  Bus(")
+            assert text.count("Restart := FirstScan") == 2
+
+
+def programs(prefix: str, form: str) -> str:
+    """A first motor without its task: there is one CONFIGURATION in a text."""
+    return written()[f"{prefix}_{form}.st"].partition("CONFIGURATION")[0]
+
+
+_BUILT: dict[str, Library] = {}
+
+
+def built(engine: Engine) -> Library:
+    """Library and first motors of the CHF family as one file; what is in C only where the engine takes it."""
+    if engine.name not in _BUILT:
+        linux = "" if engine.name == EMBEDDED else programs("CHF", "Motor")
+        text = f"{written()['CHF.st']}\n{linux}\n{written()['CHF_MotorBytes.st']}"
+        _BUILT[engine.name] = engine.build([Source("motor.st", text)])
+    return _BUILT[engine.name]
+
+
+def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> None:
+    program = built(engine).instance("CHF_MotorBytes")
+    drive = SimulatedDrive(made().drives["invt_chf"], 1)
+    port = Port(program, [drive], 10 / 9.6)
+    program["ElapsedMs"] = 10
+
+    def run(ms: int) -> list[object]:
+        for _ in range(ms // 10):
+            port.scan()
+        return [program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
+
+    assert run(2000) == [True, False, True]
+    program["Hertz"], program["StartSwitch"] = 30.0, True
+    assert run(6000) == [False, True, True]
+    assert drive.hertz == 30
+    program["StartSwitch"] = False
+    assert run(6000) == [True, False, True]
+    assert drive.hertz == 0
+
+
+def test_its_task_calls_it(engine: Engine) -> None:
+    configuration = built(engine).configuration()
+    assert configuration.tick_ns == 10_000_000
+    assert configuration["Res0.First.HardStopOk"] is False
+    configuration.run()
+    assert configuration["Res0.First.HardStopOk"] is True
+
+
+def test_the_first_motor_on_linux_runs_and_says_that_its_port_is_missing(matiec: Engine) -> None:
+    program = built(matiec).instance("CHF_Motor")
+    for _ in range(3):
+        program.scan()
+    assert program["Bus.PortErrorID"] == 2
+    assert program["Motor.CommOk"] is False
+
+
+def with_addresses(text: str) -> str:
+    """A first motor after step 4.2 of the page."""
+    section = re.search(r"^   VAR\n.*?END_VAR\n", written()["README.md"], re.MULTILINE | re.DOTALL)
+    assert section is not None
+    names = re.findall(r"(\w+) AT %", section[0])
+    assert all(len(re.findall(f"^  {name} : BOOL;", text, re.MULTILINE)) == 1 for name in names)
+    rest = re.sub(rf"^  (?:{'|'.join(names)}) : BOOL;.*\n", "", text, flags=re.MULTILINE)
+    return rest.replace("END_VAR\n", f"END_VAR\n{section[0]}", 1)
+
+
+@TOOLS
+def test_every_first_motor_compiles_with_addresses_as_the_page_says(tool: Installation, tmp_path: Path) -> None:
+    prefixes = [drive.prefix for drive in made().drives.values()]
+    port = programs(prefixes[0], "Motor").partition(f"(* {prefixes[0]}_Motor")[0]
+    linux = [programs(prefix, "Motor").removeprefix(port) for prefix in prefixes]
+    others = [programs(prefix, "MotorBytes") for prefix in prefixes]
+    located = [with_addresses(text) for text in [*linux, *others]]
+    translate(tool, [written()["DriveBlocks.st"], port, *located], tmp_path)
+    assert "__IX0_0" in (tmp_path / "LOCATED_VARIABLES.h").read_text(encoding="utf-8")
+
+
+@TOOLS
+def test_an_upload_compiles_as_it_is(tool: Installation, tmp_path: Path) -> None:
+    translate(tool, [written()["CHF.st"], written()["CHF_Motor.st"]], tmp_path)
+    assert {"Config0.c", "Res0.c"} <= {path.name for path in tmp_path.iterdir()}

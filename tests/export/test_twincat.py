@@ -1,0 +1,150 @@
+"""The files of TwinCAT 3 as an independent reader sees them. What each check is good for, `planted.py` shows."""
+
+import functools
+import re
+from collections import Counter
+from pathlib import PurePosixPath
+
+import pytest
+from tests.export import tc_reader
+from tests.export.stock import Canon, canon, made
+
+from driveblocks.export import twincat
+from driveblocks.export.part import WHOLE, Part, Shelf
+from driveblocks.export.problem import ExportError
+from driveblocks.st.fingerprint import fingerprint, stream
+from driveblocks.st.parser import parse
+
+ID = re.compile(r"\{[0-9a-f]{8}-[0-9a-f]{4}-5[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}\}")
+FIXED = {
+    "MB_Line8": "{49359740-5e48-5e40-8217-3f1ccf461db5}",
+    "CHF_Drive": "{48b3a5c5-5f20-5463-b2db-d8bd40443cd6}",
+    "CHF.plcproj": "{149df3a7-cbb4-504f-b33e-30a6534beb5d}",
+}
+"""Ids of some names. They never change: TwinCAT takes another id for another object."""
+
+
+@functools.cache
+def written() -> dict[str, str]:
+    """Path below the folder of the target -> text."""
+    return {path.removeprefix("twincat/"): text for path, text in twincat.files(made()).items()}
+
+
+def objects() -> dict[str, tc_reader.Object]:
+    """Every object by its path."""
+    return {path: tc_reader.read(path, text) for path, text in written().items() if ".Tc" in path}
+
+
+def projects() -> dict[str, tc_reader.Project]:
+    """Every project by its path."""
+    return {path: tc_reader.project(text) for path, text in written().items() if path.endswith(".plcproj")}
+
+
+def names(kind: str) -> set[str]:
+    """The names of the files of a kind."""
+    return {PurePosixPath(path).stem for path in written() if path.endswith(kind)}
+
+
+def test_every_part_is_a_file_in_its_folder_and_under_its_name() -> None:
+    for part in canon().values():
+        ending = "TcPOU" if part.body else "TcDUT"
+        path = f"{part.folder}/{part.name}.{ending}"
+        assert tc_reader.read(path, written()[path]).name == part.name
+
+
+def test_declarations_and_their_comments_are_the_canonical_ones() -> None:
+    for part, one in parts():
+        wanted = part.before if part.body else part.before.replace("END_STRUCT;", "END_STRUCT")
+        assert one.declaration == f"{wanted}\n"
+
+
+def test_bodies_are_the_canonical_ones_and_have_the_hash_of_the_head() -> None:
+    for part, one in parts():
+        assert one.body == part.body
+        if part.body:
+            stated = re.search(r"^   Body     ([0-9A-F]{8}),", one.declaration, re.M)
+            assert stated is not None
+            assert stated[1] == fingerprint(stream(one.body)) == fingerprint(stream(part.body))
+
+
+def parts() -> list[tuple[Canon, tc_reader.Object]]:
+    """Every part of the library with its file."""
+    by_name = {one.name: one for one in objects().values()}
+    return [(part, by_name[part.name]) for part in canon().values()]
+
+
+def test_files_are_utf_8_with_a_mark_at_the_start_and_crlf() -> None:
+    for path, text in written().items():
+        if not path.endswith(".md"):
+            data = text.encode("utf-8")
+            assert data.startswith(b'\xef\xbb\xbf<?xml version="1.0" encoding="utf-8"?>\r\n'), path
+            assert data.count(b"\xef\xbb\xbf") == 1, path
+            assert data.count(b"\n") == data.count(b"\r\n") == data.count(b"\r"), path
+
+
+def test_ids_are_unique_and_always_the_same() -> None:
+    ids = [one.id for one in objects().values()] + [one.id for one in projects().values()]
+    assert all(ID.fullmatch(each) for each in ids)
+    assert max(Counter(ids).values()) == 1
+    assert {name: fixed(name) for name in FIXED} == FIXED
+
+
+def fixed(name: str) -> str:
+    """The id of an object or a project."""
+    if name.endswith(".plcproj"):
+        return projects()[name].id
+    return next(one.id for one in objects().values() if one.name == name)
+
+
+def test_the_project_of_all_lists_every_file_once_and_nothing_else() -> None:
+    listed = [path.replace("\\", "/") for path in projects()[f"{WHOLE}.plcproj"].compiled]
+    assert sorted(listed) == sorted(path for path in written() if ".Tc" in path)
+    assert not [path for path in projects()[f"{WHOLE}.plcproj"].compiled if "/" in path]
+
+
+def test_the_project_of_a_family_lists_what_is_not_of_another() -> None:
+    for folder, drive in made().drives.items():
+        others = {name: other.prefix for name, other in made().drives.items() if name != folder}
+        wanted = [
+            path
+            for path in written()
+            if ".Tc" in path and path.split("/")[0] not in others
+            if path.split("/")[1].split("_")[0] not in others.values()
+        ]
+        listed = projects()[f"{drive.prefix}.plcproj"]
+        assert sorted(path.replace("\\", "/") for path in listed.compiled) == sorted(wanted)
+        assert listed.name == drive.prefix
+        assert f"motor/{drive.prefix}_Motor.TcPOU" in wanted
+
+
+def test_projects_list_parts_in_the_order_of_use_and_every_folder() -> None:
+    for path, one in projects().items():
+        listed = [PurePosixPath(each.replace("\\", "/")) for each in one.compiled]
+        library = [each.stem for each in listed if each.stem in canon()]
+        assert library == [name for name in canon() if name in library], path
+        assert set(one.folders) == {str(each.parent) for each in listed}, path
+        assert one.libraries == ("Tc2_System", "Tc2_SerialCom"), path
+
+
+def test_names_of_beckhoff_stand_in_the_adapter_alone() -> None:
+    foreign = re.compile(r"\b(ComBuffer|SendByte|ReceiveByte|SerialLineControl|GETCPUCOUNTER|ADR|TC_\w+)\b")
+    folders = {path.split("/")[0] for path, one in objects().items() if foreign.search(one.declaration + one.body)}
+    assert folders == {"port", "motor"}
+
+
+def test_the_page_counts_what_a_project_holds() -> None:
+    page = written()["README.md"]
+    for path, one in projects().items():
+        kinds = Counter(PurePosixPath(each.replace("\\", "/")).parts[0] for each in one.compiled)
+        types, port, motor = kinds.pop("types"), kinds.pop("port"), kinds.pop("motor")
+        assert f"| `{path}` | {types} | {kinds.total()} | {port} | {motor} |" in page
+
+
+def test_what_the_format_cannot_say_is_refused_with_its_place() -> None:
+    text = canon()["MB_Adu"].text.replace("An RTU", "An\fRTU").replace("OF BYTE;", "OF BYTE; (* ]]> *)")
+    with pytest.raises(ExportError) as refusal:
+        twincat.files(Shelf((Part("types", parse(text, "types/MB_Adu.st")),), {}, ()))
+    assert [str(problem) for problem in refusal.value.problems] == [
+        "types/MB_Adu.st:3:15: the character 000CH cannot stand in a file of TwinCAT: leave it out",
+        "types/MB_Adu.st:7:38: `]]>` ends the text in a file of TwinCAT: put a blank between the brackets",
+    ]
