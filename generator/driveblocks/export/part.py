@@ -1,7 +1,7 @@
 """What writers of every target get: the library as parts, each a type, function or block with its typed tree."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from driveblocks.maps.model import Drive
@@ -26,7 +26,7 @@ class Part:
     """
 
     folder: str
-    unit: Unit
+    unit: Unit = field(repr=False)
 
     @cached_property
     def element(self) -> Declared:

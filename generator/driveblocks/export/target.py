@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Collection
 
-from driveblocks.export import openplc, twincat
+from driveblocks.export import codesys, openplc, plcopen, twincat
 from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens import library as siemens
@@ -15,6 +15,8 @@ A text is written in UTF-8 as it is: with the line ends and the byte order mark 
 """
 WRITERS: dict[str, Writer] = {
     "openplc": openplc.files,
+    "plcopen": plcopen.write,
+    "codesys": codesys.write,
     "twincat": twincat.files,
     "siemens": siemens.files,
 }

@@ -1,11 +1,13 @@
 """The files of the ST library: generic blocks, then the blocks of each drive, each behind what it uses."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
+from driveblocks.render.channels import channels
+from driveblocks.render.context import Context
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.motor import master, motor
@@ -27,12 +29,16 @@ LINE_SIZES = (8, 32)
 """How many slots a line can have."""
 PLATFORMS = {
     "linux": ("LX", "a serial port of Linux"),
+    "plcopen": ("MB", "any serial port"),
+    "codesys": ("CD", "a serial port of CODESYS"),
     "siemens": ("SI", "an RS-485 module of the S7-1200 or S7-1500"),
     "twincat": ("TC", "a serial terminal of Beckhoff"),
 }
 """Platform -> the prefix of its blocks, and where its line is."""
-MASTERS = ("siemens",)
-"""Platforms with a Modbus master of their own, and a program for it."""
+BYTES = "plcopen"
+"""The platform without an adapter: the program gives and takes the bytes."""
+MASTERS: dict[str, Callable[[Drive], Context]] = {"codesys": channels, "siemens": master}
+"""Platforms with a Modbus master of their own -> what the template of a program for it needs."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -89,18 +95,16 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
 def first_motor(platform: str, drive: Drive) -> File:
     """A program for a first motor at a platform's serial port."""
     prefix, where = PLATFORMS[platform]
-    values = {"platform": platform, "where": where, "line": f"{prefix}_Line{LINE_SIZES[0]}", **motor(drive)}
+    line = f"{prefix}_{'ByteLine' if platform == BYTES else 'Line'}{LINE_SIZES[0]}"
+    values = {"platform": platform, "where": where, "line": line, **motor(drive)}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 
 def programs(platform: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """Beside the first motor: where the PLC itself is the master and owns the frames, a program for such a drive."""
     if platform in MASTERS and drive.operation.in_one_word:
-        yield File(
-            platform,
-            f"{drive.prefix}_Master",
-            render(f"{platform}/Master.st.j2", **master(drive), **_texts_of(languages)),
-        )
+        values = {**MASTERS[platform](drive), **_texts_of(languages)}
+        yield File(platform, f"{drive.prefix}_Master", render(f"{platform}/Master.st.j2", **values))
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:

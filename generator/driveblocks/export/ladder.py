@@ -1,0 +1,213 @@
+"""A program of calls and assignments as a ladder diagram: each call a block, each BOOL a contact or a coil."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from driveblocks.export.element import Element, element
+from driveblocks.export.part import Part
+from driveblocks.st import tree
+from driveblocks.st.tree import Expression, VarDecl, VarKind
+
+Point = tuple[int, int]
+_RAIL = 40
+_CONTACT = 160
+_BLOCK = 420
+_LINE = 20
+_FIRST = 30
+"""Height of a line in a block, as Beremiz draws it; the first pin is _FIRST below the top.
+
+Contacts and coils are 21 x 15, their pins 8 below the top.
+"""
+
+
+def ladder(written: Element, part: Part, parts: Mapping[str, Part]) -> Element:
+    """A program that was written with its text, with the same as a ladder in place of it."""
+    assert isinstance(part.element, tree.Program)  # noqa: S101  (the first motor is a program)
+    drawn = _Drawing(part.element, parts)
+    body = element("body", {}, element("LD", {}, *drawn.whole()))
+    return replace(written, content=tuple(body if each.tag == "body" else each for each in written.content))
+
+
+@dataclass(frozen=True)
+class _Block:
+    """A call that was drawn: its number, and where the pins on its right are."""
+
+    number: int
+    pins: Mapping[str, Point]
+
+
+@dataclass
+class _Drawing:
+    """A ladder while it is drawn, from the top down."""
+
+    program: tree.Program
+    parts: Mapping[str, Part]
+    y: int = 60
+    last: int = 2
+    drawn: list[Element] = field(default_factory=list)
+    starts: list[int] = field(default_factory=list)
+    ends: list[tuple[int, Point]] = field(default_factory=list)
+    blocks: dict[str, _Block] = field(default_factory=dict)
+
+    def whole(self) -> Iterator[Element]:
+        for statement in self.program.body:
+            if isinstance(statement, tree.CallStatement):
+                self.block(statement.call)
+        for statement in self.program.body:
+            if isinstance(statement, tree.Assign):
+                self.coil(statement)
+        width = max(x for _, (x, _) in self.ends) + 60
+        yield _rail("leftPowerRail", 1, _RAIL, self.y, [_pin("Out", (3, y), rail=True) for y in self.starts])
+        ends = [_pin("In", (0, y), _link(number, (width, y), (x, y))) for number, (x, y) in self.ends]
+        yield _rail("rightPowerRail", 2, width, self.y, ends)
+        yield from self.drawn
+
+    def number(self) -> int:
+        self.last += 1
+        return self.last
+
+    def declared(self, name: str) -> VarDecl:
+        return next(v for block in self.program.blocks for v in block.variables if v.name == name)
+
+    def pins(self, instance: str) -> tuple[list[VarDecl], list[VarDecl]]:
+        """What a block has on its left and on its right: an in-out is on both."""
+        named = self.declared(instance).spec
+        assert isinstance(named, tree.NamedSpec)  # noqa: S101  (an instance has the name of its block)
+        one = self.parts[named.name].element
+        assert isinstance(one, tree.FunctionBlock)  # noqa: S101
+        by = {kind: [v for b in one.blocks if b.kind is kind for v in b.variables] for kind in VarKind}
+        both = by[VarKind.IN_OUT]
+        return by[VarKind.INPUT] + both, by[VarKind.OUTPUT] + both
+
+    def block(self, call: tree.Call) -> None:
+        name = _said(call.callee)
+        left, right = self.pins(name)
+        given = {each.name: each.value for each in call.arguments}
+        width = 8 * (max(len(v.name) for v in left) + max(len(v.name) for v in right)) + 30
+        at = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(left)}
+        wired = [self.pin(v, at[v.name], given.get(v.name)) for v in left]
+        outs = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(right)}
+        made = _Block(self.number(), {pin: (_BLOCK + width, y) for pin, y in outs.items()})
+        height = _LINE * (max(len(left), len(right)) + 1)
+        spec = self.declared(name).spec
+        assert isinstance(spec, tree.NamedSpec)  # noqa: S101
+        order = str(len(self.blocks) + 1)
+        self.drawn.append(
+            element(
+                "block",
+                {**_sized(made.number, width, height), "typeName": spec.name, "instanceName": name,
+                 "executionOrderId": order},
+                _position(_BLOCK, self.y),
+                element("inputVariables", {}, *(self.formal(*each) for each in wired)),
+                element("inOutVariables"),
+                element("outputVariables", {}, *(
+                    self.formal(pin, _pin("Out", (width, y - self.y))) for pin, y in outs.items()
+                )),
+            )
+        )  # fmt: skip
+        self.blocks[name] = made
+        self.y += height + 3 * _LINE
+
+    @staticmethod
+    def formal(name: str, pin: Element) -> Element:
+        return element("variable", {"formalParameter": name}, pin)
+
+    def pin(self, formal: VarDecl, y: int, value: Expression | None) -> tuple[str, Element]:
+        """A pin on the left of a block, and what is wired to it: the rail, a contact, or a value."""
+        here, below = (_BLOCK, y), (0, y - self.y)
+        if value is None:
+            return formal.name, _pin("In", below)
+        if isinstance(value, tree.Literal) and value.value is True:
+            return formal.name, _pin("In", below, self.rail(here))
+        if isinstance(value, tree.Name) and _is_bool(self.declared(value.name)):
+            number, there = self.contact(value.name, y)
+        else:
+            number, there = self.value(_said(value), y)
+        return formal.name, _pin("In", below, _link(number, here, there))
+
+    def rail(self, here: Point) -> Element:
+        """A wire to the left rail."""
+        self.starts.append(here[1])
+        return _link(1, here, (_RAIL + 3, here[1]))
+
+    def contact(self, variable: str, y: int) -> tuple[int, Point]:
+        number = self.number()
+        wire = _pin("In", (0, 8), self.rail((_CONTACT, y)))
+        said = Element("variable", {}, text=variable)
+        place = _position(_CONTACT, y - 8)
+        self.drawn.append(element("contact", _sized(number, 21, 15), place, wire, _pin("Out", (21, 8)), said))
+        return number, (_CONTACT + 21, y)
+
+    def value(self, said: str, y: int) -> tuple[int, Point]:
+        number, width = self.number(), 8 * len(said) + 20
+        x = _BLOCK - 60 - width
+        text = Element("expression", {}, text=said)
+        place = _position(x, y - 10)
+        self.drawn.append(element("inVariable", _sized(number, width, 20), place, _pin("Out", (width, 10)), text))
+        return number, (x + width, y)
+
+    def coil(self, statement: tree.Assign) -> None:
+        """An assignment: from an output of a block, or of a constant, which sets or resets."""
+        target, value = _said(statement.target), statement.value
+        if isinstance(value, tree.Literal):
+            start, y = (_RAIL + 3, self.y), self.y
+            self.starts.append(y)
+            self.y += 2 * _LINE
+            self.end(target, start, 1, None, {"storage": "set" if value.value else "reset"})
+            return
+        negated = isinstance(value, tree.Unary)
+        output = value.operand if isinstance(value, tree.Unary) else value
+        assert isinstance(output, tree.Member)  # noqa: S101  (all that the first motor assigns)
+        block = self.blocks[_said(output.base)]
+        self.end(target, block.pins[output.name], block.number, output.name, {"negated": "true"} if negated else {})
+
+    def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
+        """What stands at the right end of a wire: a coil, or for other than BOOL a variable."""
+        number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])
+        if not _is_bool(self.declared(target)):
+            wire = _pin("In", (0, 10), _link(source, (x, y), start, pin))
+            width, text = 8 * len(target) + 20, Element("expression", {}, text=target)
+            self.drawn.append(element("outVariable", _sized(number, width, 20), _position(x, y - 10), wire, text))
+            return
+        wire = _pin("In", (0, 8), _link(source, (x, y), start, pin))
+        said, sized = Element("variable", {}, text=target), {**_sized(number, 21, 15), **how}
+        self.drawn.append(element("coil", sized, _position(x, y - 8), wire, _pin("Out", (21, 8)), said))
+        self.ends.append((number, (x + 21, y)))
+
+
+def _is_bool(variable: VarDecl) -> bool:
+    return isinstance(variable.spec, tree.NamedSpec) and variable.spec.name == "BOOL"
+
+
+def _said(value: Expression) -> str:
+    """A name, an element or a literal as written."""
+    if isinstance(value, tree.Index):
+        return f"{_said(value.base)}[{', '.join(map(_said, value.indices))}]"
+    if isinstance(value, tree.Literal):
+        return value.text
+    assert isinstance(value, tree.Name)  # noqa: S101  (all that the first motor hands to its blocks)
+    return value.name
+
+
+def _sized(number: int, width: int, height: int) -> dict[str, str]:
+    return {"localId": str(number), "width": str(width), "height": str(height)}
+
+
+def _position(x: int, y: int, tag: str = "position") -> Element:
+    return element(tag, {"x": str(x), "y": str(y)})
+
+
+def _pin(way: str, below: Point, wire: Element | None = None, *, rail: bool = False) -> Element:
+    given = {"formalParameter": ""} if rail else {}
+    return element(f"connectionPoint{way}", given, _position(*below, "relPosition"), wire)
+
+
+def _link(source: int, here: Point, there: Point, pin: str | None = None) -> Element:
+    """A wire, from its end back to its source."""
+    given = {"refLocalId": str(source), "formalParameter": pin}
+    return element("connection", given, _position(*here), _position(*there))
+
+
+def _rail(tag: str, number: int, x: int, height: int, pins: list[Element]) -> Element:
+    """A power rail from the top to the bottom."""
+    return element(tag, _sized(number, 3, height), _position(x, 0), *pins)

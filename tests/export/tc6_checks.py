@@ -1,0 +1,173 @@
+"""What must be true of every file in a TC6 dialect; each check raises AssertionError where it is not."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from pathlib import Path
+
+from lxml import etree
+from tests.export.tc6_form import Unit, scanned
+from tests.export.tc6_reader import File
+
+from driveblocks.export.part import Shelf
+from driveblocks.export.target import Writer
+from driveblocks.st.fingerprint import fingerprint, stream
+
+DIALECTS = {
+    "plcopen": ("http://www.plcopen.org/xml/tc6_0201", "p"),
+    "codesys": ("http://www.plcopen.org/xml/tc6_0200", "xhtml"),
+}
+_CALL = re.compile(r"^  (\w+)\((.*?)\);", re.DOTALL | re.MULTILINE)
+_WIRED = re.compile(r"(\w+) := ([^,]+)")
+_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
+_ASSIGNED = re.compile(r"^  (\w+) := (.*);", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Made:
+    """A file of a library, and the texts of what it must hold: the parts, then programs of its own."""
+
+    target: str
+    library: str
+    file: File
+    texts: tuple[str, ...]
+    prefixes: tuple[str, ...]
+
+    @cached_property
+    def pairs(self) -> list[tuple[Unit, Unit]]:
+        """What was read, beside what was meant, in the order of the file."""
+        meant = sorted(map(scanned, self.texts), key=lambda each: each.kind != "TYPE")
+        assert len(self.file.units) == len(meant)
+        return list(zip(self.file.units, meant, strict=True))
+
+
+def made(writer: Writer, shelf: Shelf, target: str) -> Iterator[Made]:
+    """Every file of a target, as written from a shelf."""
+    files = writer(shelf)
+    libraries = list(shelf.libraries())
+    assert [name for name in files if name.endswith(".xml")] == [f"{target}/{each.name}.xml" for each in libraries]
+    for library, text in zip(libraries, files.values(), strict=False):
+        own = tuple(_own(shelf, target, [each.prefix for each in library.drives]))
+        file = File(text, *DIALECTS[target])
+        texts = (*(part.text for part in library.parts), *own)
+        yield Made(target, library.name, file, texts, tuple(each.prefix for each in library.drives))
+
+
+def _own(shelf: Shelf, target: str, prefixes: list[str]) -> Iterator[str]:
+    if target == "codesys":
+        yield from (part.text for part in shelf.adapter(target))
+    for drive in shelf.drives.values():
+        if drive.prefix in prefixes:
+            yield from (part.text for part in shelf.programs(target, drive))
+            if target == "plcopen":
+                yield shelf.motor(target, drive).text.replace("_Motor", "_Ladder")
+
+
+def names(one: Made) -> None:
+    """Every type and unit is there once, in the order of its use."""
+    assert one.file.named() == [meant.name for _, meant in one.pairs]
+    assert max(Counter(name.upper() for name in one.file.named()).values()) == 1
+
+
+def declarations(one: Made) -> None:
+    """Kinds, sections, types and initial values are those of the canonical text."""
+    for read, meant in one.pairs:
+        assert (read.kind, read.name, read.returns) == (meant.kind, meant.name, meant.returns)
+        assert [replace(row, comment="") for row in read.rows] == [replace(row, comment="") for row in meant.rows]
+
+
+def comments(one: Made) -> None:
+    """Each declaration has its comment, and each unit its head."""
+    for read, meant in one.pairs:
+        assert [(row.name, row.comment) for row in read.rows] == [(row.name, row.comment) for row in meant.rows]
+        assert read.head == meant.head
+
+
+def bodies(one: Made) -> None:
+    """Each body is untouched, and its tokens have the hash in its head."""
+    for read, meant in one.pairs:
+        if not read.name.endswith("_Ladder"):
+            assert read.body == meant.body, read.name
+        if hashed := re.search(r" Body ([0-9A-F]{8}),", read.head):
+            assert fingerprint(stream(read.body)) == hashed[1], read.name
+
+
+@cache
+def _schema() -> etree.XMLSchema:
+    return etree.XMLSchema(etree.parse(Path(__file__).with_name("tc6_xml_v201.xsd")))
+
+
+def schema(one: Made) -> None:
+    """The file is valid by the schema of TC6 2.01; another dialect with its namespace swapped."""
+    neutral, own = DIALECTS["plcopen"][0], DIALECTS[one.target][0]
+    text = one.file.text.replace(own, neutral) if own != neutral else one.file.text
+    _schema().assertValid(etree.fromstring(text.encode("utf-8")))
+
+
+def marks(one: Made) -> None:
+    """Each text of the neutral form is a CDATA section in its tag, as Beremiz's loader looks for it."""
+    if one.target == "plcopen":
+        sections, text = (
+            len(re.findall(r"<xhtml:p><!\[CDATA\[.*?\]\]></xhtml:p>", one.file.text, re.DOTALL)),
+            one.file.text,
+        )
+        assert [text.count(mark) for mark in ("<![CDATA[", "]]>", "<xhtml:p>", "</xhtml:p>")] == [sections] * 4
+    assert "\r" not in one.file.text
+    assert one.file.text.startswith('<?xml version="1.0" encoding="utf-8"?>\n<project ')
+
+
+def plain(one: Made) -> None:
+    """CODESYS's text of a declaration is the canonical one, and says what the elements say."""
+    if one.target != "codesys":
+        return
+    texts = {scanned(text).name: text for text in one.texts}
+    for node, unit in zip(one.file.all("types/pous/pou"), _pous(one), strict=True):
+        shown = one.file.data("interfaceasplaintext", node)
+        assert len(shown) == 1
+        text = one.file.written(shown[0])
+        assert texts[unit.name].startswith(text), unit.name
+        assert replace(scanned(text), body="") == replace(unit, body="")
+
+
+def _pous(one: Made) -> list[Unit]:
+    return [unit for unit in one.file.units if unit.kind != "TYPE"]
+
+
+def folders(one: Made) -> None:
+    """CODESYS's tree has every object once, with the identity that the object itself has."""
+    if one.target == "codesys":
+        (tree,) = one.file.data("projectstructure", one.file.root)
+        shown = {each.get("Name"): each.get("ObjectId") for each in one.file.all(".//Object", tree)}
+        nodes = one.file.all("types/dataTypes/dataType") + one.file.all("types/pous/pou")
+        own = {node.get("name"): one.file.data("objectid", node)[0].text for node in nodes}
+        assert shown == own
+        assert len(set(own.values())) == len(nodes) == len(one.file.all(".//Object", tree))
+
+
+def tasks(one: Made) -> None:
+    """The neutral file runs the first motors in one task."""
+    if one.target == "plcopen":
+        (task,) = one.file.all("instances/configurations/configuration/resource/task")
+        assert task.get("interval") == "T#10ms"
+        runs = [each.get("typeName") for each in one.file.all("pouInstance", task)]
+        assert runs == [f"{prefix}_Motor" for prefix in one.prefixes]
+
+
+def ladders(one: Made) -> None:
+    """A ladder calls the same blocks with the same values as the program in text, and its wires meet its pins."""
+    bodies = {unit.name: unit.body for unit in _pous(one)}
+    for prefix in one.prefixes if one.target == "plcopen" else ():
+        (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
+        drawn, body = one.file.ladder(node), bodies[f"{prefix}_Motor"]
+        assert drawn.calls == {
+            name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
+        }
+        assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
+        assert drawn.loose == []
+
+
+CHECKS: tuple[Callable[[Made], None], ...] = (
+    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders,
+)  # fmt: skip

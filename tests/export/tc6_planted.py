@@ -1,0 +1,249 @@
+"""Mistakes that somebody could make in the writers of TC6, each as an edit of their text, and the check that tells."""
+
+import importlib
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from unittest.mock import patch
+
+from lxml import etree
+from tests.export import tc6_checks as checks
+from tests.export.tc6_checks import Made, made
+
+from driveblocks.export.part import Shelf
+
+BOTH = ("plcopen", "codesys")
+MODULES = ("element", "tc6", "ladder", *BOTH)
+"""What writes, each behind what it imports."""
+
+
+@dataclass(frozen=True)
+class Planted:
+    """A mistake: its name, the module, what stands in its text, what instead, the check that tells, and where.
+
+    What both dialects share is tried in one.
+    """
+
+    name: str
+    module: str
+    old: str
+    new: str
+    check: Callable[[Made], None]
+    targets: Sequence[str] = ("plcopen",)
+
+    def found(self, shelf: Shelf, target: str) -> bool:
+        """Whether its check turns red."""
+        modules = self.modules()
+        try:
+            for one in made(modules[target].write, shelf, target):
+                self.check(one)
+        except (AssertionError, etree.XMLSyntaxError, etree.DocumentInvalid):
+            return True
+        return False
+
+    def modules(self) -> dict[str, ModuleType]:
+        """The writers with the mistake, made anew."""
+        fresh: dict[str, ModuleType] = {}
+        with patch.dict(sys.modules):
+            for name in MODULES:
+                whole = f"driveblocks.export.{name}"
+                path = Path(importlib.import_module(whole).__file__ or "")
+                text = path.read_text("utf-8")
+                if name == self.module:
+                    assert text.count(self.old) == 1, f"{self.name}: the writer has changed"
+                    text = text.replace(self.old, self.new)
+                fresh[name] = sys.modules[whole] = ModuleType(whole)
+                exec(compile(text, str(path), "exec"), fresh[name].__dict__)  # noqa: S102  (our own writer, edited)
+        return fresh
+
+
+PLANTED = (
+    Planted(
+        "every comment is lost", "tc6", "self.text(text)) if text else", "self.text(text)) if 0 else", checks.comments
+    ),
+    Planted("a comment ends early", "tc6", "one.text.split()) for", "one.text.split()[:3]) for", checks.comments),
+    Planted("a head is lost", "tc6", "self.dialect.documentation(head)", "None", checks.comments),
+    Planted(
+        "an initial value is lost",
+        "tc6",
+        "self.initial(one.initial),\n            self.dialect.documentation(self.d",
+        "None,\n            self.dialect.documentation(self.d",
+        checks.declarations,
+    ),
+    Planted(
+        "a table ends early",
+        "tc6",
+        "map(self.item, value.items)",
+        "map(self.item, value.items[:2])",
+        checks.declarations,
+    ),
+    Planted("a repetition is lost", "tc6", '{"repetitionValue": self.said(value.count)}', "{}", checks.declarations),
+    Planted(
+        "sections change places", "tc6", "for block in one.blocks", "for block in one.blocks[::-1]", checks.declarations
+    ),
+    Planted(
+        "fields change places",
+        "tc6",
+        "*map(self.variable, spec.fields)",
+        "*map(self.variable, spec.fields[::-1])",
+        checks.declarations,
+    ),
+    Planted(
+        "a constant is a variable",
+        "tc6",
+        "if word in block.qualifiers}",
+        'if word in block.qualifiers and word == "RETAIN"}',
+        checks.declarations,
+    ),
+    Planted(
+        "what is kept is not",
+        "tc6",
+        "if word in block.qualifiers}",
+        'if word in block.qualifiers and word == "CONSTANT"}',
+        checks.declarations,
+    ),
+    Planted(
+        "in and out change places",
+        "tc6",
+        'VarKind.INPUT: "inputVars", VarKind.OUTPUT: "outputVars"',
+        'VarKind.INPUT: "outputVars", VarKind.OUTPUT: "inputVars"',
+        checks.declarations,
+    ),
+    Planted(
+        "an array loses its upper bound",
+        "tc6",
+        '"upper": self.said(bounds.high)',
+        '"upper": self.said(bounds.low)',
+        checks.declarations,
+    ),
+    Planted(
+        "an array loses a dimension",
+        "tc6",
+        "for one in spec.ranges]",
+        "for one in spec.ranges[:1]]",
+        checks.declarations,
+    ),
+    Planted(
+        "a function is a block", "tc6", '"FUNCTION": "function"', '"FUNCTION": "functionBlock"', checks.declarations
+    ),
+    Planted(
+        "a function loses its type",
+        "tc6",
+        "self.spec(returns)) if returns",
+        "self.spec(returns)) if 0",
+        checks.declarations,
+    ),
+    Planted(
+        "a unit has another name",
+        "tc6",
+        '{"name": one.name, "pouType"',
+        '{"name": one.name.upper(), "pouType"',
+        checks.names,
+    ),
+    Planted(
+        "a type is lost",
+        "tc6",
+        "(e for e in parts if e.tag == tag)",
+        "([e for e in parts if e.tag == tag][:-1])",
+        checks.names,
+    ),
+    Planted("units are doubled", "tc6", "parts = tuple(parts)", "parts = 2 * tuple(parts)", checks.names),
+    Planted(
+        "the namespace is another",
+        "tc6",
+        'Dialect("http://www.plcopen.org/xml/tc6_0201"',
+        'Dialect("http://www.plcopen.org/xml/tc6_0200"',
+        checks.names,
+        ("plcopen",),
+    ),
+    Planted(
+        "a body is trimmed",
+        "tc6",
+        "self.dialect.text(self.part.body)",
+        "self.dialect.text(self.part.body.strip())",
+        checks.bodies,
+    ),
+    Planted(
+        "a body loses its comments",
+        "tc6",
+        "self.dialect.text(self.part.body)",
+        'self.dialect.text(re.sub(r"[(][*].*?[*][)]", "", self.part.body))',
+        checks.bodies,
+    ),
+    Planted("an ampersand is not escaped", "element", '"&": "&amp;", ', "", checks.schema, BOTH),
+    Planted("a bracket is not escaped", "element", '"<": "&lt;", ', "", checks.schema, ("codesys",)),
+    Planted("a quote is not escaped", "element", ', \'"\': "&quot;"', "", checks.schema, BOTH),
+    Planted(
+        "other than ASCII breaks",
+        "element",
+        '{text}</{self.tag}>"',
+        "{text.encode('ascii', 'replace').decode()}</{self.tag}>\"",
+        checks.comments,
+    ),
+    Planted("a text is not CDATA", "tc6", "text=cdata(text)", "text=escaped(text)", checks.marks, ("plcopen",)),
+    Planted(
+        "all have one identity", "codesys", 'f"driveblocks:{part.name}"', '"driveblocks"', checks.folders, ("codesys",)
+    ),
+    Planted(
+        "the text of a declaration has a name that nobody knows",
+        "codesys",
+        '"interfaceasplaintext"',
+        '"declaration"',
+        checks.plain,
+        ("codesys",),
+    ),
+    Planted(
+        "the text of a declaration lacks its end",
+        "codesys",
+        "{part.declaration}",
+        "{part.declaration[:-7]}",
+        checks.plain,
+        ("codesys",),
+    ),
+    Planted(
+        "a folder is lost",
+        "codesys",
+        "for name, objects in folders.items()]",
+        "for name, objects in list(folders.items())[1:]]",
+        checks.folders,
+        ("codesys",),
+    ),
+    Planted(
+        "the task is too slow",
+        "plcopen",
+        '"interval": f"T#{SCAN_MS}ms"',
+        '"interval": f"T#{SCAN_MS}s"',
+        checks.tasks,
+        ("plcopen",),
+    ),
+    Planted(
+        "a wire misses its pin",
+        "ladder",
+        "return number, (_CONTACT + 21, y)",
+        "return number, (_CONTACT, y)",
+        checks.ladders,
+        ("plcopen",),
+    ),
+    Planted(
+        "a negation is lost", "ladder", '{"negated": "true"} if negated else {}', "{}", checks.ladders, ("plcopen",)
+    ),
+    Planted(
+        "a contact is a wire",
+        "ladder",
+        "number, there = self.contact(value.name, y)",
+        "number, there = 1, (_RAIL + 3, y)",
+        checks.ladders,
+        ("plcopen",),
+    ),
+    Planted(
+        "a pin is not wired",
+        "ladder",
+        "_link(number, here, there))\n\n    def rail",
+        "None)\n\n    def rail",
+        checks.ladders,
+        ("plcopen",),
+    ),
+)
+"""The mark that ends a CDATA section has a test of its own: with it the writer has to refuse the part."""

@@ -1,0 +1,262 @@
+"""The serial port and the own master for CODESYS, with stand-ins for the blocks of its libraries: what they ask is seen
+here, and what they answer is set here.
+"""
+
+import re
+from collections.abc import Callable
+from functools import cache
+
+import pytest
+from tests.export.test_tc6 import LANGUAGES, stock
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Instance, Source, Value
+from driveblocks.render import library
+from driveblocks.st.names import reserved
+from driveblocks.st.tree import Pou
+
+PINS = (
+    "xExecute : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT; szBuffer : UINT;"
+)
+STAND_IN = """FUNCTION_BLOCK {name}
+VAR_INPUT
+  {pins} hCom : UINT; pBuffer : MB_LineFrame;
+END_VAR
+VAR_OUTPUT
+  xDone : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
+END_VAR
+VAR
+  Memory : BOOL;
+END_VAR
+  IF xExecute AND NOT Memory THEN
+    Asked := Asked + 1;
+  END_IF;
+  Memory := xExecute;
+  IF NOT xExecute THEN
+    xDone := FALSE;
+    xError := FALSE;
+  END_IF;
+END_FUNCTION_BLOCK
+"""
+PORT = (
+    (r" := \[\n.*?\]; \(\* of the port \*\)", "; (* of the port *)"),
+    (r"COM\.PARAMETER\b", "X_Parameter"),
+    (r"COM\.(Open|Close|Read|Write)\b", r"X_\1"),
+    (r"COM\.PARITY\.EVEN", "0"),
+    (r"COM\.PARITY\.ODD", "1"),
+    (r"COM\.\w+\.ONESTOPBIT", "0"),
+    (r"COM\.\w+\.(NONE|TWOSTOPBITS)", "2"),
+    (r", pParameterList := ADR\(Settings\)", ""),
+    (r" pBuffer := ADR\(Heard\),", ""),
+    (r"ADR\(Frame\)", "Frame"),
+    (r"hCom := Opening.hCom", "hCom := 1"),
+    (r"Reading\.szSize", "Reading.Came"),
+    (r":= Heard\[", ":= Reading.Heard["),
+    (r"TIME_TO_UDINT\(TIME\(\)\)", "Clock"),
+    (r"  NowMs : UDINT;", "  Clock : UDINT; (* of the test *)\n  NowMs : UDINT;"),
+)
+"""What the text of CD_Port says by means of CODESYS, and the same in portable ST."""
+
+
+def _built(name: str, text: str, stand_ins: list[str]) -> Callable[[], Instance]:
+    sources = [Source(part.unit.path, part.text) for part in stock().parts]
+    parameter = "TYPE\n  X_Parameter : STRUCT\n    udiValue : UDINT;\n  END_STRUCT;\nEND_TYPE\n"
+    sources += [Source("stand_in", parameter)]
+    sources += [Source(each, STAND_IN.format(name=each, pins=PINS)) for each in stand_ins]
+    built = EmbeddedEngine().build([*sources, Source(name, text)])
+    return lambda: built.instance(name)
+
+
+@cache
+def _port() -> Callable[[], Instance]:
+    text = next(library.adapter("codesys", LANGUAGES)).text
+    for old, new in PORT:
+        text, count = re.subn(old, new, text, flags=re.DOTALL)
+        assert count, old
+    rig = """PROGRAM X_Rig
+VAR
+  Port : CD_Port; Send : UINT; Rx : MB_Adu; Tx : MB_LineFrame;
+END_VAR
+  Port(TxCount := 0, BitRate := 19200, CharacterBits := 11, Parity := 2, LateMs := 60, Rx := Rx, Tx := Tx);
+  IF Send > 0 THEN
+    Port(TxCount := Send, Rx := Rx, Tx := Tx);
+  END_IF;
+END_PROGRAM
+"""
+    return _built("X_Rig", text + rig, ["X_Open", "X_Close", "X_Read", "X_Write"])
+
+
+def _scan(rig: Instance, at: int, **given: Value) -> None:
+    """Set the clock and some variables, `Port.` in front, and scan."""
+    for name, value in {"Port.Clock": at, **{name.replace("__", "."): value for name, value in given.items()}}.items():
+        rig[name] = value
+    rig.scan()
+
+
+def _opened(rig: Instance) -> None:
+    _scan(rig, 100)
+    _scan(rig, 110)
+    _scan(rig, 120, Port__Opening__xDone=True)
+
+
+def test_a_port_opens_with_what_it_is_told() -> None:
+    rig = _port()()
+    _opened(rig)
+    settings = [rig[f"Port.Settings[{number}].udiValue"] for number in (1, 2, 3, 4, 6)]
+    assert settings == [1, 19200, 0, 0, 8]
+    assert (rig["Port.State"], rig["Port.TxBusy"], rig["Port.Opening.Asked"]) == (2, False, 1)
+
+
+def test_time_is_measured_and_survives_the_clock_running_over() -> None:
+    rig, found = _port()(), []
+    for at in (2**32 - 15, 2**32 - 5, 6, 6, 200_000):
+        _scan(rig, at)
+        found.append(rig["Port.ElapsedMs"])
+    assert found == [0, 10, 11, 0, 65535]
+
+
+def test_bytes_that_came_are_given_once_and_reading_goes_on() -> None:
+    rig = _port()()
+    _opened(rig)
+    _scan(rig, 130)
+    _scan(rig, 140, Port__Reading__Heard=[1, 3, 7], Port__Reading__Came=3, Port__Reading__xDone=True)
+    assert [rig["Port.RxCount"], *(rig[f"Rx[{index}]"] for index in range(3))] == [3, 1, 3, 7]
+    _scan(rig, 150)
+    assert (rig["Port.RxCount"], rig["Port.Reading.Asked"]) == (0, 2)
+    _scan(rig, 160, Port__Reading__eError=5001, Port__Reading__xError=True)
+    assert (rig["Port.ErrorID"], rig["Port.State"]) == (0, 2)
+
+
+def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
+    rig = _port()()
+    _scan(rig, 100, Send=8)
+    assert rig["Port.Writing.Asked"] == 0, "sent while the port was closed"
+    rig = _port()()
+    _opened(rig)
+    _scan(rig, 130, Send=2, Tx=[17, 19])
+    assert [rig["Port.Frame[0]"], rig["Port.Frame[1]"], rig["Port.Writing.szSize"]] == [17, 19, 2]
+    assert rig["Port.Writing.udiTimeOut"] == 60_000
+    _scan(rig, 140, Send=2, Tx=[23, 29])
+    assert (rig["Port.TxBusy"], rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (True, 1, 17)
+    _scan(rig, 150, Send=0, Port__Writing__xDone=True)
+    assert rig["Port.TxBusy"] is False
+    _scan(rig, 160, Send=2)
+    assert (rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (2, 23)
+
+
+@pytest.mark.parametrize("block", ["Reading", "Writing", "Opening"])
+def test_a_port_in_trouble_is_opened_again_a_second_later(block: str) -> None:
+    rig = _port()()
+    _scan(rig, 100)
+    _scan(rig, 110)
+    if block != "Opening":
+        _scan(rig, 120, Port__Opening__xDone=True)
+        _scan(rig, 130, Send=2)
+    rig["Send"] = 0
+    _scan(rig, 140, **{f"Port__{block}__eError": 5105, f"Port__{block}__xError": True})
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (5105, True)
+    if block != "Opening":
+        _scan(rig, 150)
+        assert rig["Port.Closing.Asked"] == 1
+        _scan(rig, 160, Port__Closing__xDone=True)
+    for at in range(200, 1100, 100):
+        _scan(rig, at)
+        assert rig["Port.State"] == 0
+    _scan(rig, 1200)
+    _scan(rig, 1300)
+    assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
+    _scan(rig, 1310, Port__Opening__xDone=True)
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
+    shelf = stock()
+    parts = [
+        *shelf.adapter("codesys"),
+        *(one for each in shelf.drives.values() for one in shelf.programs("codesys", each)),
+    ]
+    names = {
+        v.name
+        for part in parts
+        if isinstance(part.element, Pou)
+        for block in part.element.blocks
+        for v in block.variables
+    }
+    assert {name: reserved(name) for name in names if reserved(name)} == {}
+    assert reserved("Reference")
+
+
+@cache
+def _master(prefix: str) -> Callable[[], Instance]:
+    drive = next(each for each in stock().drives.values() if each.prefix == prefix)
+    (file,) = library.programs("codesys", drive, LANGUAGES)
+    text = file.text.replace("slave := Drive1, ", "")
+    return _built(f"{prefix}_Master", text, ["ModbusChannel"])
+
+
+class _Slave:
+    """A drive behind the master: it answers, or not, and notes what was asked."""
+
+    def __init__(self, prefix: str, **words: int) -> None:
+        self.program = _master(prefix)()
+        self.answers, self.asked = True, list[tuple[int, Value]]()
+        for name, value in words.items():
+            self.program[name] = value
+
+    def scans(self, count: int) -> list[tuple[int, Value]]:
+        """What is asked in so many scans, which answer at once, each with the command word."""
+        self.asked.clear()
+        for _ in range(count):
+            self.program["Channel.xDone" if self.answers else "Channel.xError"] = True
+            turn, word = self.program["Turn"], self.program["CommandWord"]
+            assert isinstance(turn, int)
+            self.program.scan()
+            self.asked.append((turn, word))
+        return self.asked
+
+
+RUN, STOP = 1, 3
+
+
+def test_the_own_master_reads_before_it_writes_stops_and_then_runs_by_an_edge() -> None:
+    one = _Slave("JSCC", DriveStatusWord=4, CountsPerHertz=10, StartSwitch=True, Hertz=25)
+    assert [turn for turn, _ in one.scans(5)] == [2, 0, 1, 2, 3]
+    assert one.asked[1] == (0, STOP)
+    one.scans(8)
+    assert (one.program["StopConfirmed"], one.program["ReferenceWord"]) == (True, 250)
+    assert {word for turn, word in one.asked if turn == 0} == {STOP}, "a switch that was closed starts nothing"
+    one.program["StartSwitch"] = False
+    one.scans(1)
+    one.program["StartSwitch"] = True
+    while one.program["CommandWord"] != RUN:
+        assert one.program["StopConfirmed"] is True
+        one.scans(1)
+    assert one.program["StopConfirmed"] is False, "it was sent, and may turn the motor"
+    assert (0, RUN) in one.scans(8)
+    one.program["StartSwitch"] = False
+    assert (0, STOP) in one.scans(2), "a stop does not wait for its turn"
+
+
+def test_the_own_master_stops_behind_a_loss_and_asks_for_a_new_edge() -> None:
+    one = _Slave("JSCC", DriveStatusWord=4, CountsPerHertz=10, Hertz=25)
+    one.scans(8)
+    one.program["StartSwitch"] = True
+    assert (0, RUN) in one.scans(8)
+    one.answers = False
+    assert set(one.scans(12)[-4:]) == {(0, STOP)}, "nothing but the stop, again and again"
+    one.answers = True
+    one.scans(12)
+    assert {word for turn, word in one.asked if turn == 0} == {STOP}
+    one.program["StartSwitch"] = False
+    one.scans(1)
+    one.program["StartSwitch"] = True
+    assert (0, RUN) in one.scans(8)
+
+
+def test_the_own_master_runs_no_drive_whose_reference_means_something_else() -> None:
+    one = _Slave("SN300G5", DriveStatusWord=2, CommandSelectionWord=1, Hertz=25)
+    one.scans(8)
+    one.program["StartSwitch"] = True
+    assert {word for turn, word in one.scans(12) if turn == 0} == {0}
+    one.program["CommandSelectionWord"] = 0
+    assert (0, 1) in one.scans(12)

@@ -1,0 +1,207 @@
+"""Both dialects of TC6: what is written reads back as the canonical text, and what cannot be said is refused."""
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import pytest
+from tests.export.tc6_checks import CHECKS, Made, declarations, made, names, schema
+from tests.export.tc6_planted import PLANTED, Planted
+from tests.shapes import shapes
+
+from driveblocks.export.part import Part, Shelf, shelf
+from driveblocks.export.problem import ExportError
+from driveblocks.export.target import WRITERS
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Library, Source
+from driveblocks.maps import catalog, collection
+from driveblocks.render import library, text
+from driveblocks.render.library import File
+from driveblocks.render.results import code
+from driveblocks.st.lint import lint_sources
+from driveblocks.st.parser import parse
+
+LANGUAGES = text.languages(["en", "zh"], "utf-8")
+HEAD = "(* X: a sample\n   Purpose  none: & < > \" ' Ü 变频 ]] > *)\n"
+SAMPLE = (
+    HEAD + "TYPE\n  X_Mix : STRUCT\n    One : INT := -5; (* a < b && c *)\n"
+    "    (* stands above *)\n    Two : REAL := 1.0E-3;\n    Three : STRING := 'a&b<\"$''; (* 变频器 *)\n"
+    "  END_STRUCT;\nEND_TYPE\n",
+    HEAD + "TYPE\n  X_Grid : ARRAY[0..1, -1..1] OF X_Mix; (* two by three *)\nEND_TYPE\n",
+    HEAD + "FUNCTION X_Sum : REAL\nVAR_INPUT\n  A : REAL := 1.5; (* first *)\n  B : REAL; (* second,\n   at length *)\n"
+    "END_VAR\n\n  X_Sum := A + B; (* < & *)\nEND_FUNCTION\n",
+    HEAD + "FUNCTION_BLOCK X_Block\nVAR_INPUT\n  In : X_Mix := (One := 7, Two := 2.0); (* given *)\nEND_VAR\n"
+    "VAR_OUTPUT\n  Out : BOOL := TRUE; (* taken *)\nEND_VAR\nVAR_IN_OUT\n  Both : X_Grid; (* both ways *)\nEND_VAR\n"
+    "VAR RETAIN\n  Kept : UDINT; (* kept *)\nEND_VAR\nVAR_TEMP\n  Brief : INT; (* not kept *)\nEND_VAR\n"
+    "VAR CONSTANT\n  MOST : ARRAY[0..9] OF WORD := [WORD#16#00FF, 8(WORD#16#0000), WORD#16#0001]; (* table *)\n"
+    'END_VAR\n\n  (* first line is indented, "quoted" & <marked> *)\n  IF (Kept < 5) AND (In.One > 3) THEN\n'
+    "    Out := FALSE;\n  END_IF;\nEND_FUNCTION_BLOCK\n",
+)
+
+
+@cache
+def stock() -> Shelf:
+    """The shipped library and a few samples with everything that a declaration can hold."""
+    sources = collection.read(catalog.shipped())
+    files = [*library.generic(LANGUAGES)]
+    files += [file for source in sources for file in library.drive(source.path.stem, source.drive, LANGUAGES)]
+    files += [File("types", f"X{number}", one) for number, one in enumerate(SAMPLE)]
+    return shelf(files, {source.path.stem: source.drive for source in sources}, LANGUAGES)
+
+
+@cache
+def written(target: str) -> list[Made]:
+    return list(made(WRITERS[target], stock(), target))
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda each: each.__name__)
+@pytest.mark.parametrize("target", ["plcopen", "codesys"])
+def test_what_is_written_reads_back(target: str, check: Callable[[Made], None]) -> None:
+    for one in written(target):
+        check(one)
+
+
+@pytest.mark.parametrize("target", ["plcopen", "codesys"])
+def test_the_same_library_gives_the_same_bytes(target: str) -> None:
+    again = WRITERS[target](stock())
+    assert [text for name, text in again.items() if name.endswith(".xml")] == [one.file.text for one in written(target)]
+
+
+@pytest.mark.parametrize("target", ["plcopen", "codesys"])
+def test_the_page_counts_what_is_there_and_shows_a_motor(target: str) -> None:
+    page = WRITERS[target](stock())[f"{target}/README.md"]
+    for one in written(target):
+        kinds = Counter(unit.kind for unit in one.file.units)
+        cells = [kinds[kind] for kind in ("TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM")]
+        assert f"| `{one.library}.xml` | {' | '.join(map(str, cells))} |" in page
+    assert stock().motor(target, next(iter(stock().drives.values()))).text in page
+
+
+def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:
+    drive = shapes()["cia402"]
+    files = [*library.generic(LANGUAGES), *library.drive("cia402", drive, LANGUAGES)]
+    for target in ("plcopen", "codesys"):
+        for one in made(WRITERS[target], shelf(files, {"cia402": drive}, LANGUAGES), target):
+            names(one)
+            declarations(one)
+            assert not any(name.endswith("_Master") for name in one.file.named())
+
+
+BLOCK = """(* X: a sample *)
+FUNCTION_BLOCK X
+VAR
+  A : INT; (* a number *)
+  B : X_Table; (* numbers *)
+END_VAR
+
+  A := 1;
+END_FUNCTION_BLOCK
+"""
+NO_OWNER = "a comment that belongs to no declaration would be lost; put it behind one"
+MARK = "has no form in this XML; write it with a blank in it"
+
+
+@cache
+def _motors() -> Library:
+    """The first motors for any port, with the library."""
+    parts = [*stock().parts, *(stock().motor("plcopen", drive) for drive in stock().drives.values())]
+    return EmbeddedEngine().build([Source(part.unit.path, part.text) for part in parts])
+
+
+@pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
+def test_a_first_motor_for_any_port_lints_clean_and_asks_its_drive(prefix: str) -> None:
+    (drive,) = (one for one in stock().drives.values() if one.prefix == prefix)
+    motor = stock().motor("plcopen", drive)
+    problems = lint_sources((part.unit.path, part.text) for part in (*stock().parts, motor))
+    assert [each for each in problems if each.path == motor.unit.path] == []
+    program = _motors().instance(motor.name)
+    program["ElapsedMs"] = 10
+    frames = []
+    for _ in range(100):
+        program.scan()
+        frames += [program["Tx[0]"]] if program["TxCount"] else []
+    assert frames
+    assert set(frames) == {drive.serial.unit.min}
+    program["ElapsedMs"] = 0
+    for _ in range(200):
+        program.scan()
+    assert program["Bus.ErrorID"] == code("TIME_STANDS")
+
+
+@cache
+def _few() -> Shelf:
+    """Enough to show every mistake: the samples, and what one ladder calls."""
+    whole = stock()
+    names = ("X_Mix", "X_Grid", "X_Sum", "X_Block", "MB_Adu", "JSCC_Reference", "JSCC_Drive", "MB_ByteLine8")
+    parts = tuple(part for part in whole.parts if part.name in names)
+    return replace(whole, parts=parts, drives={"jscc": whole.drives["jscc"]})
+
+
+@pytest.mark.parametrize("target", ["plcopen", "codesys"])
+def test_the_few_are_right_without_a_mistake(target: str) -> None:
+    for one in made(WRITERS[target], _few(), target):
+        for check in CHECKS:
+            check(one)
+
+
+@pytest.mark.parametrize("one", PLANTED, ids=lambda each: each.name)
+def test_a_planted_mistake_is_found(one: Planted) -> None:
+    assert [target for target in one.targets if not one.found(_few(), target)] == []
+
+
+def test_there_are_as_many_as_promised_and_no_check_is_for_nothing() -> None:
+    assert len({one.name for one in PLANTED}) == len(PLANTED) >= 30
+    assert {one.check for one in PLANTED} == set(CHECKS)
+
+
+def _parsed(text: str) -> Shelf:
+    """A shelf of one part that nobody has checked: a writer must not count on that."""
+    return Shelf((Part("sample", parse(text, "sample/X.st")),), {}, tuple(LANGUAGES))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "neutral", "codesys"),
+    [
+        ("A := 1;", "A := SEL(B[B[0]]>2, 1, 2);", f"8:17: `]]>` {MARK}", ""),
+        ("a number", "a ]]> b", f"4:17: `]]>` {MARK}", ""),
+        ("A := 1;", "A := 1; (* <xhtml:p> *)", f"8:14: `<xhtml:p>` {MARK}", ""),
+        ("a number", "a \x0c b", *2 * ("4:17: character 000CH has no form in XML; leave it out",)),
+        ("INT;", "INT R_EDGE;", *2 * ("4:3: R_EDGE has no form in this XML; call R_TRIG in the body",)),
+        ("INT;", "INT := -(2);", "", ""),
+        (
+            "INT;",
+            "INT := 2 * 3;",
+            *2 * ("4:14: an expression has no form as a value in this XML; write what it comes to",),
+        ),
+        (
+            "INT;",
+            "INT (0..9);",
+            *2 * ("4:7: this type is not written as XML; a type is an array, a structure or a name",),
+        ),
+        ("END_VAR", "(* lost *)\nEND_VAR", *2 * (f"6:1: {NO_OWNER}",)),
+        ("END_FUNCTION_BLOCK\n", "END_FUNCTION_BLOCK\n(* lost *)\n", *2 * (f"10:1: {NO_OWNER}",)),
+        ("(* numbers *)", "// x", *2 * ("5:16: a comment by `//` would not come back as it is; write (* *)",)),
+    ],
+)
+def test_what_cannot_be_said_is_refused(old: str, new: str, neutral: str, codesys: str) -> None:
+    parts = _parsed(BLOCK.replace(old, new))
+    for target, said in (("plcopen", neutral), ("codesys", codesys)):
+        if said:
+            with pytest.raises(ExportError) as caught:
+                WRITERS[target](parts)
+            assert str(caught.value) == f"sample/X.st:{said}"
+        else:
+            assert len(WRITERS[target](parts)) == 1
+
+
+def test_the_end_of_a_section_in_a_comment_would_break_the_file() -> None:
+    mistake = Planted("nobody refuses it", "tc6", '"]]>", "<![CDATA[", ', "", schema)
+    assert mistake.found(_parsed(BLOCK.replace("a number", "a ]]> b")), "plcopen")
+
+
+def test_all_that_cannot_be_said_is_told_at_once() -> None:
+    text = BLOCK.replace("INT;", "INT R_EDGE := 2 * 3;").replace("numbers", "<xhtml:p>")
+    with pytest.raises(ExportError) as caught:
+        WRITERS["plcopen"](_parsed(text))
+    assert [(each.line, each.column) for each in caught.value.problems] == [(4, 3), (4, 21), (5, 19)]
