@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives linux-line release
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives linux-line desk-line release
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -65,6 +65,9 @@ drives:               ## drive blocks at length: planted mistakes, the matrix, 1
 
 linux-line:           ## an hour of a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.softplc $(or $(SECONDS),3600)
+
+desk-line:            ## an hour of `driveblocks run` at pymodbus's server over pseudo-terminals, 1 % of the frames damaged (SECONDS=3600)
+	$(PY) -m tests.stand.deskplc $(or $(SECONDS),3600)
 
 bench:                ## every figure, side by side in one run; writes docs/performance.md
 	$(PY) -m tests.bench.run

@@ -1,7 +1,6 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
-import os
 import subprocess
 import sys
 import tomllib
@@ -10,18 +9,23 @@ from pathlib import Path
 import pytest
 import typer
 from tests.plc.desk import EXAMPLE, ONE
+from tests.plc.windows import environment
+from tests.simulator.talk import MAPS
+from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
 
 from driveblocks.commands import run as command
 from driveblocks.maps import collection
 from driveblocks.plc import demo, source
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.stand.bus import Bus
+from driveblocks.stand.link import TcpLink
 
 app = typer.Typer()
 app.command()(command.run)
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
 _read, _whole = collection.read, source.load
-HIDDEN = "import sys\nfor name in ('pty', 'termios', 'tty', 'fcntl'):\n    sys.modules[name] = None\n"
 
 
 def run(*words: str | Path) -> Result:
@@ -71,7 +75,9 @@ REFUSED = [
     ("--demo --port COM3", "--demo and --port exclude each other"),
     ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT"),
     ("my.st --allow-run", "--allow-run is for a real port; simulated drives may always run"),
-    ("my.st --tcp :502 --allow-run", "--allow-run is for a real port"),
+    ("my.st --tcp :502 --simulated --allow-run", "--allow-run is for a real port"),
+    ("my.st --tcp 10.0.0.1:502 --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:"),
+    ("my.st --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:5020"),
     ("my.st --fast", "--fast needs --for: it would never end"),
     ("my.st --fast --for 1s --port COM3", "--fast is for simulated drives; a port has its own time"),
     ("my.st --scan 10", "--scan: `10` is no time; write 10ms, 2.5s or 1min"),
@@ -143,8 +149,7 @@ def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
 @pytest.fixture
 def windows(tmp_path: Path) -> dict[str, str]:
     """An environment in which every process lacks what Windows lacks."""
-    (tmp_path / "sitecustomize.py").write_text(HIDDEN, encoding="utf-8")
-    return {**os.environ, "PYTHONPATH": str(tmp_path)}
+    return environment(tmp_path)
 
 
 def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[str, str]) -> None:
@@ -192,6 +197,20 @@ def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[
     assert "SIMULATED  0.05 s are over: stopping every drive" in lines
     assert " scans of 10 ms: " in scans
     assert took.startswith("a scan took ")
+
+
+@pytest.mark.parametrize(("words", "label"), [((), "REAL PORT"), (("--simulated",), "SIMULATED")])
+def test_what_is_behind_an_address_is_real_unless_somebody_says_so(
+    words: tuple[str, ...], label: str, program: Path
+) -> None:
+    """This computer, too, may have a serial port behind one of its TCP ports."""
+    link = TcpLink(0)
+    with serving(Bus([SimulatedDrive(MAPS["JSCC"], 7)], 19200, 10), link):
+        result = run(program, "--tcp", link.place, "--for", "1ms", *words)
+    *lines, _, _ = result.output.splitlines()
+    assert (result.exit_code, lines[0]) == (0, f"{label}  {link.place} my.st")
+    assert lines[-1] == f"{label}  stopped, and standstill read: Motor"
+    assert ("only reads and stops leave; if a simulator is there, add --simulated" in result.output) == (not words)
 
 
 def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytest.MonkeyPatch) -> None:

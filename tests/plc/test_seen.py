@@ -7,12 +7,13 @@ from xml.etree import ElementTree
 
 import pytest
 from rich.console import Console
+from rich.style import Style
 from tests.plc.desk import Desk
 
 from driveblocks import console
 from driveblocks.plc import record, screen
 from driveblocks.plc.record import Timing, Trace
-from driveblocks.plc.view import View, look
+from driveblocks.plc.view import Seen, View, look
 
 
 def views() -> Iterator[View]:
@@ -75,6 +76,27 @@ def test_a_table_fits_and_says_whose_port_it_is(
     assert (screen.HELP in text) == (kind is screen.Desk)
     visible = [re.sub(r"\x1b(\[\??[\d;]*[a-zA-Z]|\d)", "", line) for line in text.splitlines()]
     assert max(len(line.rstrip()) for line in visible) <= width
+
+
+@pytest.mark.parametrize("style", [screen.BAD, screen.GOOD])
+def test_colours_are_read_on_black_and_on_white(style: str) -> None:
+    colour = Style.parse(style).color
+    assert colour is not None
+    assert colour.number is not None
+    assert colour.number >= 16  # the shades of those below are the terminal's
+    parts = [(part / 255 + 0.055) / 1.055 if part > 10 else 0 for part in colour.get_truecolor()]
+    light = sum(share * part**2.4 for share, part in zip((0.2126, 0.7152, 0.0722), parts, strict=True))
+    assert min((light + 0.05) / 0.05, 1.05 / (light + 0.05)) > 3.9
+
+
+def test_a_long_name_of_a_fault_and_of_a_drive_are_read_whole_at_80_columns() -> None:
+    drawn = io.StringIO()
+    fault, drive = "fault 10 Motor thermal overload protection", "Conveyor3.Motor"
+    seen = Seen(drive, 247, fault, -50.0, 400.0, "123456/123456/0")
+    heading = screen.Heading("SIMULATED", "my.st", real=False, remark="heard/answered/refused")
+    Console(file=drawn, width=80).print(*screen._parts(heading, View(0, (seen,), {}, {})))
+    for word in (*fault.split(), drive, "-50.0", "400.0", *seen.why.split(), *heading.remark.split()):
+        assert word in drawn.getvalue()
 
 
 def test_frames_that_were_not_sent_stand_in_the_table() -> None:

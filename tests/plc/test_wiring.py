@@ -1,7 +1,7 @@
 """How a program reaches its port is found by types and calls, whatever its variables are called."""
 
 import pytest
-from tests.plc.desk import BOX, EXAMPLE, ONE, loaded, wired
+from tests.plc.desk import BOX, EXAMPLE, ONE, Desk, loaded, wired
 
 from driveblocks.host.engine import BuildError
 from driveblocks.plc import wiring
@@ -84,6 +84,41 @@ def test_what_is_inside_a_block_leads_back_to_the_program() -> None:
     assert (found.tx_chars, found.pins["ELAPSEDMS"]) == ("Hall.Out", "Time")
     assert found.drives == (DriveBlock("Hall.Motor", "CHF"),)
     assert found.inputs == ("Button",)
+
+
+SHARED = ("Start : BOOL", "Received : UINT", "Motor : JSCC_Drive", "Slots : MB_Slots8")
+"""Of the program, these are globals of its configuration."""
+
+
+def shared(text: str) -> str:
+    """A program whose variables are globals, in a configuration."""
+    rows = "".join(f"  {each};\n" for each in SHARED)
+    for each in SHARED:
+        text = text.replace(f"  {each};\n", "")
+    program = text.replace("PROGRAM One\n", f"PROGRAM One\nVAR_EXTERNAL\n{rows}END_VAR\n")
+    resource = "RESOURCE R ON PLC\n  PROGRAM P : One;\nEND_RESOURCE\n"
+    return f"{program}CONFIGURATION C\nVAR_GLOBAL\n{rows}END_VAR\n{resource}END_CONFIGURATION\n"
+
+
+def test_globals_of_a_configuration_are_served_like_the_program_s_own() -> None:
+    desk = Desk(shared(ONE)).started()
+    found = desk.controller.wiring
+    assert (found.rx_count, found.inputs) == ("Received", ("Start", "Hz"))
+    assert found.drives == (DriveBlock("Motor", "JSCC"),)
+    assert desk.drives[0].mode == "running"
+    desk.session.run(0)
+    assert desk.session.result is not None
+    assert (desk.drives[0].mode, desk.session.result.stopped) == ("standing", ("Motor",))
+
+
+def test_a_drive_that_could_not_be_stopped_is_refused() -> None:
+    """The program's own variable hides the global, by whose name the drive would be found."""
+    inner = shared(ONE).replace("PROGRAM One", "FUNCTION_BLOCK Inner").replace("END_PROGRAM", "END_FUNCTION_BLOCK")
+    outer = "PROGRAM One\nVAR\n  Motor : BOOL;\n  Box : Inner;\nEND_VAR\n  Box();\nEND_PROGRAM\n"
+    text = inner.replace("CONFIGURATION C", f"{outer}CONFIGURATION C", 1)
+    assert "this may be one JSCC_Drive or another, so it could not be stopped at the end; call each by its" in told(
+        text
+    )
 
 
 def test_a_time_that_the_program_writes_itself_is_left_alone() -> None:

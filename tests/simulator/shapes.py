@@ -1,4 +1,8 @@
-"""Made-up drives of the shapes that commands have: paths of states, edges, pulses, two registers, active-low bits."""
+"""Made-up drives of the shapes that commands have: paths of states, edges, pulses, two registers, active-low bits.
+
+Those of tests/shapes are maps as an author has to write them. Here are some that `check` refuses, since a drive does
+not ask whether a map is careful: stops that leave the run bit set, a direction that is one bit more than the other.
+"""
 
 from functools import cache
 

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.plc.windows import environment
 from tests.simulator.talk import MAPS, body, pairs, prepared
 from typer.testing import CliRunner
 
@@ -18,17 +19,6 @@ from driveblocks.stand.bus import Bus, Frame
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours
 from driveblocks.stand.trace import Tracer
-
-HIDDEN = """
-import sys, os
-for name in ("pty", "tty", "termios", "fcntl"):
-    sys.modules[name] = None
-if hasattr(os, "openpty"):
-    del os.openpty
-from driveblocks.__main__ import main
-main()
-"""
-"""A computer without pseudo-terminals."""
 
 
 def said(*words: str, status: int = 0) -> str:
@@ -80,9 +70,9 @@ def test_every_line_says_that_it_is_simulated(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("words", [("--tcp", ":0", "--for", "1ms"), ("--pty",)])
-def test_no_pty_and_no_termios_is_needed_for_tcp(words: tuple[str, ...]) -> None:
-    command = [sys.executable, "-c", HIDDEN, "simulate", "jscc", *words]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+def test_what_windows_lacks_is_not_needed_for_tcp(words: tuple[str, ...], tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "driveblocks", "simulate", "jscc", *words]
+    done = subprocess.run(command, env=environment(tmp_path), capture_output=True, text=True, check=False)
     if words[0] == "--tcp":
         assert (done.returncode, done.stderr) == (0, "")
         return

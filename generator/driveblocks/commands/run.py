@@ -24,7 +24,10 @@ Simulate = Annotated[
 ]
 Tcp = Annotated[
     str | None,
-    typer.Option(metavar="HOST:PORT", help="Serial bytes over TCP. 127.0.0.1 is a simulator, any other a REAL PORT."),
+    typer.Option(metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, whatever its address."),
+]
+Simulated = Annotated[
+    bool, typer.Option("--simulated", help="There are only simulated drives behind --tcp, on this computer.")
 ]
 Port = Annotated[
     str | None, typer.Option(metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
@@ -59,6 +62,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     maps: Maps = None,
     simulate: Simulate = None,
     tcp: Tcp = None,
+    simulated: Simulated = False,
     port: Port = None,
     form: Form = None,
     scan: Scan = "10ms",
@@ -86,7 +90,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     options = Options(
         program=program, name=name, maps=tuple(maps or ()), simulate=tuple(simulate or ()), tcp=tcp, port=port,
-        form=form, scan=scan, length=for_, show=tuple(",".join(show or ()).replace(",", " ").split()),
+        simulated=simulated, form=form, scan=scan, length=for_,
+        show=tuple(",".join(show or ()).replace(",", " ").split()),
         script=script, trace=trace, picture=picture, allow_run=allow_run, demo=demo, fast=fast,
     )  # fmt: skip
     try:

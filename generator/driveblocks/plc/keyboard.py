@@ -15,6 +15,11 @@ class Keyboard:
         self._descriptor = descriptor
         self._rest = b""
 
+    @property
+    def echoes(self) -> bool:
+        """Whether a terminal shows what is typed."""
+        return os.isatty(self._descriptor)
+
     def line(self) -> str | None:
         """The next line; None at the end."""
         while b"\n" not in self._rest:

@@ -22,6 +22,7 @@ class Options:
     maps: tuple[str, ...] = ()
     simulate: tuple[str, ...] = ()
     tcp: str | None = None
+    simulated: bool = False
     port: str | None = None
     form: str | None = None
     scan: str = "10ms"
@@ -41,8 +42,8 @@ class Options:
 
     @property
     def real(self) -> bool:
-        """Whether real drives may hear it."""
-        return self.port is not None or (self.tcp is not None and not self.loopback)
+        """Whether real drives may hear it: nobody can know what is behind an address, so its user has to say."""
+        return self.port is not None or (self.tcp is not None and not self.simulated)
 
 
 def wrong(options: Options) -> Iterator[str]:
@@ -60,6 +61,11 @@ def wrong(options: Options) -> Iterator[str]:
         yield f"{' and '.join(ways)} exclude each other: drives are simulated, or real"
     if options.tcp is not None and not options.tcp.rpartition(":")[2].isdigit():
         yield f"--tcp {options.tcp} is no address; write HOST:PORT"
+    if options.simulated and not options.loopback:
+        yield (
+            f"--simulated is for a simulator of this computer; write --tcp {LOOPBACK[1]}:5020 --simulated, "
+            "or name drives by --simulate"
+        )
     if options.allow_run and not options.real:
         yield "--allow-run is for a real port; simulated drives may always run"
     if options.fast and (options.tcp or options.port):

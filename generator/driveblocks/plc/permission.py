@@ -31,4 +31,7 @@ def _let_run(program: Controller, keyboard: Keyboard, unit: int, path: str) -> b
 def _typed(question: str, keyboard: Keyboard) -> str:
     sys.stdout.write(question)
     sys.stdout.flush()
-    return (keyboard.line() or "").strip()
+    answer = (keyboard.line() or "").strip()
+    if not keyboard.echoes:
+        sys.stdout.write(f"{answer}\n")
+    return answer

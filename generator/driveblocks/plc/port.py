@@ -18,6 +18,14 @@ MOST = 4096
 EXCLUSIVE = None if os.name == "nt" else True
 """A second program must not speak on the line; Windows never lets it."""
 
+_WHY = {
+    errno.ENOENT: "there is no such port",
+    errno.EACCES: "this user may not open it; on Linux, members of the group dialout may",
+    errno.EAGAIN: "another program has this port",
+    errno.EBUSY: "another program has this port",
+}
+"""What pyserial says at length."""
+
 
 class Port(Protocol):
     """Bytes to and fro, without ever waiting."""
@@ -100,7 +108,7 @@ class DevicePort:
             self._device = None
 
     def _gone(self, error: OSError) -> None:
-        self.error = error.strerror or str(error)
+        self.error = reason(error)
         self._tried_us = self._clock.now_us()
         self.close()
 
@@ -113,7 +121,12 @@ class DevicePort:
             self._device = self._opened()
             self.error = ""
         except OSError as error:
-            self.error = error.strerror or str(error)
+            self.error = reason(error)
+
+
+def reason(error: Exception) -> str:
+    """Why a port does not work, without the number of the error."""
+    return str(getattr(error, "strerror", None) or error)
 
 
 class _Socket:
@@ -150,10 +163,13 @@ class _Serial:
             self._port = serial.Serial(
                 name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
             )
-        except (OSError, ValueError):
+        except ValueError:
             raise
+        except OSError as error:
+            raise OSError(error.errno, _WHY.get(error.errno or 0) or str(error)) from error
         except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
-            raise OSError(errno.EINVAL, f"the port refuses {bit_rate} bit/s {form}") from error
+            refuses = f"the port refuses {bit_rate} bit/s {form}; a pseudo-terminal takes 8N1 only"
+            raise OSError(errno.EINVAL, refuses) from error
 
     def write(self, data: bytes) -> None:
         self._port.write(data)

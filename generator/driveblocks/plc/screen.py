@@ -16,7 +16,12 @@ from driveblocks import console
 from driveblocks.host.engine import Value
 from driveblocks.plc.view import Seen, View, spelled
 
-HELP = "Enter: NUMBER toggles, NAME := VALUE sets; Ctrl-C stops every drive and ends"
+HELP = "Type a number to toggle, or NAME := VALUE, and Enter; Ctrl-C stops all and ends."
+BAD, GOOD = "bold red1", "bold green4"
+"""Colours of fixed shade, readable on black and on white; the red and green of a palette are too dark or too bright."""
+WHY = "why"
+LONGEST_STATE = "reverse, at speed"
+"""For which there is always room, lest columns jump."""
 MOST_SAID = 200
 EVERY_US = 1_000_000
 """Between two lines on a number that changes all the time."""
@@ -78,6 +83,8 @@ class Heading:
     label: str
     title: str
     real: bool
+    remark: str = WHY
+    """What the last column of the table tells."""
 
 
 class LiveTable:
@@ -146,27 +153,30 @@ def _parts(heading: Heading, view: View) -> list[Table | Text]:
         (f" {heading.label} ", "bold white on red" if heading.real else "bold reverse"),
         f"  {heading.title}  {view.at_us / 1e6:.1f} s",
     )
-    parts: list[Table | Text] = [head, _drives(view.drives)]
+    parts: list[Table | Text] = [head, _drives(view.drives, heading.remark)]
     if view.port_error:
-        parts.append(Text(f"the port does not work: {view.port_error}", "bold red"))
+        parts.append(Text(f"the port does not work: {view.port_error}", BAD))
     if view.dropped:
         parts.append(Text(f"{view.dropped} frames not sent: only reads and stops leave", "bold"))
     if view.shown:
-        parts.append(_values(view.shown))
+        parts += [Text(), _values(view.shown)]
     return parts
 
 
 def _keys(view: View) -> list[Columns | Text]:
     """The inputs by number, and how they are set."""
     words = [f"{number} {name} {spelled(value)}" for number, (name, value) in enumerate(view.inputs.items(), 1)]
-    return [Columns(words, padding=(0, 3)), Text(HELP, "dim")] if words else []
+    return [Text(), Columns(words, padding=(0, 3)), Text(HELP)] if words else []
 
 
-def _drives(drives: Sequence[Seen]) -> Table:
-    table = Table(box=None, padding=(0, 2, 0, 0), expand=True, header_style="bold")
-    for name, justify in (("drive", "left"), ("unit", "right"), ("state", "left"), ("asked", "right"), ("Hz", "right")):
-        table.add_column(name, justify=justify, no_wrap=True)  # type: ignore[arg-type]  # a literal of rich
-    table.add_column("why", ratio=1)
+def _drives(drives: Sequence[Seen], remark: str) -> Table:
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    table.add_column("drive", overflow="fold", min_width=5)
+    table.add_column("unit", justify="right", no_wrap=True)
+    table.add_column("state", min_width=len(LONGEST_STATE))
+    for name in ("asked", "Hz"):
+        table.add_column(name, justify="right", no_wrap=True, min_width=5)
+    table.add_column(remark, min_width=20, no_wrap=remark != WHY)  # a reason is a sentence, anything else numbers
     for each in drives:
         hertz = "-" if each.hertz is None else f"{each.hertz:.1f}"
         state = Text(each.state, _style(each.state))
@@ -176,8 +186,8 @@ def _drives(drives: Sequence[Seen]) -> Table:
 
 def _style(state: str) -> str:
     if state.startswith(("fault", "STOP", "no reply")):
-        return "bold red"
-    return "bold green" if state.startswith(("forward", "reverse")) else ""
+        return BAD
+    return GOOD if state.startswith(("forward", "reverse", "running")) else ""
 
 
 def _values(values: dict[str, Value]) -> Table:

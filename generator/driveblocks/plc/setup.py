@@ -105,7 +105,7 @@ class Setup:
         except ImportError as error:
             raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
         except (OSError, ValueError, OverflowError) as error:
-            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {error}") from None
+            raise Refused(f"{options.port or options.tcp or 'simulated drives'}: {port.reason(error)}") from None
 
     def _form(self) -> str:
         """Data bits, parity and stop bits. Raises Refused."""
@@ -208,6 +208,8 @@ class Setup:
             self._session.connect(opened, self._free)
             for note in self._session.controller.wiring.notes:
                 console.write(str(note))
+            if self._options.real and self._options.loopback and not self._free:
+                self._session.told.put("only reads and stops leave; if a simulator is there, add --simulated")
             screen = self._screen()
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
@@ -222,7 +224,7 @@ class Setup:
         return screen
 
     def _head(self) -> str:
-        place = self._options.port or (self._options.tcp if self._options.real else "")
+        place = self._options.port or self._options.tcp or ""
         return f"{self.label} {place}".strip()
 
     def _live(self, screen: Screen) -> Result:

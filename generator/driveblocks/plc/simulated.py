@@ -72,13 +72,13 @@ def _serve(connection: socket.socket, wire: Wire, begun: int) -> None:
     clock = RealClock()
     try:
         while True:
-            ready, _, _ = select.select([connection], [], [], LOOK_S)
+            ready, _, _ = select.select([connection], [], [], LOOK_S if wire.speaking else None)
             if ready:
                 data = connection.recv(4096)
                 if not data:
                     return
                 wire.send(data, clock.now_us() - begun)
-            heard = wire.receive(clock.now_us() - begun)
+            heard = wire.receive(clock.now_us() - begun) if wire.speaking else b""
             if heard:
                 connection.sendall(heard)
     except OSError:

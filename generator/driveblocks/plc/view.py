@@ -69,7 +69,8 @@ def _state(pin: dict[str, Value]) -> str:
     if not pin["CommOk"]:
         return "STOP OVERDUE" if pin["StopOverdue"] else "no reply"
     if pin["Fault"]:
-        return f"fault {known(pin['FaultCode'], int)}"
+        code = known(pin["FaultCode"], int)
+        return f"fault {code}" if code else "fault"
     if pin["StopOverdue"]:
         return "STOP OVERDUE"
     if pin["Running"]:

@@ -32,6 +32,11 @@ class Wire:
         """Replies with when each begins."""
         self._stepped_ms = 0
 
+    @property
+    def speaking(self) -> bool:
+        """Whether a reply is on its way; if none is, nothing happens until the master sends."""
+        return bool(self._said)
+
     def send(self, data: bytes, now_us: int) -> None:
         """Characters of the master go onto the wire; one that meets a reply spoils it."""
         self._give_up(now_us)

@@ -12,8 +12,12 @@ from driveblocks.st.walk import statements
 
 LINES = {"MB_LINE8", "MB_LINE32"}
 BYTE_LINES = {"MB_BYTELINE8", "MB_BYTELINE32"}
+UNPLACED = "?"
+"""In a path: an instance that is not always the same one."""
 DRIVE = "_DRIVE"
 """The end of the type of a drive block."""
+
+_UNPLACED = "this may be one {} or another, so it could not be stopped at the end; call each by its name or a number"
 
 
 @dataclass(frozen=True)
@@ -74,11 +78,13 @@ def find(program: Program, prefixes: set[str]) -> Wiring:
     calls = list(_calls(frame))
     written = {path.upper() for path in _written(calls, frame)}
     lines = {each.path.upper(): each for each in calls if each.block.name.upper() in LINES | BYTE_LINES}
+    drive_types = {f"{prefix}{DRIVE}" for prefix in prefixes}
+    blocks = [each for each in calls if each.block.name.upper() in drive_types]
+    if unplaced := [each for each in (*blocks, *lines.values()) if UNPLACED in each.path]:
+        raise BuildError([_told(each, _UNPLACED.format(each.block.name)) for each in unplaced])
     if len(lines) != 1:
         raise BuildError([_no_port(program, list(lines.values()))])
     (line,) = lines.values()
-    blocks = [each for each in calls if each.block.name.upper().removesuffix(DRIVE) in prefixes]
-    blocks = [each for each in blocks if each.block.name.upper().endswith(DRIVE)]
     drives = {each.path.upper(): DriveBlock(each.path, each.block.name[: -len(DRIVE)].upper()) for each in blocks}
     wired = _port(line, written)
     restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (line, *blocks))))
@@ -153,9 +159,7 @@ def _calls(frame: _Frame) -> Iterator[_Call]:
         if not isinstance(statement, tree.CallStatement) or not isinstance(statement.call.target, Block):
             continue
         call, block = statement.call, statement.call.target
-        path = _path(call.callee, frame)
-        if path is None:
-            continue
+        path = _path(call.callee, frame) or UNPLACED
         yield _Call(frame, call, block, path)
         inner = block.declaration
         if isinstance(inner, FunctionBlock) and inner.unit is frame.pou.unit:
@@ -180,13 +184,23 @@ def _path(expression: Expression | None, frame: _Frame) -> str | None:
 
 def _variable(name: tree.Name, frame: _Frame) -> str | None:
     variable = name.symbol
-    if not isinstance(variable, VarDecl) or variable.kind is VarKind.EXTERNAL or variable.constant:
+    if not isinstance(variable, VarDecl) or variable.constant:
         return None
+    if variable.kind is VarKind.EXTERNAL:
+        return None if _hidden(variable.name, frame) else variable.name
     if frame.outer and variable.kind in (VarKind.INPUT, VarKind.IN_OUT):
         bound = frame.bindings.get(variable.name.upper())
         if bound is not None or variable.kind is VarKind.IN_OUT:
             return _path(bound, frame.outer)
     return frame.prefix + variable.name
+
+
+def _hidden(name: str, frame: _Frame) -> bool:
+    """Whether the program has a variable of its own with the name of a global."""
+    while frame.outer is not None:
+        frame = frame.outer
+    own = frame.pou.symbols.get(name.upper())
+    return isinstance(own, VarDecl) and own.kind is not VarKind.EXTERNAL
 
 
 def _written(calls: list[_Call], frame: _Frame) -> Iterator[str]:

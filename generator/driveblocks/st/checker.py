@@ -138,7 +138,7 @@ class _Checker(DeclarationChecker):
             self.report.unit = unit
             for element in unit.elements:
                 if isinstance(element, VarBlock):
-                    text = "VAR_GLOBAL outside a CONFIGURATION is refused by matiec: use parameters"
+                    text = "VAR_GLOBAL outside a CONFIGURATION is refused by matiec: put it into one, or use parameters"
                     self.report.add(element.at, "top-level-global", text)
                     self.global_block(element, {})
                 elif isinstance(element, Configuration):

@@ -26,6 +26,7 @@ from driveblocks.stand.trace import Tracer
 
 LABEL = "SIMULATED"
 TCP = 5020
+COUNTED = "heard/answered/refused"
 _FORM = re.compile(r"[78][NEO][12]")
 
 
@@ -112,7 +113,7 @@ class Setup:
             raise Refused(str(error)) from None
         except (OSError, ValueError) as error:
             place = words.port or ("--pty" if words.pty else words.tcp or f"{HOST}:{TCP}")
-            raise Refused(f"{place}: {error}; name another place by --tcp, --pty or --port") from None
+            raise Refused(f"{place}: {port.reason(error)}; name another place by --tcp, --pty or --port") from None
         return tcp, tcp.place
 
     def _alone(self, link: Link) -> Link:
@@ -128,7 +129,7 @@ class Setup:
         self._begun_us = self._clock.now_us()
         if terminal.is_terminal and not terminal.is_dumb_terminal:
             title = f"REAL PORT {place}" if self._words.port is not None else place
-            return LiveTable(Heading(LABEL, title, real=self._words.port is not None))
+            return LiveTable(Heading(LABEL, title, real=self._words.port is not None, remark=COUNTED))
         return Lines(LABEL, brief=True)
 
     def _told(self, place: str) -> str:

@@ -72,7 +72,7 @@ def view(bus: Bus, maps: Mapping[int, Drive], at_us: int, *, counted: bool) -> V
 
 def _seen(drive: SimulatedDrive, known: Drive, bus: Bus) -> Seen:
     counts = bus.counts[drive.unit]
-    told = f"{counts.heard} heard, {counts.replied} answered, {counts.refused} refused"
+    told = f"{counts.heard}/{counts.replied}/{counts.refused}"
     return Seen(known.prefix, drive.unit, _state(drive, known), drive.asked_hertz, drive.hertz, told)
 
 

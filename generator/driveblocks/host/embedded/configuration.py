@@ -53,6 +53,15 @@ def globals_of(compiler: Compiler) -> Any:
     return made
 
 
+def globals_block(compiler: Compiler) -> tuple[Block, dict[str, str]]:
+    """All globals as variables of one block, whoever owns them, and the slot behind each name."""
+    block, slots = Block("", Kind.BLOCK), dict[str, str]()
+    for _, each in global_variables(compiler):
+        slot = slots.setdefault(each.name.upper(), compiler.shapes.global_slot(each))
+        block.parameters.setdefault(each.name.upper(), Parameter(slot, each.type, Direction.INPUT))
+    return block, slots
+
+
 @dataclass(slots=True)
 class _Task:
     """When programs are due: every `ticks` ticks (0: not by time), or on a rising edge of `single`."""
@@ -180,7 +189,7 @@ class EmbeddedConfiguration:
         for owner, block in owners.items():
             self._roots[owner] = (
                 block,
-                _View(self._globals, {name: each.name for name, each in block.parameters.items()}),
+                GlobalsView(self._globals, {name: each.name for name, each in block.parameters.items()}),
             )
 
     def _resource(self, resource: tree.Resource) -> list[_Program]:
@@ -246,7 +255,7 @@ class EmbeddedConfiguration:
         raise KeyError(path)
 
 
-class _View:
+class GlobalsView:
     """Globals under their own names, for paths."""
 
     __slots__ = ("names", "target")

@@ -9,7 +9,7 @@ from typing import Any
 from driveblocks.host.coverage import Branches, Lines
 from driveblocks.host.embedded.calls import returned
 from driveblocks.host.embedded.compiler import Compiler
-from driveblocks.host.embedded.configuration import EmbeddedConfiguration, globals_of
+from driveblocks.host.embedded.configuration import EmbeddedConfiguration, GlobalsView, globals_block, globals_of
 from driveblocks.host.embedded.faults import FAULTS, scan_error
 from driveblocks.host.embedded.paths import Paths
 from driveblocks.host.embedded.values import Values
@@ -22,23 +22,38 @@ from driveblocks.st.tree import Block, Direction
 class EmbeddedInstance:
     """An instance of a function block or program; `scan` is made for it alone, to cost one call."""
 
-    __slots__ = ("_paths", "_root", "scan")
+    __slots__ = ("_globals", "_paths", "_root", "scan")
 
     scan: Callable[..., None]
 
-    def __init__(self, paths: Paths, root: Any, scan: Callable[..., None]) -> None:
-        """Take the inner instance and the function that runs it."""
+    def __init__(
+        self, paths: Paths, root: Any, scan: Callable[..., None], shared: tuple[Paths, Any] | None = None
+    ) -> None:
+        """Take the inner instance, the function that runs it, and the globals, if there are any."""
         self._paths = paths
         self._root = root
+        self._globals = shared
         self.scan = scan
 
     def __getitem__(self, path: str) -> Value:
-        """Read a variable. KeyError."""
-        return self._paths.read(self._root, path)
+        """Read a variable of its own, else a global. KeyError."""
+        try:
+            return self._paths.read(self._root, path)
+        except KeyError:
+            if self._globals is None:
+                raise
+            paths, root = self._globals
+            return paths.read(root, path)
 
     def __setitem__(self, path: str, value: Value) -> None:
-        """Write a variable. KeyError, ValueError."""
-        self._paths.write(self._root, path, value)
+        """Write a variable of its own, else a global. KeyError, ValueError."""
+        try:
+            self._paths.write(self._root, path, value)
+        except KeyError:
+            if self._globals is None:
+                raise
+            paths, root = self._globals
+            paths.write(root, path, value)
 
     def state(self) -> dict[str, Value]:
         """Every scalar, path in upper case -> value, in the order of declaration."""
@@ -54,6 +69,7 @@ class EmbeddedLibrary:
         self.loop_limit = loop_limit
         self.values = Values(compiler.options.model)
         self._paths: dict[Block, Paths] = {}
+        self._globals = globals_block(compiler)
 
     def blocks(self) -> Iterator[str]:
         """The function blocks and programs in source order, spelled as declared."""
@@ -65,8 +81,11 @@ class EmbeddedLibrary:
     def instance(self, type_name: str) -> EmbeddedInstance:
         """Make an instance of a block or program of the sources, or of a standard block. KeyError."""
         block = self._block(type_name.upper())
-        root = self.compiler.instance(block, globals_of(self.compiler))
-        return EmbeddedInstance(self.paths(block), root, self._scanner(block, root))
+        made = globals_of(self.compiler)
+        root = self.compiler.instance(block, made)
+        known, slots = self._globals
+        shared = (self.paths(known), GlobalsView(made, slots)) if slots else None
+        return EmbeddedInstance(self.paths(block), root, self._scanner(block, root), shared)
 
     def paths(self, block: Block) -> Paths:
         """The paths of a block."""

@@ -1,0 +1,359 @@
+"""`driveblocks run` as a process, on a real clock, at pymodbus's server: two serial lines, a cable between them.
+
+`python -m tests.stand.deskplc SECONDS` starts and stops a motor over and over, with 1 % of the frames damaged.
+"""
+
+import asyncio
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from csv import DictReader
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pymodbus.pdu import ModbusPDU
+from pymodbus.server import ModbusSerialServer
+from pymodbus.server.requesthandler import ServerRequestHandler
+from pymodbus.simulator import DataType, SimData, SimDevice
+from tests.plc.desk import ONE
+from tests.stand.softplc import SoftPlc
+
+from driveblocks.render.reasons import REASONS
+from driveblocks.stand.bus import Loss
+
+UNIT = 7
+RATE, BITS = 19200, 10
+MOST = 4096
+REQUEST = 8
+"""Bytes of each: this drive is read by 03H, and written by 06H."""
+NET = 600
+"""Seconds that no machine needs, for what would hang."""
+CHF = ONE.replace("JSCC", "CHF").replace("ReferenceScale := 100.0", "FrequencyScale := 0.01")
+ASKED_HZ = 20
+COMMAND, STATUS, REFERENCE, FREQUENCY, FAULT = 0x1000, 0x1001, 0x2000, 0x3000, 0x5000
+RUN, STOP = 1, 5
+RUNNING, STANDING = 1, 3
+STEP = 500
+"""So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
+COUNTERS = ("Requests", "Good", "Bad", "Timeouts", "Retries", "LateReplies", "Refusals")
+HELD = next(reason.code for reason in REASONS if reason.en == "a run or jog pin is held since before")
+SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", "OutputFrequencyValid")
+
+
+class Motor:
+    """What pymodbus's registers do not do by themselves: from a command word to status and frequency."""
+
+    def __init__(self) -> None:
+        """Stand."""
+        self.command, self.reference = STOP, 0
+        self.written: set[tuple[int, int]] = set()
+        self.frequencies = [0]
+        """All that the register has held."""
+
+    @property
+    def stands(self) -> bool:
+        """Told to stop, and at rest."""
+        return self.command == STOP and self.frequencies[-1] == 0
+
+    async def act(self, *access: Any) -> None:
+        """Before each access: function, first register of all, address, count, all registers, words that come."""
+        _, first, address, _, registers, values = access
+        if values is not None:
+            self.written |= {(address, values[0])}
+            self.command = values[0] if address == COMMAND else self.command
+            self.reference = values[0] if address == REFERENCE else self.reference
+        elif address == FREQUENCY:
+            self._turn()
+        registers[STATUS - first] = STANDING if self.stands else RUNNING
+        registers[FREQUENCY - first] = self.frequencies[-1]
+
+    def _turn(self) -> None:
+        now, wanted = self.frequencies[-1], self.reference // 2 if self.command == RUN else 0
+        if now != wanted:
+            self.frequencies.append(min(now + STEP, wanted) if now < wanted else max(now - STEP, wanted))
+
+
+class Server(ModbusSerialServer):
+    """pymodbus's server, and the silence that ends a frame: by itself it waits for the rest of a damaged one."""
+
+    line: ServerRequestHandler
+
+    def callback_new_connection(self) -> ServerRequestHandler:
+        """It serves one line."""
+        self.line = super().callback_new_connection()  # type: ignore[no-untyped-call]  # pymodbus has no types here
+        return self.line
+
+    def silence(self) -> None:
+        """What has begun is over."""
+        self.line.recv_buffer = b""
+
+
+class Cable:
+    """Two pseudo-terminals: what a master says at one comes out of the other behind its time on the wire, and back."""
+
+    def __init__(self, damage: float) -> None:
+        """With so many of the frames damaged, to and fro."""
+        import tty
+
+        self.loss = Loss(damage=damage)
+        self.asked = 0
+        """Frames of the master."""
+        self.replies_damaged = 0
+        self._begun = b""
+        pairs = [os.openpty() for _ in range(2)]
+        for _, other in pairs:
+            tty.setraw(other)
+        (self._master, one), (self._server, two) = pairs
+        self._others = one, two
+        self.places = os.ttyname(one), os.ttyname(two)
+
+    def serve(self, silence: Callable[[], None]) -> None:
+        """Carry bytes, in a running loop of events; before each request there is silence."""
+        loop = asyncio.get_running_loop()
+        loop.add_reader(self._master, self._request, silence)
+        loop.add_reader(self._server, lambda: _later(self._master, os.read(self._server, MOST)))
+
+    def reply(self, sending: bool, data: bytes) -> bytes:
+        """What the server says, whole; perhaps damaged."""
+        if not sending or not self.loss.fate():
+            return data
+        self.replies_damaged += 1
+        return self.loss.spoiled(data)
+
+    def _request(self, silence: Callable[[], None]) -> None:
+        self._begun += os.read(self._master, MOST)  # more than one where this computer was busy
+        while len(self._begun) >= REQUEST:
+            whole, self._begun = self._begun[:REQUEST], self._begun[REQUEST:]
+            self.asked += 1
+            silence()
+            _later(self._server, self.loss.spoiled(whole) if self.loss.fate() else whole)
+
+    def close(self) -> None:
+        """Both are gone."""
+        for descriptor in (self._master, self._server, *self._others):
+            os.close(descriptor)
+
+
+def _later(to: int, data: bytes) -> None:
+    asyncio.get_running_loop().call_later(len(data) * BITS / RATE, os.write, to, data)
+
+
+@dataclass
+class Peer:
+    """pymodbus's server with a motor, at the end of a cable, in a thread of its own."""
+
+    damage: float = 0.0
+    motor: Motor = field(default_factory=Motor)
+    heard: int = 0
+    replied: int = 0
+
+    def __post_init__(self) -> None:
+        """Begin to serve."""
+        self.cable = Cable(self.damage)
+        self._ready, self._over = threading.Event(), asyncio.Event()
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()))
+        self._thread.start()
+        assert self._ready.wait(NET)
+
+    async def _serve(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        blocks = [(COMMAND, 2), (REFERENCE, 1), (FREQUENCY, 7), (FAULT, 2)]
+        data = [SimData(first, count=count, values=0, datatype=DataType.REGISTERS) for first, count in blocks]
+        device = SimDevice(id=UNIT, simdata=data, action=self.motor.act)
+        server = Server(
+            device, port=self.cable.places[1], baudrate=RATE, trace_packet=self.cable.reply, trace_pdu=self._count,
+            ignore_missing_devices=True,
+        )  # fmt: skip
+        await server.serve_forever(background=True)
+        self.cable.serve(server.silence)
+        self._ready.set()
+        await self._over.wait()
+        await server.shutdown()  # type: ignore[no-untyped-call]  # nor here
+
+    def _count(self, sending: bool, pdu: ModbusPDU) -> ModbusPDU:
+        self.replied += sending
+        self.heard += not sending
+        return pdu
+
+    def close(self) -> None:
+        """Serve no more."""
+        self._loop.call_soon_threadsafe(self._over.set)
+        self._thread.join()
+        self.cable.close()
+
+
+@dataclass
+class DeskPlc(SoftPlc):
+    """`driveblocks run` as a process at a real port; its lines, and what they show."""
+
+    lines: list[str] = field(default_factory=list)
+    over: bool = False
+
+    def read(self) -> None:
+        """Take what it says until its end."""
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            name, is_set, value = line.rpartition("s  ")[2].strip().partition(" = ")
+            with self.changed:
+                self.lines.append(line.rstrip())
+                if is_set:
+                    self.seen[name] = float({"TRUE": "1", "FALSE": "0"}.get(value, value))
+                    self.changed.notify_all()
+        with self.changed:
+            self.over = True
+            self.changed.notify_all()
+
+    def reach(self, what: Callable[[dict[str, float]], bool]) -> None:
+        """Wait for something of the motor's. Raises AssertionError where the soft PLC has ended before."""
+        self.until(lambda seen: self.over or what({name: seen.get(f"Motor.{name}", -1) for name in SHOWN}), NET)
+        assert not self.over, self.lines
+
+    def stop(self) -> None:
+        """Stop, and wait until the motor stands."""
+        self.set("Start", on=False)
+        self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (1, 0) and seen["Reason"] != HELD)
+
+    def start(self) -> int:
+        """Start, and wait until the motor turns; how many edges were in vain."""
+        vain = 0
+        while True:
+            self.set("Start", on=True)
+            self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (0, 1) or seen["Reason"] == HELD)
+            if self.seen["Motor.Reason"] != HELD:
+                return vain
+            self.stop()
+            vain += 1
+
+    def set(self, name: str, *, on: bool) -> None:
+        """Set an input."""
+        self.say(f"{name} := {'TRUE' if on else 'FALSE'}")
+
+    def say(self, *lines: str) -> None:
+        """Type."""
+        assert self.process.stdin is not None
+        self.process.stdin.write("".join(f"{line}\n" for line in lines))
+        self.process.stdin.flush()
+
+    def memory(self) -> float:
+        """What it holds, in KiB; 0 where the system does not tell."""
+        status = Path(f"/proc/{self.process.pid}/status")
+        text = status.read_text(encoding="utf-8") if status.exists() else "VmRSS: 0"
+        return float(text.partition("VmRSS:")[2].split()[0])
+
+
+@contextmanager
+def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
+    """Run the soft PLC at a device, allowed to run its motor."""
+    program = trace.with_name("desk.st")
+    program.write_text(CHF, encoding="utf-8")
+    names = ",".join([*(f"Motor.{name}" for name in SHOWN), *(f"Bus.{name}" for name in COUNTERS)])
+    words = [str(program), "--port", device, "--allow-run", "--show", names, "--trace", str(trace)]
+    command = [sys.executable, "-m", "driveblocks", "run", *words]
+    made = DeskPlc(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))
+    reader = threading.Thread(target=made.read)
+    reader.start()
+    made.say(f"Motor {UNIT}", "WIRED")
+    try:
+        yield made
+    finally:
+        assert made.process.stdin is not None
+        made.process.stdin.close()  # the end of the input stops every drive
+        made.process.wait()
+        reader.join()
+
+
+@dataclass
+class Exchange:
+    """What was done, and the figures of both sides."""
+
+    peer: Peer
+    rounds: int = 0
+    lost_stops: int = 0
+    held_starts: int = 0
+    """When this computer was away for so long that the line acted as at a restart: a start needs a new edge then."""
+    memory: list[float] = field(default_factory=list)
+    """Of the soft PLC at its first stop, and at its last."""
+    rows: list[dict[str, str]] = field(default_factory=list)
+    """The soft PLC's trace."""
+    lines: list[str] = field(default_factory=list)
+    status: int = 0
+
+    def turn(self, soft: DeskPlc, seconds: float) -> None:
+        """Start, turn and stop, once and then over and over for so long."""
+        soft.stop()
+        self.memory.append(soft.memory())
+        end = time.monotonic() + seconds
+        while not self.rounds or time.monotonic() < end:
+            self.held_starts += soft.start()
+            soft.stop()
+            self.lost_stops += not self.peer.motor.stands
+            self.rounds += 1
+        self.memory.append(soft.memory())
+
+    def counted(self) -> dict[str, int]:
+        """What the line in the soft PLC has counted when its last scan was over."""
+        return {name: int(self.rows[-1][f"Bus.{name}"]) for name in COUNTERS}
+
+    def explained(self) -> dict[str, int]:
+        """How the counters of both sides add up."""
+        plc, cable = self.counted(), self.peer.cable
+        failures = plc["Bad"] + plc["Timeouts"]
+        seen = failures - plc["LateReplies"]
+        return {
+            "asked again": plc["Requests"] - plc["Good"] - failures,  # while the line does not know whether it has echo
+            "behind the end": cable.asked - plc["Requests"],  # stops and reads when the program was over
+            "failures of nothing": max(0, seen - self.lost),
+            "losses not noticed": max(0, self.lost - seen),  # among those that are asked again or behind the end
+        }
+
+    def wrong_values(self) -> int:
+        """How many values of the trace the motor did not have, or not in this order; and words that it must not get."""
+        rows = [row for row in self.rows if row["Motor.OutputFrequencyValid"] == "1"]
+        valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows]
+        held = iter(self.peer.motor.frequencies)
+        seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]
+        allowed = {(COMMAND, RUN), (COMMAND, STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
+        return sum(seen) + len(self.peer.motor.written - allowed)
+
+    @property
+    def lost(self) -> int:
+        """Requests that reached nobody, and replies that were damaged."""
+        return self.peer.cable.asked - self.peer.heard + self.peer.cable.replies_damaged
+
+
+def exchange(seconds: float, damage: float) -> Exchange:
+    """The soft PLC and pymodbus's server for so long, and the end of both."""
+    made = Exchange(Peer(damage))
+    with closing(made.peer), tempfile.TemporaryDirectory() as folder:
+        trace = Path(folder) / "trace.csv"
+        with plc(made.peer.cable.places[0], trace) as soft:
+            made.turn(soft, seconds)
+        made.status, made.lines = soft.process.returncode, soft.lines
+        with trace.open(encoding="utf-8") as file:
+            next(file)
+            made.rows = list(DictReader(file))
+    return made
+
+
+def figures(made: Exchange) -> Iterator[str]:
+    """All of them, each in a line."""
+    peer, cable = made.peer, made.peer.cable
+    numbers = {
+        "rounds": made.rounds, "starts held": made.held_starts, "lost stops": made.lost_stops,
+        "wrong values": made.wrong_values(),
+        "memory, KiB": made.memory[-1], "at first": made.memory[0], **made.counted(), **made.explained(),
+        "frames of the PLC": cable.asked, "heard": peer.heard, "replied": peer.replied, "damaged": cable.loss.damaged,
+        "... replies": cable.replies_damaged, "exit status": made.status,
+    }  # fmt: skip
+    yield from (f"{name:20} {value:g}" for name, value in numbers.items())
+    yield from made.lines[-4:]
+
+
+if __name__ == "__main__":
+    print("\n".join(figures(exchange(float(sys.argv[1]), 0.01))))
