@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from pathlib import Path
 
 from lxml import etree
-from tests.export.tc6_form import Unit, scanned
+from tests.export.tc6_form import Unit, scanned, single
 from tests.export.tc6_reader import File
 
 from driveblocks.export.part import Shelf
@@ -166,6 +166,7 @@ def ladders(one: Made) -> None:
         }
         assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
         assert drawn.loose == []
+        assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
 
 
 CHECKS: tuple[Callable[[Made], None], ...] = (

@@ -20,11 +20,12 @@ Point = tuple[int, int]
 
 @dataclass(frozen=True)
 class Rung:
-    """What is wired in a ladder: pins of blocks and coils, each with its source, and wires that miss their ends."""
+    """What is wired in a ladder: pins of blocks and coils, each with its source, and what is wrong or said beside."""
 
     calls: dict[str, dict[str, str]] = field(default_factory=dict)
     coils: dict[str, str] = field(default_factory=dict)
     loose: list[str] = field(default_factory=list)
+    remarks: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -146,6 +147,8 @@ class File:
             tag = etree.QName(node).localname
             if tag == "block":
                 pins = self.all("inputVariables/variable", node)
+                remarks = (self.written(self.one("documentation", pin)) for pin in pins)
+                made.remarks.extend(filter(None, remarks))
                 made.calls[node.get("instanceName", "")] = {
                     pin.get("formalParameter", ""): source
                     for pin in pins

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from tests.export.tc6_checks import CHECKS, Made, declarations, made, names, schema
+from tests.export.tc6_checks import CHECKS, Made, declarations, ladders, made, names, schema
 from tests.export.tc6_planted import PLANTED, Planted
 from tests.shapes import shapes
 
@@ -76,6 +76,15 @@ def test_the_page_counts_what_is_there_and_shows_a_motor(target: str) -> None:
         cells = [kinds[kind] for kind in ("TYPE", "FUNCTION", "FUNCTION_BLOCK", "PROGRAM")]
         assert f"| `{one.library}.xml` | {' | '.join(map(str, cells))} |" in page
     assert stock().motor(target, next(iter(stock().drives.values()))).text in page
+
+
+def test_a_ladder_keeps_the_comment_of_a_pin() -> None:
+    drive = stock().drives["jscc"]
+    unproved = replace(drive, manual=replace(drive.manual, second_hand=True))
+    for one in made(WRITERS["plcopen"], replace(_few(), drives={"jscc": unproved}), "plcopen"):
+        ladders(one)
+        assert one.file.text.count("ManualChecked := FALSE, (* TRUE once") == 1
+        assert one.file.text.count("<![CDATA[TRUE once") == 1
 
 
 def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:

@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from driveblocks.export.element import Element, element
+from driveblocks.export.element import Element, element, escaped
 from driveblocks.export.part import Part
+from driveblocks.export.tc6 import NEUTRAL
 from driveblocks.st import tree
 from driveblocks.st.tree import Expression, VarDecl, VarKind
 
@@ -23,7 +24,7 @@ Contacts and coils are 21 x 15, their pins 8 below the top.
 def ladder(written: Element, part: Part, parts: Mapping[str, Part]) -> Element:
     """A program that was written with its text, with the same as a ladder in place of it."""
     assert isinstance(part.element, tree.Program)  # noqa: S101  (the first motor is a program)
-    drawn = _Drawing(part.element, parts)
+    drawn = _Drawing(part, part.element, parts)
     body = element("body", {}, element("LD", {}, *drawn.whole()))
     return replace(written, content=tuple(body if each.tag == "body" else each for each in written.content))
 
@@ -40,6 +41,7 @@ class _Block:
 class _Drawing:
     """A ladder while it is drawn, from the top down."""
 
+    part: Part
     program: tree.Program
     parts: Mapping[str, Part]
     y: int = 60
@@ -82,48 +84,57 @@ class _Drawing:
     def block(self, call: tree.Call) -> None:
         name = _said(call.callee)
         left, right = self.pins(name)
-        given = {each.name: each.value for each in call.arguments}
         width = 8 * (max(len(v.name) for v in left) + max(len(v.name) for v in right)) + 30
-        at = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(left)}
-        wired = [self.pin(v, at[v.name], given.get(v.name)) for v in left]
-        outs = {v.name: self.y + _FIRST + _LINE * row for row, v in enumerate(right)}
-        made = _Block(self.number(), {pin: (_BLOCK + width, y) for pin, y in outs.items()})
         height = _LINE * (max(len(left), len(right)) + 1)
+        given, remarks = {each.name: each for each in call.arguments}, self.remarks(call)
+        rows = [(v.name, _FIRST + _LINE * row) for row, v in enumerate(left)]
+        inputs = [self.formal(pin, self.pin(below, given.get(pin)), remarks.get(pin)) for pin, below in rows]
+        rows = [(v.name, _FIRST + _LINE * row) for row, v in enumerate(right)]
+        outputs = [self.formal(pin, _pin("Out", (width, below))) for pin, below in rows]
         spec = self.declared(name).spec
         assert isinstance(spec, tree.NamedSpec)  # noqa: S101
-        order = str(len(self.blocks) + 1)
+        named = {"typeName": spec.name, "instanceName": name, "executionOrderId": str(len(self.blocks) + 1)}
+        made = _Block(self.number(), {pin: (_BLOCK + width, self.y + below) for pin, below in rows})
         self.drawn.append(
             element(
                 "block",
-                {**_sized(made.number, width, height), "typeName": spec.name, "instanceName": name,
-                 "executionOrderId": order},
+                _sized(made.number, width, height) | named,
                 _position(_BLOCK, self.y),
-                element("inputVariables", {}, *(self.formal(*each) for each in wired)),
+                element("inputVariables", {}, *inputs),
                 element("inOutVariables"),
-                element("outputVariables", {}, *(
-                    self.formal(pin, _pin("Out", (width, y - self.y))) for pin, y in outs.items()
-                )),
+                element("outputVariables", {}, *outputs),
             )
-        )  # fmt: skip
+        )
         self.blocks[name] = made
         self.y += height + 3 * _LINE
 
     @staticmethod
-    def formal(name: str, pin: Element) -> Element:
-        return element("variable", {"formalParameter": name}, pin)
+    def formal(name: str, pin: Element, remark: Element | None = None) -> Element:
+        return element("variable", {"formalParameter": name}, pin, remark)
 
-    def pin(self, formal: VarDecl, y: int, value: Expression | None) -> tuple[str, Element]:
+    def remarks(self, call: tree.Call) -> dict[str | None, Element | None]:
+        """The comments behind arguments, each on the line of its own."""
+        unit, found = self.part.unit, dict[str | None, Element | None]()
+        for comment in unit.comments:
+            line = [
+                each for each in call.arguments if each.at < comment.at and unit.line(each.at) == unit.line(comment.at)
+            ]
+            if line:
+                found[line[-1].name] = NEUTRAL.documentation(" ".join(comment.text.split()))
+        return found
+
+    def pin(self, below: int, argument: tree.Argument | None) -> Element:
         """A pin on the left of a block, and what is wired to it: the rail, a contact, or a value."""
-        here, below = (_BLOCK, y), (0, y - self.y)
+        here, place, value = (_BLOCK, self.y + below), (0, below), argument.value if argument else None
         if value is None:
-            return formal.name, _pin("In", below)
+            return _pin("In", place)
         if isinstance(value, tree.Literal) and value.value is True:
-            return formal.name, _pin("In", below, self.rail(here))
+            return _pin("In", place, self.rail(here))
         if isinstance(value, tree.Name) and _is_bool(self.declared(value.name)):
-            number, there = self.contact(value.name, y)
+            number, there = self.contact(value.name, here[1])
         else:
-            number, there = self.value(_said(value), y)
-        return formal.name, _pin("In", below, _link(number, here, there))
+            number, there = self.value(_said(value), here[1])
+        return _pin("In", place, _link(number, here, there))
 
     def rail(self, here: Point) -> Element:
         """A wire to the left rail."""
@@ -133,7 +144,7 @@ class _Drawing:
     def contact(self, variable: str, y: int) -> tuple[int, Point]:
         number = self.number()
         wire = _pin("In", (0, 8), self.rail((_CONTACT, y)))
-        said = Element("variable", {}, text=variable)
+        said = Element("variable", {}, text=escaped(variable))
         place = _position(_CONTACT, y - 8)
         self.drawn.append(element("contact", _sized(number, 21, 15), place, wire, _pin("Out", (21, 8)), said))
         return number, (_CONTACT + 21, y)
@@ -141,7 +152,7 @@ class _Drawing:
     def value(self, said: str, y: int) -> tuple[int, Point]:
         number, width = self.number(), 8 * len(said) + 20
         x = _BLOCK - 60 - width
-        text = Element("expression", {}, text=said)
+        text = Element("expression", {}, text=escaped(said))
         place = _position(x, y - 10)
         self.drawn.append(element("inVariable", _sized(number, width, 20), place, _pin("Out", (width, 10)), text))
         return number, (x + width, y)

@@ -83,10 +83,13 @@ def generic(languages: list[Language]) -> Iterator[File]:
 
 
 def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
-    """The blocks of a platform's serial port and the lines on top of it, which name what only that platform has."""
+    """The blocks of a platform's serial port and the lines on top of it, which name what only that platform has.
+
+    None for BYTES.
+    """
+    prefix, where = PLATFORMS[platform]
     if platform == BYTES:
         return
-    prefix, where = PLATFORMS[platform]
     yield File(platform, f"{prefix}_Port", render(f"{platform}/{prefix}_Port.st.j2", where=where))
     for slots in LINE_SIZES:
         values = {"slots": slots, "where": where, "busy": platform != "linux"}
