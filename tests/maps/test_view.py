@@ -194,11 +194,12 @@ def test_whatever_changes_in_a_map_changes_its_json() -> None:
     tried: set[str] = set()
     for path in sorted([EXAMPLE, *catalog.shipped()], key=lambda path: path.stat().st_size):
         drive = load(path)
-        original = view.of_drive(drive, path.stem)
+        original = view.of_drive(drive, path.stem) | {"revision": ""}  # which any change alters
         for place, changed in _variants(drive, "Drive"):
             if place not in tried:
                 # of addresses with a RAM bit; without such addresses it says nothing
                 lost = place == "Storage.readable" and drive.storage.add is None
-                assert (view.of_drive(changed, path.stem) == original) is lost, place
+                said = view.of_drive(changed, path.stem) | {"revision": ""}
+                assert (said == original) is lost, place
                 tried |= set() if lost else {place}
     assert len(tried) > 120
