@@ -53,7 +53,9 @@ class Twins:
 
 
 def _state(instance: Instance) -> dict[str, Value]:
-    return {path: value for path, value in instance.state().items() if not _COPY.match(path)}
+    """What is compared; NaN by its name, since it equals nothing."""
+    kept = {path: value for path, value in instance.state().items() if not _COPY.match(path)}
+    return {path: value if value == value else "NaN" for path, value in kept.items()}  # noqa: PLR0124 - NaN alone
 
 
 class TwinLibrary:
