@@ -55,7 +55,7 @@ class Twins:
 def _state(instance: Instance) -> dict[str, Value]:
     """What is compared; NaN by its name, since it equals nothing."""
     kept = {path: value for path, value in instance.state().items() if not _COPY.match(path)}
-    return {path: value if value == value else "NaN" for path, value in kept.items()}  # noqa: PLR0124 - NaN alone
+    return {path: value if value == value else b"NaN" for path, value in kept.items()}  # noqa: PLR0124 - NaN alone
 
 
 class TwinLibrary:
