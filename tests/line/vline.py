@@ -89,7 +89,7 @@ class Drive:
             return self.answer(request)
         if request[1] in (3, 4):
             self.reads += 1
-            return request[:2] + bytes([2 * request[5]]) + self.reads.to_bytes(2, "big") * request[5]
+            return request[:2] + bytes([2 * request[5]]) + (self.reads % 65536).to_bytes(2, "big") * request[5]
         return request[:6]
 
 
