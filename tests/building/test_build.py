@@ -1,6 +1,7 @@
 """What is built from maps: the same text every time, in the languages asked for."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -86,3 +87,10 @@ def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -
     assert done.stdout.startswith(str(tmp_path / "driveblocks" / "__main__.py"))
     made = {path.name for path in (tmp_path / "out").iterdir()}
     assert made >= {CANONICAL, *target.WRITERS}
+
+
+def test_without_the_canonical_text_no_page_leads_to_it() -> None:
+    made = build.files(collection.read([EXAMPLE]), BOTH, ["siemens"])
+    links = re.findall(r"\]\(([^)#:]+)\)", made["README.md"])
+    assert links
+    assert set(links) <= made.keys()

@@ -35,11 +35,11 @@ ABILITIES = {
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 
 
-def documents(files: list[File], drives: list[Drive]) -> dict[str, str]:
-    """The overview, every page and every picture, path below the output folder -> text."""
+def documents(files: list[File], drives: list[Drive], *, linked: bool = True) -> dict[str, str]:
+    """The overview, every page and every picture, path below the output folder -> text; `linked` see `overview`."""
     checked = check([parse("\n".join(file.text for file in files), "library")])
     return {
-        "README.md": overview(files, drives, checked, abilities(drives)),
+        "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
         **pages(drives, checked.blocks, checked.types),
     }
 

@@ -15,8 +15,13 @@ _LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Body", re.DOTALL | re.MULTILINE)
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 
-def overview(files: list[File], drives: list[Drive], checked: Checked, can: dict[str, object]) -> str:
-    """The page's text; reads names, pins and sizes from the blocks themselves. `can` is what each family can."""
+def overview(
+    files: list[File], drives: list[Drive], checked: Checked, can: dict[str, object], *, linked: bool = True
+) -> str:
+    """The page's text; reads names, pins and sizes from the blocks themselves. `can` is what each family can.
+
+    `linked`: the canonical files are there, so that a name leads to its file.
+    """
     rows: dict[str, list[dict[str, object]]] = {}
     for file in files:
         block = checked.blocks.get(file.name.upper()) or checked.functions.get(file.name.upper())
@@ -28,6 +33,7 @@ def overview(files: list[File], drives: list[Drive], checked: Checked, can: dict
     return render(
         "README.md.j2",
         can=can,
+        linked=linked,
         results=_results(files),
         groups={_heading(folder, known, files): found for folder, found in rows.items()},
         unproved={known[drive.prefix].family: UNPROVED for drive in drives if not drive.frames},
