@@ -21,7 +21,7 @@ PINS = ("CommOk", "Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed", "
 """Outputs that `Seen` holds of each drive, the first one lowest."""
 STATIONS = (*((each,) for each in (*FAMILIES, *MADE_UP)), ("CHF", "CHF"), FAMILIES)
 _WANTED = re.compile(
-    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|drive/DB_(?!ReasonText).*"
+    r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
     r"|.*_(Drive|Reference|Standstill|FaultNumber|CanRead|CanWrite|MayWrite)\.st"
 )
 
@@ -71,9 +71,9 @@ VAR
   Port : MB_Port;
   Slots : MB_Slots8;
   TheLine : MB_Line8;
-  Reader : DB_ReadParameter;
-  Writer : DB_WriteParameter;
-  Storer : DB_Store;
+  Reader : VFD_ReadParameter;
+  Writer : VFD_WriteParameter;
+  Storer : VFD_Store;
   Stores : UDINT;
 {drives}END_VAR
   Index := 0;

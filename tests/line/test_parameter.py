@@ -50,12 +50,12 @@ VAR_IN_OUT
   Stores : UDINT;     (* of Keep *)
 END_VAR
 VAR
-  Get1 : DB_ReadParameter;  (* before the drive block *)
-  Put1 : DB_WriteParameter; (* before the drive block *)
-  Keep : DB_Store;          (* before the drive block *)
+  Get1 : VFD_ReadParameter;  (* before the drive block *)
+  Put1 : VFD_WriteParameter; (* before the drive block *)
+  Keep : VFD_Store;          (* before the drive block *)
   Drive : T_Drive;          (* the drive block *)
-  Get2 : DB_ReadParameter;  (* behind it *)
-  Put2 : DB_WriteParameter; (* behind it *)
+  Get2 : VFD_ReadParameter;  (* behind it *)
+  Put2 : VFD_WriteParameter; (* behind it *)
   Line : MB_Line8;          (* the line *)
 END_VAR
 

@@ -9,7 +9,7 @@ from driveblocks.testing.execute import Setting
 from driveblocks.testing.outcome import Outcome, Result
 from driveblocks.testing.script import Probe, Program, Script
 
-BLOCK = """FUNCTION_BLOCK DB_Trouble
+BLOCK = """FUNCTION_BLOCK VFD_Trouble
 VAR_INPUT
   Number : UINT;
 END_VAR
@@ -35,8 +35,8 @@ RIGHT = Probe("Number", "Expected := Trouble.Result, Actual := Trouble.Result", 
 
 def program(*stages: tuple[str, ...]) -> Program:
     """A program whose stages call the block with numbers; each call is followed by a check that holds."""
-    script = Script("trouble", "DB_TestTrouble", "trouble", "none")
-    script.variables["Trouble"] = ("DB_Trouble", "under test")
+    script = Script("trouble", "VFD_TestTrouble", "trouble", "none")
+    script.variables["Trouble"] = ("VFD_Trouble", "under test")
     for index, calls in enumerate(stages):
         items = [item for call in calls for item in (f"Trouble(Number := {call});", RIGHT)]
         script.stage(f"stage {index}", *items)
@@ -69,7 +69,7 @@ def test_a_wild_index_costs_the_checks_behind_it_in_its_scan_alone() -> None:
     ]  # fmt: skip
     assert "trouble.st:" in result.outcomes[1].message
     assert "outside 0..3" in result.outcomes[1].message
-    assert result.outcomes[1].path == "tests/trouble/DB_TestTrouble.st"
+    assert result.outcomes[1].path == "tests/trouble/VFD_TestTrouble.st"
 
 
 def test_a_loop_without_end_is_an_error_of_its_checks() -> None:
@@ -107,7 +107,7 @@ def test_a_program_that_is_not_in_the_library_loses_all_its_checks() -> None:
     library = EmbeddedEngine().build([Source("types.st", TYPES), *tests])
     result = execute.execute(library, made, Setting("embedded", "unit", "", 600.0))
     assert said(result) == [("1", "error")]
-    assert "DB_TESTTROUBLE" in result.outcomes[0].message.upper()
+    assert "VFD_TESTTROUBLE" in result.outcomes[0].message.upper()
 
 
 @pytest.mark.parametrize(
@@ -131,8 +131,8 @@ def test_a_program_that_is_not_in_the_library_loses_all_its_checks() -> None:
     ids=lambda value: value.pins[:30] if isinstance(value, Probe) else None,
 )
 def test_values_are_shown_as_the_check_means_them(probe: Probe, expected: str, actual: str) -> None:
-    script = Script("trouble", "DB_TestTrouble", "trouble", "none")
-    script.variables["Trouble"] = ("DB_Trouble", "under test")
+    script = Script("trouble", "VFD_TestTrouble", "trouble", "none")
+    script.variables["Trouble"] = ("VFD_Trouble", "under test")
     script.variables["Adu"] = ("MB_Adu", "bytes")
     script.stage("shown", "Trouble(Number := 0);", probe)
     script.stage("after it", "Trouble(Number := 0);", RIGHT)
@@ -144,8 +144,8 @@ def test_values_are_shown_as_the_check_means_them(probe: Probe, expected: str, a
 
 
 def test_bounds_take_what_lies_between_them() -> None:
-    script = Script("trouble", "DB_TestTrouble", "trouble", "none")
-    script.variables["Trouble"] = ("DB_Trouble", "under test")
+    script = Script("trouble", "VFD_TestTrouble", "trouble", "none")
+    script.variables["Trouble"] = ("VFD_Trouble", "under test")
     for lowest, highest in ((0, 1), (1, 1), (1, 2), (2, 3), (0, 0)):
         pins = f"Lowest := {lowest}, Highest := {highest}, Actual := Trouble.Result"
         script.stage(f"{lowest} to {highest}", "Trouble(Number := 0);", Probe("Between", pins, "1"))
@@ -159,10 +159,10 @@ def test_a_stage_with_more_checks_than_a_scan_takes_becomes_several() -> None:
 
 
 def test_a_table_of_many_stages_becomes_several_programs() -> None:
-    script = Script("trouble", "DB_TestTrouble", "trouble", "none")
-    script.variables["Trouble"] = ("DB_Trouble", "under test")
+    script = Script("trouble", "VFD_TestTrouble", "trouble", "none")
+    script.variables["Trouble"] = ("VFD_Trouble", "under test")
     for _ in range(120):
         script.stage("again", "Trouble(Number := 0);", RIGHT)
     made = list(script.programs())
-    assert [(one.name, one.stages) for one in made] == [("DB_TestTrouble1", 100), ("DB_TestTrouble2", 20)]
+    assert [(one.name, one.stages) for one in made] == [("VFD_TestTrouble1", 100), ("VFD_TestTrouble2", 20)]
     assert all(scanned(one).passed for one in made)

@@ -85,7 +85,7 @@ def test_the_order_names_every_file_and_the_page_every_program(example: Unit, sh
     files = programs(collection.read([EXAMPLE]), BOTH)
     order = files["tests/iec61131/order.txt"].split()
     assert {f"tests/iec61131/{path}" for path in order} == {path for path in files if path.endswith(".st")}
-    assert order[0] == "harness/DB_Failure.st"
+    assert order[0] == "harness/VFD_Failure.st"
     page = files["tests/README.md"]
     for program in (*shared.suite.programs, *example.suite.programs):
         assert f"[`{program.name}`](iec61131/{program.path}) | {len(program.checks)} |" in page

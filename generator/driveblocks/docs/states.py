@@ -1,9 +1,9 @@
-"""The states of a drive block, as `DB_Control` has them, and what leads from one to the other."""
+"""The states of a drive block, as `VFD_Control` has them, and what leads from one to the other."""
 
 from driveblocks.docs.canvas import Canvas
 
 STATES = ("stopping", "stopped", "reference sent", "command sent", "running", "reads only", "speed only")
-"""State of DB_Control -> its name."""
+"""State of VFD_Control -> its name."""
 WIDTH, HEIGHT, W, H = 760, 560, 180, 58
 PLACES = {0: (70, 60), 1: (70, 240), 2: (470, 240), 3: (470, 350), 4: (470, 460), 5: (70, 380), 6: (70, 470)}
 SAYS = {

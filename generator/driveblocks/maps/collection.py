@@ -56,7 +56,7 @@ def _shared_folders(sources: list[Source]) -> list[Problem]:
     The case of letters makes no difference, as on Windows.
     """
     problems = []
-    taken = dict.fromkeys(("modbus", "line", "drive", "types", "harness"), "the library's own folder")
+    taken = dict.fromkeys(("modbus", "line", "vfd", "types", "harness"), "the library's own folder")
     for source in sources:
         stem = source.path.stem.lower()
         if stem in taken:

@@ -24,7 +24,7 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
-CONTROL_BLOCKS = ("DB_Link", "DB_Control", "DB_ReadParameter", "DB_WriteParameter", "DB_Store")
+CONTROL_BLOCKS = ("VFD_Link", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
 PLATFORMS = {
@@ -77,9 +77,9 @@ def generic(languages: list[Language]) -> Iterator[File]:
         yield _file("modbus", "CodeText", text.result_texts(language))
     yield from _line_blocks(languages)
     for name in CONTROL_BLOCKS:
-        yield File("drive", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
+        yield File("vfd", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
     for language in languages:
-        yield _file("drive", "CodeText", text.reason_texts(language))
+        yield _file("vfd", "CodeText", text.reason_texts(language))
 
 
 def adapter(platform: str, languages: list[Language]) -> Iterator[File]:

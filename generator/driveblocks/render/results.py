@@ -71,7 +71,7 @@ RESULTS = (
     # parameters
     Result(62, "OWNED", "only the drive block writes this register", "此寄存器只由驱动功能块写入"),
     Result(63, "LINE_SETTING", "the connection rests on this setting", "通讯所依赖的参数, 不可写入"),
-    Result(64, "STORE_REGISTER", "only DB_Store writes this register", "此寄存器只由DB_Store写入"),
+    Result(64, "STORE_REGISTER", "only VFD_Store writes this register", "此寄存器只由DB_Store写入"),
     Result(65, "UNKNOWN_ADDRESS", "not listed, and AllowUnknown is FALSE", "地址未列出, 且AllowUnknown为FALSE"),
     Result(66, "NOT_STOPPED", "only while the motor is known to stand", "仅在确认停机后可写入"),
     Result(67, "RANGE", "value out of range", "数值超出范围"),

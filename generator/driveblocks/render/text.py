@@ -87,7 +87,7 @@ def reason_texts(language: Language) -> Context:
     texts = [(reason.code, reason.en if language.suffix == "En" else reason.zh) for reason in reasons.REASONS]
     rows = [_row(language, code, text, text) for code, text in texts]
     head = {"title": "why a drive does not run", "source": "the reasons of DriveBlocks.", "code_comment": "Reason"}
-    return {"name": f"DB_ReasonText{language.suffix}", "rows": rows, **head, **_language(language)}
+    return {"name": f"VFD_ReasonText{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
 def fault_texts(drive: Drive, language: Language) -> Context:

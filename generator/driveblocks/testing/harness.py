@@ -8,8 +8,8 @@ PER_SCAN = 32
 """Most checks of one scan: so many failures find room in the report."""
 
 NAMES = (
-    "DB_Failure", "DB_Failures", "DB_Report", "DB_CheckBytes", "DB_CheckWord", "DB_CheckNumber", "DB_CheckFlag",
-    "DB_CheckBetween", "DB_CheckReal", "DB_CheckText", "DB_CheckAdu", "DB_CheckChars",
+    "VFD_Failure", "VFD_Failures", "VFD_Report", "VFD_CheckBytes", "VFD_CheckWord", "VFD_CheckNumber", "VFD_CheckFlag",
+    "VFD_CheckBetween", "VFD_CheckReal", "VFD_CheckText", "VFD_CheckAdu", "VFD_CheckChars",
 )  # fmt: skip
 """Types and blocks each behind what it uses."""
 

@@ -21,7 +21,7 @@ _COUNTERS = [
 
 @dataclass(frozen=True)
 class Probe:
-    """A call of one of the harness's blocks: DB_Check + `block`, its pins, and what it looks at in words."""
+    """A call of one of the harness's blocks: VFD_Check + `block`, its pins, and what it looks at in words."""
 
     block: str
     pins: str
@@ -160,8 +160,8 @@ class _Printer:
         items = [item for stage in self.stages for item in stage.items] + self.script.tail
         blocks = {item.block: None for item in items if isinstance(item, Probe)}
         rows = [
-            ("Report", "DB_Report", "what the checks have found"),
-            *((f"Check{block}", f"DB_Check{block}", "counts and notes a check") for block in blocks),
+            ("Report", "VFD_Report", "what the checks have found"),
+            *((f"Check{block}", f"VFD_Check{block}", "counts and notes a check") for block in blocks),
             ("Stage", "UINT", "case of this scan"),
             *((name, type_, text) for name, (type_, text) in self.script.variables.items()),
         ]

@@ -74,7 +74,7 @@ def reasons(languages: Iterable[Language]) -> Iterator[Script]:
             what = "has a text" if number in REASONS else "has none"
             program.stage(
                 f"{number} {what}",
-                f"Found := DB_ReasonText{language.suffix}(Code := {number});",
+                f"Found := VFD_ReasonText{language.suffix}(Code := {number});",
                 bench.is_flag(f"Found = {unknown}", number not in REASONS, "is an unknown code"),
             )
         yield program

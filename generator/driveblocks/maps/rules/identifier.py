@@ -9,8 +9,8 @@ from driveblocks.maps.model import Bit, Drive, Register, Value
 from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Report
 
-_LIBRARY = ("MB", "DB")
-"""Prefixes of the blocks that every drive shares, and of the harness of the tests."""
+_LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
+"""Prefixes of the blocks that every drive shares, of the harness of the tests, and of the platforms' adapters."""
 
 OWN_NAMES = (
     "CanRead", "CanWrite", "Request", "Reply", "Command", "Reference", "Standstill", "FaultNumber", "FaultTextEn",
