@@ -1,9 +1,8 @@
 """The states of a drive block, as `VFD_Control` has them, and what leads from one to the other."""
 
 from driveblocks.docs.canvas import Canvas
+from driveblocks.render.reasons import STATES
 
-STATES = ("stopping", "stopped", "reference sent", "command sent", "running", "reads only", "speed only")
-"""State of VFD_Control -> its name."""
 WIDTH, HEIGHT, W, H = 760, 560, 180, 58
 PLACES = {0: (70, 60), 1: (70, 240), 2: (470, 240), 3: (470, 350), 4: (470, 460), 5: (70, 380), 6: (70, 470)}
 SAYS = {
@@ -22,7 +21,7 @@ def picture() -> str:
     canvas = Canvas("States of a drive block", WIDTH, HEIGHT)
     for state, (x, y) in PLACES.items():
         canvas.box(x, y, W, H)
-        canvas.text(x + W / 2, y + 25, f"{state}  {STATES[state]}", "head", "middle")
+        canvas.text(x + W / 2, y + 25, f"{state}  {STATES[state][0]}", "head", "middle")
         canvas.text(x + W / 2, y + 44, SAYS[state], "small", "middle")
     _starts(canvas)
     _stops(canvas)
@@ -51,7 +50,7 @@ def _stops(canvas: Canvas) -> None:
     for row, words in enumerate(
         (
             "its pin FALSE, another pin TRUE, Enable FALSE, QuickStop, CoastStop, StopAll,",
-            "fault, no reply, SupplyOn FALSE, bad reference, MonitorOnly, SpeedOnly,",
+            "fault, no reply, SupplyOff TRUE, bad reference, MonitorOnly, SpeedOnly,",
             "not acknowledged, refused, does not run within FollowWithinMs,",
             "stops or turns round by itself, foreign master, block not called",
         )

@@ -12,6 +12,17 @@ def revision(drive: Drive) -> int:
     return int(fingerprint([repr(english(drive))]), 16)
 
 
+def checked(drive: Drive) -> int:
+    """The number by which a user says that the manual was checked: 1 to 65535, a hash of what can move the motor.
+
+    These are the commands, the reference, status, standstill, and the scales of what is shown.
+    """
+    plain = english(drive)
+    registers = [plain.operation.reference.register, *(one.register for one in plain.operation.measures)]
+    scales = [row.scale if row else None for row in map(plain.register_at, registers)]
+    return int(fingerprint([repr(plain.operation), repr(scales)]), 16) % 65535 + 1
+
+
 def english(drive: Drive) -> Drive:
     """A map without a word in another language."""
     plain: Drive = _english(drive)

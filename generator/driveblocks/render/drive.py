@@ -6,6 +6,7 @@ from driveblocks.maps import names
 from driveblocks.maps.model import Command, Condition, Drive, Measured
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import Poll, beyond, fast_words, polls, schedule, slow_words
+from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.context import Context, word_input
@@ -23,6 +24,8 @@ MEASURES = {
     "output_power": ("OutputPower", "KW", "PowerScale"),
 }
 """What a register can show -> the pin, its unit, and the setting that stands in for a scale."""
+PINNED = ("output_frequency", "output_current")
+"""The measures that are outputs of the block; the rest are members of Diagnosis."""
 STATUS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
     "ready": "ReadyShown", "warning": "Warning", "fault": "Fault",
@@ -59,7 +62,8 @@ def drive_block(drive: Drive) -> Context:
         "verify": [_condition(drive, each) for each in operation.reference.verify],
         "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
         "measures": {one.shows: _measure(drive, one) for one in operation.measures},
-        "pins": MEASURES,
+        "measure_reads": sorted({number[one.register] for one in operation.measures}),
+        "pins": {shows: _pin(shows) for shows in MEASURES},
         "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         "orders": orders,
         "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
@@ -76,6 +80,8 @@ def drive_block(drive: Drive) -> Context:
         "busy": next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
         "silence": _silence(drive),
         "second_hand": drive.manual.second_hand,
+        "checked": checked(drive),
+        "maximum": reference["maximum"],
     }
 
 
@@ -148,12 +154,20 @@ def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     return sorted({number[each] for each in (*shown, *(word["address"] for word in words))})
 
 
+def _pin(shows: str) -> Context:
+    """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
+    name, unit, setting = MEASURES[shows]
+    where = "" if shows in PINNED else "Diagnosis."
+    return {"pin": f"{where}{name}{unit}", "valid": f"{name}Valid", "unit": unit, "setting": setting}
+
+
 def _measure(drive: Drive, one: Measured) -> Context:
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
     constant = f"{one.shows.upper()}_FACTOR"
     return {
+        **_pin(one.shows),
         "word": word_input(drive, one.register),
         "scale": scale,
         "times": times(scale.factor).replace("FACTOR", constant) if scale else "",

@@ -13,7 +13,7 @@ from driveblocks.render import expression, reasons, results
 from driveblocks.st import writing
 from driveblocks.st.fingerprint import body, fingerprint, stream
 
-ABI = 1
+ABI = 2
 """Version of the shared types; blocks of one ABI number fit together."""
 
 _SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)

@@ -24,7 +24,8 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
-CONTROL_BLOCKS = ("VFD_Link", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
+CONTROL_BLOCKS = ("VFD_HardStop", "VFD_Link", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
+DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
 PLATFORMS = {
@@ -76,10 +77,13 @@ def generic(languages: list[Language]) -> Iterator[File]:
     for language in languages:
         yield _file("modbus", "CodeText", text.result_texts(language))
     yield from _line_blocks(languages)
+    for name in DRIVE_TYPES:
+        yield File("types", name, render(f"types/{name}.st.j2", **_texts_of(languages)))
     for name in CONTROL_BLOCKS:
         yield File("vfd", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
     for language in languages:
         yield _file("vfd", "CodeText", text.reason_texts(language))
+        yield _file("vfd", "CodeText", text.state_texts(language))
 
 
 def adapter(platform: str, languages: list[Language]) -> Iterator[File]:

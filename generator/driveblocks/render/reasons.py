@@ -21,8 +21,9 @@ REASONS = (
     Reason(3, "STARTING", "the start is on its way to the drive", "正在启动", "wait"),
     Reason(4, "STOPPING", "waits until the drive proves that it stands", "正在停机", "wait; see `StopOverdue`"),
     Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
+    Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing"),
     # the line
-    Reason(10, "RESTARTED", "Restart is TRUE", "Restart为真", "wire `Restart` to the first-scan bit, not to TRUE"),
+    Reason(10, "RESTARTED", "Restart is TRUE", "Restart为真", "wire `Restart` of the line to the first-scan bit, not to TRUE"),
     Reason(
         11,
         "NO_LINE",
@@ -30,7 +31,7 @@ REASONS = (
         "槽位无总线服务",
         "call the line in every scan, with this `Slots`",
     ),
-    Reason(12, "NO_SUPPLY", "the drive has no supply", "变频器未上电", "close the supply"),
+    Reason(12, "NO_SUPPLY", "the drive has no supply", "变频器未上电", "clear `SupplyOff` when the supply is on"),
     Reason(
         13, "NO_REPLY", "no reply yet", "尚无应答", "cable, A/B, bit rate, format, unit address, the drive's settings"
     ),
@@ -85,14 +86,14 @@ REASONS = (
         "MISSING",
         "a required setting is missing",
         "缺少必要参数",
-        "`MaximumHz`, `TurnRoundMs`, `StopWithinMs`, or a scale: see the page",
+        "`StopWithinMs` or `Address`, or a setting is 65535: see `ErrorID` and the page",
     ),
     Reason(
         31,
         "UNCHECKED",
         "nobody has checked the map with the manual",
         "映射未与手册核对",
-        "check it, then set `ManualChecked`",
+        "check it, then set `ManualChecked` to the number that the page prints",
     ),
     Reason(32, "REFERENCE", "the reference is no number, negative, or without scale", "给定值无效", "see `ErrorID`"),
     Reason(
@@ -154,6 +155,17 @@ REASONS = (
     ),
 )
 _BY_NAME = {reason.name: reason for reason in REASONS}
+
+STATES = (
+    ("stopping", "正在停机"),
+    ("stopped", "已停机"),
+    ("reference sent", "已发送给定值"),
+    ("command sent", "已发送运行命令"),
+    ("running", "运行中"),
+    ("reads only", "仅监视"),
+    ("speed only", "仅给定速度"),
+)
+"""State of VFD_Control -> its name in English and in Chinese."""
 
 
 def code(name: str) -> int:

@@ -35,6 +35,7 @@ RESULTS = (
     Result(16, "NOT_ABLE", "the drive has no such command", "变频器无此命令"),
     Result(17, "NO_MAXIMUM", "the maximum frequency is not set, or makes no sense", "未设定最高频率或其值不合理"),
     Result(18, "HELD", "a run or jog pin is held since the reset; release it first", "复位后运行或点动信号未释放"),
+    Result(19, "NO_FULL_SCALE", "the frequency that is 100 % is not set, or makes no sense", "未设定100%对应的频率或其值不合理"),
     # receiving a frame
     Result(20, "SILENCE", "no reply", "无应答"),
     Result(21, "SHORT", "reply too short", "应答太短"),
@@ -71,7 +72,7 @@ RESULTS = (
     # parameters
     Result(62, "OWNED", "only the drive block writes this register", "此寄存器只由驱动功能块写入"),
     Result(63, "LINE_SETTING", "the connection rests on this setting", "通讯所依赖的参数, 不可写入"),
-    Result(64, "STORE_REGISTER", "only VFD_Store writes this register", "此寄存器只由DB_Store写入"),
+    Result(64, "STORE_REGISTER", "only VFD_Store writes this register", "此寄存器只由VFD_Store写入"),
     Result(65, "UNKNOWN_ADDRESS", "not listed, and AllowUnknown is FALSE", "地址未列出, 且AllowUnknown为FALSE"),
     Result(66, "NOT_STOPPED", "only while the motor is known to stand", "仅在确认停机后可写入"),
     Result(67, "RANGE", "value out of range", "数值超出范围"),
@@ -79,6 +80,8 @@ RESULTS = (
     Result(69, "NO_LINE", "the line is not called", "总线功能块未被调用"),
     Result(70, "LOST", "the block was not called while it was busy", "功能块在忙时未被调用"),
     Result(71, "TOO_SOON", "too soon behind the last store", "距上次保存时间太短"),
+    # settings
+    Result(72, "BAD_SETTING", "a setting is 65535, which switches off nothing there", "设定值65535在此处无效"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 

@@ -76,18 +76,30 @@ def languages(codes: list[str], encoding: str) -> list[Language]:
 
 def result_texts(language: Language) -> Context:
     """For CodeText: the result codes of all blocks."""
-    texts = [(result.code, result.en if language.suffix == "En" else result.zh) for result in results.RESULTS]
-    rows = [_row(language, code, text, text) for code, text in texts]
+    texts = [(result.code, result.en, result.zh) for result in results.RESULTS]
     head = {"title": "what an ErrorID means", "source": "the result codes of DriveBlocks.", "code_comment": "ErrorID"}
-    return {"name": f"MB_ResultText{language.suffix}", "rows": rows, **head, **_language(language)}
+    return _own("MB_ResultText", texts, head, language)
 
 
 def reason_texts(language: Language) -> Context:
     """For CodeText: why a drive does not run."""
-    texts = [(reason.code, reason.en if language.suffix == "En" else reason.zh) for reason in reasons.REASONS]
-    rows = [_row(language, code, text, text) for code, text in texts]
+    texts = [(reason.code, reason.en, reason.zh) for reason in reasons.REASONS]
     head = {"title": "why a drive does not run", "source": "the reasons of DriveBlocks.", "code_comment": "Reason"}
-    return {"name": f"VFD_ReasonText{language.suffix}", "rows": rows, **head, **_language(language)}
+    return _own("VFD_ReasonText", texts, head, language)
+
+
+def state_texts(language: Language) -> Context:
+    """For CodeText: what a drive block is at."""
+    texts = [(code, en, zh) for code, (en, zh) in enumerate(reasons.STATES)]
+    head = {"title": "what a drive block is at", "source": "the states of DriveBlocks.", "code_comment": "State"}
+    return _own("VFD_StateText", texts, head, language)
+
+
+def _own(name: str, texts: list[tuple[int, str, str]], head: Context, language: Language) -> Context:
+    """Texts of the library's own codes, each with its English and its Chinese."""
+    chosen = [(code, en if language.suffix == "En" else zh) for code, en, zh in texts]
+    rows = [_row(language, code, text, text) for code, text in chosen]
+    return {"name": f"{name}{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
 def fault_texts(drive: Drive, language: Language) -> Context:
