@@ -10,7 +10,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.render import context
-from driveblocks.render.drive import MEASURES, drive_block
+from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
@@ -110,8 +110,8 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     for shows in ("at_speed", "ready", "warning"):
         having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
         rows[f"say itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
-    for shows, (name, unit, _) in MEASURES.items():
-        rows[f"show `{name}{unit}`"] = [_shows(drive, shows) for drive in drives]
+    for shows in MEASURES:
+        rows[f"show `{pin_of(shows)['pin']}`"] = [_shows(drive, shows) for drive in drives]
     return {"families": [drive.prefix for drive in drives], "rows": rows}
 
 

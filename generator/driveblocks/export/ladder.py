@@ -160,6 +160,9 @@ class _Drawing:
     def coil(self, statement: tree.Assign) -> None:
         """An assignment: from an output of a block, or of a constant, which sets or resets."""
         target, value = _said(statement.target), statement.value
+        if isinstance(value, tree.Name):
+            self.move(target, value.name)
+            return
         if isinstance(value, tree.Literal):
             start, y = (_RAIL + 3, self.y), self.y
             self.starts.append(y)
@@ -172,14 +175,26 @@ class _Drawing:
         block = self.blocks[_said(output.base)]
         self.end(target, block.pins[output.name], block.number, output.name, {"negated": "true"} if negated else {})
 
+    def move(self, target: str, source: str) -> None:
+        """A variable that gets the value of another."""
+        number, there = self.value(source, self.y)
+        self.out(target, number, there, None)
+        self.y += 2 * _LINE
+
+    def out(self, target: str, source: int, start: Point, pin: str | None) -> None:
+        """A variable at the right end of a wire."""
+        place, width = (max(start[0], _BLOCK) + 100, start[1]), 8 * len(target) + 20
+        wire = _pin("In", (0, 10), _link(source, place, start, pin))
+        text = Element("expression", {}, text=target)
+        where = _position(place[0], place[1] - 10)
+        self.drawn.append(element("outVariable", _sized(self.number(), width, 20), where, wire, text))
+
     def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
         """What stands at the right end of a wire: a coil, or for other than BOOL a variable."""
-        number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])
         if not _is_bool(self.declared(target)):
-            wire = _pin("In", (0, 10), _link(source, (x, y), start, pin))
-            width, text = 8 * len(target) + 20, Element("expression", {}, text=target)
-            self.drawn.append(element("outVariable", _sized(number, width, 20), _position(x, y - 10), wire, text))
+            self.out(target, source, start, pin)
             return
+        number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])
         wire = _pin("In", (0, 8), _link(source, (x, y), start, pin))
         said, sized = Element("variable", {}, text=target), {**_sized(number, 21, 15), **how}
         self.drawn.append(element("coil", sized, _position(x, y - 8), wire, _pin("Out", (21, 8)), said))
@@ -194,6 +209,8 @@ def _said(value: Expression) -> str:
     """A name, an element or a literal as written."""
     if isinstance(value, tree.Index):
         return f"{_said(value.base)}[{', '.join(map(_said, value.indices))}]"
+    if isinstance(value, tree.Member):
+        return f"{_said(value.base)}.{value.name}"
     if isinstance(value, tree.Literal):
         return value.text
     assert isinstance(value, tree.Name)  # noqa: S101  (all that the first motor hands to its blocks)

@@ -63,7 +63,7 @@ def drive_block(drive: Drive) -> Context:
         "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
         "measures": {one.shows: _measure(drive, one) for one in operation.measures},
         "measure_reads": sorted({number[one.register] for one in operation.measures}),
-        "pins": {shows: _pin(shows) for shows in MEASURES},
+        "pins": {shows: pin_of(shows) for shows in MEASURES},
         "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         "orders": orders,
         "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
@@ -154,7 +154,7 @@ def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     return sorted({number[each] for each in (*shown, *(word["address"] for word in words))})
 
 
-def _pin(shows: str) -> Context:
+def pin_of(shows: str) -> Context:
     """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
     name, unit, setting = MEASURES[shows]
     where = "" if shows in PINNED else "Diagnosis."
@@ -167,7 +167,7 @@ def _measure(drive: Drive, one: Measured) -> Context:
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
     constant = f"{one.shows.upper()}_FACTOR"
     return {
-        **_pin(one.shows),
+        **pin_of(one.shows),
         "word": word_input(drive, one.register),
         "scale": scale,
         "times": times(scale.factor).replace("FACTOR", constant) if scale else "",

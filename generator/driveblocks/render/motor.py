@@ -11,6 +11,7 @@ SCAN_MS = 10
 
 def motor(drive: Drive) -> Context:
     """For motor/: the drive's name and what it is to be told, and the factory settings of its line."""
+    values = drive_block(drive)
     return {
         "drive": drive,
         "name": f"{drive.prefix}_Drive",
@@ -19,7 +20,10 @@ def motor(drive: Drive) -> Context:
         "scan": SCAN_MS,
         "has_reset": any(one.does == "fault_reset" for one in drive.operation.commands),
         "second_hand": drive.manual.second_hand,
-        "unscaled": drive_block(drive)["scaled"] is False,
+        "unscaled": values["scaled"] is False,
+        "percent": values["percent"],
+        "maximum": values["maximum"],
+        "checked": values["checked"],
         "ascii": "rtu" not in drive.serial.mode.modes,
     }
 
