@@ -20,10 +20,30 @@ from driveblocks.simulator.habits import Habits
 
 REASON = {each.code: each.name for each in REASONS}
 RUNS = ("RunForward", "RunReverse", "JogForward", "JogReverse")
+MEMBERS = {
+    "Settings": {
+        "TurnRoundMs", "LongestMs", "BootMs", "WatchdogMs", "RefreshMs", "FollowWithinMs", "StaleMs", "KeepWord",
+        "ReferenceScale", "FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale",
+    },
+    "Diagnosis": {
+        "State", "StopReason", "StopKind", "CommandNotFollowed", "ReferenceLimited", "StatusAgeMs", "MeasuresAgeMs",
+        "LongestReplyMs", "StopAloneMs", "WorstStopMs", "OutputVoltageV", "DcBusVoltageV", "OutputPowerKW",
+        "CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault",
+        *(f"{each}Valid" for each in (
+            "OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower"
+        )),
+        *(f"FirstFault{each}" for each in ("Code", "Hz", "A", "V", "State", "Ms")),
+        *(f"FaultBack{each}" for each in range(1, 9)),
+    },
+}  # fmt: skip
+"""What lies in a structure of the drive block."""
+OFF = 65535
+"""Off, in a setting."""
 SETTINGS = {
     "Enable": True,
     "SpeedReferenceHz": 25.0,
     "MaximumHz": 50.0,
+    "FullScaleHz": 50.0,
     "TurnRoundMs": 20,
     "LongestMs": 60,
     "StopWithinMs": 9000,
@@ -32,6 +52,14 @@ SETTINGS = {
     "DcVoltageScale": 0.01,
 }
 """Pins of a drive that is ready to start. The scales are those of the simulated drives."""
+
+
+def path(drive: int, name: str) -> str:
+    """Where a pin of a drive block, or a member of its structures, is in a station."""
+    inside = next((f"{where}.{name}" for where, names in MEMBERS.items() if name in names), name)
+    return f"Drive{drive}.{inside}"
+
+
 _sealed, _opened = lru_cache(4096)(sealed), lru_cache(4096)(opened)
 
 
@@ -123,7 +151,7 @@ class Bench:
     def put(self, drive: int = 0, /, **pins: Value) -> "Bench":
         """Set inputs of a drive block."""
         for name, value in pins.items():
-            self.block[f"Drive{drive}.{name}"] = value
+            self.block[path(drive, name)] = value
             self.pins[drive][name] = value
         self.changes += 1
         return self
@@ -144,7 +172,7 @@ class Bench:
 
     def out(self, name: str, drive: int = 0) -> Value:
         """An output of a drive block."""
-        return self.block[f"Drive{drive}.{name}"]
+        return self.block[path(drive, name)]
 
     def number(self, name: str, drive: int = 0) -> float:
         """The same as a number."""
@@ -166,12 +194,8 @@ class Bench:
 
     def restart(self) -> "Bench":
         """The first scan of a PLC program."""
-        for index in range(len(self.types)):
-            self.put(index, Restart=True)
         self.line(Restart=True)
         self.scan()
-        for index in range(len(self.types)):
-            self.put(index, Restart=False)
         self.line(Restart=False)
         return self
 
@@ -304,7 +328,7 @@ class Bench:
         calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
         for index, drive in enumerate(self.drives):
             self.leave(f"Skip{index}", on=False)
-            self.put(index, Enable=True, SupplyOn=True, SpeedReferenceHz=25.0, **calm)
+            self.put(index, Enable=True, SupplyOff=False, SpeedReferenceHz=25.0, **calm)
             drive.power(on=True)
             drive.inhibit(on=False)
             drive.clear_cause()

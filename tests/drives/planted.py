@@ -65,7 +65,7 @@ PLANTED = (
     *(
         Planted(f"{what} does not count", f"  ELSIF {old} THEN\n    Cause", "  ELSIF FALSE THEN\n    Cause", test)
         for what, old, test in (
-            ("SupplyOn", "NOT SupplyOn", partial(never_stored, "no supply")),
+            ("SupplyOff", "SupplyOff", partial(never_stored, "no supply")),
             ("a missing line", "NOT Linked", partial(never_stored, "no line")),
             ("a fault", "FaultPresent", partial(never_stored, "a fault")),
             ("StopAll", "Slot.StopAll", partial(never_stored, "StopAll")),
@@ -80,7 +80,7 @@ PLANTED = (
     ),
     Planted(
         "a shared slot does not count",
-        "  Shared := (Slot.Alive <> AliveSeen) AND Started",
+        "  Shared := (Slot.Alive <> AliveSeen) AND NOT Restarted",
         "  Shared := (Slot.Alive <> AliveSeen) AND NOT Started",
         test_modes.test_two_blocks_on_one_slot_are_stopped,
     ),
@@ -148,8 +148,8 @@ PLANTED = (
     ),
     Planted(
         "old words are shown behind a lost connection",
-        "  CommOk := Link.Linked AND Slot.Online AND (DataAgeMs <= StaleMs) AND NOT Moved;",
-        "  CommOk := Link.Linked AND (DataAgeMs <= 65535) AND NOT Moved;",
+        "  CommOk := Link.Linked AND Slot.Online AND (Diagnosis.StatusAgeMs <= StaleMs) AND NOT Moved;",
+        "  CommOk := Link.Linked AND (Diagnosis.StatusAgeMs <= 65535) AND NOT Moved;",
         test_stop.test_nothing_stale_is_shown_as_good,
     ),
     Planted(
@@ -273,7 +273,7 @@ PLANTED = (
     ),
     Planted(
         "a missing line is not overdue",
-        " OR (NOT Link.Linked AND NOT Link.Restarted AND SupplyOn);",
+        " OR (NOT Link.Linked AND NOT Link.Restarted AND NOT SupplyOff);",
         ";",
         test_stop.test_a_line_that_is_no_longer_called_is_told,
     ),
@@ -305,7 +305,7 @@ PLANTED = (
     ),
     Planted(
         "a reset outlives what it was asked for",
-        "(NOT CommOk OR NOT SupplyOn OR MonitorOnly OR SpeedOnly OR (ResetMs > 10000)) THEN",
+        "(NOT CommOk OR SupplyOff OR MonitorOnly OR SpeedOnly OR (ResetMs > 10000)) THEN",
         "(ResetMs > 10000) THEN",
         partial(test_reset.test_a_reset_does_not_outlive_what_it_was_asked_for, "MonitorOnly"),
     ),
@@ -329,7 +329,7 @@ PLANTED = (
     ),
     Planted(
         "other bits of the command word are lost",
-        "Words[0] := KeepWord AND WORD#16#00FC;",
+        "Words[0] := Settings.KeepWord AND WORD#16#00FC;",
         "Words[0] := WORD#16#0000;",
         test_stop.test_only_the_drives_own_bits_change_with_a_stop,
         SN,

@@ -149,8 +149,8 @@ class Observer:
             if abs(self.volts - bench.drives[self.drive].habits.bus_volts) > 1.0:
                 self.fail(f"shows {volts} V, which is not its own")
         self.shows = shows
-        others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or not pins.get("SupplyOn", True)
-        anew = pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
+        others = pins.get("MonitorOnly") or pins.get("SpeedOnly") or pins.get("SupplyOff")
+        anew = bench.line_pins.get("Restart") or bench.block["SkipLine"] or bench.elapsed > 1000
         self.idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
         self._time(pins)
         state = self.bench.out("Control.State", self.drive) if pins.get("MonitorOnly") else 0
@@ -164,10 +164,9 @@ class Observer:
         assert isinstance(hz, float)
         forward, reverse = any("forward" in each for each in asked), any("reverse" in each for each in asked)
         return bool(
-            pins.get("Restart")
-            or not pins["Enable"]
+            not pins["Enable"]
             or any(pins.get(name) for name in ("QuickStop", "CoastStop", "MonitorOnly", "SpeedOnly"))
-            or not pins.get("SupplyOn", True)
+            or pins.get("SupplyOff")
             or self.bench.line_pins.get("StopAll")
             or self.bench.line_pins.get("Restart")
             or (forward and reverse)
@@ -202,15 +201,15 @@ class Observer:
         self.acknowledged = len(self.bench.acknowledged)
 
     def _reset(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> None:
-        gone = not shows["CommOk"] or not shows["Fault"] or not pins.get("SupplyOn", True) or pins.get("Restart")
+        gone = not shows["CommOk"] or not shows["Fault"] or pins.get("SupplyOff") or self.bench.line_pins.get("Restart")
         rising = pins.get("FaultReset") and not self.reset_before
         self.resets = not gone and (self.resets or bool(rising and not asked))
-        self.reset_before = bool(pins.get("FaultReset")) or bool(pins.get("Restart"))
+        self.reset_before = bool(pins.get("FaultReset")) or bool(self.bench.line_pins.get("Restart"))
 
     def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
         """By the line, which gives no stop up, by a restart, or because the drive is to be more than watched."""
         line = self.bench.line_pins
-        restarted = line.get("Restart") or pins.get("Restart") or self.bench.elapsed > 1000
+        restarted = line.get("Restart") or self.bench.elapsed > 1000
         return bool(restarted or self.owed or pins.get("SpeedOnly"))
 
     def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:

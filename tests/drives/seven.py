@@ -21,14 +21,14 @@ RATES = {"SN300G5": 9600, "JSCC": 57600, "CHF": 19200}
 """The fastest that the map lists, 8N1; CHF's manual gives no rate, so 19,200 bit/s is an assumption."""
 PINS = ("BitRate : UDINT", "CharacterBits : UINT", "ElapsedMs : UINT", "MaxScanMs : UINT", "Ascii : BOOL",
         "Restart : BOOL")  # fmt: skip
-SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, TurnRoundMs := 20, StopWithinMs := 20000"
+SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, FullScaleHz := 50.0, StopWithinMs := 20000"
 
 
 def station(prefix: str) -> Source:
     """A program with a line and seven drives, as a block."""
     drives = range(COUNT)
     calls = "".join(
-        f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, ReferenceScale := 100.0, Restart := Restart,"
+        f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, Settings := Setting,"
         f" Address := {at + 1}, Slot := Slots[{at}]);\n"
         for at in drives
     )
@@ -38,7 +38,8 @@ def station(prefix: str) -> Source:
     return Source(
         "seven.st",
         f"FUNCTION_BLOCK Seven\nVAR_INPUT\n{inputs}END_VAR\nVAR\n  Port : MB_Port;\n  Slots : MB_Slots8;\n"
-        f"  TheLine : MB_Line8;\n{blocks}END_VAR\n{calls}  TheLine({pins}, Port := Port, Slots := Slots);\n"
+        f"  TheLine : MB_Line8;\n  Setting : VFD_Settings;\n{blocks}END_VAR\n"
+        f"  Setting.ReferenceScale := 100.0;\n  Setting.TurnRoundMs := 20;\n{calls}  TheLine({pins}, Port := Port, Slots := Slots);\n"
         "END_FUNCTION_BLOCK\n",
     )
 

@@ -38,6 +38,6 @@ def test_a_difference_is_found() -> None:
     both = twins(dict(list(models().items())[:2]), every=1)
     bench = Bench(*FAMILIES, stations=both)
     assert isinstance(bench.block, Twins)
-    bench.block.instances[1]["Drive2.FaultBack3"] = 7
+    bench.block.instances[1]["Drive2.Diagnosis.FaultBack3"] = 7
     with pytest.raises(DifferentError, match="FAULTBACK3"):
         bench.run(20)

@@ -149,10 +149,10 @@ def test_stale_memory_starts_nothing(seed: int) -> None:
     for path, value in bench.block.state().items():
         if path.startswith(("DRIVE0.", "SLOTS[0].")) and not path.startswith("DRIVE0.SLOT."):
             _fill(bench, path, value)
-    bench.put(**SETTINGS, Address=1, SupplyOn=True, RunForward=True)
-    bench.put(**dict.fromkeys(("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "Restart"), False))
+    bench.put(**SETTINGS, Address=1, SupplyOff=False, RunForward=True)
+    bench.put(**dict.fromkeys(("QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False))
     bench.put(**dict.fromkeys(("JogForward", "JogReverse", "RunReverse"), False))
-    bench.put(RefreshMs=1000, FollowWithinMs=5000, StaleMs=5000, WatchdogMs=0, KeepWord=0, ManualChecked=True)
+    bench.put(RefreshMs=1000, FollowWithinMs=5000, StaleMs=5000, WatchdogMs=0, KeepWord=0, ManualChecked=0, BootMs=0)
     bench.put(FrequencyScale=0.01, ReferenceScale=100.0, LongestMs=60)
     if seed % 2:
         bench.drives[0].keypad_run(20.0)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import pytest
-from tests.drives.bench import Bench, Frame
+from tests.drives.bench import OFF, Bench, Frame
 from tests.drives.rules import MOTIONS, sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 
@@ -129,8 +129,8 @@ def meaning(word: int) -> Callable[[Bench], object]:
 
 
 WHILE = {
-    "restarted": (pins(Restart=True), pins(Restart=False), "RESTARTED"),
-    "no supply": (pins(SupplyOn=False), pins(SupplyOn=True), "NO_SUPPLY"),
+    "restarted": (line(Restart=True), line(Restart=False), "RESTARTED"),
+    "no supply": (pins(SupplyOff=True), pins(SupplyOff=False), "NO_SUPPLY"),
     "no line": (neglect, serve, "NO_LINE"),
     "offline": (deafen, lambda bench: bench.deaf.clear(), "OFFLINE"),
     "a fault": (trip, mend, "FAULT"),
@@ -146,7 +146,7 @@ WHILE = {
     "infinite": (pins(SpeedReferenceHz=INFINITE), pins(SpeedReferenceHz=25.0), "REFERENCE"),
     "negative": (pins(SpeedReferenceHz=-0.1), pins(SpeedReferenceHz=25.0), "REFERENCE"),
     "no time to stop": (pins(StopWithinMs=0), pins(StopWithinMs=9000), "MISSING"),
-    "no turn-round": (pins(TurnRoundMs=0), pins(TurnRoundMs=20), "MISSING"),
+    "a setting that cannot be off": (pins(StaleMs=OFF), pins(StaleMs=0), "MISSING"),
 }
 """What stops a motor and keeps it from starting: how it begins, how it ends, and what `Reason` says."""
 BEFORE = {
@@ -344,7 +344,7 @@ def test_run_and_reference_are_refreshed_while_it_runs() -> None:
     frames = bench.run(10_000)
     assert 4 <= len(sent(bench, frames, "run_forward")) <= 6
     assert 4 <= len(sent(bench, frames, "reference")) <= 6
-    bench.put(RefreshMs=0)
+    bench.put(RefreshMs=OFF)
     assert not sent(bench, bench.run(5000), "run_forward", "reference")
     bench.put(WatchdogMs=900)
     frames = bench.run(5000)
@@ -353,7 +353,7 @@ def test_run_and_reference_are_refreshed_while_it_runs() -> None:
 
 
 def test_a_reference_is_written_when_it_changes() -> None:
-    bench = watched("CHF").running().put(RefreshMs=0)
+    bench = watched("CHF").running().put(RefreshMs=OFF)
     bench.run(100)
     bench.put(SpeedReferenceHz=30.0)
     assert [each.word for each in sent(bench, bench.run(3000), "reference")] == [6000]

@@ -196,7 +196,7 @@ def test_nothing_stale_is_shown_as_good() -> None:
     assert not bench.out("DcBusVoltageValid")
     assert bench.shows("StopOverdue")
     assert bench.reason() == "OFFLINE"
-    bench.put(SupplyOn=False).run(100)
+    bench.put(SupplyOff=True).run(100)
     assert not bench.shows("StopOverdue")
     assert bench.reason() == "NO_SUPPLY"
 

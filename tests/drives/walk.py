@@ -85,10 +85,10 @@ class Walk:
         self.bench.put(drive, **dict.fromkeys(RUNS, False))
 
     def pin(self, drive: int) -> None:
-        names = [*RUNS, "Enable", "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "SupplyOn"]
+        names = [*RUNS, "Enable", "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly", "SupplyOff"]
         name = self.chance.choice(names)
         self.trail[-1] += f" {name}"
-        self.bench.put(drive, **{name: not self.bench.pins[drive].get(name, name == "SupplyOn")})
+        self.bench.put(drive, **{name: not self.bench.pins[drive].get(name)})
 
     def hertz(self, drive: int) -> None:
         self.bench.put(drive, SpeedReferenceHz=self.chance.choice(HERTZ))

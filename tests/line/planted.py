@@ -19,8 +19,8 @@ class Planted:
 
 PLANTED = (
     Planted("a new stop ranks as a command", "          Rank := 0;\n", "          Rank := 2;\n"),
-    Planted("a new stop goes behind polls", "OR ((Best > 0) AND (Behind >= PollAfter)", "OR ((Behind >= PollAfter)"),
-    Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(MaxScanMs) + ", "OnTop := "),
+    Planted("a new stop goes behind polls", "OR ((Best > 0) AND (Behind >= MAX(PollAfter, 1))", "OR ((Behind >= MAX(PollAfter, 1))"),
+    Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMost) + ", "OnTop := "),
     Planted(
         "the port's delay is forgotten",
         "UINT_TO_UDINT(SilenceMs) + UINT_TO_UDINT(Port.LateMs)\n        + UINT_TO_UDINT(Port.LateMs) + 2",
@@ -34,8 +34,8 @@ PLANTED = (
     ),
     Planted(
         "a stop is given up behind its retries",
-        "            Track[Slot].StopLost := TRUE;\n",
-        "            Slots[Slot].Answer[0].Number := Asked;\n",
+        "              Track[Slot].StopLost := TRUE;\n",
+        "              Slots[Slot].Answer[0].Number := Asked;\n",
     ),
     Planted(
         "a stop is acknowledged when it leaves",
@@ -48,8 +48,8 @@ PLANTED = (
     Planted("silence is a millisecond short", "(QuietMs > SilenceMs))", "(QuietMs >= SilenceMs))", "timing"),
     Planted(
         "the turn-round is forgotten",
-        "DueMs := MB_Plus(Number := Slots[Slot].TurnRoundMs, More := ",
-        "DueMs := MB_Plus(Number := 0, More := ",
+        "DueMs := MB_Plus(Number := PlainMs, More := Slots[Slot].TurnRoundMs);",
+        "DueMs := PlainMs;",
         "timing",
     ),
     Planted(
@@ -69,7 +69,7 @@ PLANTED = (
     ),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
-        "    DueMs := MB_Plus(Number := DueMs, More := Port.LateMs);\n",
+        "    PlainMs := MB_Plus(Number := PlainMs, More := Port.LateMs);\n",
         "",
         "timing",
     ),
@@ -89,5 +89,5 @@ PLANTED = (
         "IF Asked = Slots[Index].ParameterCleared THEN",
         "IF Asked > 0 THEN",
     ),
-    Planted("a fault reset is repeated", "      Most := 0;\n", "      Most := CommandRetries;\n"),
+    Planted("a fault reset is repeated", "      Most := 0;\n", "      Most := CommandMost;\n"),
 )

@@ -34,12 +34,15 @@ def strangers(bench: Bench) -> None:
     bench.run(300)
     bench.command(0)
     bench.run(100)
-    bench.drives[0].turn_us = 80_000
-    while bench["Timeouts"] == 0:
-        bench.scan()
-    bench.drives[0].turn_us = None
-    bench.stop(0)
-    bench.run(100)
+    for longest in (0, 60_000):
+        bench.block["Slots[0].LongestReplyMs"] = longest
+        bench.drives[0].turn_us = 80_000
+        before = bench["Timeouts"]
+        while bench["Timeouts"] == before:
+            bench.scan()
+        bench.drives[0].turn_us = None
+        bench.stop(0)
+        bench.run(100)
     bench.foreign(bytes([99, 3, 4, 1, 2, 3, 4]))
     idle(bench).set(Restart=True, BitRate=0)
     bench.scan()
@@ -67,6 +70,49 @@ def full_counts(bench: Bench) -> None:
     bench.run(3000)
 
 
+def unset(bench: Bench) -> None:
+    """Nothing is wired; then no retries; then all is said."""
+    usual = ("CharacterBits", "MaxScanMs", "RestartMs", "OfflineMs", "AttendMs", "ForeignMost")
+    retries = [f"{what}Retries" for what in ("Command", "Parameter", "Poll")]
+    bench.set(**dict.fromkeys((*usual, *retries), 0))
+    bench.run(300)
+    bench.set(**dict.fromkeys(retries, 255))
+    bench.ready().run(5000)
+    bench.set(**dict.fromkeys(usual[2:5], 1000), **dict.fromkeys(retries, 2))
+    bench.run(100)
+
+
+def supplies(bench: Bench) -> None:
+    """A drive boots in silence, refuses a stop that may end so, loses its supply on purpose, and gets it back."""
+    bench.put(0, BootMs=300, StopWithinMs=500)
+    bench.drives[0].alive = False
+    bench.stop(0)
+    bench.run(1000)
+    bench.drives[0].alive = True
+    bench.ready().put(0, EndsByAnswer=True)
+    bench.drives[0].answer = lambda request: bytes([request[0], request[1] + 0x80, 5])
+    bench.stop(0)
+    bench.run(500)
+    bench.drives[0].answer, bench.drives[0].alive = None, False
+    bench.put(0, SupplyOff=True)
+    bench.stop(0)
+    bench.run(12_000)
+    bench.put(0, SupplyOff=False)
+    bench.run(100)
+
+
+def late(bench: Bench) -> None:
+    """Two late replies with nothing sent between, the second one sooner."""
+    bench.put(0, PollEveryMs=400)
+    for turn_us in (120_000, 60_000):
+        idle(bench.ready()).drives[0].turn_us = turn_us
+        before = bench["Timeouts"]
+        while bench["Timeouts"] == before:
+            bench.scan()
+        bench.drives[0].turn_us = None
+        bench.run(300)
+
+
 def echo_ends(bench: Bench) -> None:
     """A port that no longer hears itself, without an error."""
     bench.ready().echoes = False
@@ -76,6 +122,9 @@ def echo_ends(bench: Bench) -> None:
 TOURS = (
     (long_dead, Config(drives=8)),
     (strangers, Config(drives=1, longest_ms=300)),
+    (unset, Config(drives=1)),
+    (supplies, Config(drives=1)),
+    (late, Config(drives=1, longest_ms=300)),
     (echo_ends, Config(drives=1, echo=True)),
     (odd_replies, Config(drives=1, kind=2)),
     (odd_replies, Config(drives=1, kind=2, ascii=True)),

@@ -85,7 +85,7 @@ ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 def library(prefix: str) -> Library:
     """The line, the blocks of parameters, and what a drive block of the family does for them."""
     wanted = re.compile(
-        rf"(?:types|drive|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
+        rf"(?:types|vfd|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
     )
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     drive = shipped()[prefix]
@@ -503,7 +503,7 @@ def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
 def test_the_example_of_the_page_runs_and_lints_clean() -> None:
     page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
-    wanted = re.compile(r"types/.*|drive/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
+    wanted = re.compile(r"types/.*|vfd/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     texts.append(Source("example.st", program + "\n"))
     assert list(lint_sources([(each.path, each.text) for each in texts])) == []

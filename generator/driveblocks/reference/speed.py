@@ -3,7 +3,7 @@
 The pins are REAL: what they cannot hold exactly is rounded to single precision before anything is computed.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import floor, isnan
 
@@ -38,6 +38,8 @@ class Encoded:
     """What it may say: more than one only beside half a count below zero."""
     at_the_end: bool = False
     """So near to the end of the word that single precision may or may not call it limited."""
+    hertz: float = 0.0
+    """The frequency after the limits, as single precision holds it."""
 
 
 class SpeedReference:
@@ -58,23 +60,30 @@ class SpeedReference:
         """The reference register."""
         return self.spec.register
 
-    def encode(self, hertz: float, maximum: float, scale: float = 0.0) -> Encoded:
-        """The word for a frequency in Hz; `maximum` in Hz; `scale` in counts per Hz if the map has none."""
-        asked, most, counts = _exact(hertz), _exact(maximum), _exact(scale)
+    def encode(self, hertz: float, maximum: float, full: float = 0.0, scale: float = 0.0) -> Encoded:
+        """The word for a frequency in Hz.
+
+        `maximum` is a limit in Hz; `full`, in Hz, is what 100 % means in the drive, and a second limit; where the
+        reference is no fraction of it, 0 is none. `scale` is in counts per Hz if the map has none.
+        """
+        asked, most, whole, counts = map(_exact, (hertz, maximum, full, scale))
         if asked is None:
             return _refused("NOT_A_NUMBER")
         if most is None or not LEAST_MAXIMUM <= most <= MOST_MAXIMUM:
             return _refused("NO_MAXIMUM")
+        if whole is None or not (LEAST_MAXIMUM <= whole <= MOST_MAXIMUM or (whole == 0 and not self.percent)):
+            return _refused("NO_FULL_SCALE")
         if self.factor is None and (counts is None or not 0 < counts <= MOST_COUNTS):
             return _refused("NO_SCALE")
-        limited = asked > most
-        return self._counted(self._counts(most if limited else asked, most, counts), limited)
+        limit = min(most, whole) if whole else most
+        found = self._counted(self._counts(min(asked, limit), whole, counts), asked > limit)
+        return replace(found, hertz=float(min(asked, limit))) if found.result == "OK" else found
 
-    def _counts(self, hertz: Fraction, most: Fraction, counts: Fraction | None) -> Fraction:
+    def _counts(self, hertz: Fraction, whole: Fraction, counts: Fraction | None) -> Fraction:
         if self.factor is None:
             assert counts is not None  # noqa: S101  (refused before)
             return hertz * counts
-        return (hertz / most * 100 if self.percent else hertz) / self.factor
+        return (hertz / whole * 100 if self.percent else hertz) / self.factor
 
     def _counted(self, counts: Fraction, limited: bool) -> Encoded:
         """The count as a word; what noise leaves within half a count below zero is zero."""

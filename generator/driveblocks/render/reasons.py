@@ -23,7 +23,13 @@ REASONS = (
     Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
     Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing"),
     # the line
-    Reason(10, "RESTARTED", "Restart is TRUE", "Restart为真", "wire `Restart` of the line to the first-scan bit, not to TRUE"),
+    Reason(
+        10,
+        "RESTARTED",
+        "Restart is TRUE",
+        "Restart为真",
+        "wire `Restart` of the line to the first-scan bit, not to TRUE",
+    ),
     Reason(
         11,
         "NO_LINE",

@@ -35,7 +35,12 @@ RESULTS = (
     Result(16, "NOT_ABLE", "the drive has no such command", "变频器无此命令"),
     Result(17, "NO_MAXIMUM", "the maximum frequency is not set, or makes no sense", "未设定最高频率或其值不合理"),
     Result(18, "HELD", "a run or jog pin is held since the reset; release it first", "复位后运行或点动信号未释放"),
-    Result(19, "NO_FULL_SCALE", "the frequency that is 100 % is not set, or makes no sense", "未设定100%对应的频率或其值不合理"),
+    Result(
+        19,
+        "NO_FULL_SCALE",
+        "the frequency that is 100 % is not set, or makes no sense",
+        "未设定100%对应的频率或其值不合理",
+    ),
     # receiving a frame
     Result(20, "SILENCE", "no reply", "无应答"),
     Result(21, "SHORT", "reply too short", "应答太短"),

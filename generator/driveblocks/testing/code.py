@@ -4,6 +4,7 @@ NUMBERS = {
     "OK": 0, "UNIT": 1, "FUNCTION": 2, "QUANTITY": 3, "WRAP": 4, "NOT_READABLE": 5, "NOT_WRITABLE": 6,
     "NO_BROADCAST": 7, "LENGTH": 8, "ASCII_LIMIT": 9, "SUB_FUNCTION": 10, "MODE": 11, "NOT_A_NUMBER": 12,
     "NEGATIVE": 13, "BOTH_DIRECTIONS": 14, "NO_SCALE": 15, "NOT_ABLE": 16, "NO_MAXIMUM": 17, "HELD": 18,
+    "NO_FULL_SCALE": 19,
     "SILENCE": 20, "SHORT": 21, "LONG": 22, "CHECKSUM": 23, "NO_START": 24, "NO_END": 25, "ODD_DIGITS": 26,
     "NOT_HEX": 27, "NO_REQUEST": 30, "BROADCAST": 31,
     "OTHER_UNIT": 32, "OTHER_FUNCTION": 33, "BYTE_COUNT": 34, "OTHER_ADDRESS": 35, "OTHER_VALUE": 36,
@@ -11,7 +12,7 @@ NUMBERS = {
     "RESTARTED": 50, "OFFLINE": 51, "TAKEN_BACK": 52, "STOP_ALL": 53, "FOREIGN": 54, "DOUBLED": 55, "SHARED": 56,
     "PORT": 57, "TIME_STANDS": 58, "UNATTENDED": 59, "REQUEST": 60, "OVERDUE": 61,
     "OWNED": 62, "LINE_SETTING": 63, "STORE_REGISTER": 64, "UNKNOWN_ADDRESS": 65, "NOT_STOPPED": 66, "RANGE": 67,
-    "NOT_SENT": 68, "NO_LINE": 69, "LOST": 70, "TOO_SOON": 71,
+    "NOT_SENT": 68, "NO_LINE": 69, "LOST": 70, "TOO_SOON": 71, "BAD_SETTING": 72,
 }  # fmt: skip
 
 WORDS = {
@@ -34,6 +35,7 @@ WORDS = {
     "NOT_ABLE": "the drive has no such command",
     "NO_MAXIMUM": "no maximum, or one without sense",
     "HELD": "a run pin is held since the reset",
+    "NO_FULL_SCALE": "no full scale, or one without sense",
     "SILENCE": "nothing was received",
     "SHORT": "too short",
     "LONG": "too long",
@@ -74,5 +76,6 @@ WORDS = {
     "NO_LINE": "nobody calls the line",
     "LOST": "the answer is lost",
     "TOO_SOON": "too soon",
+    "BAD_SETTING": "a setting is 65535 where nothing can be off",
 }
 """What a result means, in the comments of the test programs."""

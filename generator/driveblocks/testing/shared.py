@@ -17,7 +17,7 @@ def scripts(languages: Sequence[text.Language]) -> Iterator[Script]:
         yield from subject.scripts()
     yield from _replies()
     yield from text.results(languages)
-    yield from text.reasons(languages)
+    yield from text.own(languages)
 
 
 def _replies() -> Iterator[Script]:

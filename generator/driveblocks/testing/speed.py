@@ -9,11 +9,11 @@ from driveblocks.reference.speed import SpeedReference
 from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
-from driveblocks.testing.script import Script
+from driveblocks.testing.script import Probe, Script
 from driveblocks.testing.table import Table
 
-Case = tuple[str, float, float, float]
-"""What it is about; SpeedReferenceHz, MaximumHz, ReferenceScale."""
+Case = tuple[str, float, float, float, float]
+"""What it is about; SpeedReferenceHz, MaximumHz, FullScaleHz, ReferenceScale."""
 
 LARGEST_EXACT = 2**24
 """From here on REAL has no halves."""
@@ -37,12 +37,14 @@ def _table(program: Script, model: SpeedReference) -> Table:
     table = Table(program)
     table.column("Hertz", "REAL", 0.0, "SpeedReferenceHz")
     table.column("Maximum", "REAL", USUAL_MAXIMUM, "MaximumHz")
-    pins = "SpeedReferenceHz := Hertz, MaximumHz := Maximum"
+    table.column("Full", "REAL", USUAL_MAXIMUM if model.percent else 0.0, "FullScaleHz")
+    pins = "SpeedReferenceHz := Hertz, MaximumHz := Maximum, FullScaleHz := Full"
     if model.factor is None:
         table.column("Scale", "REAL", USUAL_SCALE, "ReferenceScale")
         pins += ", ReferenceScale := Scale"
     table.column("WantedError", "UINT", 0, "ErrorID that Encode must give")
     table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
+    table.column("WantedHz", "REAL", 0.0, "AskedHz that it must give, Hz")
     table.column("Lowest", "UINT", 0, "Value that it must give, at least")
     table.column("Highest", "UINT", 0, "... and at most: more only where REAL leaves two")
     table.do(
@@ -50,21 +52,24 @@ def _table(program: Script, model: SpeedReference) -> Table:
         bench.is_number("Encode.ErrorID", "WantedError", "ErrorID"),
         bench.is_flag("Encode.Limited", "WantedLimited", "Limited"),
         bench.is_between("WORD_TO_UINT(Encode.Value)", "Lowest", "Highest", "Value"),
+        Probe("Real", "Expected := WantedHz, Actual := Encode.AskedHz, Tolerance := 0.0", "AskedHz"),
         bench.is_word("Encode.Address", word(model.address), "Address"),
     )
     return table
 
 
 def _row(table: Table, model: SpeedReference, case: Case) -> None:
-    about, hertz, maximum, scale = case
-    found = model.encode(hertz, maximum, scale)
+    about, hertz, maximum, full, scale = case
+    found = model.encode(hertz, maximum, full, scale)
     if found.at_the_end or (len(found.results) > 1 and not _exact(model, hertz, scale)):
         return  # beside the end of the word, or half a count below zero: single precision decides which side it is on
     near = {found.value} if _exact(model, hertz, scale) else found.near
-    values = {"Hertz": hertz, "Maximum": maximum} | ({"Scale": scale} if model.factor is None else {})
+    values = {"Hertz": hertz, "Maximum": maximum, "Full": full} | ({"Scale": scale} if model.factor is None else {})
     says = f"{found.value}{', limited' if found.limited else ''}" if found.result == "OK" else WORDS[found.result]
-    words = f"{about}: {hertz:.9g} Hz of {maximum:.9g} Hz" + (f", {scale:.9g} per Hz" if model.factor is None else "")
-    wanted = {"WantedError": NUMBERS[found.result], "WantedLimited": found.limited}
+    words = f"{about}: {hertz:.9g} Hz of {maximum:.9g} Hz, {full:.9g} Hz is all" + (
+        f", {scale:.9g} per Hz" if model.factor is None else ""
+    )
+    wanted = {"WantedError": NUMBERS[found.result], "WantedLimited": found.limited, "WantedHz": found.hertz}
     bounds = {"Lowest": min(near) & 0xFFFF, "Highest": max(near) & 0xFFFF}
     table.row(f"{words}: {says}", values | wanted | bounds)
 
@@ -80,6 +85,23 @@ def _exact(model: SpeedReference, hertz: float, scale: float) -> bool:
 
 
 def _cases(model: SpeedReference) -> Iterator[Case]:
+    """As the full scale: the maximum, where the reference is a part of it, else none; then both apart."""
+    for about, hertz, maximum, scale in _limited(model):
+        fits = LEAST <= maximum <= MOST
+        yield about, hertz, maximum, (maximum if fits else USUAL_MAXIMUM) if model.percent else 0.0, scale
+    for full in (0.0, -1.0, 0.099, 0.1, 10000.0, 10001.0, -2.0e30, 2.0e30):
+        for hertz in (10.0, 0.0):
+            yield "full scale" if full else "full scale not set", hertz, 50.0, full, USUAL_SCALE
+    for maximum, full in ((40.0, 50.0), (50.0, 40.0), (60.0, 50.0)):
+        for hertz in (20.0, 39.0, 40.0, 45.0, 50.0, 55.0):
+            yield "a limit and a full scale", hertz, maximum, full, USUAL_SCALE
+
+
+LEAST, MOST = 0.1, 10000.0
+"""A maximum outside of these is none, Hz."""
+
+
+def _limited(model: SpeedReference) -> Iterator[tuple[str, float, float, float]]:
     for maximum in (50.0, 60.0, 400.0, 10000.0):
         yield from _at(model, maximum, USUAL_SCALE)
     if model.factor is None:
@@ -97,7 +119,7 @@ def _cases(model: SpeedReference) -> Iterator[Case]:
         yield "beyond, with nothing set", hertz, 0.0, 0.0
 
 
-def _at(model: SpeedReference, maximum: float, scale: float) -> Iterator[Case]:
+def _at(model: SpeedReference, maximum: float, scale: float) -> Iterator[tuple[str, float, float, float]]:
     """References from nothing to far too much; near the steps of the word where the frequency allows."""
     top = maximum
     for hertz in (0.0, 0.01, 0.1, 0.5, 1.0, 10.0, 25.0, 33.3, 49.99, 50.0):

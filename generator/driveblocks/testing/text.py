@@ -59,25 +59,34 @@ def results(languages: Iterable[Language]) -> Iterator[Script]:
         yield program
 
 
-REASONS = (*range(6), *range(10, 20), *range(20, 28), *range(30, 36), *range(40, 49))
+REASONS = (*range(7), *range(10, 20), *range(20, 28), *range(30, 36), *range(40, 49))
 """Every number that `Reason` of a drive block can have."""
 
 
-def reasons(languages: Iterable[Language]) -> Iterator[Script]:
-    """Programs for the texts of reasons: each number has one, and no other has."""
+STATES = (*range(7),)
+"""Every number that the state of a drive block can have."""
+
+
+def own(languages: Iterable[Language]) -> Iterator[Script]:
+    """Programs for the texts of reasons and states: each number has one, and no other has."""
     for language in languages:
-        name, title = f"ReasonText{language.suffix}", "every reason has a text"
-        program = bench.generic(name, title, "the reasons of DriveBlocks.")
-        program.variables["Found"] = ("STRING", "the text")
-        unknown = string(_bytes(reference.UNKNOWN, language))
-        for number in range(max(REASONS) + 2):
-            what = "has a text" if number in REASONS else "has none"
-            program.stage(
-                f"{number} {what}",
-                f"Found := VFD_ReasonText{language.suffix}(Code := {number});",
-                bench.is_flag(f"Found = {unknown}", number not in REASONS, "is an unknown code"),
-            )
-        yield program
+        yield _own(language, "Reason", REASONS)
+        yield _own(language, "State", STATES)
+
+
+def _own(language: Language, kind: str, numbers: tuple[int, ...]) -> Script:
+    name, title = f"{kind}Text{language.suffix}", f"every {kind.lower()} has a text"
+    program = bench.generic(name, title, f"the {kind.lower()}s of DriveBlocks.")
+    program.variables["Found"] = ("STRING", "the text")
+    unknown = string(_bytes(reference.UNKNOWN, language))
+    for number in range(max(numbers) + 2):
+        what = "has a text" if number in numbers else "has none"
+        program.stage(
+            f"{number} {what}",
+            f"Found := VFD_{kind}Text{language.suffix}(Code := {number});",
+            bench.is_flag(f"Found = {unknown}", number not in numbers, "is an unknown code"),
+        )
+    return program
 
 
 def _bytes(texts: reference.Texts | None, language: Language) -> bytes:
