@@ -461,7 +461,7 @@ def test_whoever_fills_the_compartment_is_judged(function: int, quantity: int) -
     assert NAMES[scene.slot(0, "Ask[2].Words[3]") >> 8] == "QUANTITY"
     assert scene.answer(0, PARAMETER) == ""
     assert scene.done("Get1", Address=0xFFFE, Quantity=3) == "WRAP"
-    assert scene.done("Put1", Quantity=0) == "QUANTITY"
+    assert scene.done("Put1", Quantity=4) == "QUANTITY"
 
 
 # ---------------------------------------------------------------- store

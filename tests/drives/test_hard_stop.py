@@ -1,0 +1,198 @@
+"""The contact of the hard stop: it latches, it closes by a person, and in no mode is it kept from closing."""
+
+import pytest
+from tests.drives.bench import Bench
+from tests.drives.station import FAMILIES, library
+from tests.drives.test_start import motions
+from tests.drives.test_stop import stops
+
+
+class Machine:
+    """A drive fed by a contactor that HardStopOk holds; its auxiliary contact says when the supply is off."""
+
+    def __init__(self, kind: str, *, auxiliary: bool = True) -> None:
+        """Power up with the contactor open."""
+        self.bench = Bench(kind, start=False)
+        self.latch = library().instance("VFD_HardStop")
+        self.auxiliary, self.dead, self.closed, self.changes = auxiliary, False, False, 0
+        self.bench.watch.append(self._scan)
+        self.feed()
+        self.bench.restart()
+
+    def feed(self) -> None:
+        """What the contactor does."""
+        self.bench.drives[0].power(on=self.closed)
+        self.bench.deaf = set() if self.closed and not self.dead else {1}
+        if self.auxiliary:
+            self.bench.put(SupplyOff=not self.closed)
+
+    def _scan(self, bench: Bench) -> None:
+        self.latch["Overdue"] = bench.block["TheLine.StopOverdue"]
+        self.latch["Restart"] = bool(bench.line_pins.get("Restart"))
+        self.latch.scan()
+        closed = bool(self.latch["HardStopOk"])
+        if closed is not self.closed:
+            self.closed, self.changes = closed, self.changes + 1
+            self.feed()
+
+    def press(self) -> "Machine":
+        """A person presses Reset, and lets go."""
+        for down in (True, False):
+            self.latch["Reset"] = down
+            self.bench.run(100)
+        return self
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_silent_drive_opens_the_contact_once_for_each_press(kind: str) -> None:
+    """Without a latch: 664 changes in ten seconds."""
+    machine = Machine(kind).press()
+    machine.bench.until(lambda: machine.bench.shows("StopConfirmed"), 12_000)
+    machine.bench.put(RunForward=True).run(3000)
+    machine.dead, machine.changes = True, 0
+    machine.feed()
+    machine.bench.run(30_000)
+    assert (machine.closed, machine.changes) == (False, 1)
+    machine.press().bench.run(9000)
+    assert (machine.closed, machine.changes) == (True, 2)  # it may boot
+    machine.bench.run(6000)
+    assert (machine.closed, machine.changes) == (False, 3)
+    machine.dead = False
+    machine.press().bench.put(RunForward=False).run(20_000)
+    assert (machine.closed, machine.changes) == (True, 4)
+    machine.bench.running()
+
+
+@pytest.mark.parametrize("auxiliary", [True, False])
+def test_it_closes_at_power_up(auxiliary: bool) -> None:
+    machine = Machine("CHF", auxiliary=auxiliary)
+    machine.bench.run(3000)
+    assert not machine.closed
+    machine.press().bench.run(20_000)
+    assert machine.closed
+    machine.bench.running()
+
+
+def test_with_an_auxiliary_contact_it_closes_whenever_a_person_comes() -> None:
+    machine = Machine("JSCC")
+    machine.bench.run(60_000)
+    assert not machine.bench.block["TheLine.StopOverdue"]
+    machine.press().bench.run(15_000)
+    assert machine.closed
+
+
+def test_the_latch_alone() -> None:
+    latch = library().instance("VFD_HardStop")
+
+    def scan(**pins: bool) -> bool:
+        for name in ("Overdue", "Restart", "Reset"):
+            latch[name] = pins.get(name, False)
+        latch.scan()
+        return bool(latch["HardStopOk"])
+
+    assert not scan(Reset=True)  # the first call acts like a restart
+    assert not scan(Reset=True)  # held since before
+    assert not scan()
+    assert scan(Reset=True)
+    assert scan()
+    assert not scan(Overdue=True)
+    assert not scan()
+    assert not scan(Overdue=True, Reset=True)
+    assert not scan(Reset=True)  # pressed while it was overdue
+    assert not scan()
+    assert scan(Reset=True)
+    assert not scan(Restart=True)
+    assert not scan()
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+@pytest.mark.parametrize("mode", ["MonitorOnly", "SpeedOnly"])
+def test_a_mode_from_power_up_leaves_no_stop_open(kind: str, mode: str) -> None:
+    bench = Bench(kind, start=False).put(**{mode: True}).restart()
+    for _ in range(75):
+        bench.run(1000)
+        assert not bench.shows("StopOverdue")
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+@pytest.mark.parametrize("mode", ["MonitorOnly", "SpeedOnly"])
+@pytest.mark.parametrize("event", ["StopAll", "block not called"])
+def test_a_mode_with_a_stop_from_outside_leaves_none_open(kind: str, mode: str, event: str) -> None:
+    bench = Bench(kind).put(**{mode: True})
+    bench.run(6000)
+    bench.drives[0].keypad_run(20.0)
+    bench.run(2000)
+    if event == "StopAll":
+        bench.line(StopAll=True).run(40)
+        bench.line(StopAll=False)
+    else:
+        bench.leave("Skip0").run(2000)
+        bench.leave("Skip0", on=False)
+    frames = bench.run(60_000)
+    assert stops(bench, bench.frames)
+    assert not motions(bench, frames)
+    assert not bench.shows("StopOverdue")
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_a_stop_at_standstill_ends_by_its_refusal(kind: str) -> None:
+    """The motor was proved to be at standstill, and nothing has moved it since: a refused stop is over."""
+    bench = Bench(kind).stopped()
+    bench.spoil = lambda frame, reply: reply if frame.read or reply is None else refused(bench, frame.unit, reply)
+    bench.put(Enable=False).run(20_000)
+    assert not bench.shows("StopOverdue")
+
+
+def refused(bench: Bench, unit: int, reply: bytes) -> bytes:
+    """The drive's refusal, with a code that does not mean busy."""
+    del unit
+    slot = "Slots[0]."
+    if bench.block[slot + "ErrorFunction"]:
+        address = bench.block[slot + "ErrorAddress"]
+        assert isinstance(address, int)
+        return bytes([reply[0], 6]) + address.to_bytes(2, "big") + b"\x00\x02"
+    return bytes([reply[0], reply[1] | 0x80, 0x02])
+
+
+@pytest.mark.parametrize("boot_ms", [0, 3000])
+def test_silence_is_no_alarm_while_it_boots(boot_ms: int) -> None:
+    bench = Bench("CHF", start=False).put(BootMs=boot_ms)
+    bench.deaf = {1}
+    bench.restart()
+    bench.run((boot_ms or 10_000) - 100)
+    assert not bench.shows("StopOverdue")
+    bench.run(1500)
+    assert bench.shows("StopOverdue")
+    bench.deaf = set()
+    bench.stopped()
+    assert not bench.shows("StopOverdue")
+
+
+def test_the_first_reply_ends_the_boot() -> None:
+    bench = Bench("CHF", start=False).restart()
+    bench.run(500)
+    bench.deaf = {1}
+    bench.put(Enable=False).run(5000)
+    bench.put(Enable=True, RunForward=True).run(1000)
+    assert bench.shows("StopOverdue")
+
+
+def test_without_supply_a_drive_that_answers_owes_its_stop() -> None:
+    bench = Bench("CHF").put(StopWithinMs=3000).running()
+    bench.drives[0].keeps_running = True
+    bench.put(SupplyOff=True)
+    assert stops(bench, bench.run(4000))
+    assert bench.shows("StopOverdue")
+
+
+def test_without_supply_a_silent_drive_gets_one_read_in_ten_seconds() -> None:
+    bench = Bench("CHF").stopped().put(SupplyOff=True)
+    bench.deaf = {1}
+    bench.run(20_000)
+    frames = bench.run(60_000)
+    assert not [each for each in frames if not each.read]
+    assert 5 <= len(frames) <= 7
+    assert not bench.shows("StopOverdue")
+    bench.deaf = set()
+    bench.put(SupplyOff=False).stopped()
+    bench.running()
