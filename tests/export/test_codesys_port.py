@@ -3,7 +3,7 @@ here, and what they answer is set here.
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import pytest
@@ -16,30 +16,48 @@ from driveblocks.st.names import reserved
 from driveblocks.st.tree import Pou
 
 PINS = (
-    "xExecute : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT; szBuffer : UINT;"
+    "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"
+    " szBuffer : UINT;"
 )
 STAND_IN = """FUNCTION_BLOCK {name}
 VAR_INPUT
   {pins} hCom : UINT; pBuffer : MB_LineFrame;
 END_VAR
 VAR_OUTPUT
-  xDone : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
+  xDone : BOOL; xBusy : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
 END_VAR
 VAR
-  Memory : BOOL;
+  Memory : BOOL; (* xExecute of the last call *)
+  Calls : UINT;  (* calls since the starting one *)
+  Ends : BOOL;   (* test: it ends by itself *)
+  Slow : UINT;   (* test: in which call behind the starting one; 0: in that itself *)
+  Fails : BOOL;  (* test: it ends with an error *)
 END_VAR
+  Calls := Calls + 1;
   IF xExecute AND NOT Memory THEN
     Asked := Asked + 1;
+    Calls := 0;
+    xBusy := TRUE;
   END_IF;
   Memory := xExecute;
-  IF NOT xExecute THEN
+  IF NOT xExecute OR xAbort THEN
     xDone := FALSE;
     xError := FALSE;
+  END_IF;
+  IF xAbort THEN
+    xBusy := FALSE;
+  ELSIF xBusy AND Ends AND (Calls >= Slow) THEN
+    xBusy := FALSE;
+    xDone := NOT Fails;
+    xError := Fails;
+    IF Fails THEN
+      eError := 5006;
+    END_IF;
   END_IF;
 END_FUNCTION_BLOCK
 """
 PORT = (
-    (r" := \[\n.*?\]; \(\* of the port \*\)", "; (* of the port *)"),
+    (r"COM\.CAA_Parameter_Constants\.\w+", "7"),
     (r"COM\.PARAMETER\b", "X_Parameter"),
     (r"COM\.(Open|Close|Read|Write)\b", r"X_\1"),
     (r"COM\.PARITY\.EVEN", "0"),
@@ -58,21 +76,33 @@ PORT = (
 """What the text of CD_Port says by means of CODESYS, and the same in portable ST."""
 
 
-def _built(name: str, text: str, stand_ins: list[str]) -> Callable[[], Instance]:
+COM = ("X_Open", "X_Close", "X_Read", "X_Write")
+
+
+def replaced(blocks: Sequence[str]) -> list[Source]:
+    """Stand-ins of these names, and the structure that one of them takes."""
+    parameter = "TYPE\n  X_Parameter : STRUCT\n    udiParameterId : UDINT;\n    udiValue : UDINT;\n  END_STRUCT;\nEND_TYPE\n"
+    return [Source("parameter", parameter), *(Source(each, STAND_IN.format(name=each, pins=PINS)) for each in blocks)]
+
+
+def _built(name: str, text: str, stand_ins: Sequence[str]) -> Callable[[], Instance]:
     sources = [Source(part.unit.path, part.text) for part in stock().parts]
-    parameter = "TYPE\n  X_Parameter : STRUCT\n    udiValue : UDINT;\n  END_STRUCT;\nEND_TYPE\n"
-    sources += [Source("stand_in", parameter)]
-    sources += [Source(each, STAND_IN.format(name=each, pins=PINS)) for each in stand_ins]
-    built = EmbeddedEngine().build([*sources, Source(name, text)])
+    built = EmbeddedEngine().build([*sources, *replaced(stand_ins), Source(name, text)])
     return lambda: built.instance(name)
 
 
-@cache
-def _port() -> Callable[[], Instance]:
+def portable() -> str:
+    """CD_Port in portable ST."""
     text = next(library.adapter("codesys", LANGUAGES)).text
     for old, new in PORT:
         text, count = re.subn(old, new, text, flags=re.DOTALL)
         assert count, old
+    return text
+
+
+@cache
+def _port() -> Callable[[], Instance]:
+    text = portable()
     rig = """PROGRAM X_Rig
 VAR
   Port : CD_Port; Send : UINT; Rx : MB_Adu; Tx : MB_LineFrame;
@@ -83,7 +113,7 @@ END_VAR
   END_IF;
 END_PROGRAM
 """
-    return _built("X_Rig", text + rig, ["X_Open", "X_Close", "X_Read", "X_Write"])
+    return _built("X_Rig", text + rig, COM)
 
 
 def _scan(rig: Instance, at: int, **given: Value) -> None:
