@@ -59,7 +59,8 @@ END_PROGRAM
 
 @dataclass(frozen=True)
 class Maker:
-    """A platform: its blocks, its numbers of a frame that failed and of one that did not end, and what a frame may take."""
+    """A platform: its blocks, its numbers of a frame that failed and of one that did not end, what a frame may take;
+    and a mistake in its port or line, where one is wanted."""
 
     target: str
     sender: str
@@ -69,6 +70,7 @@ class Maker:
     pins: str = ""
     buffers: str = ""
     more: str = ""
+    edit: tuple[str, str] = ("", "")
 
     def __str__(self) -> str:
         """The name of a case."""
@@ -85,7 +87,10 @@ class Maker:
         else:
             yield Source.read(HERE / "com.st")
         port, line = [name for name in parts if not name.endswith("32")]
-        yield from (Source(name, parts[name]) for name in (port, line))
+        both = "\0".join((parts[port], parts[line]))
+        assert both.count(self.edit[0]) == 1 or not self.edit[0]
+        edited = both.replace(*self.edit) if self.edit[0] else both
+        yield from (Source(name, text) for name, text in zip((port, line), edited.split("\0"), strict=True))
         shared = {"buffers": self.buffers, "more": self.more}
         yield Source("X_Alone", ALONE.format(port=port, pins=self.pins, **shared))
         yield Source("X_Lined", LINED.format(line=line, **shared))
@@ -121,6 +126,7 @@ class Rig:
         if maker.target == "codesys":
             for block in ("Opening", "Closing", "Reading"):
                 self.program[f"{self.port}.{block}.Ends"] = True
+                self.program[f"{self.port}.{block}.Slow"] = 2
 
     def end(self, end: End) -> None:
         """How each frame ends from now on."""

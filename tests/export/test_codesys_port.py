@@ -165,7 +165,7 @@ def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
     _opened(rig)
     _scan(rig, 130, Send=2, Tx=[17, 19])
     assert [rig["Port.Frame[0]"], rig["Port.Frame[1]"], rig["Port.Writing.szSize"]] == [17, 19, 2]
-    assert rig["Port.Writing.udiTimeOut"] == 60_000
+    assert rig["Port.Writing.udiTimeOut"] == 62_000
     _scan(rig, 140, Send=2, Tx=[23, 29])
     assert (rig["Port.TxBusy"], rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (True, 1, 17)
     _scan(rig, 150, Send=0, Port__Writing__xDone=True)
@@ -174,29 +174,73 @@ def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
     assert (rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (2, 23)
 
 
-@pytest.mark.parametrize("block", ["Reading", "Writing", "Opening"])
-def test_a_port_in_trouble_is_opened_again_a_second_later(block: str) -> None:
+def _failing(rig: Instance, at: int, block: str, code: int = 5105) -> None:
+    """A scan in which a block fails."""
+    _scan(rig, at, **{f"Port__{block}__eError": code, f"Port__{block}__xError": True})
+
+
+def test_a_port_that_cannot_be_opened_is_tried_once_a_second() -> None:
     rig = _port()()
     _scan(rig, 100)
     _scan(rig, 110)
-    if block != "Opening":
-        _scan(rig, 120, Port__Opening__xDone=True)
-        _scan(rig, 130, Send=2)
-    rig["Send"] = 0
-    _scan(rig, 140, **{f"Port__{block}__eError": 5105, f"Port__{block}__xError": True})
-    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (5105, True)
-    if block != "Opening":
-        _scan(rig, 150)
-        assert rig["Port.Closing.Asked"] == 1
-        _scan(rig, 160, Port__Closing__xDone=True)
+    _failing(rig, 140, "Opening")
     for at in range(200, 1100, 100):
         _scan(rig, at)
-        assert rig["Port.State"] == 0
-    _scan(rig, 1200)
-    _scan(rig, 1300)
+        assert (rig["Port.State"], rig["Port.ErrorID"], rig["Port.Opening.Asked"]) == (0, 5105, 1)
+    _scan(rig, 1100)
+    _scan(rig, 1110)
     assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
-    _scan(rig, 1310, Port__Opening__xDone=True)
+    _scan(rig, 1120, Port__Opening__xDone=True)
     assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+def test_opening_that_does_not_end_is_reported_and_waited_for() -> None:
+    rig = _port()()
+    _scan(rig, 100)
+    for at in range(200, 1100, 100):
+        _scan(rig, at)
+        assert rig["Port.ErrorID"] == 0
+    _scan(rig, 1100)
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"], rig["Port.Opening.Asked"]) == (5001, True, 1)
+    _scan(rig, 1110, Port__Opening__xDone=True)
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+@pytest.mark.parametrize("block", ["Reading", "Writing"])
+def test_a_port_that_fails_again_is_closed_and_opened_again_at_once(block: str) -> None:
+    rig = _port()()
+    _opened(rig)
+    for at in (2000, 2010):
+        assert rig["Port.State"] == 2
+        _scan(rig, at, Send=2 if block == "Writing" else 0)
+        rig["Send"] = 0
+        _failing(rig, at + 5, block)
+        assert rig["Port.ErrorID"] == 5105
+    assert (rig["Port.State"], rig["Port.TxBusy"]) == (3, True)
+    _scan(rig, 2020)
+    assert (rig["Port.Closing.Asked"], rig["Port.Reading.xAbort"]) == (1, True)
+    _scan(rig, 2030, Port__Closing__xDone=True)
+    _scan(rig, 2040)
+    _scan(rig, 2050)
+    assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
+    _scan(rig, 2060, Port__Opening__xDone=True)
+    assert (rig["Port.State"], rig["Port.TxBusy"], rig["Port.Failures"]) == (2, False, 0)
+    assert rig["Port.ErrorID"] == (5105 if block == "Writing" else 0), "no frame has gone since"
+    _scan(rig, 2070, Send=2)
+    _scan(rig, 2080, Send=0, Port__Writing__xDone=True)
+    assert rig["Port.ErrorID"] == 0
+
+
+def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
+    rig = _port()()
+    _opened(rig)
+    for at in (2000, 2010):
+        _failing(rig, at, "Reading")
+    assert rig["Port.State"] == 3
+    _scan(rig, 2900)
+    assert rig["Port.State"] == 3
+    _scan(rig, 3010)
+    assert rig["Port.State"] == 0
 
 
 def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
