@@ -81,7 +81,7 @@ COM = ("X_Open", "X_Close", "X_Read", "X_Write")
 
 def replaced(blocks: Sequence[str]) -> list[Source]:
     """Stand-ins of these names, and the structure that one of them takes."""
-    parameter = "TYPE\n  X_Parameter : STRUCT\n    udiParameterId : UDINT;\n    udiValue : UDINT;\n  END_STRUCT;\nEND_TYPE\n"
+    parameter = "TYPE\n  X_Parameter : STRUCT udiParameterId : UDINT; udiValue : UDINT; END_STRUCT;\nEND_TYPE\n"
     return [Source("parameter", parameter), *(Source(each, STAND_IN.format(name=each, pins=PINS)) for each in blocks)]
 
 

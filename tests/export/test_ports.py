@@ -142,7 +142,9 @@ def test_the_line_shows_the_number_for_a_second(maker: Maker, end: End) -> None:
     rig.end(GOOD)
     rig.program["Bus.StopAll"] = True  # so that there is a next frame
     wanted = maker.overtime if end.call is None else maker.failure
-    assert [shown(rig) for _ in range(100)] == [wanted] * 100
+    assert shown(rig) == wanted
+    assert rig.number("Bus.ErrorID") == 57
+    assert [shown(rig) for _ in range(99)] == [wanted] * 99
     assert shown_after(rig, 100) == 0
 
 
