@@ -82,6 +82,28 @@ def test_a_port_that_stays_broken_is_reported_all_the_time_and_tried_again_and_a
         assert 3 <= rig.number("Port.Opening.Asked") <= 1 + rig.ms // 1000
 
 
+@platforms
+def test_a_receiver_that_stays_broken_is_reported_and_holds_no_frame_up(maker: Maker) -> None:
+    rig = alone(maker)
+    name, value = {
+        "siemens": ("Receive.Fails", True),
+        "codesys": ("Reading.Fails", True),
+        "twincat": ("Receiver.Error", 24),
+    }[maker.target]
+    wait, shown = 0, set[int]()
+    for scans in range(300):
+        before = rig.attempts
+        rig.program[f"Port.{name}"] = value
+        rig.scan()
+        if scans:
+            shown.add(rig.number("Port.ErrorID"))
+        wait = wait + 1 if rig.attempts == before else 0
+        assert wait <= 8
+    assert shown == {{"siemens": 0x80E1, "codesys": 5006, "twincat": 24}[maker.target]}
+    if maker.target == "codesys":
+        assert 3 <= rig.number("Port.Opening.Asked") <= 1 + rig.ms // 1000
+
+
 def lined(maker: Maker) -> Rig:
     """A line that polls a drive, which is silent."""
     rig = Rig(maker, "X_Lined")
