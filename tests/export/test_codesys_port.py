@@ -3,7 +3,7 @@ here, and what they answer is set here.
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 
 import pytest
@@ -16,30 +16,48 @@ from driveblocks.st.names import reserved
 from driveblocks.st.tree import Pou
 
 PINS = (
-    "xExecute : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT; szBuffer : UINT;"
+    "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"
+    " szBuffer : UINT;"
 )
 STAND_IN = """FUNCTION_BLOCK {name}
 VAR_INPUT
   {pins} hCom : UINT; pBuffer : MB_LineFrame;
 END_VAR
 VAR_OUTPUT
-  xDone : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
+  xDone : BOOL; xBusy : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
 END_VAR
 VAR
-  Memory : BOOL;
+  Memory : BOOL; (* xExecute of the last call *)
+  Calls : UINT;  (* calls since the starting one *)
+  Ends : BOOL;   (* test: it ends by itself *)
+  Slow : UINT;   (* test: in which call behind the starting one; 0: in that itself *)
+  Fails : BOOL;  (* test: it ends with an error *)
 END_VAR
+  Calls := Calls + 1;
   IF xExecute AND NOT Memory THEN
     Asked := Asked + 1;
+    Calls := 0;
+    xBusy := TRUE;
   END_IF;
   Memory := xExecute;
-  IF NOT xExecute THEN
+  IF NOT xExecute OR xAbort THEN
     xDone := FALSE;
     xError := FALSE;
+  END_IF;
+  IF xAbort THEN
+    xBusy := FALSE;
+  ELSIF xBusy AND Ends AND (Calls >= Slow) THEN
+    xBusy := FALSE;
+    xDone := NOT Fails;
+    xError := Fails;
+    IF Fails THEN
+      eError := 5006;
+    END_IF;
   END_IF;
 END_FUNCTION_BLOCK
 """
 PORT = (
-    (r" := \[\n.*?\]; \(\* of the port \*\)", "; (* of the port *)"),
+    (r"COM\.CAA_Parameter_Constants\.\w+", "7"),
     (r"COM\.PARAMETER\b", "X_Parameter"),
     (r"COM\.(Open|Close|Read|Write)\b", r"X_\1"),
     (r"COM\.PARITY\.EVEN", "0"),
@@ -58,21 +76,33 @@ PORT = (
 """What the text of CD_Port says by means of CODESYS, and the same in portable ST."""
 
 
-def _built(name: str, text: str, stand_ins: list[str]) -> Callable[[], Instance]:
+COM = ("X_Open", "X_Close", "X_Read", "X_Write")
+
+
+def replaced(blocks: Sequence[str]) -> list[Source]:
+    """Stand-ins of these names, and the structure that one of them takes."""
+    parameter = "TYPE\n  X_Parameter : STRUCT udiParameterId : UDINT; udiValue : UDINT; END_STRUCT;\nEND_TYPE\n"
+    return [Source("parameter", parameter), *(Source(each, STAND_IN.format(name=each, pins=PINS)) for each in blocks)]
+
+
+def _built(name: str, text: str, stand_ins: Sequence[str]) -> Callable[[], Instance]:
     sources = [Source(part.unit.path, part.text) for part in stock().parts]
-    parameter = "TYPE\n  X_Parameter : STRUCT\n    udiValue : UDINT;\n  END_STRUCT;\nEND_TYPE\n"
-    sources += [Source("stand_in", parameter)]
-    sources += [Source(each, STAND_IN.format(name=each, pins=PINS)) for each in stand_ins]
-    built = EmbeddedEngine().build([*sources, Source(name, text)])
+    built = EmbeddedEngine().build([*sources, *replaced(stand_ins), Source(name, text)])
     return lambda: built.instance(name)
 
 
-@cache
-def _port() -> Callable[[], Instance]:
+def portable() -> str:
+    """CD_Port in portable ST."""
     text = next(library.adapter("codesys", LANGUAGES)).text
     for old, new in PORT:
         text, count = re.subn(old, new, text, flags=re.DOTALL)
         assert count, old
+    return text
+
+
+@cache
+def _port() -> Callable[[], Instance]:
+    text = portable()
     rig = """PROGRAM X_Rig
 VAR
   Port : CD_Port; Send : UINT; Rx : MB_Adu; Tx : MB_LineFrame;
@@ -83,7 +113,7 @@ END_VAR
   END_IF;
 END_PROGRAM
 """
-    return _built("X_Rig", text + rig, ["X_Open", "X_Close", "X_Read", "X_Write"])
+    return _built("X_Rig", text + rig, COM)
 
 
 def _scan(rig: Instance, at: int, **given: Value) -> None:
@@ -135,7 +165,7 @@ def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
     _opened(rig)
     _scan(rig, 130, Send=2, Tx=[17, 19])
     assert [rig["Port.Frame[0]"], rig["Port.Frame[1]"], rig["Port.Writing.szSize"]] == [17, 19, 2]
-    assert rig["Port.Writing.udiTimeOut"] == 60_000
+    assert rig["Port.Writing.udiTimeOut"] == 62_000
     _scan(rig, 140, Send=2, Tx=[23, 29])
     assert (rig["Port.TxBusy"], rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (True, 1, 17)
     _scan(rig, 150, Send=0, Port__Writing__xDone=True)
@@ -144,29 +174,73 @@ def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
     assert (rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (2, 23)
 
 
-@pytest.mark.parametrize("block", ["Reading", "Writing", "Opening"])
-def test_a_port_in_trouble_is_opened_again_a_second_later(block: str) -> None:
+def _failing(rig: Instance, at: int, block: str, code: int = 5105) -> None:
+    """A scan in which a block fails."""
+    _scan(rig, at, **{f"Port__{block}__eError": code, f"Port__{block}__xError": True})
+
+
+def test_a_port_that_cannot_be_opened_is_tried_once_a_second() -> None:
     rig = _port()()
     _scan(rig, 100)
     _scan(rig, 110)
-    if block != "Opening":
-        _scan(rig, 120, Port__Opening__xDone=True)
-        _scan(rig, 130, Send=2)
-    rig["Send"] = 0
-    _scan(rig, 140, **{f"Port__{block}__eError": 5105, f"Port__{block}__xError": True})
-    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (5105, True)
-    if block != "Opening":
-        _scan(rig, 150)
-        assert rig["Port.Closing.Asked"] == 1
-        _scan(rig, 160, Port__Closing__xDone=True)
+    _failing(rig, 140, "Opening")
     for at in range(200, 1100, 100):
         _scan(rig, at)
-        assert rig["Port.State"] == 0
-    _scan(rig, 1200)
-    _scan(rig, 1300)
+        assert (rig["Port.State"], rig["Port.ErrorID"], rig["Port.Opening.Asked"]) == (0, 5105, 1)
+    _scan(rig, 1100)
+    _scan(rig, 1110)
     assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
-    _scan(rig, 1310, Port__Opening__xDone=True)
+    _scan(rig, 1120, Port__Opening__xDone=True)
     assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+def test_opening_that_does_not_end_is_reported_and_waited_for() -> None:
+    rig = _port()()
+    _scan(rig, 100)
+    for at in range(200, 1100, 100):
+        _scan(rig, at)
+        assert rig["Port.ErrorID"] == 0
+    _scan(rig, 1100)
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"], rig["Port.Opening.Asked"]) == (5001, True, 1)
+    _scan(rig, 1110, Port__Opening__xDone=True)
+    assert (rig["Port.ErrorID"], rig["Port.TxBusy"]) == (0, False)
+
+
+@pytest.mark.parametrize("block", ["Reading", "Writing"])
+def test_a_port_that_fails_again_is_closed_and_opened_again_at_once(block: str) -> None:
+    rig = _port()()
+    _opened(rig)
+    for at in (2000, 2010):
+        assert rig["Port.State"] == 2
+        _scan(rig, at, Send=2 if block == "Writing" else 0)
+        rig["Send"] = 0
+        _failing(rig, at + 5, block)
+        assert rig["Port.ErrorID"] == 5105
+    assert (rig["Port.State"], rig["Port.TxBusy"]) == (3, True)
+    _scan(rig, 2020)
+    assert (rig["Port.Closing.Asked"], rig["Port.Reading.xAbort"]) == (1, True)
+    _scan(rig, 2030, Port__Closing__xDone=True)
+    _scan(rig, 2040)
+    _scan(rig, 2050)
+    assert (rig["Port.State"], rig["Port.Opening.Asked"]) == (1, 2)
+    _scan(rig, 2060, Port__Opening__xDone=True)
+    assert (rig["Port.State"], rig["Port.TxBusy"], rig["Port.Failures"]) == (2, False, 0)
+    assert rig["Port.ErrorID"] == 5105, "nothing was read or written since"
+    _scan(rig, 2070, Send=2)
+    _scan(rig, 2080, Send=0, Port__Writing__xDone=True, Port__Reading__xDone=True)
+    assert rig["Port.ErrorID"] == 0
+
+
+def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
+    rig = _port()()
+    _opened(rig)
+    for at in (2000, 2010):
+        _failing(rig, at, "Reading")
+    assert rig["Port.State"] == 3
+    _scan(rig, 2900)
+    assert rig["Port.State"] == 3
+    _scan(rig, 3010)
+    assert rig["Port.State"] == 0
 
 
 def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:

@@ -199,14 +199,19 @@ PLANTED = {
         test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped,
     ),
     "an older frame goes first": (
-        "ELSE\n    Cleaner(Buffer := TxBuffer);",
-        "ELSE",
+        "IF TxBuffer.Count > 0 THEN",
+        "IF FALSE THEN",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
     ),
     "a frame goes out again": (
-        "        Length := 0;\n",
-        "",
+        "Length := 0;\n        Sent := 0;\n      ELSIF",
+        "Sent := 0;\n      ELSIF",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
+    ),
+    "a frame that was thrown away goes after all": (
+        "Cleaner(Buffer := TxBuffer);\n        Length := 0;\n",
+        "Cleaner(Buffer := TxBuffer);\n",
+        test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped,
     ),
     "an error of the terminal is hidden": (
         "ErrorID := ControlErrorID;",

@@ -20,6 +20,7 @@ FOLDER = Path(siemens.__file__).parent
 READER = "the reader"
 NEEDED = (
     "MB_Plus",
+    "MB_WireMs",
     "MB_Crc16",
     "MB_RtuSeal",
     "MB_HexDigit",

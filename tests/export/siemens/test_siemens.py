@@ -356,7 +356,7 @@ def test_the_port_gives_all_messages_in_their_order() -> None:
 
 def test_the_port_sends_once_and_takes_no_other_before_the_end() -> None:
     module = Module()
-    module.port["Send.Slow"] = 3
+    module.port["Send.Slow"], module.port["LateMs"] = 3, 40
     module.receive()
     module.send(b"\x01\x03\x10\x01")
     assert module.shown("TxBusy", "Send.Sent", "Send.Bytes") == [True, 1, 4]
@@ -369,31 +369,40 @@ def test_the_port_sends_once_and_takes_no_other_before_the_end() -> None:
     assert module.shown("Send.Sent") == [2]
 
 
-def test_the_port_tells_what_failed_until_something_works() -> None:
+def test_the_port_calls_send_with_req_false_in_every_pass_that_sends_nothing() -> None:
     module = Module()
-    module.port["Send.Fails"] = True
     module.receive()
+    for _ in range(3):
+        module.send(b"\x01")
+        assert module.shown("Send.Memory", "TxBusy") == [True, False]
+        for _ in range(2):
+            module.receive()
+            assert module.shown("Send.Memory") == [False]
+
+
+def test_an_error_of_receiving_is_told_in_its_scan_whatever_becomes_of_a_frame() -> None:
+    module = Module()
+    module.receive()
+    assert module.shown("Flush.Count") == [1]
+    module.port["Send.Slow"] = 1
     module.send(b"\x01")
-    module.receive()
-    assert module.shown("TxBusy", "ErrorID", "Flush.Count") == [False, 0x80D1, 1]
     module.port["Receive.Fails"] = True
-    module.receive(scans=2)
-    assert module.shown("ErrorID", "Flush.Count") == [0x80E1, 2]
-    module.port["Send.Fails"] = False
-    module.send(b"\x01")
     module.receive()
-    assert module.shown("TxBusy", "ErrorID") == [False, 0]
+    assert module.shown("TxBusy", "ErrorID") == [False, 0x80E1]
+    module.receive()
+    assert module.shown("ErrorID", "Flush.Count") == [0, 2]
 
 
-def test_a_send_that_does_not_end_is_given_up() -> None:
+def test_a_module_whose_receiver_stays_broken_is_reset_by_edges() -> None:
     module = Module()
-    module.port["Send.Slow"] = 60000
     module.receive()
-    module.send(b"\x01")
-    module.receive(0.1, scans=10)
-    assert module.shown("TxBusy", "ErrorID") == [True, 0]
-    module.receive(0.1)
-    assert module.shown("TxBusy", "ErrorID") == [False, 1]
+    before = module.shown("Flush.Count")[0]
+    assert isinstance(before, int)
+    for _ in range(10):
+        module.port["Receive.Fails"] = True
+        module.receive()
+        assert module.shown("ErrorID") == [0x80E1]
+    assert module.shown("Flush.Count") == [before + 5]
 
 
 def test_the_first_motor_speaks_to_its_drive() -> None:
