@@ -133,7 +133,7 @@ def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
     Path("run.txt").write_text("at 1s: Divisor := 0\n", encoding="utf-8")
     result = run(program, *FAST)
     assert result.exit_code == 1
-    assert "SIMULATED  the program has failed: my.st:16:15: division by zero: stopping every drive" in result.output
+    assert "SIMULATED  the program has failed: my.st:17:15: division by zero: stopping every drive" in result.output
     assert "stopped, and standstill read: Motor" in result.output
 
 
@@ -169,7 +169,9 @@ import socket, sys
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted
 from driveblocks.maps import catalog
-made = Simulation([Wanted(catalog.resolve("jscc"), 5)], 19200, 10, ascii_mode=False)
+from driveblocks.maps.load import load
+path = catalog.resolve("jscc")
+made = Simulation([Wanted(path, load(path), 5)], 19200, 10, ascii_mode=False)
 with socket.create_connection(("127.0.0.1", made.port)) as line:
     line.settimeout(600)
     line.sendall(bytes.fromhex("05 03 20 01 00 01 DF 8E"))

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from driveblocks.host.embedded.certainty import present
+from driveblocks.maps.load import load
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.wanted import Wanted
 from driveblocks.plc.wire import Wire
@@ -55,8 +56,10 @@ def main(words: str) -> None:
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     threading.Thread(target=_end_with_input, daemon=True).start()
     given = json.loads(words)
-    wanted = [Wanted(Path(path), unit, hz, tuple(map(tuple, scales))) for path, unit, hz, scales in given["drives"]]
-    drives = [one.made(ascii_mode=given["ascii"]) for one in wanted]
+    drives = [
+        Wanted(Path(path), load(Path(path)), unit, hz, tuple(map(tuple, scales))).made(ascii_mode=given["ascii"])
+        for path, unit, hz, scales in given["drives"]
+    ]
     wire = Wire(drives, given["rate"], given["bits"], ascii_mode=given["ascii"])
     with socket.create_server((HOST, 0)) as server:
         print(server.getsockname()[1], flush=True)
