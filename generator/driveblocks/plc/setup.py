@@ -28,6 +28,8 @@ from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
+USUAL = {"BitRate": 9600, "CharacterBits": 10}
+"""What a line takes where a pin is 0."""
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -88,7 +90,7 @@ class Setup:
         return probe
 
     def _line(self, pin: str) -> int:
-        return self._probe.number(f"{self._probe.wiring.line}.{pin}")
+        return self._probe.number(f"{self._probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
 
     # ------------------------------------------------------------ port
 
