@@ -136,6 +136,19 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     assert "SIMULATED, my.st" in Path("t.svg").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(("words", "hertz"), [((), 37.5), (("--simulate", "chf@7:40"), 30.0)])
+def test_what_a_program_believes_of_a_drive_does_not_make_it_so(
+    words: tuple[str, ...], hertz: float, program: Path
+) -> None:
+    text = ONE.replace("JSCC", "CHF").replace("FullScaleHz := 50.0", "FullScaleHz := 40.0")
+    program.write_text(text, encoding="utf-8")
+    Path("run.txt").write_text("at 2s: Hz := 30; Start := TRUE\n", encoding="utf-8")
+    result = run(program, *FAST, "--trace", "t.csv", "--show", "Motor.OutputFrequencyHz", *words)
+    assert result.exit_code == 0
+    last = Path("t.csv").read_text(encoding="utf-8").splitlines()[-1]
+    assert float(last.split(",")[1]) == pytest.approx(hertz)
+
+
 def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) -> None:
     program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
     made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))

@@ -208,6 +208,7 @@ class DeskPlc(SoftPlc):
                     self.changed.notify_all()
         with self.changed:
             self.over = True
+            self.seen.setdefault("over", 1)  # also where it has shown nothing: nobody has to wait for it
             self.changed.notify_all()
 
     def reach(self, what: Callable[[dict[str, float]], bool]) -> None:

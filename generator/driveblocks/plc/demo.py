@@ -49,11 +49,12 @@ ACTS = (
     Act(
         "power-up: every drive is told to stop, and then read",
         {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
-        then=_all("Ready"),
+        then=_all("Ready") | {"HardStopOk": False},
     ),
+    Act("the reset button: the contact of the hard stop closes", {"Reset": True}, then={"HardStopOk": True}),
     Act(
         "start: all run pins rise, and the motors ramp up",
-        dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True),
+        {"Reset": False, **dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True)},
         then=_all("AtSpeed"),
     ),
     Act(
