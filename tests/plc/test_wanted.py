@@ -1,11 +1,13 @@
 """Drives that are to be simulated are set by their user: what the program believes of them changes nothing."""
 
+import json
+
 import pytest
 from tests.plc.desk import EXAMPLE, ONE, Desk, loaded, maps, wired
 from tests.simulator.talk import MAPS
 
 from driveblocks.maps import catalog
-from driveblocks.plc import wanted
+from driveblocks.plc import simulated, wanted
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Refused
 from driveblocks.plc.wanted import Wanted
@@ -105,6 +107,11 @@ def test_words_name_drives_units_and_what_no_manual_says() -> None:
 @pytest.mark.parametrize("path", ["my.yaml", "maps/my.yaml", "C:\\maps\\my.yaml", "C:/maps/my.yaml"])
 def test_a_map_is_named_by_its_path_too(path: str) -> None:
     assert wanted.words([f"{path}@2:50", path]) == [wanted.Word(path, "2", ("50",)), wanted.Word(path, "", ())]
+
+
+def test_another_process_gets_the_drives_as_they_are_set() -> None:
+    drives = named("chf@7:60:CurrentScale=0.1:PowerScale=2", "jscc")
+    assert simulated.wanted(json.loads(json.dumps(simulated.rows(drives)))) == drives
 
 
 def test_what_is_set_is_told_with_the_defaults() -> None:
