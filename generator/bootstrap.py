@@ -27,7 +27,7 @@ BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 DEMO = (
     ("check the vendor maps", "driveblocks", "check"),
     ("build their function blocks", "driveblocks", "build"),
-    ("let three simulated motors turn (twelve seconds)", "driveblocks", "run", "--demo"),
+    ("let three simulated motors turn (fifteen seconds)", "driveblocks", "run", "--demo"),
     ("test the blocks against the manuals (some seconds)", "driveblocks", "test"),
     ("look for other ST compilers", "driveblocks", "doctor"),
 )

@@ -17,6 +17,9 @@ from typer.testing import CliRunner, Result
 from driveblocks.commands import run as command
 from driveblocks.maps import collection
 from driveblocks.plc import demo, source
+from driveblocks.plc.keyboard import Keyboard
+from driveblocks.plc.options import Options
+from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import TcpLink
@@ -90,6 +93,8 @@ REFUSED = [
     ("my.st --simulate acme", "there is no drive `acme`"),
     ("my.st --simulate jscc@7,chf@7", "--simulate chf@7: units are 1 to 247, one drive each; write chf@1"),
     ("my.st --simulate jscc@0", "--simulate jscc@0: units are 1 to 247"),
+    ("my.st --simulate chf@7:0", "--simulate chf: `0` is no maximum; write whole Hz, 1 to 600, such as :50"),
+    ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC leaves open: ReferenceScale"),
     ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
     ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
     ("my.st --port no-such-port", "no-such-port: "),
@@ -118,10 +123,12 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
 def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
     Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
     files = ("--trace", "t.csv", "--picture", "t.svg")
-    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf,jscc@7")
+    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf:60,jscc@7")
     assert (result.exit_code, result.output[-1:]) == (0, "\n")
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
+    assert lines[1] == "SIMULATED  CHF at unit 1: maximum 60 Hz (100 %), FrequencyScale=0.01,"
+    assert lines[4] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
     assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
     rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
     assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]
@@ -129,11 +136,32 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     assert "SIMULATED, my.st" in Path("t.svg").read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize(("words", "hertz"), [((), 37.5), (("--simulate", "chf@7:40"), 30.0)])
+def test_what_a_program_believes_of_a_drive_does_not_make_it_so(
+    words: tuple[str, ...], hertz: float, program: Path
+) -> None:
+    text = ONE.replace("JSCC", "CHF").replace("FullScaleHz := 50.0", "FullScaleHz := 40.0")
+    program.write_text(text, encoding="utf-8")
+    Path("run.txt").write_text("at 2s: Hz := 30; Start := TRUE\n", encoding="utf-8")
+    result = run(program, *FAST, "--trace", "t.csv", "--show", "Motor.OutputFrequencyHz", *words)
+    assert result.exit_code == 0
+    last = Path("t.csv").read_text(encoding="utf-8").splitlines()[-1]
+    assert float(last.split(",")[1]) == pytest.approx(hertz)
+
+
+def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) -> None:
+    program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
+    made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
+    probe = made._probe
+    taken = (probe.number("Bus.Line.Rate"), probe.number("Bus.Line.CharBits"))
+    assert (made._line("BitRate"), made._line("CharacterBits")) == taken == (9600, 10)
+
+
 def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
     Path("run.txt").write_text("at 1s: Divisor := 0\n", encoding="utf-8")
     result = run(program, *FAST)
     assert result.exit_code == 1
-    assert "SIMULATED  the program has failed: my.st:16:15: division by zero: stopping every drive" in result.output
+    assert "SIMULATED  the program has failed: my.st:17:15: division by zero: stopping every drive" in result.output
     assert "stopped, and standstill read: Motor" in result.output
 
 
@@ -169,10 +197,13 @@ import socket, sys
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted
 from driveblocks.maps import catalog
-made = Simulation([Wanted(catalog.resolve("jscc"), 5)], 19200, 10, ascii_mode=False)
+from driveblocks.maps.load import load
+from driveblocks.modbus.frame import seal
+path = catalog.resolve("chf")
+made = Simulation([Wanted(path, load(path), 5, 60, (("DcVoltageScale", "0.1"),))], 19200, 10, ascii_mode=False)
 with socket.create_connection(("127.0.0.1", made.port)) as line:
     line.settimeout(600)
-    line.sendall(bytes.fromhex("05 03 20 01 00 01 DF 8E"))
+    line.sendall(seal("rtu", bytes.fromhex("05 03 30 02 00 01")))
     reply = b""
     while len(reply) < 7:
         reply += line.recv(7)
@@ -185,7 +216,7 @@ def test_drives_are_simulated_in_another_process_without_what_windows_lacks(wind
     words = [sys.executable, "-c", LOOPBACK]
     done = subprocess.run(words, env=windows, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout == "05 03 02 00 04 48 47\n"  # 2001H: stopped
+    assert done.stdout.startswith("05 03 02 15 18 ")  # 3002H: 540 V in counts of 0.1 V
 
 
 def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[str, str], program: Path) -> None:

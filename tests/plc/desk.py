@@ -33,10 +33,11 @@ VAR
   Slots : MB_Slots8;
   Divisor : INT := 1;
   Quotient : INT;
+  Setting : VFD_Settings := (ReferenceScale := 100.0, FrequencyScale := 0.01);
 END_VAR
   Quotient := 1 / Divisor;
-  Motor(Enable := TRUE, RunForward := Start, SpeedReferenceHz := Hz, MaximumHz := 50.0, Restart := First, Address := 7,
-    TurnRoundMs := 50, StopWithinMs := 15000, ReferenceScale := 100.0, Slot := Slots[0]);
+  Motor(Enable := TRUE, RunForward := Start, SpeedReferenceHz := Hz, MaximumHz := 50.0, FullScaleHz := 50.0,
+    Address := 7, StopWithinMs := 15000, Settings := Setting, Slot := Slots[0]);
   Bus(ElapsedMs := Elapsed, BitRate := 19200, Restart := First, RxCount := Received, RxChars := Rx, TxChars := Tx,
     Slots := Slots);
 END_PROGRAM

@@ -94,7 +94,7 @@ def test_a_lost_terminal_stops_every_drive(fails: BaseException) -> None:
 def test_a_drive_runs_where_its_name_and_unit_and_the_hard_stop_are_typed(
     typed: str, allowed: set[tuple[int, str]], keys: Callable[[str], Keyboard], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    desk = Desk(EXAMPLE.read_text(encoding="utf-8").replace("WatchdogMs := 2000", "WatchdogMs := 0")).scan(10)
+    desk = Desk(EXAMPLE.read_text(encoding="utf-8")).scan(10)
     assert permission.ask(desk.controller, keys(typed)) == allowed
     said = capsys.readouterr().out
     assert (
@@ -103,7 +103,10 @@ def test_a_drive_runs_where_its_name_and_unit_and_the_hard_stop_are_typed(
     assert said.count("reads and stops only") == 3 - len(allowed)
 
 
-def test_a_watchdog_takes_the_place_of_the_typed_hard_stop(keys: Callable[[str], Keyboard]) -> None:
-    text = EXAMPLE.read_text(encoding="utf-8").replace("Address := 1,", "Address := 1, WatchdogMs := 1500,")
-    desk = Desk(text).scan(10)
-    assert permission.ask(desk.controller, keys("Pump1 1\n")) == {(1, "Pump1")}
+@pytest.mark.parametrize(("watchdog_ms", "allowed"), [(1500, {(1, "Pump1")}), (65535, set()), (0, set())])
+def test_a_watchdog_takes_the_place_of_the_typed_hard_stop(
+    watchdog_ms: int, allowed: set[tuple[int, str]], keys: Callable[[str], Keyboard]
+) -> None:
+    text = EXAMPLE.read_text(encoding="utf-8").replace("Address := 1,", "Address := 1, Settings := Fed,")
+    text = text.replace("  HardStop :", f"  Fed : VFD_Settings := (WatchdogMs := {watchdog_ms});\n  HardStop :")
+    assert permission.ask(Desk(text).scan(10).controller, keys("Pump1 1\n")) == allowed

@@ -149,7 +149,7 @@ def breaks(desk: Desk) -> None:
     desk.controller.scan = None  # type: ignore[assignment,method-assign]  # calling it fails
 
 
-@pytest.mark.parametrize(("crash", "said"), [(fails, "my.st:16:15: division by zero"), (breaks, "TypeError")])
+@pytest.mark.parametrize(("crash", "said"), [(fails, "my.st:17:15: division by zero"), (breaks, "TypeError")])
 def test_a_crash_stops_every_drive_and_is_told(crash: Callable[[Desk], None], said: str) -> None:
     desk = ended(Desk(), crash)
     assert desk.drives[0].mode == "standing"

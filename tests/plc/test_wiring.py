@@ -43,6 +43,22 @@ def test_the_example_measures_nothing_and_knows_its_first_scan() -> None:
     assert found.pins["ELAPSEDMS"] == "ElapsedMs"
 
 
+CONTACT = ONE.replace("END_VAR", "  Contact : VFD_HardStop;\n  Began, Pressed : BOOL;\nEND_VAR").replace(
+    "END_PROGRAM", "  Contact(Overdue := Bus.StopOverdue, Restart := Began, Reset := Pressed);\nEND_PROGRAM"
+)
+
+
+def test_the_contact_of_the_hard_stop_has_its_first_scan_and_its_button() -> None:
+    desk = Desk(CONTACT)
+    assert desk.controller.wiring.restart == ("First", "Began")
+    assert desk.controller.wiring.inputs == ("Start", "Hz", "Pressed")
+    desk.scan(3000)
+    assert not desk.instance["Contact.HardStopOk"]
+    desk.instance["Pressed"] = True
+    desk.scan(10)
+    assert desk.instance["Contact.HardStopOk"]
+
+
 INSIDE = """TYPE
   Wires : STRUCT
     Count : UINT;
@@ -129,7 +145,7 @@ def test_a_time_that_the_program_writes_itself_is_left_alone() -> None:
 
 def test_a_time_that_is_no_variable_is_told() -> None:
     (note,) = wired(ONE.replace("ElapsedMs := Elapsed", "ElapsedMs := 10")).notes
-    assert str(note).startswith("my.st:19:3: ElapsedMs is no variable: a late scan is not seen;")
+    assert str(note).startswith("my.st:20:3: ElapsedMs is no variable: a late scan is not seen;")
 
 
 SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
@@ -141,11 +157,11 @@ SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
     ("text", "wrong"),
     [
         ("PROGRAM P\nVAR\n  A : INT;\nEND_VAR\n  A := 1;\nEND_PROGRAM\n", "my.st:1:9: P calls no line"),
-        (SECOND, "my.st:21:3: 2 ports (Bus, Other): one port can be served"),
-        (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:19:3: RxCount of Bus has no variable"),
+        (SECOND, "my.st:22:3: 2 ports (Bus, Other): one port can be served"),
+        (ONE.replace("RxCount := Received", "RxCount := 0"), "my.st:20:3: RxCount of Bus has no variable"),
         (ONE.replace("  Quotient := 1", "  Received := 0;\n  Quotient := 1"), "the program writes Received"),
         ("TYPE\n  Count : INT;\nEND_TYPE\n", "my.st:1:1: there is no PROGRAM"),
-        (ONE + ONE.replace("One", "Two"), "my.st:22:1: there are 2 PROGRAMs; choose by --program: One, Two"),
+        (ONE + ONE.replace("One", "Two"), "my.st:23:1: there are 2 PROGRAMs; choose by --program: One, Two"),
         (ONE.replace("Hz : REAL", "Hz : REEL"), "my.st:4:8: "),
         (ONE.replace("JSCC_Drive", "ACME_Drive"), "my.st:10:11: "),
         (ONE.replace("Elapsed : UINT;", "Elapsed : UINT"), "my.st:6:3: "),

@@ -34,7 +34,7 @@ REQUEST = 8
 """Bytes of each: this drive is read by 03H, and written by 06H."""
 NET = 600
 """Seconds that no machine needs, for what would hang."""
-CHF = ONE.replace("JSCC", "CHF").replace("ReferenceScale := 100.0", "FrequencyScale := 0.01")
+CHF = ONE.replace("JSCC", "CHF")
 ASKED_HZ = 20
 COMMAND, STATUS, REFERENCE, FREQUENCY, FAULT = 0x1000, 0x1001, 0x2000, 0x3000, 0x5000
 RUN, STOP = 1, 5
@@ -43,7 +43,8 @@ STEP = 500
 """So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
 COUNTERS = ("Requests", "Good", "Bad", "Timeouts", "Retries", "LateReplies", "Refusals")
 HELD = next(reason.code for reason in REASONS if reason.en == "a run or jog pin is held since before")
-SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", "OutputFrequencyValid")
+VALID = "Diagnosis.OutputFrequencyValid"
+SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", VALID)
 
 
 class Motor:
@@ -207,6 +208,7 @@ class DeskPlc(SoftPlc):
                     self.changed.notify_all()
         with self.changed:
             self.over = True
+            self.seen.setdefault("over", 1)  # also where it has shown nothing: nobody has to wait for it
             self.changed.notify_all()
 
     def reach(self, what: Callable[[dict[str, float]], bool]) -> None:
@@ -314,7 +316,7 @@ class Exchange:
 
     def wrong_values(self) -> int:
         """How many values of the trace the motor did not have, or not in this order; and words that it must not get."""
-        rows = [row for row in self.rows if row["Motor.OutputFrequencyValid"] == "1"]
+        rows = [row for row in self.rows if row[f"Motor.{VALID}"] == "1"]
         valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows]
         held = iter(self.peer.motor.frequencies)
         seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]

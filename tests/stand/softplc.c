@@ -47,7 +47,7 @@ static void tell(int64_t ms) {
          "cycle=%d worstcycle=%d memory=%ld\n",
          (long long)ms, desk.MOTOR.COMMOK.value, desk.MOTOR.RUNNING.value, desk.MOTOR.FAULT.value,
          desk.MOTOR.STOPCONFIRMED.value, desk.BUS.STOPOVERDUE.value, desk.MOTOR.OUTPUTFREQUENCYHZ.value,
-         desk.MOTOR.OUTPUTFREQUENCYVALID.value, desk.MOTOR.REASON.value, desk.BUS.ERRORID.value,
+         desk.MOTOR.DIAGNOSIS.value.OUTPUTFREQUENCYVALID, desk.MOTOR.REASON.value, desk.BUS.ERRORID.value,
          desk.BUS.PORTERRORID.value, (unsigned long)desk.BUS.REQUESTS.value, (unsigned long)desk.BUS.GOOD.value,
          desk.BUS.TIMEOUTS.value, desk.BUS.BAD.value, desk.BUS.RETRIES.value, desk.BUS.LATEREPLIES.value,
          desk.BUS.REFUSALS.value, desk.BUS.WORSTSTOPMS.value, desk.BUS.LONGESTSCANMS.value, desk.BUS.LATESCANS.value,

@@ -38,7 +38,7 @@ QUICK = Habits(ramp=100, coast_ramp=200)
 def built(folder: Path, tool: Installation | None = None) -> Path:
     """The soft PLC as a program."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
-    mine = ("types/", "modbus/", "line/", "drive/", "invt_chf/")
+    mine = ("types/", "modbus/", "line/", "vfd/", "invt_chf/")
     files = [BLOCKS / name for name in names if name.startswith(mine)]
     linux = [BLOCKS.parent / "linux" / f"{name}.st" for name in ("LX_Port", "LX_Line8", "LX_Line32")]
     texts = [path.read_text(encoding="utf-8") for path in (*files, *linux, HERE / "softplc.st")]

@@ -39,6 +39,9 @@ def said(*words: str, status: int = 0) -> str:
         (["jscc@248"], "jscc@248: units are 1 to 247"),
         (["jsc@1x"], "jsc@1x: units are"),
         (["nobody"], "there is no drive `nobody`"),
+        (["chf@2:5000"], "chf: `5000` is no maximum; write whole Hz, 1 to 600, such as :50"),
+        (["chf:ReferenceScale=1"], "chf: `ReferenceScale=1` cannot be set; the manual of CHF leaves open: "),
+        (["jscc:ReferenceScale=x"], "jscc: `ReferenceScale=x` is no scale; write 0.1 to 1000 counts per Hz"),
         (["jscc", "--baud", "7"], "--baud 7 is no rate"),
         (["jscc", "--format", "9N1"], "--format 9N1 is none"),
         (["jscc", "--for", "soon"], "--for: `soon` is no time"),
@@ -53,10 +56,14 @@ def test_wrong_words_are_told(words: list[str], says: str) -> None:
 def test_every_line_says_that_it_is_simulated(tmp_path: Path) -> None:
     path = tmp_path / "day.yaml"
     path.write_text("- at 0 s: trip 3 1\n- at 1 ms: power off 2\n", encoding="utf-8")
-    lines = said("jscc", "chf", "--tcp", ":0", "--for", "250ms", "--scenario", str(path)).splitlines()
+    lines = said(
+        "jscc:ReferenceScale=10", "chf:60", "--tcp", ":0", "--for", "250ms", "--scenario", str(path)
+    ).splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     place = r"on 127\.0\.0\.1:\d+; Ctrl-C ends"
     assert re.search(rf"JSCC at unit 1, CHF at unit 2; MODBUS RTU, 19200 bit/s 8N1, {place}", lines[0])
+    assert lines[1] == "SIMULATED  JSCC at unit 1: maximum 50 Hz, ReferenceScale=10"
+    assert lines[2] == "SIMULATED  CHF at unit 2: maximum 60 Hz (100 %), FrequencyScale=0.01,"
     text = "\n".join(lines)
     for part in (
         "trip 3 1",

@@ -18,8 +18,8 @@ Simulate = Annotated[
     list[str] | None,
     typer.Option(
         "--simulate",
-        metavar="DRIVE[@UNIT]",
-        help="Simulate this drive; may be repeated. Without any port: the drives of the program.",
+        metavar="DRIVE[@UNIT][:HZ]",
+        help="Simulate this drive, with its own maximum (50); may be repeated. Without any port: those of the program.",
     ),
 ]
 Tcp = Annotated[
@@ -52,7 +52,7 @@ Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw a t
 Allow = Annotated[
     bool, typer.Option("--allow-run", help="Let more than reads and stops leave on a real port; asks first.")
 ]
-Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, twelve seconds.")]
+Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, fifteen seconds.")]
 Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait, reckon the time.")]
 
 

@@ -9,7 +9,9 @@ from driveblocks.commands import refuse
 
 Drives = Annotated[
     list[str] | None,
-    typer.Argument(metavar="DRIVE[@UNIT]...", help="Drives and their unit addresses; without one the next free."),
+    typer.Argument(
+        metavar="DRIVE[@UNIT][:HZ]...", help="Drives, unit addresses (else the next free), their own maximum (else 50)."
+    ),
 ]
 Port = Annotated[
     str | None, typer.Option(metavar="DEVICE", help="Serve a serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")

@@ -6,14 +6,17 @@ from pathlib import Path
 
 import driveblocks
 from driveblocks.host.engine import Value
+from driveblocks.plc import wanted
 from driveblocks.plc.session import Session
 from driveblocks.simulator.drive import SimulatedDrive
 
 PROGRAM = "three_makes.st"
 RAMP, COAST = 40, 60
 """Hz/s: short, since nobody waits for a motor that does not turn."""
-SCALES: dict[str, Value] = {"CountsPerHertz": 100.0, "Fan.FrequencyScale": 0.01}
-"""What a person finds out on the motor, since no manual says it: of simulated drives it is 0.01 Hz per count."""
+SCALES: dict[str, Value] = {
+    "CountsPerHertz": float(wanted.COUNTS_PER_HERTZ), "Fan.Settings.FrequencyScale": float(wanted.PER_COUNT),
+}  # fmt: skip
+"""What a person finds out on the motor, since no manual says it; here, what simulated drives have."""
 FAULT = 4
 DRIVES = ("Pump1", "Pump2", "Fan")
 HOLD_US = 700_000
@@ -46,11 +49,12 @@ ACTS = (
     Act(
         "power-up: every drive is told to stop, and then read",
         {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
-        then=_all("Ready"),
+        then=_all("Ready") | {"HardStopOk": False},
     ),
+    Act("the reset button: the contact of the hard stop closes", {"Reset": True}, then={"HardStopOk": True}),
     Act(
         "start: all run pins rise, and the motors ramp up",
-        dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True),
+        {"Reset": False, **dict.fromkeys(("Pump1On", "Pump2On", "FanOn"), True)},
         then=_all("AtSpeed"),
     ),
     Act(

@@ -23,11 +23,13 @@ from driveblocks.plc.record import Timing, Trace
 from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
-from driveblocks.plc.wanted import chosen, words
+from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
+USUAL = {"BitRate": 9600, "CharacterBits": 10}
+"""What a line takes where a pin is 0."""
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -48,7 +50,7 @@ class Setup:
         self._maps = _maps(options)
         self._loaded = self._load()
         self._probe = self._probed()
-        self._wanted = [] if options.tcp or options.port else chosen(options.simulate, self._probe, self._maps)
+        self._wanted = [] if options.tcp or options.port else self._simulates()
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
@@ -88,7 +90,7 @@ class Setup:
         return probe
 
     def _line(self, pin: str) -> int:
-        return self._probe.number(f"{self._probe.wiring.line}.{pin}")
+        return self._probe.number(f"{self._probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
 
     # ------------------------------------------------------------ port
 
@@ -119,6 +121,14 @@ class Setup:
         if found is None:
             raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves the format open; write --format")
         return found
+
+    def _simulates(self) -> list[Wanted]:
+        """The drives that are named, else those of the program. Raises Refused."""
+        known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
+        if not self._options.simulate:
+            return list(of_program(self._probe, tuple(known.values())))
+        drives = words(self._options.simulate)
+        return named(drives, lambda name: known[catalog.resolve(name).resolve()], "--simulate ")
 
     def _simulated(self) -> Port:
         wanted = self._wanted
@@ -210,6 +220,9 @@ class Setup:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not self._free:
                 self._session.told.put("only reads and stops leave; if a simulator is there, add --simulated")
+            for one in self._wanted:
+                for line in one.told():
+                    self._session.told.put(line)
             screen = self._screen()
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
@@ -272,7 +285,7 @@ def _stands(result: Result) -> Iterator[str]:
 
 def _maps(options: Options) -> list[Map]:
     """The shipped maps, and those that are named. Raises Refused."""
-    named = [*options.maps, *(name for name, _ in words(options.simulate))]
+    named = [*options.maps, *(one.name for one in words(options.simulate))]
     try:
         paths = [*catalog.shipped(), *(catalog.resolve(name) for name in named)]
         known = {path.resolve(): path for path in reversed(paths)}

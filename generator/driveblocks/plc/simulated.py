@@ -15,8 +15,10 @@ import sys
 import threading
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from driveblocks.host.embedded.certainty import present
+from driveblocks.maps.load import load
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.wanted import Wanted
 from driveblocks.plc.wire import Wire
@@ -30,8 +32,7 @@ class Simulation:
 
     def __init__(self, drives: Sequence[Wanted], rate: int, bits: int, *, ascii_mode: bool) -> None:
         """Start it and wait until it listens. Raises OSError."""
-        rows = [[str(one.path.resolve()), one.unit, one.maximum_hz, one.scales] for one in drives]
-        words = json.dumps({"drives": rows, "rate": rate, "bits": bits, "ascii": ascii_mode})
+        words = json.dumps({"drives": rows(drives), "rate": rate, "bits": bits, "ascii": ascii_mode})
         self._process = subprocess.Popen(
             [sys.executable, "-m", "driveblocks.plc.simulated", words],
             stdin=subprocess.PIPE,
@@ -48,6 +49,19 @@ class Simulation:
         self._process.communicate()
 
 
+def rows(drives: Sequence[Wanted]) -> list[list[Any]]:
+    """Drives as JSON can say them."""
+    return [[str(one.path.resolve()), one.unit, one.maximum_hz, one.scales] for one in drives]
+
+
+def wanted(rows: Sequence[Sequence[Any]]) -> list[Wanted]:
+    """The drives of such rows. Raises MapError."""
+    return [
+        Wanted(Path(path), load(Path(path)), unit, hz, tuple((name, number) for name, number in scales))
+        for path, unit, hz, scales in rows
+    ]
+
+
 def main(words: str) -> None:
     """Serve."""
     for name in ("SIGINT", "SIGHUP"):  # meant for the one who started this, who still has drives to stop
@@ -55,8 +69,7 @@ def main(words: str) -> None:
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     threading.Thread(target=_end_with_input, daemon=True).start()
     given = json.loads(words)
-    wanted = [Wanted(Path(path), unit, hz, tuple(map(tuple, scales))) for path, unit, hz, scales in given["drives"]]
-    drives = [one.made(ascii_mode=given["ascii"]) for one in wanted]
+    drives = [one.made(ascii_mode=given["ascii"]) for one in wanted(given["drives"])]
     wire = Wire(drives, given["rate"], given["bits"], ascii_mode=given["ascii"])
     with socket.create_server((HOST, 0)) as server:
         print(server.getsockname()[1], flush=True)

@@ -53,14 +53,14 @@ def _seen(controller: Controller, path: str) -> Seen:
         unit=controller.number(f"{path}.Unit"),
         state=_state(pin),
         asked_hz=asked,
-        hertz=hertz if pin["OutputFrequencyValid"] else None,
+        hertz=hertz if pin["Diagnosis.OutputFrequencyValid"] else None,
         why=_WHY.get(reason, f"reason {reason}"),
     )
 
 
 _PINS = (
     "CommOk", "Running", "Reverse", "AtSpeed", "Fault", "FaultCode", "StopConfirmed", "StopOverdue",
-    "OutputFrequencyHz", "OutputFrequencyValid", "SpeedReferenceHz", "Reason",
+    "OutputFrequencyHz", "Diagnosis.OutputFrequencyValid", "SpeedReferenceHz", "Reason",
 )  # fmt: skip
 
 

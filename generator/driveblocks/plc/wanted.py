@@ -1,25 +1,42 @@
-"""Drives that are to be simulated."""
+"""Drives that are to be simulated, as the command line names them: `jscc@2:50:ReferenceScale=100`.
 
-from collections.abc import Iterator, Sequence
+Nothing of it is taken from a program: what its settings believe of a drive may be wrong, and has to show.
+"""
+
+import re
+import textwrap
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
-from driveblocks.maps import catalog
-from driveblocks.maps.collection import Source as Map
-from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Refused
-from driveblocks.plc.wiring import DriveBlock
+from driveblocks.render.drive import MEASURES
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 HIGHEST_UNIT = 247
-SCALES = {
-    "output_frequency": "FrequencyScale", "output_current": "CurrentScale", "output_voltage": "VoltageScale",
-    "dc_bus_voltage": "DcVoltageScale", "output_power": "PowerScale",
-}  # fmt: skip
-"""The pin of a drive block that says what the manual does not."""
+FACTORY_HZ, HIGHEST_HZ = 50, 600
+REFERENCE = "ReferenceScale"
+"""Counts per Hz; every other scale is Hz, A, V or kW per count."""
+COUNTS_PER_HERTZ, PER_COUNT = "100", "0.01"
+"""What a scale is that the manual leaves open, unless its user sets it."""
+LEAST, MOST = Decimal("0.1"), Decimal(1000)
+FINEST, COARSEST = Decimal("0.01"), Decimal(10)
+WIDTH = 68
+_WORD = re.compile(r"(?P<name>.+?)(@(?P<unit>[^:]*))?(?P<facts>(:[^:@\\/]*)*)")
+_NUMBER = re.compile(r"[0-9]{1,6}(\.[0-9]{1,3})?")
+
+
+@dataclass(frozen=True)
+class Word:
+    """A drive in the words of the command line; `unit` and `facts` may be empty."""
+
+    name: str
+    unit: str
+    facts: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -27,43 +44,72 @@ class Wanted:
     """A drive to be simulated: its map, its unit address, and what no manual says of it."""
 
     path: Path
+    drive: Drive
     unit: int
-    maximum_hz: int = 50
-    scales: tuple[tuple[int, str], ...] = ()
-
-    @property
-    def habits(self) -> Habits:
-        """What no manual says of it."""
-        scales = {register: Decimal(factor) for register, factor in self.scales}
-        return Habits(maximum_hz=self.maximum_hz, scales=scales)
+    maximum_hz: int = FACTORY_HZ
+    """The drive's own maximum: 100 % of a reference that is a percentage."""
+    scales: tuple[tuple[str, str], ...] = ()
+    """Scales that its user has set: their names as in VFD_Settings, and numbers."""
 
     def made(self, *, ascii_mode: bool) -> SimulatedDrive:
-        """The drive. Raises MapError."""
-        return SimulatedDrive(load(self.path), self.unit, self.habits, ascii_mode=ascii_mode)
+        """The drive."""
+        places = open_scales(self.drive)
+        scales = {places[name]: _factor(name, number) for name, number in self.scales}
+        return SimulatedDrive(
+            self.drive, self.unit, Habits(maximum_hz=self.maximum_hz, scales=scales), ascii_mode=ascii_mode
+        )
+
+    def told(self) -> list[str]:
+        """What it is set to, in lines."""
+        full = " (100 %)" if self.drive.operation.reference.means == "percent_of_maximum" else ""
+        given = dict(self.scales)
+        scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
+        text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))
+        return textwrap.wrap(text, WIDTH, subsequent_indent="  ")
 
 
-def words(simulate: Sequence[str]) -> list[tuple[str, str]]:
-    """Drive and unit of each word of `--simulate`; the unit may be empty."""
-    found = [word for each in simulate for word in each.replace(",", " ").split()]
-    return [(name, unit) for name, _, unit in (word.partition("@") for word in found)]
+def open_scales(drive: Drive) -> dict[str, int]:
+    """The scales that a drive's manual leaves open, by their names in VFD_Settings, each with its register."""
+    operation, found = drive.operation, dict[str, int]()
+    reference = drive.register_at(operation.reference.register)
+    if operation.reference.means == "frequency" and not (reference and reference.scale):
+        found[REFERENCE] = operation.reference.register
+    shown: dict[str, int] = {each.shows: each.register for each in operation.measures}
+    for shows, (_, _, name) in MEASURES.items():
+        row = drive.register_at(shown[shows]) if shows in shown else None
+        if row and not row.scale:
+            found[name] = shown[shows]
+    return found
 
 
-def chosen(simulate: Sequence[str], program: Controller, maps: Sequence[Map]) -> list[Wanted]:
-    """The drives that are named, else those of the program. Raises Refused."""
-    if not simulate:
-        blocks = [block for block in program.wiring.drives if program.unit(block)]
-        known = {each.drive.prefix.upper(): each for each in maps}
-        return [_set(known[block.prefix], program.unit(block), program) for block in blocks]
+def words(named: Sequence[str]) -> list[Word]:
+    """The drives of texts in which commas or spaces may stand between them."""
+    found = [_WORD.fullmatch(word) for each in named for word in each.replace(",", " ").split()]
+    return [Word(one["name"], one["unit"] or "", tuple(one["facts"].split(":")[1:])) for one in found if one]
+
+
+def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], option: str = "") -> list[Wanted]:
+    """The drives that are named, in their order; `find` gives a name's map. Raises Refused, and what `find` raises."""
     made: list[Wanted] = []
-    for name, number in words(simulate):
-        taken = {one.unit for one in made}
-        unit = _unit(number, taken)
+    for one in drives:
+        taken = {each.unit for each in made}
+        unit = _unit(one.unit, taken)
         if unit is None:
-            free = f"{name}@{next(each for each in range(1, HIGHEST_UNIT + 2) if each not in taken)}"
-            raise Refused(f"--simulate {name}@{number}: units are 1 to {HIGHEST_UNIT}, one drive each; write {free}")
-        path = catalog.resolve(name).resolve()
-        made.append(_set(next(each for each in maps if each.path.resolve() == path), unit, program))
+            free = next((each for each in range(1, HIGHEST_UNIT + 1) if each not in taken), HIGHEST_UNIT)
+            why = f"units are 1 to {HIGHEST_UNIT}, one drive each; write {one.name}@{free}"
+            raise Refused(f"{option}{one.name}@{one.unit}: {why}")
+        path, drive = find(one.name)
+        hertz, scales = _facts(drive, one, option)
+        made.append(Wanted(path, drive, unit, hertz, tuple(scales.items())))
     return made
+
+
+def of_program(program: Controller, maps: Sequence[tuple[Path, Drive]]) -> Iterator[Wanted]:
+    """The drives of a program, each at the unit address of its block, set as they left the factory."""
+    known = {drive.prefix.upper(): (path, drive) for path, drive in maps}
+    for block in program.wiring.drives:
+        if program.unit(block):
+            yield Wanted(*known[block.prefix], program.unit(block))
 
 
 def _unit(number: str, taken: set[int]) -> int | None:
@@ -74,27 +120,41 @@ def _unit(number: str, taken: set[int]) -> int | None:
     return unit if 1 <= unit <= HIGHEST_UNIT and unit not in taken else None
 
 
-def _set(known: Map, unit: int, program: Controller) -> Wanted:
-    """A drive at a unit, set as the program says where the manual is silent."""
-    blocks = [each for each in program.wiring.drives if program.unit(each) == unit]
-    mine = [block for block in blocks if program.drive(block) is known.drive]
-    if not mine:
-        return Wanted(known.path, unit)
-    most = _real(program, mine[0], "MaximumHz")
-    return Wanted(known.path, unit, round(most) if 1 <= most <= 1000 else 50, tuple(_scales(known, mine[0], program)))
+def _facts(drive: Drive, one: Word, option: str) -> tuple[int, dict[str, str]]:
+    """The maximum in Hz, and the scales that are set. Raises Refused."""
+    given: dict[str, str] = {}
+    for fact in one.facts:
+        name, is_scale, number = fact.rpartition("=")
+        wrong = f"{option}{one.name}: `{fact}`"
+        if name in given:
+            raise Refused(f"{wrong} comes after another one; write one of them")
+        (_judge_scale if is_scale else _judge_maximum)(drive, name, number, wrong)
+        given[name] = number
+    return int(given.pop("", FACTORY_HZ)), given
 
 
-def _scales(known: Map, block: DriveBlock, program: Controller) -> Iterator[tuple[int, str]]:
-    operation = known.drive.operation
-    counts = _real(program, block, "ReferenceScale")
-    if operation.reference.means == "frequency" and counts > 0:
-        yield operation.reference.register, f"{1 / counts:.6f}"
-    for measure in operation.measures:
-        factor = _real(program, block, SCALES[measure.shows])
-        if factor > 0:
-            yield measure.register, f"{factor:.6f}"
+def _judge_maximum(_: Drive, __: str, number: str, wrong: str) -> None:
+    """Raises Refused for a maximum that is none."""
+    if not re.fullmatch("[0-9]{1,3}", number) or not 1 <= int(number) <= HIGHEST_HZ:
+        raise Refused(f"{wrong} is no maximum; write whole Hz, 1 to {HIGHEST_HZ}, such as :{FACTORY_HZ}")
 
 
-def _real(program: Controller, block: DriveBlock, pin: str) -> float:
-    value = program.instance[f"{block.path}.{pin}"]
-    return value if isinstance(value, float) else 0.0
+def _judge_scale(drive: Drive, name: str, number: str, wrong: str) -> None:
+    """Raises Refused where the manual gives the scale or the drive has none such, and for a number that is none."""
+    scales = open_scales(drive)
+    if name not in scales:
+        left = ", ".join(scales) or "no scale"
+        raise Refused(f"{wrong} cannot be set; the manual of {drive.prefix} leaves open: {left}")
+    least, most = (LEAST, MOST) if name == REFERENCE else (FINEST, COARSEST)
+    if not _NUMBER.fullmatch(number) or not least <= Decimal(number) <= most:
+        unit = "counts per Hz" if name == REFERENCE else "per count"
+        raise Refused(f"{wrong} is no scale; write {least} to {most} {unit}, such as {name}={_usual(name)}")
+
+
+def _usual(name: str) -> str:
+    return COUNTS_PER_HERTZ if name == REFERENCE else PER_COUNT
+
+
+def _factor(name: str, number: str) -> Decimal:
+    """Units per count."""
+    return 1 / Decimal(number) if name == REFERENCE else Decimal(number)

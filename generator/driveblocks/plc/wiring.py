@@ -16,6 +16,7 @@ UNPLACED = "?"
 """In a path: an instance that is not always the same one."""
 DRIVE = "_DRIVE"
 """The end of the type of a drive block."""
+HARD_STOP = "VFD_HARDSTOP"
 
 _UNPLACED = "this may be one {} or another, so it could not be stopped at the end; call each by its name or a number"
 
@@ -44,7 +45,8 @@ class Wiring:
     restart: tuple[str, ...]
     drives: tuple[DriveBlock, ...]
     inputs: tuple[str, ...]
-    """What a person at the keyboard may set: the program's inputs, and what else feeds its drives and its line."""
+    """What a person at the keyboard may set: the program's inputs, what else feeds its drives and its line, and the
+    button that resets a VFD_HardStop."""
     notes: tuple[Message, ...]
 
 
@@ -87,9 +89,11 @@ def find(program: Program, prefixes: set[str]) -> Wiring:
     (line,) = lines.values()
     drives = {each.path.upper(): DriveBlock(each.path, each.block.name[: -len(DRIVE)].upper()) for each in blocks}
     wired = _port(line, written)
-    restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (line, *blocks))))
+    contacts = [each for each in calls if each.block.name.upper() == HARD_STOP]
+    restart = dict.fromkeys(filter(None, (_fed(each, "RESTART", written) for each in (line, *contacts))))
     served = {each.upper() for each in (wired.rx_count, *restart, *filter(None, wired.pins.values()))}
     inputs = [*_inputs(program), *(path for each in (*blocks, line) for path in _feeding(each))]
+    inputs += [path for each in contacts for path in _feeding(each, {"RESET"})]
     free = {path.upper(): path for path in inputs if path.upper() not in served | written}
     return replace(wired, drives=tuple(drives.values()), restart=tuple(restart), inputs=tuple(free.values()))
 
@@ -100,11 +104,12 @@ def _inputs(program: Program) -> list[str]:
     return [each.name for each in found if isinstance(each.type, Elementary)]
 
 
-def _feeding(call: _Call) -> Iterator[str]:
-    """The variables that feed the inputs of a call."""
+def _feeding(call: _Call, names: set[str] | None = None) -> Iterator[str]:
+    """The variables that feed the inputs of a call, of one value each; all inputs, or those of these names."""
     for name, binding in call.bindings.items():
-        source = _source(call, name)
-        if isinstance(source, str) and binding.parameter.direction is Direction.INPUT:
+        source, parameter = _source(call, name), binding.parameter
+        single = parameter.direction is Direction.INPUT and isinstance(parameter.type, Elementary)
+        if isinstance(source, str) and single and (names is None or name in names):
             yield source
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from decimal import Decimal
+from fractions import Fraction
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
@@ -14,6 +15,9 @@ from driveblocks.simulator.pattern import WORD, Pattern, of_condition
 from driveblocks.simulator.refusal import codes
 
 MEASURES = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
+
+MOST_PER = 10_000
+"""Largest denominator of a reference in thousandths of a hertz: 3 counts per Hz are 1000/3 of them each."""
 
 
 @dataclass(frozen=True)
@@ -166,7 +170,7 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     row = drive.register_at(reference.register)
     signed = bool(row and row.signed)
     factor = _factor(drive, habits, reference.register)
-    times, per = _milli(factor), 1
+    times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()
     if reference.means == "percent_of_maximum":
         times, per = 1000 * habits.maximum_hz, int(100 / factor)
     verify = tuple(of_condition(each) for each in reference.verify)

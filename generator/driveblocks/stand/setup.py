@@ -11,12 +11,13 @@ from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live, port, wanted
+from driveblocks.plc import live, port
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, Refused, time
 from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
-from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.plc.wanted import named
+from driveblocks.plc.wanted import words as drives_of
 from driveblocks.stand import scenario
 from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
@@ -57,11 +58,13 @@ class Setup:
         self._for_us = None if words.length is None else time("--for", words.length, 1, 10**15)
         self._clock, self._ending = RealClock(), Ending()
         try:
-            self.maps = _maps(words.drives)
+            wanted = named(drives_of(words.drives), _map)
+            self.maps = {one.unit: one.drive for one in wanted}
             happenings = scenario.read(words.scenario, self.maps) if words.scenario else []
         except (catalog.UnknownDrive, MapError) as error:
             raise Refused(str(error)) from None
-        drives = [SimulatedDrive(drive, unit, ascii_mode=words.ascii) for unit, drive in self.maps.items()]
+        drives = [one.made(ascii_mode=words.ascii) for one in wanted]
+        self._settings = [line for one in wanted for line in one.told()]
         bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
         self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
         self._happenings = happenings
@@ -93,7 +96,8 @@ class Setup:
                 link = self._alone(link)
             screen = self._screen(place)
             stack.callback(screen.close)
-            screen.say(f"{'' if isinstance(screen, Lines) else LABEL + '  '}{self._told(place)}")
+            for line in (self._told(place), *self._settings):
+                self._sayer(screen)(line)
             Stand(self._bus, link, self._clock, self._ending, self._happenings).run(
                 self._sayer(screen), self._looker(screen), self._for_us
             )
@@ -166,14 +170,7 @@ class Setup:
         return [*lines, f"{loss.dropped} frames lost, {loss.damaged} damaged, {bus.strange} characters not understood"]
 
 
-def _maps(named: Sequence[str]) -> dict[int, Drive]:
-    """Drives by their units, in the order of the command line. Raises Refused, UnknownDrive, MapError."""
-    found: dict[int, Drive] = {}
-    for name, text in wanted.words(named):
-        free = next(unit for unit in range(1, wanted.HIGHEST_UNIT + 2) if unit not in found)
-        unit = free if not text else int(text) if text.isdecimal() else 0
-        if not 1 <= unit <= wanted.HIGHEST_UNIT or unit in found:
-            why = f"units are 1 to {wanted.HIGHEST_UNIT}, one drive each"
-            raise Refused(f"{name}@{text}: {why}; write {name}@{min(free, wanted.HIGHEST_UNIT)}")
-        found[unit] = load(catalog.resolve(name))
-    return found
+def _map(name: str) -> tuple[Path, Drive]:
+    """A drive's map. Raises UnknownDrive, MapError."""
+    path = catalog.resolve(name)
+    return path, load(path)
