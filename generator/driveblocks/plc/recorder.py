@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
+from driveblocks import console
 from driveblocks.host.engine import Value
 from driveblocks.plc.port import reason
 from driveblocks.plc.record import Timing, Trace
@@ -104,7 +105,7 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
         for row in rows:
             made.add(*row)
 
-    return Recorder(path.name, keep, waits=waits)
+    return Recorder(console.name(path), keep, waits=waits)
 
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
@@ -117,7 +118,7 @@ def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Reco
             made.add(*row)
         _Plain(path).write(made.svg())
 
-    return Recorder(path.name, keep, waits=waits)
+    return Recorder(console.name(path), keep, waits=waits)
 
 
 def _is_pipe(path: Path) -> bool:

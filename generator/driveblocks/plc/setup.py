@@ -37,7 +37,7 @@ LEAVE_S = 1.5
 """How long the process may take to end when it is known whether the drives stand."""
 FILES_S = 1.0
 """How much of this its files may take."""
-PATIENT = 40
+PATIENT = 10
 """With --fast, so many times as long."""
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
@@ -235,6 +235,12 @@ class Setup:
 
     def run(self) -> int:
         """Run to the end; the exit status. Raises Refused if the port cannot be opened."""
+        try:
+            return self._run()
+        finally:
+            self._departure.done()
+
+    def _run(self) -> int:
         suspend = self._session.ask_to_suspend if self._options.real else None
         with self._stack, live.listening(self._session.ending, suspend):
             opened = self._port()
@@ -245,9 +251,7 @@ class Setup:
             if self._options.real and self._options.loopback and not self._free:
                 self._session.told.put("only reads and stops leave; if a simulator is there, add --simulated")
             screen = self._screen()
-            status = self._report(self._fast(screen) if self._options.fast else self._live(screen))
-        self._departure.done()
-        return status
+            return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
     def _screen(self) -> Screen:
         terminal, title = console.terminal(), console.name(self._path.name)
@@ -285,7 +289,7 @@ class Setup:
 
     def _settled(self, result: Result) -> None:
         """It is known how the run has ended: from now on nothing may take long."""
-        self._departure.begin(self._status(result), self._verdict(result))
+        self._departure.begin(self._status(result), f"{self.label}  {result.reason}\n{self._verdict(result)}")
 
     def _verdict(self, result: Result) -> str:
         """Which drives stand, and which perhaps do not."""
