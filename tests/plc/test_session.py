@@ -10,7 +10,7 @@ from tests.simulator.talk import MAPS
 
 from driveblocks.plc import live
 from driveblocks.plc.clock import VirtualClock
-from driveblocks.plc.ending import Ending
+from driveblocks.plc.ending import CHATTER_US, REPLY_US, Ending
 from driveblocks.plc.pace import Pace
 from driveblocks.plc.port import AGAIN_US, DevicePort
 from driveblocks.plc.script import Setting
@@ -146,7 +146,62 @@ def test_a_signal_stops_every_drive(number: int) -> None:
     result = desk.session.result
     assert result is not None
     assert (result.crashed, result.stopped) == (False, ("Motor",))
-    assert result.reason.startswith({signal.SIGINT: "Ctrl-C"}.get(number, live.caught()[number]))
+    name = live.caught()[number]
+    assert result.reason == live.REASONS.get(name, name)
+
+
+def test_every_signal_that_would_end_the_process_is_caught() -> None:
+    known = {
+        "SIGINT",
+        "SIGTERM",
+        "SIGHUP",
+        "SIGQUIT",
+        "SIGUSR1",
+        "SIGUSR2",
+        "SIGALRM",
+        "SIGXCPU",
+        "SIGABRT",
+        "SIGBREAK",
+    }
+    assert set(live.caught().values()) >= known & {each.name for each in signal.Signals}
+    assert not {"SIGKILL", "SIGSTOP", "SIGSEGV", "SIGCHLD", "SIGPIPE", "SIGTSTP"} & set(live.caught().values())
+
+
+# ------------------------------------------------------------ a suspension
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGTSTP"), reason="nothing is suspended here")
+def test_a_real_port_asks_before_it_is_suspended_and_no_terminal_suspends_it() -> None:
+    desk = Desk()
+    asked: list[bool] = []
+    before = [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS]
+    with live.listening(desk.ending, lambda: asked.append(True)):
+        signal.raise_signal(signal.SIGTSTP)
+        assert [signal.getsignal(each) for each in (signal.SIGTTIN, signal.SIGTTOU)] == [signal.SIG_IGN] * 2
+    assert asked == [True]
+    with live.listening(desk.ending):
+        assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
+    assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
+
+
+def test_no_process_is_suspended_while_a_motor_may_run() -> None:
+    desk = Desk()
+    halted: list[int] = []
+    moments = {SECOND // 10: "before it was heard", 4 * SECOND: "at speed", 8 * SECOND: "at standstill"}
+    desk.session.script = [Setting("Start", True, 2 * SECOND), Setting("Start", False, 5 * SECOND)]
+    now: list[int] = []
+
+    def step(at_us: int) -> None:
+        now[:] = [at_us]
+        if at_us in moments:
+            desk.session.ask_to_suspend()
+
+    desk.session.step = step
+    desk.session.halt = lambda: halted.append(now[0])
+    desk.session.run(9 * SECOND)
+    assert halted == [8 * SECOND]
+    refused = [line for line in desk.told() if line.startswith("not suspended")]
+    assert refused == ["not suspended, since Motor may run; Ctrl-C stops all and ends"] * 2
 
 
 def fails(desk: Desk) -> None:
@@ -231,6 +286,59 @@ def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
     assert [drive.mode for drive in drives] == ["standing"] * 3
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed == {}
+
+
+@pytest.mark.parametrize("after_us", range(0, 40_000, 2_000))
+def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
+    """The end is asked for at each moment of a transaction: before, while and after the drive replies."""
+    desk = Desk().started()
+    heard: list[int] = []
+    receive = desk.line.receive
+
+    def noted() -> bytes:
+        some = receive()
+        heard.extend([desk.clock.now_us()] * bool(some))
+        return some
+
+    desk.line.receive = noted  # type: ignore[method-assign]
+    before, good = len(desk.line.sent), desk.controller.number("Bus.Good")
+    while len(desk.line.sent) == before:
+        desk.scan(SCAN_US // 1000)
+    assert desk.controller.number("Bus.Good") >= good
+    asked = desk.line.sent[-1]
+    said = desk.clock.now_us() - SCAN_US
+    desk.clock.sleep_until(said + after_us)
+    stopped: list[int] = []
+    send = desk.line.send
+
+    def sent(data: bytes) -> None:
+        stopped.append(desk.clock.now_us())
+        send(data)
+
+    desk.line.send = sent  # type: ignore[method-assign]
+    desk.ending.ask("Ctrl-C")
+    desk.session.run()
+    replied = [at for at in heard if at <= stopped[0]]
+    assert asked != desk.line.sent[-1]
+    assert replied
+    assert stopped[0] - replied[-1] >= 20_000
+    assert stopped[0] - said < 100_000
+    assert desk.drives[0].mode == "standing"
+
+
+def test_a_stop_does_not_wait_for_ever_for_a_reply_or_for_silence() -> None:
+    desk = Desk().started()
+    desk.line.cut = True
+    while not desk.line.sent[-1].startswith(b"\7\3"):
+        desk.scan(10)
+    said, before = desk.clock.now_us(), len(desk.line.sent)
+    desk.line.receive = lambda: b"?"  # type: ignore[method-assign]  # somebody speaks, and never ends
+    stopped: list[int] = []
+    desk.line.send = lambda _: stopped.append(desk.clock.now_us())  # type: ignore[method-assign]
+    desk.ending.ask("Ctrl-C")
+    desk.session.run()
+    assert len(desk.line.sent) == before
+    assert stopped[0] - said <= REPLY_US + CHATTER_US + 100_000
 
 
 # ------------------------------------------------------------ a port that goes
