@@ -269,6 +269,16 @@ def test_a_terminal_that_goes_brings_much_at_once_and_every_drive_is_waited_for(
     assert (desk.session.result.reason, desk.session.result.stopped) == ("SIGHUP", ("Motor",))
 
 
+def test_drives_are_stopped_before_a_first_scan_has_said_where_they_are() -> None:
+    desk = Desk()
+    desk.session.known = Desk().scan(SCAN_US // 1000).controller
+    desk.drives[0].keypad_run(20)
+    desk.ending.ask("Ctrl-C")
+    assert desk.session.run().stopped == ("Motor",)
+    assert desk.session.pace.scans == 0
+    assert desk.drives[0].mode == "standing"
+
+
 def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
     drives = [
         SimulatedDrive(MAPS[name], unit, Habits(ramp=5)) for unit, name in enumerate(("SN300G5", "JSCC", "CHF"), 1)

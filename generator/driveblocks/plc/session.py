@@ -47,6 +47,8 @@ class Session:
     def __init__(self, controller: Controller, clock: Clock, ending: Ending, scan_us: int) -> None:
         """Prepare; `connect` gives it a port, `run` runs."""
         self.controller = controller
+        self.known = controller
+        """The program as it says what its drives are before its first scan has ended."""
         self.ending = ending
         self.watchdog = Watchdog()
         self.pace = Pace(scan_us)
@@ -195,13 +197,14 @@ class Session:
             self.ending.reason = self.ending.reason or f"the program has failed: {self._crash}"
         for each in self.recorders:
             each.end()
-        told, names = self.told, self._names()
+        controller, told = self.controller if self.pace.scans else self.known, self.told
+        names = _names(controller)
         told.put(f"{self.ending.reason}: stopping every drive")
         if self._crash not in self.ending.reason:
             told.put(f"the program has failed, too: {self._crash}")
-        units = self.controller.units()
-        stopper = Stopper(self._gate, self._clock, self.ending, self._speech(units))
-        found = stopper.stop(units, self._within_us()) if free else dict.fromkeys(units, STUCK)
+        units = controller.units()
+        stopper = Stopper(self._gate, self._clock, self.ending, _speech(controller, units))
+        found = stopper.stop(units, _within_us(controller)) if free else dict.fromkeys(units, STUCK)
         found |= dict.fromkeys(
             names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
         )
@@ -209,25 +212,27 @@ class Session:
         stopped = tuple(", ".join(names[unit]) for unit, why in found.items() if not why)
         return Result(self.ending.reason, bool(self._crash), unconfirmed, stopped)
 
-    def _names(self) -> dict[int, list[str]]:
-        """The drive blocks at each unit address."""
-        names: dict[int, list[str]] = {}
-        for block in self.controller.wiring.drives:
-            names.setdefault(self.controller.unit(block), []).append(block.path)
-        return names
 
-    def _within_us(self) -> int:
-        """The longest time within which a motor of the program has to stand."""
-        blocks = self.controller.wiring.drives
-        longest = max((self.controller.number(f"{each.path}.StopWithinMs") for each in blocks), default=0)
-        return max(LEAST_US, longest * 1000) if longest else WITHIN_US
+def _names(controller: Controller) -> dict[int, list[str]]:
+    """The drive blocks at each unit address."""
+    names: dict[int, list[str]] = {}
+    for block in controller.wiring.drives:
+        names.setdefault(controller.unit(block), []).append(block.path)
+    return names
 
-    def _speech(self, units: dict[int, Drive]) -> Speech:
-        number, line = self.controller.number, self.controller.wiring.line
-        silences = [each.serial.silence for each in units.values()]
-        milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
-        bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
-        return Speech(bool(number(f"{line}.Ascii")), 1e6 * bits / rate, int(1000 * milliseconds))
+
+def _within_us(controller: Controller) -> int:
+    """The longest time within which a motor of the program has to stand."""
+    longest = max((controller.number(f"{each.path}.StopWithinMs") for each in controller.wiring.drives), default=0)
+    return max(LEAST_US, longest * 1000) if longest else WITHIN_US
+
+
+def _speech(controller: Controller, units: dict[int, Drive]) -> Speech:
+    number, line = controller.number, controller.wiring.line
+    silences = [each.serial.silence for each in units.values()]
+    milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
+    bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
+    return Speech(bool(number(f"{line}.Ascii")), 1e6 * bits / rate, int(1000 * milliseconds))
 
 
 def _halt() -> None:

@@ -185,6 +185,7 @@ class Setup:
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
         session.script, session.shown = self._script(controller), self._options.show
+        session.known = self._probe
         session.watchdog = Watchdog(self._watchdog_us)
         session.settled = self._settled
         return session
