@@ -253,7 +253,18 @@ def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
     program = trace.with_name("desk.st")
     program.write_text(CHF, encoding="utf-8")
     names = ",".join([*(f"Motor.{name}" for name in SHOWN), *(f"Bus.{name}" for name in COUNTERS)])
-    words = [str(program), "--port", device, "--allow-run", "--show", names, "--trace", str(trace)]
+    words = [
+        str(program),
+        "--port",
+        device,
+        "--allow-run",
+        "--show",
+        names,
+        "--trace",
+        str(trace),
+        "--watchdog",
+        "600s",
+    ]
     command = [sys.executable, "-m", "driveblocks", "run", *words]
     made = DeskPlc(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))
     reader = threading.Thread(target=made.read)
