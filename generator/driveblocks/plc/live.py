@@ -23,6 +23,7 @@ PASSED_ON = frozenset({
     "SIGCHLD", "SIGCONT", "SIGINFO", "SIGURG", "SIGWINCH", "SIGPIPE", "SIGXFSZ",  # these end nothing
 })  # fmt: skip
 SUSPENDS = ("SIGTSTP", "SIGTTIN", "SIGTTOU")
+_NAMES = {int(each): each.name for each in signal.Signals}
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
@@ -67,13 +68,10 @@ def _undisturbed() -> Iterator[None]:
 
 
 def caught() -> dict[int, str]:
-    """The signals that end a run, each with the reason."""
-    names = {int(each): each.name if isinstance(each, signal.Signals) else f"signal {each}" for each in _valid()}
+    """The signals that end a run, by their numbers; real-time signals have no names."""
+    numbers = map(int, signal.valid_signals())
+    names = {each: _NAMES.get(each, f"signal {each}") for each in numbers}
     return {number: name for number, name in names.items() if name not in PASSED_ON and name not in SUSPENDS}
-
-
-def _valid() -> set[int]:
-    return {each for each in signal.valid_signals() if isinstance(each, int)}
 
 
 @contextmanager

@@ -126,9 +126,8 @@ class EmbeddedLibrary:
         """
         checked = self.compiler.checked
         names = {function_name(each): each.name for each in checked.functions.values()}
-        for pou in (*checked.blocks.values(), *checked.programs.values()):
-            if pou.type is not None:
-                names[body_name(pou.type)] = pou.name
+        pous: list[tree.FunctionBlock | tree.Program] = [*checked.blocks.values(), *checked.programs.values()]
+        names |= {body_name(each.type): each.name for each in pous if each.type is not None}
         return [
             Message(code.co_filename, line, column, names.get(code.co_name, code.co_name))
             for code, line, column in running(frame)
