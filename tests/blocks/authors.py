@@ -59,7 +59,9 @@ FACTORS = (
     "1", "2.5", "12.345678901"[:11], "0.01", "100", "1000000", "0.123456789",
 )  # fmt: skip
 ADDRESSES = ("0000H", "0001H", "00FFH", "0100H", "7FFFH", "8000H", "9000H", "FFFEH", "FFFFH", "2FFFH", "4000H")
-PREFIXES = ("MB", "VFD", "R", "F", "CLOCK", "FP", "M", "X", "ABCDEFGHIJKL", "IF", "T", "TO", "SEEK", "FLT", "READ", "C2")
+PREFIXES = (
+    "MB", "VFD", "R", "F", "CLOCK", "FP", "M", "X", "ABCDEFGHIJKL", "IF", "T", "TO", "SEEK", "FLT", "READ", "C2",
+)  # fmt: skip
 
 _POOLS: dict[str, tuple[str, ...]] = {
     form.ENGLISH.name: TEXTS,

@@ -81,30 +81,39 @@ def resets() -> Iterator[Pins]:
             yield pressed({"enable": chance.random() < 0.9, **over, **flags})
 
 
-def encode(blocks: Blocks, drive: Drive, hertz: float, maximum: float, scale: float) -> Encoded:
+References = tuple[float, float, float, float]
+"""SpeedReferenceHz, MaximumHz, FullScaleHz, ReferenceScale."""
+
+
+def encode(blocks: Blocks, drive: Drive, given: References) -> Encoded:
     """Run the reference block once."""
     own = SpeedReference(drive)
-    pins = {"SpeedReferenceHz": hertz, "MaximumHz": maximum}
-    done = blocks.run(
-        f"{drive.prefix}_Reference", pins if own.factor is not None else {**pins, "ReferenceScale": scale}
-    )
+    pins = dict(zip(("SpeedReferenceHz", "MaximumHz", "FullScaleHz"), given, strict=False))
+    scale = {"ReferenceScale": given[3]} if own.factor is None else {}
+    done = blocks.run(f"{drive.prefix}_Reference", {**pins, **scale})
     assert done["Address"] == own.address
-    limited = done["Limited"]
+    limited, hertz = done["Limited"], done["AskedHz"]
     assert isinstance(limited, bool)
-    return Encoded(result(done), number(done, "Value"), limited)
+    assert isinstance(hertz, float)
+    return Encoded(result(done), number(done, "Value"), limited, hertz=hertz)
 
 
-def check_reference(blocks: Blocks, drive: Drive, hertz: float, maximum: float, scale: float = 0.0) -> None:
+def check_reference(blocks: Blocks, drive: Drive, given: References) -> None:
     """The result and the word, or those that arithmetic in single precision may give beside a half."""
-    wanted = SpeedReference(drive).encode(hertz, maximum, scale)
-    found = encode(blocks, drive, hertz, maximum, scale)
-    assert found.result in wanted.results, (hertz, maximum, scale, found, wanted)
-    assert found.value in wanted.near, (hertz, maximum, scale, found, wanted)
+    wanted, found = SpeedReference(drive).encode(*given), encode(blocks, drive, given)
+    assert found.result in wanted.results, (given, found, wanted)
+    assert found.value in wanted.near, (given, found, wanted)
+    if len(wanted.results) == 1:
+        assert found.hertz == wanted.hertz, (given, found, wanted)
     if len(wanted.near) == 1 and not wanted.at_the_end:
-        assert found.limited == wanted.limited, (hertz, maximum, scale, found, wanted)
+        assert found.limited == wanted.limited, (given, found, wanted)
 
 
-def references(drive: Drive) -> Iterator[tuple[float, float, float]]:
-    """Speeds, maxima and scales that try every limit."""
-    scales = SCALES if SpeedReference(drive).factor is None else (0.0,)
-    yield from itertools.product((*SPEEDS, *WRONG, *HUGE), MAXIMA, scales)
+def references(drive: Drive) -> Iterator[References]:
+    """Speeds, maxima and scales that try every limit; then a limit beside a full scale."""
+    model = SpeedReference(drive)
+    scales = SCALES if model.factor is None else (0.0,)
+    for hertz, maximum, scale in itertools.product((*SPEEDS, *WRONG, *HUGE), MAXIMA, scales):
+        yield hertz, maximum, (maximum if 0.1 <= maximum <= 10000.0 else 50.0) if model.percent else 0.0, scale
+    for hertz, full in itertools.product((-1.0, 0.0, 25.0, 45.0, 70.0, nan), (*MAXIMA, 40.0)):
+        yield hertz, 50.0, full, 10.0

@@ -50,7 +50,7 @@ def sources(folder: Path = BLOCKS) -> list[Source]:
 
 def alone(folder: Path = BLOCKS) -> list[Source]:
     """The files of what can be called by itself: all but line and drive blocks, which run against drives elsewhere."""
-    line = re.compile(rf"line/.*|drive/D.*|.*_Drive\.st|types/(?:{'|'.join(LINE_TYPES)}|MB_(?:Slots|Tracks)\d+)\.st")
+    line = re.compile(rf"line/.*|vfd/V.*|.*_Drive\.st|types/(?:{'|'.join(LINE_TYPES)}|MB_(?:Slots|Tracks)\d+)\.st")
     return [each for each in sources(folder) if not line.fullmatch(each.path)]
 
 

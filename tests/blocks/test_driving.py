@@ -159,47 +159,50 @@ def test_chf_ends_a_jog_by_its_own_word(engine: Engine) -> None:
 
 @DRIVES
 def test_references_at_every_limit(engine: Engine, drive: Drive) -> None:
-    for hertz, maximum, scale in driving.references(drive):
-        driving.check_reference(built(engine), drive, hertz, maximum, scale)
+    for given in driving.references(drive):
+        driving.check_reference(built(engine), drive, given)
 
 
 WORDS = [
-    ("SN300G5", (50.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("SN300G5", (600.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("SN300G5", (50.0, -50.0, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("SN300G5", (50.0, nan, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("SN300G5", (50.0, 1.0e6, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("SN300G5", (50.0, 60.0, 0.0), ("OK", 5000, False)),
-    ("SN300G5", (60.0, 50.0, 0.0), ("OK", 5000, True)),
-    ("SN300G5", (0.004, 50.0, 0.0), ("OK", 0, False)),
-    ("SN300G5", (0.006, 50.0, 0.0), ("OK", 1, False)),
-    ("SN300G5", (nan, 50.0, 0.0), ("NOT_A_NUMBER", 0, False)),
-    ("SN300G5", (inf, 50.0, 0.0), ("NOT_A_NUMBER", 0, False)),
-    ("SN300G5", (-0.01, 50.0, 0.0), ("NEGATIVE", 0, False)),
-    ("SN300G5", (-0.0049, 50.0, 0.0), ("OK", 0, False)),
-    ("SN300G5", (-0.0051, 50.0, 0.0), ("NEGATIVE", 0, False)),
-    ("JSCC", (50.0, 60.0, 10.0), ("OK", 500, False)),
-    ("JSCC", (50.0, 0.0, 10.0), ("NO_MAXIMUM", 0, False)),
-    ("JSCC", (50.0, 60.0, 0.0), ("NO_SCALE", 0, False)),
-    ("JSCC", (40000.0, 10000.0, 100.0), ("OK", 65535, True)),
-    ("JSCC", (-0.5, 50.0, 1.0), ("OK", 0, False)),
-    ("JSCC", (-0.51, 50.0, 1.0), ("NEGATIVE", 0, False)),
-    ("JSCC", (-1.0e30, 50.0, 1.0e6), ("NEGATIVE", 0, False)),
-    ("CHF", (25.0, 50.0, 0.0), ("OK", 5000, False)),
-    ("CHF", (50.0, 50.0, 0.0), ("OK", 10000, False)),
-    ("CHF", (400.0, 50.0, 0.0), ("OK", 10000, True)),
-    ("CHF", (25.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("CHF", (0.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
-    ("CHF", (-0.0024, 50.0, 0.0), ("OK", 0, False)),
-    ("CHF", (-0.0026, 50.0, 0.0), ("NEGATIVE", 0, False)),
-    ("CHF", (-1.0e30, 0.1, 0.0), ("NEGATIVE", 0, False)),
-    ("CHF", (-25.0, 50.0, 0.0), ("NEGATIVE", 0, False)),
+    ("SN300G5", (50.0, 0.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (600.0, 0.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (50.0, -50.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (50.0, nan, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (50.0, 1.0e6, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (50.0, 60.0, 0.0, 0.0), ("OK", 5000, False)),
+    ("SN300G5", (60.0, 50.0, 0.0, 0.0), ("OK", 5000, True)),
+    ("SN300G5", (0.004, 50.0, 0.0, 0.0), ("OK", 0, False)),
+    ("SN300G5", (0.006, 50.0, 0.0, 0.0), ("OK", 1, False)),
+    ("SN300G5", (nan, 50.0, 0.0, 0.0), ("NOT_A_NUMBER", 0, False)),
+    ("SN300G5", (inf, 50.0, 0.0, 0.0), ("NOT_A_NUMBER", 0, False)),
+    ("SN300G5", (-0.01, 50.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
+    ("SN300G5", (-0.0049, 50.0, 0.0, 0.0), ("OK", 0, False)),
+    ("SN300G5", (-0.0051, 50.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
+    ("JSCC", (50.0, 60.0, 0.0, 10.0), ("OK", 500, False)),
+    ("JSCC", (50.0, 0.0, 0.0, 10.0), ("NO_MAXIMUM", 0, False)),
+    ("JSCC", (50.0, 60.0, 0.0, 0.0), ("NO_SCALE", 0, False)),
+    ("JSCC", (40000.0, 10000.0, 0.0, 100.0), ("OK", 65535, True)),
+    ("JSCC", (-0.5, 50.0, 0.0, 1.0), ("OK", 0, False)),
+    ("JSCC", (-0.51, 50.0, 0.0, 1.0), ("NEGATIVE", 0, False)),
+    ("JSCC", (-1.0e30, 50.0, 0.0, 1.0e6), ("NEGATIVE", 0, False)),
+    ("CHF", (25.0, 50.0, 50.0, 0.0), ("OK", 5000, False)),
+    ("CHF", (50.0, 50.0, 50.0, 0.0), ("OK", 10000, False)),
+    ("CHF", (400.0, 50.0, 50.0, 0.0), ("OK", 10000, True)),
+    ("CHF", (25.0, 0.0, 50.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("CHF", (0.0, 0.0, 50.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("CHF", (30.0, 40.0, 50.0, 0.0), ("OK", 6000, False)),
+    ("CHF", (45.0, 40.0, 50.0, 0.0), ("OK", 8000, True)),
+    ("CHF", (25.0, 50.0, 0.0, 0.0), ("NO_FULL_SCALE", 0, False)),
+    ("CHF", (-0.0024, 50.0, 50.0, 0.0), ("OK", 0, False)),
+    ("CHF", (-0.0026, 50.0, 50.0, 0.0), ("NEGATIVE", 0, False)),
+    ("CHF", (-1.0e30, 0.1, 0.1, 0.0), ("NEGATIVE", 0, False)),
+    ("CHF", (-25.0, 50.0, 50.0, 0.0), ("NEGATIVE", 0, False)),
 ]
 
 
 @pytest.mark.parametrize(("prefix", "given", "wanted"), WORDS)
 def test_words_of_references(
-    engine: Engine, prefix: str, given: tuple[float, float, float], wanted: tuple[str, int, bool]
+    engine: Engine, prefix: str, given: driving.References, wanted: tuple[str, int, bool]
 ) -> None:
-    found = driving.encode(built(engine), shipped()[prefix], *given)
+    found = driving.encode(built(engine), shipped()[prefix], given)
     assert (found.result, found.value, found.limited) == wanted

@@ -93,7 +93,7 @@ def test_driving(engine: Engine, drive: Drive) -> None:
     driving.check_commands(fourth(engine), drive, driving.motions())
     driving.check_commands(fourth(engine), drive, driving.resets())
     for given in driving.references(drive):
-        driving.check_reference(fourth(engine), drive, *given)
+        driving.check_reference(fourth(engine), drive, given)
 
 
 def requests() -> Iterator[tuple[str, Asked, str]]:

@@ -1,8 +1,10 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
+import re
 import subprocess
 import sys
+import threading
 import tomllib
 from pathlib import Path
 
@@ -16,10 +18,15 @@ from typer.testing import CliRunner, Result
 
 from driveblocks.commands import run as command
 from driveblocks.maps import collection
+<<<<<<< HEAD
 from driveblocks.plc import demo, source
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
 from driveblocks.plc.setup import Setup
+=======
+from driveblocks.plc import demo, departure, setup, source
+from driveblocks.plc.controller import Controller
+>>>>>>> w-watchdog
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import TcpLink
@@ -27,6 +34,8 @@ from driveblocks.stand.link import TcpLink
 app = typer.Typer()
 app.command()(command.run)
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
+NET = 600
+"""Seconds that no machine needs, for what would hang."""
 KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
 _read, _whole = collection.read, source.load
 
@@ -41,6 +50,12 @@ def _compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """However many tests run a program: compiling has tests of its own."""
     monkeypatch.setattr(source, "load", compiled)
     monkeypatch.setattr(collection, "read", lambda paths: read(tuple(paths)))
+
+
+@pytest.fixture(autouse=True)
+def _stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However slow this machine is, the process of the tests does not end."""
+    monkeypatch.setattr(departure, "leave", lambda _: None)
 
 
 @functools.cache
@@ -85,6 +100,7 @@ REFUSED = [
     ("my.st --fast --for 1s --port COM3", "--fast is for simulated drives; a port has its own time"),
     ("my.st --scan 10", "--scan: `10` is no time; write 10ms, 2.5s or 1min"),
     ("my.st --scan 0ms", "--scan 0ms is out of range; write 0.001s to 60s"),
+    ("my.st --watchdog 1ms", "--watchdog 1ms is out of range; write 0.01s to 600s"),
     ("my.st --for ever", "--for: `ever` is no time"),
     ("no.st", "no.st:1:1: cannot be read: No such file or directory"),
     ("my.st --show Motor.Speeed", "--show: the program has no variable Motor.Speeed; did you mean MOTOR."),
@@ -171,6 +187,54 @@ def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
     assert "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look" in result.output
 
 
+def test_what_could_not_be_confirmed_is_told_before_a_file_that_cannot_be_written(program: Path) -> None:
+    Path("folder").mkdir()
+    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8", "--picture", "folder")
+    assert result.exit_code == 1
+    assert result.output.splitlines()[-2:] == [
+        "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look",
+        "folder cannot be written: Is a directory",
+    ]
+    result = run(program, "--fast", "--for", "1s", "--picture", "folder")
+    assert result.exit_code == 2
+    assert "SIMULATED  stopped, and standstill read: Motor\n" in result.output
+
+
+def test_a_first_scan_that_does_not_end_is_refused(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    released = threading.Event()
+    monkeypatch.setattr(setup, "FIRST_US", 10_000)
+    monkeypatch.setattr(Controller, "scan", lambda *_: released.wait(NET))
+    result = run(program, "--watchdog", "10ms")
+    released.set()
+    assert result.exit_code == 2
+    assert result.output.endswith(": the first scan has not ended within 0.01 s; nothing was sent\n")
+
+
+CALLS = "".join(
+    f"FUNCTION F{number} : LREAL\nVAR_INPUT\n  X : LREAL;\nEND_VAR\n  F{number} := {body};\nEND_FUNCTION\n"
+    for number, body in ((each, f"F{each - 1}(X) + F{each - 1}(X)" if each else "X") for each in range(31))
+)
+"""Two to the power of thirty calls, and no loop whose turns could be counted."""
+
+
+def test_calls_that_do_not_end_are_given_up_and_the_process_ends(program: Path) -> None:
+    declared = ONE.replace("  Divisor", "  Endless : BOOL;\n  Sum : LREAL;\n  Divisor", 1)
+    body = "  IF Endless THEN\n    Sum := F30(1.0);\n  END_IF;\n  Quotient :="
+    program.write_text(CALLS + declared.replace("  Quotient :=", body, 1), encoding="utf-8")
+    Path("run.txt").write_text("at 2s: Start := TRUE\nat 5s: Endless := TRUE\n", encoding="utf-8")
+    words = [sys.executable, "-m", "driveblocks", "run", str(program), *FAST, "--watchdog", "2s", "--trace", "t.csv"]
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    lines = done.stdout.splitlines()
+    assert (done.returncode, done.stderr, lines[-1]) == (1, "", "SIMULATED  stopped, and standstill read: Motor")
+    said = "SIMULATED  the program has failed: a scan has not ended within 2000 ms (--watchdog): it was at "
+    (place,) = [line.removeprefix(said) for line in lines if line.startswith(said)]
+    assert re.fullmatch(
+        r"(.*my\.st:\d+:\d+ in F\d+, called from )?.*my\.st:\d+:\d+ in One: stopping every drive", place
+    )
+    rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
+    assert 2000 <= float(rows[-1].split(",")[0]) < 5000
+
+
 # ------------------------------------------------------------ the demonstration, and another platform
 
 
@@ -220,7 +284,7 @@ def test_drives_are_simulated_in_another_process_without_what_windows_lacks(wind
 
 
 def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[str, str], program: Path) -> None:
-    words = [sys.executable, "-m", "driveblocks", "run", str(program), "--for", "50ms"]
+    words = [sys.executable, "-m", "driveblocks", "run", str(program), "--for", "50ms", "--watchdog", "600s"]
     done = subprocess.run(words, env=windows, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     assert done.stderr == ""
     *lines, scans, took = done.stdout.splitlines()
@@ -237,7 +301,7 @@ def test_what_is_behind_an_address_is_real_unless_somebody_says_so(
     """This computer, too, may have a serial port behind one of its TCP ports."""
     link = TcpLink(0)
     with serving(Bus([SimulatedDrive(MAPS["JSCC"], 7)], 19200, 10), link):
-        result = run(program, "--tcp", link.place, "--for", "1ms", *words)
+        result = run(program, "--tcp", link.place, "--for", "1ms", "--watchdog", "600s", *words)
     *lines, _, _ = result.output.splitlines()
     assert (result.exit_code, lines[0]) == (0, f"{label}  {link.place} my.st")
     assert lines[-1] == f"{label}  stopped, and standstill read: Motor"

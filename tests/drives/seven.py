@@ -39,7 +39,8 @@ def station(prefix: str) -> Source:
         "seven.st",
         f"FUNCTION_BLOCK Seven\nVAR_INPUT\n{inputs}END_VAR\nVAR\n  Port : MB_Port;\n  Slots : MB_Slots8;\n"
         f"  TheLine : MB_Line8;\n  Setting : VFD_Settings;\n{blocks}END_VAR\n"
-        f"  Setting.ReferenceScale := 100.0;\n  Setting.TurnRoundMs := 20;\n{calls}  TheLine({pins}, Port := Port, Slots := Slots);\n"
+        f"  Setting.ReferenceScale := 100.0;\n  Setting.TurnRoundMs := 20;\n"
+        f"{calls}  TheLine({pins}, Port := Port, Slots := Slots);\n"
         "END_FUNCTION_BLOCK\n",
     )
 

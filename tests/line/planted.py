@@ -19,7 +19,11 @@ class Planted:
 
 PLANTED = (
     Planted("a new stop ranks as a command", "          Rank := 0;\n", "          Rank := 2;\n"),
-    Planted("a new stop goes behind polls", "OR ((Best > 0) AND (Behind >= MAX(PollAfter, 1))", "OR ((Behind >= MAX(PollAfter, 1))"),
+    Planted(
+        "a new stop is sent after polls",
+        "OR ((Best > 0) AND (Behind >= MAX(PollAfter, 1))",
+        "OR ((Behind >= MAX(PollAfter, 1))",
+    ),
     Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMost) + ", "OnTop := "),
     Planted(
         "the port's delay is forgotten",

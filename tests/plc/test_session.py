@@ -1,5 +1,6 @@
 """A run in virtual time: what goes in and out of a scan, time that is lost, and every way in which it can end."""
 
+import os
 import signal
 from collections.abc import Callable
 
@@ -9,7 +10,7 @@ from tests.simulator.talk import MAPS
 
 from driveblocks.plc import live
 from driveblocks.plc.clock import VirtualClock
-from driveblocks.plc.ending import Ending
+from driveblocks.plc.ending import CHATTER_US, REPLY_US, Ending
 from driveblocks.plc.pace import Pace
 from driveblocks.plc.port import AGAIN_US, DevicePort
 from driveblocks.plc.script import Setting
@@ -127,16 +128,80 @@ def test_the_end_of_the_time_stops_every_drive() -> None:
     assert desk.told() == ["8 s are over: stopping every drive"]
 
 
-@pytest.mark.parametrize("name", sorted(set(live.SIGNALS) & set(dir(signal))))
-def test_a_signal_stops_every_drive(name: str) -> None:
+def sent(desk: Desk, number: int, *, hurry: bool = False) -> None:
+    """A signal has been sent to this process, and was heard."""
+    signal.raise_signal(number) if os.name == "nt" else os.kill(os.getpid(), number)
+    while not desk.ending.reason or desk.ending.hurry != hurry:
+        continue
+
+
+@pytest.mark.parametrize("number", sorted(live.caught()))
+def test_a_signal_stops_every_drive(number: int) -> None:
     desk = Desk()
-    before = signal.getsignal(getattr(signal, name))
+    before = signal.getsignal(number)
     with live.listening(desk.ending):
-        ended(desk, lambda _: signal.raise_signal(getattr(signal, name)))
-    assert signal.getsignal(getattr(signal, name)) == before
+        ended(desk, lambda desk: sent(desk, number))
+    assert signal.getsignal(number) == before
     assert desk.drives[0].mode == "standing"
-    assert desk.session.result is not None
-    assert desk.session.result.reason == live.SIGNALS[name]
+    result = desk.session.result
+    assert result is not None
+    assert (result.crashed, result.stopped) == (False, ("Motor",))
+    name = live.caught()[number]
+    assert result.reason == live.REASONS.get(name, name)
+
+
+def test_every_signal_that_would_end_the_process_is_caught() -> None:
+    known = {
+        "SIGINT",
+        "SIGTERM",
+        "SIGHUP",
+        "SIGQUIT",
+        "SIGUSR1",
+        "SIGUSR2",
+        "SIGALRM",
+        "SIGXCPU",
+        "SIGABRT",
+        "SIGBREAK",
+    }
+    assert set(live.caught().values()) >= known & {each.name for each in signal.Signals}
+    assert not {"SIGKILL", "SIGSTOP", "SIGSEGV", "SIGCHLD", "SIGPIPE", "SIGTSTP"} & set(live.caught().values())
+
+
+# ------------------------------------------------------------ a suspension
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGTSTP"), reason="nothing is suspended here")
+def test_a_real_port_asks_before_it_is_suspended_and_no_terminal_suspends_it() -> None:
+    desk = Desk()
+    asked: list[bool] = []
+    before = [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS]
+    with live.listening(desk.ending, lambda: asked.append(True)):
+        signal.raise_signal(signal.SIGTSTP)
+        assert [signal.getsignal(each) for each in (signal.SIGTTIN, signal.SIGTTOU)] == [signal.SIG_IGN] * 2
+    assert asked == [True]
+    with live.listening(desk.ending):
+        assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
+    assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
+
+
+def test_no_process_is_suspended_while_a_motor_may_run() -> None:
+    desk = Desk()
+    halted: list[int] = []
+    moments = {SECOND // 10: "before it was heard", 4 * SECOND: "at speed", 8 * SECOND: "at standstill"}
+    desk.session.script = [Setting("Start", True, 2 * SECOND), Setting("Start", False, 5 * SECOND)]
+    now: list[int] = []
+
+    def step(at_us: int) -> None:
+        now[:] = [at_us]
+        if at_us in moments:
+            desk.session.ask_to_suspend()
+
+    desk.session.step = step
+    desk.session.halt = lambda: halted.append(now[0])
+    desk.session.run(9 * SECOND)
+    assert halted == [8 * SECOND]
+    refused = [line for line in desk.told() if line.startswith("not suspended")]
+    assert refused == ["not suspended, since Motor may run; Ctrl-C stops all and ends"] * 2
 
 
 def fails(desk: Desk) -> None:
@@ -165,7 +230,7 @@ def test_a_drive_that_does_not_reply_is_named_behind_a_bounded_time() -> None:
     before = len(desk.line.sent)
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed == {"Motor (unit 7)": "no reply to the stop"}
-    assert desk.clock.now_us() == pytest.approx(16 * SECOND, abs=SECOND)
+    assert desk.clock.now_us() == pytest.approx((6 + 15) * SECOND, abs=SECOND)  # StopWithinMs is 15000
     assert {frame[:6] for frame in desk.line.sent[before - 20 :]} == {bytes.fromhex("07 06 10 00 00 03")}
 
 
@@ -181,8 +246,8 @@ def test_who_asks_again_does_not_wait() -> None:
     def twice(desk: Desk) -> None:
         desk.line.cut = True
         desk.line.sent.clear()
-        signal.raise_signal(signal.SIGINT)
-        signal.raise_signal(signal.SIGINT)
+        sent(desk, signal.SIGINT)
+        sent(desk, signal.SIGINT, hurry=True)
 
     desk = Desk()
     with live.listening(desk.ending):
@@ -204,6 +269,16 @@ def test_a_terminal_that_goes_brings_much_at_once_and_every_drive_is_waited_for(
     assert (desk.session.result.reason, desk.session.result.stopped) == ("SIGHUP", ("Motor",))
 
 
+def test_drives_are_stopped_before_a_first_scan_has_said_where_they_are() -> None:
+    desk = Desk()
+    desk.session.known = Desk().scan(SCAN_US // 1000).controller
+    desk.drives[0].keypad_run(20)
+    desk.ending.ask("Ctrl-C")
+    assert desk.session.run().stopped == ("Motor",)
+    assert desk.session.pace.scans == 0
+    assert desk.drives[0].mode == "standing"
+
+
 def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
     drives = [
         SimulatedDrive(MAPS[name], unit, Habits(ramp=5)) for unit, name in enumerate(("SN300G5", "JSCC", "CHF"), 1)
@@ -221,6 +296,63 @@ def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
     assert [drive.mode for drive in drives] == ["standing"] * 3
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed == {}
+
+
+@pytest.mark.parametrize("after_us", range(0, 40_000, 2_000))
+def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
+    """The end is asked for at each moment of a transaction: before, while and after the drive replies."""
+    desk = Desk().started()
+    heard: list[int] = []
+    receive = desk.line.receive
+
+    def noted() -> bytes:
+        some = receive()
+        heard.extend([desk.clock.now_us()] * bool(some))
+        return some
+
+    desk.line.receive = noted  # type: ignore[method-assign]
+    before, good = len(desk.line.sent), desk.controller.number("Bus.Good")
+    while len(desk.line.sent) == before:
+        desk.scan(SCAN_US // 1000)
+    assert desk.controller.number("Bus.Good") >= good
+    asked = desk.line.sent[-1]
+    said = desk.clock.now_us() - SCAN_US
+    desk.clock.sleep_until(said + after_us)
+    stopped: list[int] = []
+    send = desk.line.send
+
+    def sent(data: bytes) -> None:
+        stopped.append(desk.clock.now_us())
+        send(data)
+
+    desk.line.send = sent  # type: ignore[method-assign]
+    desk.ending.ask("Ctrl-C")
+    desk.session.run()
+    replied = [at for at in heard if at <= stopped[0]]
+    assert asked != desk.line.sent[-1]
+    assert replied
+    assert stopped[0] - replied[-1] >= 20_000
+    assert stopped[0] - said < 100_000
+    assert desk.drives[0].mode == "standing"
+
+
+def test_a_stop_does_not_wait_for_ever_for_a_reply_or_for_silence() -> None:
+    desk = Desk().started()
+    desk.line.cut = True
+    while not desk.line.sent[-1].startswith(b"\7\3"):
+        desk.scan(10)
+    said, before = desk.clock.now_us(), len(desk.line.sent)
+    desk.line.receive = lambda: b"?"  # type: ignore[method-assign]  # somebody speaks, and never ends
+    stopped: list[int] = []
+
+    def sent(_: bytes) -> None:
+        stopped.append(desk.clock.now_us())
+
+    desk.line.send = sent  # type: ignore[assignment,method-assign]
+    desk.ending.ask("Ctrl-C")
+    desk.session.run()
+    assert len(desk.line.sent) == before
+    assert stopped[0] - said <= REPLY_US + CHATTER_US + 100_000
 
 
 # ------------------------------------------------------------ a port that goes

@@ -42,7 +42,7 @@ def test_a_reset_is_never_written_into_the_command_register(engine: Engine) -> N
 def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine, prefix: str, sign: int) -> None:
     """The REAL nearest to 1.0E30 is above it: C compared with the literal as a double, and took it for no number."""
     scale = {"ReferenceScale": 10.0} if prefix == "JSCC" else {}
-    pins: dict[str, Value] = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 50.0, **scale}
+    pins: dict[str, Value] = {"SpeedReferenceHz": sign * 1.0e30, "MaximumHz": 50.0, "FullScaleHz": 50.0, **scale}
     done = built(engine).run(f"{prefix}_Reference", pins)
     assert result(done) == ("OK" if sign > 0 else "NEGATIVE")
 

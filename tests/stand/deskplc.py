@@ -256,7 +256,7 @@ def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
     program.write_text(CHF, encoding="utf-8")
     names = ",".join([*(f"Motor.{name}" for name in SHOWN), *(f"Bus.{name}" for name in COUNTERS)])
     words = [str(program), "--port", device, "--allow-run", "--show", names, "--trace", str(trace)]
-    command = [sys.executable, "-m", "driveblocks", "run", *words]
+    command = [sys.executable, "-m", "driveblocks", "run", *words, "--watchdog", "600s"]
     made = DeskPlc(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))
     reader = threading.Thread(target=made.read)
     reader.start()

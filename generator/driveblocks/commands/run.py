@@ -37,6 +37,13 @@ Form = Annotated[
     typer.Option("--format", metavar="8E1", help="Data bits, parity, stop bits of --port; else by CharacterBits."),
 ]
 Scan = Annotated[str, typer.Option(metavar="TIME", help="Time between two scans.")]
+Watchdog = Annotated[
+    str | None,
+    typer.Option(
+        metavar="TIME",
+        help="A scan that takes longer ends the run; 500ms unless given. The first scan may take 3s.",
+    ),
+]
 For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End after this time, such as 60s.")]
 Show = Annotated[
     list[str] | None,
@@ -66,6 +73,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     port: Port = None,
     form: Form = None,
     scan: Scan = "10ms",
+    watchdog: Watchdog = None,
     for_: For = None,
     show: Show = None,
     script: Script = None,
@@ -78,9 +86,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     """Run a program: a soft PLC on this computer, at simulated drives or at a real line.
 
     On a REAL PORT only reads and the maps' stops leave, unless --allow-run. Whatever ends the run, every drive is
-    stopped first, and it is said which could not be confirmed. No program can do so after kill -9, while the computer
-    sleeps, or over an unplugged cable: wire a hard stop. The exit status is 0 for a run whose drives all stand, 1 if
-    one could not be confirmed or the program failed, and 2 for bad input.
+    stopped first, and it is said which could not be confirmed: at Ctrl-C and every signal that can be caught, and by
+    a watchdog if a scan does not end. No program can do so after kill -9, while the computer sleeps, or over an
+    unplugged cable: wire a hard stop. The exit status is 0 for a run whose drives all stand, 1 if one could not be
+    confirmed or the program failed, and 2 for bad input or a file that cannot be written.
 
     Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """
@@ -90,7 +99,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     options = Options(
         program=program, name=name, maps=tuple(maps or ()), simulate=tuple(simulate or ()), tcp=tcp, port=port,
-        simulated=simulated, form=form, scan=scan, length=for_,
+        simulated=simulated, form=form, scan=scan, watchdog=watchdog, length=for_,
         show=tuple(",".join(show or ()).replace(",", " ").split()),
         script=script, trace=trace, picture=picture, allow_run=allow_run, demo=demo, fast=fast,
     )  # fmt: skip

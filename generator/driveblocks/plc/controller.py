@@ -1,5 +1,6 @@
 """One scan of a program: received bytes in, time in, the body, bytes out."""
 
+import sys
 from collections import Counter
 
 from driveblocks.host.embedded import EmbeddedInstance, EmbeddedLibrary
@@ -27,6 +28,7 @@ class Controller:
     ) -> None:
         """Make an instance of the program; its port comes by `connect`."""
         self.instance: EmbeddedInstance = library.instance(program)
+        self._library = library
         self.wiring = wiring
         self._drives = drives
         self._scan_us = scan_us
@@ -69,6 +71,14 @@ class Controller:
         path = self.wiring.pins[pin]
         if path is not None:
             self.instance[path] = value
+
+    def place(self, thread: int | None) -> str:
+        """Where the thread that scans is in the program: the innermost place, and the one in the program itself."""
+        found = self._library.running(sys._current_frames().get(thread or 0))
+        if not found:
+            return "outside the program's text"
+        at = [f"{each.path}:{each.line}:{each.column} in {each.text}" for each in (found[0], found[-1])]
+        return at[0] if len(found) == 1 else f"{at[0]}, called from {at[1]}"
 
     # ------------------------------------------------------------ drives
 

@@ -1,26 +1,35 @@
-"""The end of a run: every drive is stopped past the program, for a bounded time, and told whether it stands."""
+"""The end of a run: every drive is stopped past the program, for a bounded time, and it is read whether it stands."""
 
-from dataclasses import dataclass
+import queue
+from dataclasses import dataclass, field
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.modbus.frame import seal
 from driveblocks.plc.clock import Clock
+from driveblocks.plc.gate import Gate
 from driveblocks.plc.guard import stop_request
-from driveblocks.plc.port import Port
 from driveblocks.plc.wire import opened
 from driveblocks.simulator.pattern import Pattern, of_condition
 
 WITHIN_US = 10_000_000
-"""How long it is tried."""
+"""How long it is tried where no drive block says within which time its motor stands."""
+LEAST_US = 2_000_000
+"""How long it is tried at least: eight drives are not stopped and read in less."""
 REPLY_US = 300_000
-"""How long a reply may take, with its time on the wire."""
+"""How long a drive may take to reply, beside the time on the wire."""
 SILENCE_US = 20_000
-"""Before each request."""
+"""Before each request, at least: an adapter may keep the end of a reply back for 16 ms."""
+SILENT_CHARACTERS = 3.5
+CHATTER_US = 1_000_000
+"""A line on which somebody goes on speaking for so long is not waited for."""
 LOOK_US = 2_000
 HURRY_US = 50_000
-"""The same for who does not wait: the request itself has to leave."""
+"""As REPLY_US, for who does not wait: the request itself has to leave."""
 SILENT = "no reply to the stop"
+
+Bell = queue.SimpleQueue[None]
+"""What wakes the watchdog; signals may ring it, since its `put` may interrupt itself."""
 
 
 @dataclass
@@ -30,6 +39,8 @@ class Ending:
     reason: str = ""
     hurry: bool = False
     """Asked a second time: do not wait for the motors."""
+    bell: Bell = field(default_factory=Bell)
+    """Rings when the end is asked for, and when the scans are over."""
 
     def ask(self, reason: str, *, insists: bool = False) -> None:
         """End the run; who insists while it ends does not wait any longer.
@@ -39,17 +50,35 @@ class Ending:
         if self.reason and insists:
             self.hurry = True
         self.reason = self.reason or reason
+        self.bell.put(None)
+
+
+@dataclass(frozen=True)
+class Speech:
+    """How a line is spoken on."""
+
+    ascii_mode: bool
+    character_us: float
+    silence_us: int = 0
+    """What the drives ask for around a frame."""
 
 
 class Stopper:
     """Stops drives, and reads whether they stand."""
 
-    def __init__(self, port: Port, clock: Clock, ending: Ending, *, ascii_mode: bool) -> None:
-        """On a port that the program has left."""
-        self._port = port
+    def __init__(self, gate: Gate, clock: Clock, ending: Ending, speech: Speech) -> None:
+        """On a port that was taken from the program."""
+        self._port = gate.port
         self._clock = clock
         self._ending = ending
-        self._ascii = ascii_mode
+        self._ascii = speech.ascii_mode
+        self._character_us = speech.character_us
+        self._silence_us = max(speech.silence_us, SILENCE_US, int(SILENT_CHARACTERS * speech.character_us))
+        self._sent, self._heard = gate.sent, gate.heard
+        sent_us = clock.now_us() if gate.sent_us is None else gate.sent_us + self._wire_us(gate.sent)
+        self._spoken_us = max(sent_us, gate.heard_us)
+        self._reply_by_us = sent_us + REPLY_US if gate.sent else sent_us
+        """Until then, the reply to the last request may begin."""
 
     def stop(self, drives: dict[int, Drive], within_us: int = WITHIN_US) -> dict[int, str]:
         """Stop them all; what cannot be confirmed of each, empty where its standstill is proved.
@@ -99,20 +128,41 @@ class Stopper:
 
     def _ask(self, body: bytes, length: int) -> bytes:
         """A request, and its reply of so many bytes, both without checksum; empty if there is none."""
-        mode = "ascii" if self._ascii else "rtu"
-        request = seal(mode, body)
-        self._clock.sleep_until(self._clock.now_us() + SILENCE_US)
-        self._port.receive()
+        self._be_silent()
+        request = self._sent = seal("ascii" if self._ascii else "rtu", body)
         self._port.send(request)
-        heard, begun = b"", self._clock.now_us()
-        while self._clock.now_us() - begun < (HURRY_US if self._ending.hurry else REPLY_US):
-            self._clock.sleep_until(self._clock.now_us() + LOOK_US)
-            heard += self._port.receive()
-            for text in (heard, heard.removeprefix(request)):
+        self._heard, begun = b"", self._clock.now_us()
+        wire = self._wire_us(request) + self._wire_us(seal("ascii" if self._ascii else "rtu", bytes(length)))
+        self._spoken_us = self._reply_by_us = begun + self._wire_us(request)
+        while self._clock.now_us() - begun < wire + (HURRY_US if self._ending.hurry else REPLY_US):
+            self._listen()
+            for text in (self._heard, self._heard.removeprefix(request)):
                 reply = self._reply(text, length)
                 if reply[:2] == body[:2]:
                     return reply
         return b""
+
+    def _be_silent(self) -> None:
+        """Wait until the reply to the last request has come, or does not come, and nothing has been said since."""
+        self._hear()
+        most = max(self._clock.now_us(), self._reply_by_us) + CHATTER_US
+        while (now := self._clock.now_us()) < most:
+            replied = self._heard.removeprefix(self._sent)  # an adapter may give back what was sent
+            if (replied or now >= self._reply_by_us) and now - self._spoken_us >= self._silence_us:
+                return
+            self._listen()
+
+    def _listen(self) -> None:
+        self._clock.sleep_until(self._clock.now_us() + LOOK_US)
+        self._hear()
+
+    def _hear(self) -> None:
+        if some := self._port.receive():
+            self._heard += some
+            self._spoken_us = self._clock.now_us()
+
+    def _wire_us(self, frame: bytes) -> int:
+        return int(len(frame) * self._character_us)
 
     def _reply(self, text: bytes, length: int) -> bytes:
         if self._ascii:

@@ -1,4 +1,4 @@
-"""A run in real time: scans in a thread of their own, screen, keyboard and signals beside it."""
+"""A run in real time: scans and their watchdog in threads of their own, screen, keyboard and signals beside them."""
 
 import gc
 import signal
@@ -8,19 +8,27 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
-from driveblocks.plc.ending import WITHIN_US, Ending
+from driveblocks.plc.ending import Ending
 from driveblocks.plc.keyboard import Keyboard, typed
 from driveblocks.plc.screen import Screen
 from driveblocks.plc.session import Result, Session
 
-SIGNALS = {"SIGINT": "Ctrl-C", "SIGTERM": "SIGTERM", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
-"""What ends a run, where the platform has it."""
+REASONS = {"SIGINT": "Ctrl-C", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
+"""Why a run ends, where the name of the signal does not say it."""
 INSISTS = ("SIGINT", "SIGBREAK")
 """What a person does who does not want to wait."""
+PASSED_ON = frozenset({
+    "SIGKILL", "SIGSTOP",  # nobody can catch these
+    "SIGSEGV", "SIGBUS", "SIGFPE", "SIGILL",  # nothing can go on after these
+    "SIGCHLD", "SIGCONT", "SIGINFO", "SIGURG", "SIGWINCH", "SIGPIPE", "SIGXFSZ",  # these end nothing
+})  # fmt: skip
+SUSPENDS = ("SIGTSTP", "SIGTTIN", "SIGTTOU")
+_NAMES = {int(each): each.name for each in signal.Signals}
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
-GRACE_S = 5
+GRACE_S = 80
+"""For the last stop: the longest StopWithinMs, and what is under way before it. No more than a net."""
 
 
 def run(
@@ -28,21 +36,20 @@ def run(
 ) -> Result:
     """Run until the end, whatever brings it; `end_of_input`: so does the end of the keyboard's lines."""
     with _undisturbed():
-        scans = threading.Thread(target=session.run, args=(for_us,))
-        scans.start()
+        watch = _beside(lambda: session.run(for_us))
         try:
             if keyboard is not None:
                 _listen_to(keyboard, session, end_of_input=end_of_input)
-            _watch(session, screen, scans)
+            _watch(session, screen, watch)
         except BaseException as error:  # a lost terminal must not leave drives running
             session.ending.ask(f"the screen has failed: {error or type(error).__name__}")
         finally:
-            scans.join(WITHIN_US / 1e6 + GRACE_S)
+            watch.join(GRACE_S)
         with suppress(OSError, ValueError):
             tell(session, screen)
         with suppress(OSError, ValueError):
             screen.close()
-    hangs = Result(session.ending.reason, crashed=True, unconfirmed={"every drive": "the scan thread hangs"})
+    hangs = Result(session.ending.reason, crashed=True, unconfirmed={"every drive": "the thread that stops them hangs"})
     return session.result or hangs
 
 
@@ -60,21 +67,35 @@ def _undisturbed() -> Iterator[None]:
         gc.unfreeze()
 
 
+def caught() -> dict[int, str]:
+    """The signals that end a run, by their numbers; real-time signals have no names."""
+    numbers = map(int, signal.valid_signals())
+    names = {each: _NAMES.get(each, f"signal {each}") for each in numbers}
+    return {number: name for number, name in names.items() if name not in PASSED_ON and name not in SUSPENDS}
+
+
 @contextmanager
-def listening(ending: Ending) -> Iterator[None]:
-    """Let signals end the run."""
+def listening(ending: Ending, suspend: Callable[[], None] | None = None) -> Iterator[None]:
+    """Let signals end the run; `suspend` is asked for a suspension, which else is the system's."""
 
     def ask(number: int, _: FrameType | None) -> None:
-        name = signal.Signals(number).name
-        ending.ask(SIGNALS[name], insists=name in INSISTS)
+        name = names[number]
+        ending.ask(REASONS.get(name, name), insists=name in INSISTS)
 
-    numbers = [getattr(signal, name) for name in SIGNALS if hasattr(signal, name)]
-    before = [(number, signal.signal(number, ask)) for number in numbers]
+    names = caught()
+    handlers: dict[int, Callable[[int, FrameType | None], None] | signal.Handlers] = dict.fromkeys(names, ask)
+    if suspend is not None:
+        found = [getattr(signal, name, None) for name in SUSPENDS]
+        # From the background, reading the terminal then fails, which is the end of the input, and writing does not.
+        handlers |= {number: signal.SIG_IGN for number in found if number is not None}
+        if found[0] is not None:
+            handlers[found[0]] = lambda _number, _frame: suspend()
+    before = [(number, signal.signal(number, handler)) for number, handler in handlers.items()]
     try:
         yield
     finally:
         for number, handler in before:
-            signal.signal(number, handler)
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 
 def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:
@@ -94,13 +115,15 @@ def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> N
     _beside(lambda: keyboard.serve(taken, ended))
 
 
-def _beside(work: Callable[[], None]) -> None:
-    threading.Thread(target=work, daemon=True).start()
+def _beside(work: Callable[[], object]) -> threading.Thread:
+    thread = threading.Thread(target=work, daemon=True)
+    thread.start()
+    return thread
 
 
-def _watch(session: Session, screen: Screen, scans: threading.Thread) -> None:
-    while scans.is_alive():
-        scans.join(LOOK_S)
+def _watch(session: Session, screen: Screen, watch: threading.Thread) -> None:
+    while watch.is_alive():
+        watch.join(LOOK_S)
         tell(session, screen)
         if session.view is not None:
             screen.show(session.view)

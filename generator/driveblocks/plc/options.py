@@ -26,6 +26,7 @@ class Options:
     port: str | None = None
     form: str | None = None
     scan: str = "10ms"
+    watchdog: str | None = None
     length: str | None = None
     show: tuple[str, ...] = ()
     script: Path | None = None

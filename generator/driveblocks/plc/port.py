@@ -31,8 +31,10 @@ class Port(Protocol):
     """Bytes to and fro, without ever waiting."""
 
     late_ms: int
-    error: str
-    """Why it does not work; empty while it does."""
+
+    @property
+    def error(self) -> str:
+        """Why it does not work; empty while it does."""
 
     def send(self, data: bytes) -> None:
         """Bytes onto the line; lost while the port does not work."""

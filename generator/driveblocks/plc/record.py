@@ -2,7 +2,7 @@
 
 from collections import deque
 from collections.abc import Mapping, Sequence
-from typing import TextIO
+from typing import Protocol
 from xml.sax.saxutils import escape
 
 from driveblocks.host.engine import Value
@@ -13,10 +13,17 @@ MOST_CHANGES = 20_000
 _LEFT, _RIGHT, _LANE, _HIGH, _TOP, _WIDTH = 200, 30, 44, 26, 34, 1000
 
 
+class Writer(Protocol):
+    """A file of text."""
+
+    def write(self, text: str, /) -> int:
+        """Write it."""
+
+
 class Trace:
     """A CSV file: a row for every scan in which something changed; its first line says whose port it was."""
 
-    def __init__(self, file: TextIO, names: Sequence[str], port: str) -> None:
+    def __init__(self, file: Writer, names: Sequence[str], port: str) -> None:
         """Write the head."""
         self._file = file
         self._last: list[str] | None = None

@@ -1,21 +1,30 @@
 """A run: scans in time, what is set meanwhile, what is seen of it, and its end."""
 
+import os
 import queue
+import signal
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.host.engine import ScanError
+from driveblocks.maps.model import Drive
 from driveblocks.plc.clock import Clock
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.ending import Ending, Stopper
+from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Speech, Stopper
+from driveblocks.plc.gate import Gate, GivenUp
 from driveblocks.plc.pace import Pace
 from driveblocks.plc.port import Port
-from driveblocks.plc.record import Timing, Trace
+from driveblocks.plc.recorder import Recorder
 from driveblocks.plc.script import Setting
 from driveblocks.plc.view import View, look
+from driveblocks.plc.watchdog import Watchdog
 
 LOOK_US = 200_000
 """Between two looks for the screen."""
+USUAL_RATE, USUAL_BITS = 19200, 11
+"""Of a line that was not called yet."""
+STUCK = "no stop sent: the port takes nothing, a call of the system for it does not come back"
 
 Step = Callable[[int], None]
 """What happens besides before each scan, at the time since the start."""
@@ -38,21 +47,30 @@ class Session:
     def __init__(self, controller: Controller, clock: Clock, ending: Ending, scan_us: int) -> None:
         """Prepare; `connect` gives it a port, `run` runs."""
         self.controller = controller
+        self.known = controller
+        """The program as it says what its drives are before its first scan has ended."""
         self.ending = ending
+        self.watchdog = Watchdog()
         self.pace = Pace(scan_us)
         self.settings: queue.SimpleQueue[Setting] = queue.SimpleQueue()
         """What a person sets, from another thread."""
         self.script: Sequence[Setting] = ()
         self.shown: tuple[str, ...] = ()
-        self.records: list[Trace | Timing] = []
+        self.recorders: list[Recorder] = []
         self.recorded: tuple[str, ...] = ()
         self.step: Step = lambda _: None
+        self.halt: Callable[[], None] = _halt
+        """Suspends this process."""
         self.view: View | None = None
         self.told: queue.SimpleQueue[str] = queue.SimpleQueue()
         """What is to be said, each in a line."""
         self.result: Result | None = None
+        self.settled: Callable[[Result], None] = lambda _: None
+        """Called as soon as it is known how the run has ended."""
         self._clock = clock
-        self._port: Port
+        self._gate: Gate
+        self._over = self._suspending = False
+        self._crash = ""
         self._done = 0
         self._begun_us = 0
         self._looked_us = -LOOK_US
@@ -61,33 +79,60 @@ class Session:
 
     def connect(self, port: Port, free: frozenset[tuple[int, str]] | None) -> None:
         """Take a port; see `Controller.connect`."""
-        self._port = port
-        self.controller.connect(port, free)
+        self._gate = Gate(port, self._clock)
+        self.controller.connect(self._gate, free)
 
     def run(self, for_us: int | None = None) -> Result:
-        """Scan until the end, then stop every drive. No exception of the program comes out of here."""
+        """Scan in a thread of its own until the end, whatever brings it; then stop every drive from this one."""
+        scans = threading.Thread(target=self._scans, args=(for_us,), daemon=True)
+        scans.start()
+        self.watchdog.watch(self.ending, lambda: self._over)
+        if not self._over:
+            self._give_up(scans)
+        self.result = self._end()
+        self.settled(self.result)
+        return self.result
+
+    def _give_up(self, scans: threading.Thread) -> None:
+        """Say where the scan is that does not end; the port is taken from it next."""
+        place = self.controller.place(scans.ident)
+        if self.watchdog.bites:
+            limit = f"{self.watchdog.may_us / 1000:g} ms"
+            self._crash = f"a scan has not ended within {limit} (--watchdog): it was at {place}"
+        elif self.watchdog.scanning:
+            self.told.put(f"a scan was given up: it was at {place}")
+
+    # ------------------------------------------------------------ scans
+
+    def _scans(self, for_us: int | None) -> None:
+        """Scan until the end. No exception of the program comes out of here."""
         crash = ""
         self._begun_us = self._clock.now_us()
         try:
             self._loop(for_us)
+        except GivenUp:
+            return
         except ScanError as error:
             crash = str(error)
         except Exception as error:  # whatever happens, the drives are stopped
             crash = f"{type(error).__name__}: {error}"
-        if crash:
-            self.ending.reason = self.ending.reason or f"the program has failed: {crash}"
-        self.result = self._end(crashed=bool(crash))
-        return self.result
+        self._crash = self._crash or crash
+        self._over = True
+        self.ending.bell.put(None)
 
     def _loop(self, for_us: int | None) -> None:
         scan_us = self.pace.scan_us
         due = self._begun_us
         while not self.ending.reason:
+            if self._suspending:
+                self._suspend()
             start = self._clock.now_us()
             if for_us is not None and start - self._begun_us >= for_us:
                 self.ending.ask(f"{for_us / 1e6:g} s are over")
                 break
+            self.watchdog.begin()
             self._scan(start)
+            self.watchdog.end()
             done = self._clock.now_us()
             due += scan_us
             due += scan_us * self.pace.add(done - start, done - due)
@@ -105,38 +150,90 @@ class Session:
             instance[setting.name] = setting.value
         self.step(since)
         self.controller.scan(now_us)
+        self._gate.check()
         self._record(since)
         if since - self._looked_us >= LOOK_US:
             self._looked_us = since
-            self.view = look(self.controller, self.shown, since, self._port.error)
+            self.view = look(self.controller, self.shown, since, self._gate.error)
             self._tell()
 
     def _record(self, since: int) -> None:
-        if self.records:
+        if self.recorders:
             values = {name: self.controller.instance[name] for name in self.recorded}
-            for each in self.records:
+            for each in self.recorders:
                 each.add(since, values)
 
     def _tell(self) -> None:
         for what in self.controller.dropped.keys() - self._seen_drops:
             self._seen_drops.add(what)
             self.told.put(f"not sent: {what} (needs --allow-run)")
-        if self._port.error != self._port_error:
-            self._port_error = self._port.error
+        if self._gate.error != self._port_error:
+            self._port_error = self._gate.error
             self.told.put(f"the port does not work: {self._port_error}" if self._port_error else "the port works again")
+        for each in self.recorders:
+            if news := each.news():
+                self.told.put(news)
 
-    def _end(self, *, crashed: bool) -> Result:
-        controller = self.controller
-        names: dict[int, list[str]] = {}
-        for block in controller.wiring.drives:
-            names.setdefault(controller.unit(block), []).append(block.path)
+    def ask_to_suspend(self) -> None:
+        """A person wants this process to be suspended; a signal calls this."""
+        self._suspending = True
+
+    def _suspend(self) -> None:
+        """Suspend this process between two scans, but not while a motor may run."""
+        self._suspending = False
+        blocks = self.controller.wiring.drives
+        moving = [each.path for each in blocks if not self.controller.instance[f"{each.path}.StopConfirmed"]]
+        if moving:
+            self.told.put(f"not suspended, since {', '.join(moving)} may run; Ctrl-C stops all and ends")
+        else:
+            self.halt()
+
+    # ------------------------------------------------------------ the end
+
+    def _end(self) -> Result:
+        """Stop every drive; the program has no say any more."""
+        free = self._gate.take()
+        if self._crash:
+            self.ending.reason = self.ending.reason or f"the program has failed: {self._crash}"
+        for each in self.recorders:
+            each.end()
+        controller, told = self.controller if self.pace.scans else self.known, self.told
+        names = _names(controller)
+        told.put(f"{self.ending.reason}: stopping every drive")
+        if self._crash not in self.ending.reason:
+            told.put(f"the program has failed, too: {self._crash}")
         units = controller.units()
-        ascii_mode = bool(controller.number(f"{controller.wiring.line}.Ascii"))
-        self.told.put(f"{self.ending.reason}: stopping every drive")
-        told = Stopper(self._port, self._clock, self.ending, ascii_mode=ascii_mode).stop(units)
-        told |= dict.fromkeys(
+        stopper = Stopper(self._gate, self._clock, self.ending, _speech(controller, units))
+        found = stopper.stop(units, _within_us(controller)) if free else dict.fromkeys(units, STUCK)
+        found |= dict.fromkeys(
             names.keys() - units.keys(), "no stop sent: its unit address is not its own, or not known"
         )
-        unconfirmed = {f"{', '.join(names[unit])} (unit {unit})": why for unit, why in told.items() if why}
-        stopped = tuple(", ".join(names[unit]) for unit, why in told.items() if not why)
-        return Result(self.ending.reason, crashed, unconfirmed, stopped)
+        unconfirmed = {f"{', '.join(names[unit])} (unit {unit})": why for unit, why in found.items() if why}
+        stopped = tuple(", ".join(names[unit]) for unit, why in found.items() if not why)
+        return Result(self.ending.reason, bool(self._crash), unconfirmed, stopped)
+
+
+def _names(controller: Controller) -> dict[int, list[str]]:
+    """The drive blocks at each unit address."""
+    names: dict[int, list[str]] = {}
+    for block in controller.wiring.drives:
+        names.setdefault(controller.unit(block), []).append(block.path)
+    return names
+
+
+def _within_us(controller: Controller) -> int:
+    """The longest time within which a motor of the program has to stand."""
+    longest = max((controller.number(f"{each.path}.StopWithinMs") for each in controller.wiring.drives), default=0)
+    return max(LEAST_US, longest * 1000) if longest else WITHIN_US
+
+
+def _speech(controller: Controller, units: dict[int, Drive]) -> Speech:
+    number, line = controller.number, controller.wiring.line
+    silences = [each.serial.silence for each in units.values()]
+    milliseconds = max((each.milliseconds or 0 for each in silences if each), default=0)
+    bits, rate = number(f"{line}.CharacterBits") or USUAL_BITS, number(f"{line}.BitRate") or USUAL_RATE
+    return Speech(bool(number(f"{line}.Ascii")), 1e6 * bits / rate, int(1000 * milliseconds))
+
+
+def _halt() -> None:
+    os.kill(os.getpid(), signal.SIGSTOP)

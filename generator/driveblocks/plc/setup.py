@@ -2,8 +2,9 @@
 
 import difflib
 import sys
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,24 +13,41 @@ from driveblocks.host.engine import BuildError, ScanError
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, permission, port, script, source, wiring
+from driveblocks.plc import demo, live, permission, port, recorder, script, source, wiring
 from driveblocks.plc.clock import Clock, RealClock, VirtualClock
 from driveblocks.plc.controller import Controller
+from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
 from driveblocks.plc.port import Port, WirePort
-from driveblocks.plc.record import Timing, Trace
 from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
+<<<<<<< HEAD
 from driveblocks.plc.wanted import Wanted, named, of_program, words
+=======
+from driveblocks.plc.wanted import chosen, words
+from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
+>>>>>>> w-watchdog
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
+<<<<<<< HEAD
 USUAL = {"BitRate": 9600, "CharacterBits": 10}
 """What a line takes where a pin is 0."""
+=======
+SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
+RECKONED_WATCHDOG_US = 30_000_000
+"""With --fast, which keeps no motor waiting; a busy computer must not spoil it."""
+LEAVE_S = 1.5
+"""How long the process may take to end when it is known whether the drives stand."""
+FILES_S = 1.0
+"""How much of this its files may take."""
+PATIENT = 10
+"""With --fast, so many times as long."""
+>>>>>>> w-watchdog
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -45,6 +63,9 @@ class Setup:
         self._keyboard = keyboard
         self._scan_us = time("--scan", options.scan, 1_000, LONGEST_SCAN_US)
         self._for_us = None if options.length is None else time("--for", options.length, 1, 10**15)
+        self._watchdog_us = self._limit()
+        self._pause = PATIENT if options.fast else 1
+        self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
         self._maps = _maps(options)
@@ -56,6 +77,12 @@ class Setup:
         self._session = self._made()
         self._records()
         self._free = self._allowed()
+
+    def _limit(self) -> int:
+        """How long a scan may take."""
+        if self._options.watchdog is None:
+            return RECKONED_WATCHDOG_US if self._options.fast else LIMIT_US
+        return time("--watchdog", self._options.watchdog, SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US)
 
     # ------------------------------------------------------------ program
 
@@ -80,12 +107,25 @@ class Setup:
         return Controller(loaded.library, loaded.program.name, wired, loaded.drives, self._scan_us)
 
     def _probed(self) -> Controller:
-        """The program behind one scan without a port: what it says of its line and drives. Raises Refused."""
+        """The program after one scan without a port: what it says of its line and drives. Raises Refused."""
         probe = self._controller()
         probe.connect(_Nowhere(), None)
-        try:
-            probe.scan(self._scan_us)
-        except ScanError as error:
+        errors: list[ScanError] = []
+
+        def scan() -> None:
+            try:
+                probe.scan(self._scan_us)
+            except ScanError as error:
+                errors.append(error)
+
+        thread = threading.Thread(target=scan, daemon=True)
+        thread.start()
+        limit_s = max(FIRST_US, self._watchdog_us) / 1e6
+        thread.join(limit_s)
+        if thread.is_alive():
+            place = probe.place(thread.ident)
+            raise Refused(f"{place}: the first scan has not ended within {limit_s:g} s; nothing was sent")
+        for error in errors:
             raise Refused(str(error)) from None
         return probe
 
@@ -162,6 +202,9 @@ class Setup:
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
         session.script, session.shown = self._script(controller), self._options.show
+        session.known = self._probe
+        session.watchdog = Watchdog(self._watchdog_us)
+        session.settled = self._settled
         return session
 
     def _allowed(self) -> frozenset[tuple[int, str]] | None:
@@ -187,13 +230,11 @@ class Setup:
     def _records(self) -> None:
         """Open what is to be recorded. Raises Refused."""
         where, names = f"{self.label}, {console.name(self._path.name)}", self._session.recorded
+        ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
         try:
-            if self._options.trace is not None:
-                file = self._stack.enter_context(self._options.trace.open("w", encoding="utf-8", newline=""))
-                self._session.records.append(Trace(file, names, where))
-            if self._options.picture is not None:
-                self._options.picture.touch()
-                self._session.records.append(Timing(names, where))
+            for path, way in ways:
+                if path is not None:
+                    self._session.recorders.append(way(path, names, where, waits=self._options.fast))
         except OSError as error:
             raise Refused(f"{console.name(error.filename)}: {error.strerror}") from None
 
@@ -212,7 +253,14 @@ class Setup:
 
     def run(self) -> int:
         """Run to the end; the exit status. Raises Refused if the port cannot be opened."""
-        with self._stack, live.listening(self._session.ending):
+        try:
+            return self._run()
+        finally:
+            self._departure.done()
+
+    def _run(self) -> int:
+        suspend = self._session.ask_to_suspend if self._options.real else None
+        with self._stack, live.listening(self._session.ending, suspend):
             opened = self._port()
             self._stack.callback(opened.close)
             self._session.connect(opened, self._free)
@@ -260,20 +308,43 @@ class Setup:
         live.tell(session, screen)
         return result
 
+    def _settled(self, result: Result) -> None:
+        """It is known how the run has ended: from now on nothing may take long."""
+        self._departure.begin(self._status(result), f"{self.label}  {result.reason}\n{self._verdict(result)}")
+
+    def _verdict(self, result: Result) -> str:
+        """Which drives stand, and which perhaps do not."""
+        return "".join(f"{self.label}  {line}\n" for line in (*_stands(result), *self._untrue()))
+
+    def _untrue(self) -> list[str]:
+        return [self._demo.wrong] if self._demo and self._demo.wrong else []
+
+    def _status(self, result: Result) -> int:
+        return 1 if result.crashed or result.unconfirmed or self._untrue() else 0
+
     def _report(self, result: Result) -> int:
-        """Say how it went; the exit status."""
-        wrong = [self._demo.wrong] if self._demo and self._demo.wrong else []
-        for record in self._session.records:
-            if isinstance(record, Timing) and self._options.picture is not None:
-                self._options.picture.write_text(record.svg(), encoding="utf-8")
-        lines = [f"{self.label}  {line}" for line in (*_stands(result), *wrong)]
-        lines += [
-            f"not sent {number} times: {what}" for what, number in sorted(self._session.controller.dropped.items())
-        ]
+        """Say how it went, first whether the drives stand; the exit status."""
+        _print(self._verdict(result))
+        self._departure.printed()
+        dropped = sorted(self._session.controller.dropped.items())
+        lines = [f"not sent {number} times: {what}" for what, number in dropped]
         if not self._options.fast:
             lines.append(str(self._session.pace))
-        sys.stdout.write("".join(f"{line}\n" for line in lines))
-        return 1 if result.crashed or result.unconfirmed or wrong else 0
+        files = [each.finish(FILES_S * self._pause / 2) for each in self._session.recorders]
+        _print("".join(f"{line}\n" for line in (*lines, *filter(None, files))))
+        failed = any(each.failed for each in self._session.recorders)
+        return self._status(result) or (2 if failed else 0)
+
+
+def _print(text: str) -> None:
+    """On standard output, else on the other stream."""
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except (OSError, ValueError):
+        console.give_up_output()
+        with suppress(OSError, ValueError):
+            sys.stderr.write(text)
 
 
 def _stands(result: Result) -> Iterator[str]:

@@ -51,8 +51,8 @@ class SpeedReference:
         row = drive.register_at(self.spec.register)
         if row is None:
             raise ValueError("the map does not list the reference register")
-        self.percent = self.spec.means == "percent_of_maximum"
         self.factor = Fraction(row.scale.factor) if row.scale else None
+        self.percent = self.spec.means == "percent_of_maximum" and row.scale is not None
         self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
 
     @property

@@ -292,7 +292,7 @@ def reference(drive: Drive) -> Context:
     return {
         "source": source_of(drive, spec.source),
         "register": spec.register,
-        "percent": percent,
+        "percent": percent and row.scale is not None,
         "maximum": spec.maximum or "the maximum frequency",
         "scale": row.scale,
         "ratio": ratio,

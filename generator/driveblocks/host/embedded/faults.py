@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import copy
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import islice
 from types import CodeType, FrameType, TracebackType
@@ -84,6 +85,15 @@ def _innermost(traceback: TracebackType | None) -> tuple[FrameType, int, int] | 
             found = traceback.tb_frame, line or traceback.tb_lineno, column
         traceback = traceback.tb_next
     return found
+
+
+def running(frame: FrameType | None) -> Iterator[tuple[CodeType, int, int]]:
+    """The bodies of compiled ST that a thread is in, the innermost first, each with its 1-based line and column."""
+    while frame is not None:
+        if MARK in frame.f_globals:
+            line, column = _position(frame.f_code, frame.f_lasti)
+            yield frame.f_code, line or frame.f_lineno or 0, column
+        frame = frame.f_back
 
 
 def _position(code: CodeType, instruction: int) -> tuple[int, int]:

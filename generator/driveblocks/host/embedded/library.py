@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from itertools import repeat
+from types import FrameType
 from typing import Any
 
 from driveblocks.host.coverage import Branches, Lines
-from driveblocks.host.embedded.calls import returned
+from driveblocks.host.embedded.calls import function_name, returned
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.configuration import EmbeddedConfiguration, GlobalsView, globals_block, globals_of
-from driveblocks.host.embedded.faults import FAULTS, scan_error
+from driveblocks.host.embedded.faults import FAULTS, running, scan_error
+from driveblocks.host.embedded.invocation import body_name
 from driveblocks.host.embedded.paths import Paths
 from driveblocks.host.embedded.values import Values
-from driveblocks.host.engine import Value
+from driveblocks.host.engine import Message, Value
 from driveblocks.st import tree
 from driveblocks.st.standard import BLOCKS
 from driveblocks.st.tree import Block, Direction
@@ -116,6 +118,20 @@ class EmbeddedLibrary:
         except FAULTS as error:
             raise scan_error(error, self.compiler.accesses) from error
         return self.values.read(found.type, result[0] if returned(found) else result)
+
+    def running(self, frame: FrameType | None) -> list[Message]:
+        """Where a thread is in compiled ST, the innermost place first; each text is the name of a block or function.
+
+        `frame` is the thread's, of `sys._current_frames()`; the thread may go on meanwhile.
+        """
+        checked = self.compiler.checked
+        names = {function_name(each): each.name for each in checked.functions.values()}
+        pous: list[tree.FunctionBlock | tree.Program] = [*checked.blocks.values(), *checked.programs.values()]
+        names |= {body_name(each.type): each.name for each in pous if each.type is not None}
+        return [
+            Message(code.co_filename, line, column, names.get(code.co_name, code.co_name))
+            for code, line, column in running(frame)
+        ]
 
     def configuration(self, name: str | None = None) -> EmbeddedConfiguration:
         """Start the CONFIGURATION of that name, or the only one. KeyError."""

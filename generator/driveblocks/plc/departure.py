@@ -1,0 +1,47 @@
+"""The way out of the process: bounded, once it is known whether the drives stand."""
+
+import os
+import sys
+import threading
+from contextlib import suppress
+
+ASIDE_S = 0.2
+"""For the verdict on the other stream, which may be stuck, too."""
+
+leave = os._exit
+
+
+class Departure:
+    """Ends the process where what is left to do does not end: a pipe or a terminal that takes nothing."""
+
+    def __init__(self, within_s: float) -> None:
+        """Nothing is bounded before `begin`."""
+        self._within_s = within_s
+        self._done = threading.Event()
+        self._printed = False
+
+    def begin(self, status: int, verdict: str) -> None:
+        """From now on there is so much time, then this exit status."""
+        threading.Thread(target=self._bound, args=(status, verdict), daemon=True).start()
+
+    def printed(self) -> None:
+        """The verdict has been printed."""
+        self._printed = True
+
+    def done(self) -> None:
+        """All that could get stuck is done."""
+        self._done.set()
+
+    def _bound(self, status: int, verdict: str) -> None:
+        if self._done.wait(self._within_s):
+            return
+        if not self._printed:
+            aside = threading.Thread(target=_say_aside, args=(verdict,), daemon=True)
+            aside.start()
+            aside.join(ASIDE_S)
+        leave(status)
+
+
+def _say_aside(text: str) -> None:
+    with suppress(OSError, ValueError, AttributeError):
+        os.write(sys.stderr.fileno(), text.encode("utf-8", "replace"))

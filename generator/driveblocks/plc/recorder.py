@@ -1,0 +1,129 @@
+"""Keeps what scans have seen, in a thread of its own: a full pipe or a slow disk never makes a scan wait."""
+
+import queue
+import stat
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from driveblocks import console
+from driveblocks.host.engine import Value
+from driveblocks.plc.port import reason
+from driveblocks.plc.record import Timing, Trace
+
+MOST_WAITING = 5_000
+"""Scans that may wait to be written."""
+LOOK_S = 0.05
+
+Row = tuple[int, Mapping[str, Value]]
+"""Microseconds since the start, and values."""
+
+
+class Recorder:
+    """Takes a row from each scan. Where the file does not keep up, rows are dropped and counted."""
+
+    def __init__(self, name: str, keep: Callable[[Iterator[Row]], None], *, waits: bool = False) -> None:
+        """`keep` writes rows, and may raise OSError; `waits`: a scan may wait, since its time is reckoned."""
+        self._name = name
+        self._rows: queue.Queue[Row] = queue.Queue(MOST_WAITING)
+        self._waits = waits
+        self._over = threading.Event()
+        self._error = self._said = ""
+        self._dropped = 0
+        self._thread = threading.Thread(target=self._keep, args=(keep,), daemon=True)
+        self._thread.start()
+
+    def add(self, at_us: int, values: Mapping[str, Value]) -> None:
+        """One scan."""
+        try:
+            self._rows.put((at_us, values), block=self._waits)
+        except queue.Full:
+            self._dropped += 1
+
+    def news(self) -> str:
+        """What has gone wrong since somebody asked; empty for nothing."""
+        wrong = self._error or (f"{self._name}: rows are dropped, since nobody takes them" if self._dropped else "")
+        news = "" if wrong == self._said else wrong
+        self._said = wrong
+        return news
+
+    @property
+    def failed(self) -> bool:
+        """Whether the file could not be written."""
+        return bool(self._error)
+
+    def end(self) -> None:
+        """No more rows."""
+        self._over.set()
+
+    def finish(self, within_s: float) -> str:
+        """Wait for the file; what is not in it, empty if all is."""
+        self.end()
+        self._thread.join(within_s)
+        if self._thread.is_alive():
+            lost = self._dropped + self._rows.qsize()
+            return f"{self._name} is not whole, since nobody takes it: {lost} rows dropped"
+        return self._error or (f"{self._name}: {self._dropped} rows dropped" if self._dropped else "")
+
+    def _keep(self, keep: Callable[[Iterator[Row]], None]) -> None:
+        try:
+            keep(self._taken())
+        except OSError as error:
+            self._error = f"{self._name} cannot be written: {reason(error)}"
+            for _ in self._taken():  # a scan that waits would wait for ever
+                continue
+
+    def _taken(self) -> Iterator[Row]:
+        while True:
+            over = self._over.is_set()
+            try:
+                yield self._rows.get(timeout=LOOK_S)
+            except queue.Empty:
+                if over:
+                    return
+
+
+class _Plain:
+    """A file without a buffer, whose lock a thread that is stuck would keep at the end of the process."""
+
+    def __init__(self, path: Path) -> None:
+        self._file = path.open("wb", buffering=0)
+
+    def write(self, text: str) -> int:
+        left = text.encode("utf-8", "replace")
+        while left:
+            left = left[self._file.write(left) :]
+        return len(text)
+
+
+def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
+    """A trace as CSV. Raises OSError."""
+    opened = None if _is_pipe(path) else _Plain(path)
+
+    def keep(rows: Iterator[Row]) -> None:
+        made = Trace(opened or _Plain(path), names, port)
+        for row in rows:
+            made.add(*row)
+
+    return Recorder(console.name(path), keep, waits=waits)
+
+
+def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
+    """A timing diagram as SVG. Raises OSError."""
+    path.touch()
+
+    def keep(rows: Iterator[Row]) -> None:
+        made = Timing(names, port)
+        for row in rows:
+            made.add(*row)
+        _Plain(path).write(made.svg())
+
+    return Recorder(console.name(path), keep, waits=waits)
+
+
+def _is_pipe(path: Path) -> bool:
+    """Whether opening it waits for a reader."""
+    try:
+        return stat.S_ISFIFO(path.stat().st_mode)
+    except OSError:
+        return False

@@ -1,0 +1,299 @@
+"""The watchdog of a run: a scan that does not end is given up, and another thread stops the drives past it."""
+
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from tests.plc.desk import ONE, Desk
+
+from driveblocks.plc import gate, live
+from driveblocks.plc.ending import Bell, Ending
+from driveblocks.plc.gate import Gate, GivenUp
+from driveblocks.plc.script import Setting
+from driveblocks.plc.session import STUCK
+from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, PATIENCE_US, Watchdog
+
+SECOND = 1_000_000
+NET = 600
+"""Seconds that no machine needs, for what would hang."""
+FUNCTIONS = """FUNCTION Inner : REAL
+VAR_INPUT
+  X : REAL;
+END_VAR
+  Inner := X;
+  Inner := SQRT(Inner);
+END_FUNCTION
+FUNCTION Outer : REAL
+VAR_INPUT
+  X : REAL;
+END_VAR
+  Outer := Inner(X);
+END_FUNCTION
+"""
+HANGS = FUNCTIONS + ONE.replace("  Divisor", "  Hang : BOOL;\n  Root : REAL;\n  Divisor", 1).replace(
+    "  Quotient :=", "  IF Hang THEN\n    Root := Outer(4.0);\n  END_IF;\n  Quotient :=", 1
+)
+"""With Hang, its scan ends when the test lets it."""
+
+
+class Time:
+    """The time of a watchdog. It passes while the watchdog waits and nothing can ring its bell any more."""
+
+    def __init__(self, passes: Callable[[], bool] = lambda: True) -> None:
+        self.us = 0
+        self._passes = passes
+
+    def now_us(self) -> int:
+        """The time."""
+        return self.us
+
+    def wait(self, bell: Bell, within_us: int) -> None:
+        """As `heard`."""
+        if self._passes():
+            self.us += within_us
+        else:
+            bell.get(timeout=NET)
+
+
+def watching(limit_us: int = LIMIT_US) -> tuple[Watchdog, Time]:
+    """A watchdog, and its time."""
+    time = Time()
+    return Watchdog(limit_us, time.now_us, time.wait), time
+
+
+# ------------------------------------------------------------ the time of a scan
+
+
+def test_the_first_scan_may_take_longer_than_those_after_it() -> None:
+    dog, time = watching()
+    dog.begin()
+    dog.watch(Ending(), lambda: False)
+    assert (dog.bites, time.us) == (True, FIRST_US)
+    dog, time = watching()
+    dog.begin()
+    dog.end()
+    dog.begin()
+    dog.watch(Ending(), lambda: False)
+    assert (dog.bites, time.us) == (True, LIMIT_US)
+
+
+def test_a_longer_limit_holds_for_the_first_scan_too() -> None:
+    dog, time = watching(60 * SECOND)
+    dog.begin()
+    dog.watch(Ending(), lambda: False)
+    assert (dog.bites, time.us) == (True, 60 * SECOND)
+
+
+def test_a_scan_that_begins_meanwhile_has_its_whole_time() -> None:
+    dog, time = watching()
+    dog.begin()
+    dog.end()
+    begun: list[int] = []
+
+    def over() -> bool:
+        if time.us > 2 * SECOND and not begun:
+            begun.append(time.us)
+            dog.begin()
+        return False
+
+    dog.watch(Ending(), over)
+    assert (dog.bites, time.us - begun[0]) == (True, LIMIT_US)
+
+
+def test_nothing_is_given_up_when_the_scans_are_over() -> None:
+    dog, time = watching()
+    dog.begin()
+    dog.watch(Ending(), lambda: time.us > 0)
+    assert not dog.bites
+
+
+def test_who_asks_for_the_end_waits_for_no_scan_that_is_not_under_way() -> None:
+    dog, time = watching(60 * SECOND)
+    ending = Ending()
+    ending.ask("Ctrl-C")
+    dog.watch(ending, lambda: False)
+    assert (dog.bites, time.us) == (False, 0)
+
+
+def test_who_asks_for_the_end_waits_half_a_second_for_a_scan() -> None:
+    dog, time = watching(60 * SECOND)
+    ending = Ending()
+    ending.ask("Ctrl-C")
+    dog.begin()
+    dog.watch(ending, lambda: False)
+    assert (dog.bites, time.us) == (False, PATIENCE_US)
+
+
+def test_a_bell_wakes_the_watchdog() -> None:
+    dog, ending = Watchdog(NET * SECOND), Ending()
+    watch = threading.Thread(target=dog.watch, args=(ending, lambda: False))
+    watch.start()
+    ending.ask("Ctrl-C")
+    watch.join(NET)
+    assert not watch.is_alive()
+
+
+# ------------------------------------------------------------ a scan that does not end
+
+
+class Hanging:
+    """A program whose scan goes on and on from 5 s on, with its motor at speed since before."""
+
+    def __init__(self, patch: pytest.MonkeyPatch) -> None:
+        self.desk = Desk(HANGS)
+        self.desk.session.script = [Setting("Start", True, 2 * SECOND), Setting("Hang", True, 5 * SECOND)]
+        self.hangs, self.released = threading.Event(), threading.Event()
+        objects = self.desk.controller._library.compiler.objects
+        (name,) = [each for each in objects if each.removeprefix("std_") == "SQRT"]
+        patch.setitem(objects, name, self._root)
+        self.watched()
+
+    def watched(self, limit_us: int = LIMIT_US, *, asked: bool = False) -> Time:
+        """A watchdog whose time passes when the scan hangs, or, if `asked`, when the end has been asked for."""
+        time = Time(lambda: bool(self.desk.ending.reason) if asked else self.hangs.is_set())
+        self.desk.session.watchdog = Watchdog(limit_us, time.now_us, time.wait)
+        return time
+
+    def _root(self, _: float) -> float:
+        self.hangs.set()
+        self.desk.ending.bell.put(None)
+        assert self.released.wait(NET)
+        return 2.0
+
+    def release(self) -> None:
+        """Let the scan go on, until its thread has ended."""
+        self.released.set()
+        for thread in threading.enumerate():
+            if "_scans" in thread.name:
+                thread.join(NET)
+                assert not thread.is_alive()
+
+
+@pytest.fixture
+def hanging(monkeypatch: pytest.MonkeyPatch) -> Iterator[Hanging]:
+    """Such a program; in the end its thread is let go."""
+    made = Hanging(monkeypatch)
+    yield made
+    made.release()
+
+
+def test_a_scan_that_does_not_end_is_given_up_and_every_drive_is_stopped(hanging: Hanging) -> None:
+    desk, time = hanging.desk, hanging.watched()
+    result = desk.session.run()
+    assert time.us == LIMIT_US
+    assert desk.drives[0].mode == "standing"
+    assert (result.crashed, result.unconfirmed, result.stopped) == (True, {}, ("Motor",))
+    text = HANGS.splitlines()
+    inner, outer = (1 + text.index(line) for line in ("  Inner := SQRT(Inner);", "    Root := Outer(4.0);"))
+    place = f"my.st:{inner}:12 in Inner, called from my.st:{outer}:13 in One"
+    assert result.reason == (
+        f"the program has failed: a scan has not ended within 500 ms (--watchdog): it was at {place}"
+    )
+    assert desk.told()[-1] == f"{result.reason}: stopping every drive"
+
+
+def test_a_scan_that_was_given_up_sends_nothing_when_it_goes_on(hanging: Hanging) -> None:
+    desk = hanging.desk
+    desk.session.run()
+    before, scans = len(desk.line.sent), desk.session.pace.scans
+    desk.controller._mailbox.take = lambda: b"what it wants to send"  # type: ignore[method-assign]
+    hanging.release()
+    assert (len(desk.line.sent), desk.session.pace.scans) == (before, scans)
+    assert desk.drives[0].mode == "standing"
+
+
+def test_a_drive_that_is_not_reached_is_named_when_its_time_to_stop_is_over(hanging: Hanging) -> None:
+    desk = hanging.desk
+    desk.session.step = lambda at_us: setattr(desk.line, "cut", at_us >= 5 * SECOND)
+    assert desk.session.run().unconfirmed == {"Motor (unit 7)": "no reply to the stop"}
+    assert desk.clock.now_us() == pytest.approx((5 + 15) * SECOND, abs=SECOND)  # StopWithinMs is 15000
+
+
+@pytest.mark.parametrize("reason", ["Ctrl-C", "SIGTERM"])
+def test_who_asks_for_the_end_does_not_wait_for_a_scan_that_does_not_end(reason: str, hanging: Hanging) -> None:
+    desk, time = hanging.desk, hanging.watched(NET * SECOND, asked=True)
+
+    def asked() -> None:
+        assert hanging.hangs.wait(NET)
+        desk.ending.ask(reason)
+
+    person = threading.Thread(target=asked)
+    person.start()
+    result = desk.session.run()
+    person.join(NET)
+    assert time.us == PATIENCE_US
+    assert (result.reason, result.crashed, result.stopped) == (reason, False, ("Motor",))
+    assert desk.drives[0].mode == "standing"
+    assert desk.told()[-2].startswith("a scan was given up: it was at my.st:")
+
+
+def test_a_screen_sees_the_end_of_a_scan_that_does_not_end(hanging: Hanging) -> None:
+    class Lines:
+        def __init__(self) -> None:
+            self.lines: list[str] = []
+
+        def say(self, text: str) -> None:
+            self.lines.append(text)
+
+        def show(self, _: Any) -> None:
+            """Not looked at."""
+
+        def close(self) -> None:
+            """Nothing to close."""
+
+    desk, screen = hanging.desk, Lines()
+    result = live.run(desk.session, screen, None, None, end_of_input=False)
+    assert (result.crashed, result.stopped) == (True, ("Motor",))
+    assert screen.lines == [f"{result.reason}: stopping every drive"]
+
+
+# ------------------------------------------------------------ the port
+
+
+class Blocked:
+    """A port whose calls do not come back."""
+
+    late_ms = 0
+    error = ""
+
+    def __init__(self, bell: Bell) -> None:
+        self._bell = bell
+        self.entered, self.released = threading.Event(), threading.Event()
+
+    def send(self, _: bytes) -> None:
+        """Send nothing."""
+        self.entered.set()
+        self._bell.put(None)
+        assert self.released.wait(NET)
+
+    def receive(self) -> bytes:
+        """Nothing has come."""
+        return b""
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+
+def test_a_port_that_was_taken_is_closed_to_its_program() -> None:
+    desk = Desk()
+    port = Gate(desk.line, desk.clock)
+    port.send(b"one")
+    assert port.take()
+    for use in (lambda: port.send(b"two"), port.receive, port.check):
+        with pytest.raises(GivenUp):
+            use()
+    assert desk.line.sent == [b"one"]
+
+
+def test_no_stop_is_sent_past_a_call_that_is_stuck_in_the_port(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gate, "PATIENCE_S", 0.01)
+    desk = Desk()
+    port = Blocked(desk.ending.bell)
+    time = Time(port.entered.is_set)
+    desk.session.watchdog = Watchdog(LIMIT_US, time.now_us, time.wait)
+    desk.session.connect(port, None)
+    result = desk.session.run()
+    assert result.crashed
+    assert result.unconfirmed == {"Motor (unit 7)": STUCK}
+    port.released.set()
