@@ -18,15 +18,11 @@ from typer.testing import CliRunner, Result
 
 from driveblocks.commands import run as command
 from driveblocks.maps import collection
-<<<<<<< HEAD
-from driveblocks.plc import demo, source
+from driveblocks.plc import demo, departure, setup, source
+from driveblocks.plc.controller import Controller
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
 from driveblocks.plc.setup import Setup
-=======
-from driveblocks.plc import demo, departure, setup, source
-from driveblocks.plc.controller import Controller
->>>>>>> w-watchdog
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import TcpLink

@@ -24,20 +24,14 @@ from driveblocks.plc.port import Port, WirePort
 from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
-<<<<<<< HEAD
 from driveblocks.plc.wanted import Wanted, named, of_program, words
-=======
-from driveblocks.plc.wanted import chosen, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
->>>>>>> w-watchdog
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
-<<<<<<< HEAD
 USUAL = {"BitRate": 9600, "CharacterBits": 10}
 """What a line takes where a pin is 0."""
-=======
 SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
 RECKONED_WATCHDOG_US = 30_000_000
 """With --fast, which keeps no motor waiting; a busy computer must not spoil it."""
@@ -47,7 +41,6 @@ FILES_S = 1.0
 """How much of this its files may take."""
 PATIENT = 10
 """With --fast, so many times as long."""
->>>>>>> w-watchdog
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
