@@ -1,4 +1,4 @@
-"""What the three drives have in common: power, motor, keypad, terminals, faults, the lost line, and the form of replies.
+"""What the three drives share: power, motor, keypad, terminals, faults, the lost line, and how replies are given.
 
 Nothing of it comes from a vendor map. What a manual leaves open is an `Options` field; lines are those of the manuals'
 texts. Times are microseconds of the caller's; nothing happens by itself, and chance comes from `seed` alone.
@@ -200,7 +200,7 @@ class Drive:
             self.heard_us = now_us
         if not (body[0] == self.unit or (everyone and o.broadcast)):
             return None
-        self.good_us, self.warned = now_us, False
+        self.good_us = now_us
         if o.fed_by == "own":
             self.heard_us = now_us
         try:
@@ -209,6 +209,7 @@ class Drive:
             reason = str(refusal)
             self.refusals.append((now_us, body, reason))
             reply = self._refused(body, self.CODES[reason])
+        self.warned = False  # the line is back, and this reply may still show that it was not
         self._plan()
         return None if everyone else reply
 
@@ -453,7 +454,7 @@ class Drive:
             self.off_us, self.retry_us = now_us, NEVER
             self._release(now_us)
             return
-        rides = bool(self.force) and now_us - self.off_us <= self.o.ride_us
+        rides = bool(self.force) and now_us - self.off_us < self.o.ride_us
         self.heard_us = now_us
         if not rides:
             self._power_up(now_us, kept=self.o.resumes_after_power)
