@@ -74,6 +74,7 @@ class Options:
     power_cycle_only: frozenset[Fault] = frozenset()  # faults that no reset clears
     fault_survives_power: bool = False
     reset_needs_stop: bool = False  # no reset while a run command stands
+    reset_needs_standstill: bool = False  # ... and none while the shaft turns
     resumes_after_reset: bool = False  # a run command that stands acts after the reset
     retry_us: int | None = None  # after that it resets itself and goes on: SN300G5 L5-01, L5-03 (lines 785 to 787)
     resumes_after_power: bool = False  # it keeps command and reference without power, and goes on
@@ -498,7 +499,8 @@ class Drive:
     def reset(self, now_us: int) -> None:
         """A reset signal, from wherever."""
         blocked = self.cause or self.fault in self.o.power_cycle_only or not self._may_reset(now_us)
-        if not blocked and not (self.o.reset_needs_stop and self.commanded):
+        turns = self.o.reset_needs_standstill and self.motor.hz(now_us) != 0
+        if not (blocked or turns or (self.o.reset_needs_stop and self.commanded)):
             self._clear(now_us, resumes=self.o.resumes_after_reset)
 
     def _may_reset(self, _now_us: int) -> bool:

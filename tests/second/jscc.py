@@ -1,6 +1,6 @@
 """JSCC inverters, from the maker's Modbus instructions; lines are those of the manual's text."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
@@ -58,10 +58,10 @@ class Jscc(Drive):
         if self.force["F0_04"] == 2 and self.contact:  # a closed terminal starts at power-up: line 25
             self._run(1, False, "terminals", now_us)
 
-    def _words(self, first: int, number: int, now_us: int) -> list[int]:
+    def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:
         if not self.o.commands_readable and first <= 0x1002 and first + number > 0x1000:
             raise Refusal("address")
-        return list(super()._words(first, number, now_us))
+        return super()._words(first, number, now_us)
 
     def _write(self, words: dict[int, int], now_us: int) -> None:
         listed = self._listed(words)

@@ -95,13 +95,8 @@ class Talk:
     def _see(self, word: str) -> None:
         one = self.drive
         hz = one.shaft_hz(self.now)
-        values = {
-            "hz": f"{round(hz, 1) + 0:g}",
-            "by": one.by,
-            "state": one.state(self.now),
-            "stores": str(len(one.stores)),
-        }
-        self.seen.append(values[word] or "nobody")
+        values = {"hz": f"{round(hz, 1) + 0:g}", "by": one.by, "state": one.state(self.now), "wait": str(self.waited)}
+        self.seen.append(values.get(word, str(len(one.stores))) or "nobody")
 
     def _request(self, word: str) -> None:
         address, _, rest = word[1:].partition("=" if word[0] == "w" else "+")

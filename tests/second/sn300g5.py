@@ -1,6 +1,6 @@
 """SHUEN SN300G5, from its manual V20160418; lines are those of the manual's text."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any, ClassVar, Literal
@@ -65,6 +65,7 @@ class Sn300g5Options(Options):
     select_word: int = 0  # 000FH after power-up
     moved: bool = False  # O2-09 (line 819): the run word is at 0001H, the reference at 0002H
     zero_speed_of: Literal["output", "shaft"] = "output"
+    enter_readable: bool = False  # FFFDH
     bus_volts: int = 589
     amperes: int = 100
 
@@ -128,6 +129,11 @@ class Sn300g5(Drive):
 
     def _line_watch(self) -> tuple[int | None, str, bool]:
         return (self.o.comm_us if self.force["H5_05"] else None), LOSS[self.force["H5_04"]], True
+
+    def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:
+        if first + number > ENTER and not self.o.enter_readable:
+            raise Refusal("address")
+        return super()._words(first, number, now_us)
 
     # ------------------------------------------------------------ writing
 

@@ -169,6 +169,7 @@ FACES: dict[str, tuple[str, str, dict[str, Any]]] = {
     "power_cycle_only": ("chf", "trip:5 w1000=7 r1001 off on r1001", {"=": (frozenset(), frozenset({5}))}),
     "fault_survives_power": ("chf", "trip:5 off 1s on r1001", {}),
     "reset_needs_stop": ("chf", "go trip:5 w1000=7 r1001 halt w1000=7 r1001", {}),
+    "reset_needs_standstill": ("chf", "go 9s trip:5 w1000=7 r1001 9s w1000=7 r1001", {}),
     "resumes_after_reset": ("chf", "go 9s trip:5 9s w1000=7 9s hz", {}),
     "retry_us": ("chf", "go 9s trip:5 9s hz", {"=": (None, 1_000_000)}),
     "resumes_after_power": ("chf", "go 9s off 9s on 9s hz r2000", {}),
@@ -196,6 +197,7 @@ FACES: dict[str, tuple[str, str, dict[str, Any]]] = {
     "select_word": ("sn", "w1=64 w0=1 poll9s hz", {"=": (0, 1)}),
     "moved": ("sn", "w1=100 r20 w1=9C4 w0=1 poll3s hz w2=9C4 w1=2 poll9s hz r20", {}),
     "zero_speed_of": ("sn", "go poll3s trip:OC r10", {}),
+    "enter_readable": ("sn", "rFFFD", {}),
     # JSCC
     "reference_milli_hz": ("jscc", "go 9s hz", {}),
     "commands_readable": ("jscc", "w1001=FA r1001", {}),
