@@ -83,7 +83,8 @@ LOOK = {"sn": (r("0010"), r("0021"), r("0014", 5)), "jscc": (r("2000", 2), r("30
 AGREED = [
     "", "go 1000 look 3000 look halt 1000 look 3000 look", "back 4000 look go 1000 look 1500 look 5000 look",
     "go 4000 slower 500 look 4000 look", "go 4000 trip look 1000 look halt 9000 cure look",
-    "go 4000 stop 900 look 9000 look", "go 4000 off 1000 look on 100 look 9000 look", "go 4000 halt 500 go 500 look", "slower look go look halt look",
+    "go 4000 stop 900 look 9000 look", "go 4000 off 1000 look on 100 look 9000 look", "go 4000 halt 500 go 500 look",
+    "slower look go look halt look",
 ]  # fmt: skip
 ALONE = {
     "sn": [r("0026", 2), r("0000"), r("0000", 2), r("0010", 3), "010800001234", "010600000001", "010300000000",
