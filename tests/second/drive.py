@@ -76,6 +76,7 @@ class Options:
     reset_needs_stop: bool = False  # no reset while a run command stands
     reset_needs_standstill: bool = False  # ... and none while the shaft turns
     resumes_after_reset: bool = False  # a run command that stands acts after the reset
+    resumes_after_inhibit: bool = False  # ... when an interlock lets go
     retry_us: int | None = None  # after that it resets itself and goes on: SN300G5 L5-01, L5-03 (lines 785 to 787)
     resumes_after_power: bool = False  # it keeps command and reference without power, and goes on
     ride_us: int = 0  # a dip as short as this is ridden through: SN300G5 L2-01, L2-02 (lines 751, 752)
@@ -126,14 +127,14 @@ class Drive:
         self.reference_hz = 0.0
         self.commanded: str | None = None
         """The run or jog of the bus that stands, carried out or not."""
-        self.local = self.held = self.contact = self.cut = self.cause = self.warned = False
+        self.local = self.held = self.contact = self.cut = self.cause = self.warned = self.inhibited = False
         self.fault: Fault | None = None
         self.last_fault: Fault | None = None
         self.stores: list[tuple[int, int, int]] = []
         """Writes that reached EEPROM: time, address, word."""
         self.refusals: list[tuple[int, bytes, str]] = []
         self.unheard = 0
-        """Frames that came without the silence before them."""
+        """Requests to it that came without the silence before them."""
         self.line_us, self.sending, self.heard_us, self.good_us = -NEVER, (-NEVER, -NEVER), at_us, at_us
         self.busy_us, self.deaf_us, self.off_us = at_us, at_us, at_us
         self.hold_us = self.retry_us = self.due = NEVER
@@ -174,12 +175,12 @@ class Drive:
         o, begins = self.o, now_us - len(frame) * self.o.char_us
         at, end = self.sending
         before, self.line_us = self.line_us, now_us
-        if not self.powered or self.cut or now_us < self.deaf_us:
+        if not self.powered or self.cut or now_us < self.deaf_us or not frame:
             return NO_REPLY
         if begins < end and (now_us > at or not o.hears_while_owing):
             return NO_REPLY
         if not o.ascii and begins - (max(before, end) if end <= begins else before) < o.silence_us:
-            self.unheard += 1
+            self.unheard += frame[0] in (self.unit, 0)
             return NO_REPLY
         if not o.ascii and frame[0] not in (self.unit, 0) and o.fed_by != "any":
             return NO_REPLY
@@ -345,7 +346,7 @@ class Drive:
             self._aim(now_us)  # a change of direction goes on
 
     def _run(self, direction: int, jogging: bool, by: str, now_us: int) -> None:
-        if self.fault is not None or not self.powered:
+        if self.fault is not None or not self.powered or self.inhibited:
             return
         if not self.output and self.o.start_us:
             self.hold_us = now_us + self.o.start_us
@@ -485,6 +486,15 @@ class Drive:
                 self.retry_us = now_us + self.o.retry_us
             self._plan()
 
+    def inhibit(self, on: bool, now_us: int) -> None:
+        """A safe torque off or another interlock: no output while it is on; SN300G5's BB (line 358)."""
+        self.advance(now_us)
+        self.inhibited = on
+        if on:
+            self._release(now_us)
+        elif self.o.resumes_after_inhibit:
+            self._obey(now_us)
+
     def _trip(self, fault: Fault, now_us: int, how: str) -> None:
         self.fault = self.last_fault = fault
         self._stop(how, now_us)
@@ -498,7 +508,7 @@ class Drive:
 
     def reset(self, now_us: int) -> None:
         """A reset signal, from wherever."""
-        blocked = self.cause or self.fault in self.o.power_cycle_only or not self._may_reset(now_us)
+        blocked = not self.powered or self.cause or self.fault in self.o.power_cycle_only or not self._may_reset(now_us)
         turns = self.o.reset_needs_standstill and self.motor.hz(now_us) != 0
         if not (blocked or turns or (self.o.reset_needs_stop and self.commanded)):
             self._clear(now_us, resumes=self.o.resumes_after_reset)

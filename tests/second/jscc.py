@@ -34,8 +34,8 @@ class Jscc(Drive):
     o: JsccOptions
     MOST: ClassVar[dict[int, int]] = {3: 12, 6: 1, 16: 10}  # lines 88, 95 to 99
     IDS = ("FA_00", "F0_04", "F0_08")
-    RUN_SOURCES: ClassVar[dict[int, Source]] = {1: "terminals", 2: "terminals", 3: "keypad", 4: "bus"}  # line 25
-    SPEED_FROM_BUS = 8  # line 30
+    RUN_SOURCES: ClassVar[dict[int, Source]] = {1: "terminals", 2: "terminals", 3: "keypad", 4: "bus"}  # line 24
+    SPEED_FROM_BUS = 8  # line 29
     LOW_VOLTAGE, LINE_LOST = 7, 9  # lines 125, 127
 
     def __init__(self, unit: int = 1, options: JsccOptions | None = None, at_us: int = 0, **settings: int) -> None:
@@ -55,7 +55,7 @@ class Jscc(Drive):
         commands = dict.fromkeys(range(0x1000, 0x1003), 0)
         self.ram = self.eeprom | ({each: self.ram.get(each, 0) for each in commands} if kept else commands)
         super()._power_up(now_us, kept=kept)
-        if self.force["F0_04"] == 2 and self.contact:  # a closed terminal starts at power-up: line 25
+        if self.force["F0_04"] == 2 and self.contact:  # a closed terminal starts at power-up: line 24
             self._run(1, False, "terminals", now_us)
 
     def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:

@@ -19,7 +19,8 @@ WORDS = {
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
 POLLED = {"sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
 KEYS = ("start", "stop", "reset", "local")
-SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False)}
+SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False),
+            "inhibit": ("inhibit", True), "free": ("inhibit", False)}  # fmt: skip
 SEEN = ("hz", "by", "state", "stores", "wait")
 """The true motor, who drives it, writes that were stored, and how long the last reply took in us."""
 

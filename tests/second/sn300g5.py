@@ -219,8 +219,9 @@ class Sn300g5(Drive):
         zero = not (hz if self.output or self.o.zero_speed_of == "shaft" else 0)
         resets = any(what == "reset" and self.ram[self.run_at] >> bit & 4 for bit, what in enumerate(self.o.terminals))
         agrees = self.runs and not self.stopping and hz == self._goal() != 0
-        bits = (self.runs, zero, self.reverse(now_us), resets, agrees, self.fault is None)
-        lights = (bool(self.minor) or self.warned, self.fault is not None)
+        bits = (self.runs, zero, self.reverse(now_us), resets, agrees)
+        ready = self.fault is None and not self.inhibited
+        lights = (ready, bool(self.minor) or self.warned or self.inhibited, self.fault is not None)
         return sum(bit << place for place, bit in enumerate(bits + lights))
 
     def _serious(self, row: int) -> int:
@@ -228,7 +229,7 @@ class Sn300g5(Drive):
         return 1 << at[1] if at and at[0] == row else 0
 
     def _minor(self, row: int) -> int:
-        names = self.minor | ({"CE"} if self.warned else set())
+        names = self.minor | ({"CE"} if self.warned else set()) | ({"BB"} if self.inhibited else set())
         return sum(1 << bit for at, bit in (MINOR_AT[name] for name in names) if at == row)
 
     @staticmethod

@@ -100,6 +100,11 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("sn", {}, "go poll9s off 1s hz state r10 on r0 r1 where 9s hz where", "20 off - 0 0 22 0 0 22 0"),
     ("sn", {}, "set:H5_01=5 r10 off on r41C w41C=7 r41C off on r41C w41C=7 wFFFD=0 off on r41C", "22 5 7 5 7"),
     ("chf", {}, "w8=5 w8009=6 r8+2 off on r8+2 stores", "!8 5 0 5 0 1"),
+    ("chf", {"over": "limited"}, "w2000=7530 w1000=1 9s hz w2000=8AD0 20s hz", "50 -50"),
+    ("sn", {}, "w200=" + ",".join("1" * 17) + " r200 w200=" + ",".join("1" * 16) + " r200", "!3 0 1"),
+    # an interlock
+    ("sn", {}, "inhibit r19 r10 go poll1s hz free where w0=1 poll1s hz inhibit 1s hz state",
+     "80 42 0 22 0 13.5 8.5 coasting"),
     # the line is lost
     ("sn", {}, "go poll3s 1900ms by 200ms hz state r16 r80 r10 9s reset r10", "bus 19.5 tripped 1 21 81 -"),
     ("sn", {"key_cuts_line": False}, "go poll3s 2100ms r80 9s reset r80 poll1s reset r80 off on r80", "21 21 0 0"),
@@ -114,7 +119,7 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
      "w1=1389 w7=2D7 w7=FD2A w9=3 r9 w10=1 w2F0=1 r2F0 r12+3 w180=5 w200=64 stores r200 wFFFD=0 stores wFFFD=1 1s "
      "go w200=1 wFFFD=0 halt 9s busy w200=1 r200 x0106000000 x010600000001 x010300000011 x010800010000",
      "!21 !21 3 !22 !2 !2 0 0 0 !21 0 64 1 !24 !22 !22 !24 64 018601 018601 018303 018801"),
-    ("sn", {"settings": {"H5_05": 0}}, "trip:UV1 w200=1 9s off on trip:CPF03 w200=1 w100=1", "!23 !22"),
+    ("sn", {"settings": {"H5_05": 0}}, "trip:UV1 w200=1 9s off on trip:CPF03 w200=1 r200 w100=1 r100", "!23 !22 0 1"),
     ("jscc", {},
      "w1000=4 w1001=1F5 w2000=1 r4000 r1000 r2000+3 w5=7 stores r5 w6=1 1s w1000=1 w6=1 x0103000000 x010400000001 "
      "x010800000000 x0110100000010200 x01030000000D",
@@ -171,6 +176,7 @@ FACES: dict[str, tuple[str, str, dict[str, Any]]] = {
     "reset_needs_stop": ("chf", "go trip:5 w1000=7 r1001 halt w1000=7 r1001", {}),
     "reset_needs_standstill": ("chf", "go 9s trip:5 w1000=7 r1001 9s w1000=7 r1001", {}),
     "resumes_after_reset": ("chf", "go 9s trip:5 9s w1000=7 9s hz", {}),
+    "resumes_after_inhibit": ("chf", "go 9s inhibit 9s free 9s hz", {}),
     "retry_us": ("chf", "go 9s trip:5 9s hz", {"=": (None, 1_000_000)}),
     "resumes_after_power": ("chf", "go 9s off 9s on 9s hz r2000", {}),
     "ride_us": ("chf", "go 9s off 300ms on 300ms by hz", {"=": (0, 500_000)}),
@@ -256,7 +262,7 @@ def test_each_option_has_its_row() -> None:
 
 def test_a_frame_needs_its_silence() -> None:
     # 8 characters of 573 us; JSCC asks for 10 ms, the others for 3.5 characters
-    frame = rtu(bytes.fromhex("02 03 20 01 00 01"))
+    frame = rtu(bytes.fromhex("02 03 20 01 00 01"))  # to another unit
     for kind, quiet in (("sn", 2005), ("chf", 2005), ("jscc", 10_000)):
         for wait, heard in ((quiet - 1, False), (quiet, True)):
             one = drive(kind, reply_us=(1000, 1000))
