@@ -33,7 +33,7 @@ class ChfOptions(Options):
     locked: bool = False  # with 7: system locked
     password: bool = False  # with 1: a password was not given
     lock_covers_commands: bool = False
-    command_stores: bool = False  # writes to 1000H and 2000H are stored, too
+    command_stores: bool = False  # writes to 1000H and 2000H wear EEPROM, too
     maximum_at: int | None = None  # the register of P0.04, which may be 0004H
     bus_volts: int = 540
     amperes: int = 100
@@ -66,7 +66,7 @@ class Chf(Drive):
         return {"unit": 1, "run": 2, "speed": 2}
 
     def _power_up(self, now_us: int, *, kept: bool) -> None:
-        told = {each: self.ram.get(each, 0) if kept else self.eeprom.get(each, 0) for each in (0x1000, 0x2000)}
+        told = {each: self.ram.get(each, 0) if kept else 0 for each in (0x1000, 0x2000)}
         rows = MONITORS + (RESERVED if self.o.reserved_rows else ())
         self.ram = self.eeprom | dict.fromkeys(rows, 0) | told
         super()._power_up(now_us, kept=kept)
