@@ -19,10 +19,10 @@ class Motor:
     end_us: int = NEVER
 
     def hz(self, now_us: int) -> float:
-        """The speed of the shaft."""
+        """The speed of the shaft; a look at the time before the line shows its beginning."""
         if now_us >= self.end_us:
             return self.goal_hz
-        return self.start_hz + self.slope * (now_us - self.start_us)
+        return self.start_hz + self.slope * max(0, now_us - self.start_us)
 
     def aim(self, now_us: int, goal_hz: float, up_hz_s: float, down_hz_s: float) -> None:
         """Go to a speed, by the way of standstill where the direction changes: then `settle` and aim again."""

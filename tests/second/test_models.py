@@ -102,6 +102,9 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("chf", {}, "w8=5 w8009=6 r8+2 off on r8+2 stores", "!8 5 0 5 0 1"),
     ("chf", {"over": "limited"}, "w2000=7530 w1000=1 9s hz w2000=8AD0 20s hz", "50 -50"),
     ("sn", {}, "w200=" + ",".join("1" * 17) + " r200 w200=" + ",".join("1" * 16) + " r200", "!3 0 1"),
+    ("sn", {},
+     "w41D=4 w41D=5 w41E=2 w41E=3 w41F=3 w41F=4 w420=1 w420=2 w180=4 w180=5 w181=4 w181=5 w41C=20 w41C=21 "
+     "w7=2D6 w7=2D7 w8=FD2A w8=FD29 wF=FFFF", "!21 !21 !21 !21 !21 !21 !21 !21 !21"),
     # an interlock
     ("sn", {}, "inhibit r19 r10 go poll1s hz free where w0=1 poll1s hz inhibit 1s hz state",
      "80 42 0 22 0 13.5 8.5 coasting"),
@@ -315,6 +318,13 @@ def test_how_one_looks_does_not_change_what_happens() -> None:
         seen.append([one.shaft_hz(at) for at in (6_000_000, 6_500_001, 9_000_000)])
     assert seen[0] == seen[1] == seen[2]
     assert seen[0][0] == pytest.approx(-16.0)
+
+
+def test_a_look_back_does_not_show_what_had_not_begun() -> None:
+    one = drive("chf", own_hz=30.0, settings={"run": 0, "speed": 0})
+    one.press("start", 1_000_000)
+    assert one.shaft_hz(0) == 0.0
+    assert one.shaft_hz(2_000_000) == pytest.approx(10.0)
 
 
 def test_every_fault_of_the_manuals_shows() -> None:
