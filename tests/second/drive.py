@@ -124,6 +124,8 @@ class Drive:
         self.powered, self.output, self.by = False, False, ""
         """`output`: whether it drives the motor; `by`: who, one of bus, keypad, terminals, or nobody."""
         self.stopping, self.direction, self.jogging = "", 1, False
+        self.itself = False
+        """It runs by a command of the bus that it has taken up again: after a dip, a retry, an interlock, or LOCAL."""
         self.reference_hz = 0.0
         self.commanded: str | None = None
         """The run or jog of the bus that stands, carried out or not."""
@@ -289,7 +291,7 @@ class Drive:
                 self._aim(at)
             if at >= self.retry_us:
                 self.retry_us = NEVER
-                self._clear(at, resumes=True)
+                self._clear(at, resumes=True, itself=True)
             if self._lost_at() <= at:
                 self._line_lost(at)
             self._plan()
@@ -385,8 +387,9 @@ class Drive:
             self.commanded = what
             self._obey(now_us)
 
-    def _obey(self, now_us: int) -> None:
+    def _obey(self, now_us: int, *, itself: bool = False) -> None:
         if self.commanded and self.run_source == "bus" and not self.local and not self.held:
+            self.itself = itself
             self._run(*RUNS[self.commanded], "bus", now_us)
 
     def _refer(self, hz: float, now_us: int) -> None:
@@ -409,7 +412,7 @@ class Drive:
         elif key == "local" and o.local_key and not self.output:
             self.local = not self.local
             if not self.local and o.resumes_remote:
-                self._obey(now_us)
+                self._obey(now_us, itself=True)
 
     def terminal(self, closed: bool, now_us: int) -> None:
         """The wired run-forward terminal."""
@@ -463,7 +466,7 @@ class Drive:
         if self.o.dip_trips and not rides and now_us > self.off_us:
             self._trip(self.LOW_VOLTAGE, now_us, "coast")
         elif rides or self.o.resumes_after_power:
-            self._obey(now_us)
+            self._obey(now_us, itself=True)
         self._plan()
 
     def _power_up(self, now_us: int, *, kept: bool) -> None:
@@ -493,7 +496,7 @@ class Drive:
         if on:
             self._release(now_us)
         elif self.o.resumes_after_inhibit:
-            self._obey(now_us)
+            self._obey(now_us, itself=True)
 
     def _trip(self, fault: Fault, now_us: int, how: str) -> None:
         self.fault = self.last_fault = fault
@@ -516,11 +519,11 @@ class Drive:
     def _may_reset(self, _now_us: int) -> bool:
         return True
 
-    def _clear(self, now_us: int, *, resumes: bool) -> None:
+    def _clear(self, now_us: int, *, resumes: bool, itself: bool = False) -> None:
         if self.fault is not None and not self.cause:
             self.fault, self.heard_us = None, now_us
             if resumes:
-                self._obey(now_us)
+                self._obey(now_us, itself=itself)
         self.warned = False
         self._plan()
 

@@ -40,6 +40,8 @@ class Truth:
     """The drive ramps it down to a stop, whoever has asked."""
     contact_open: bool = False
     """The hard stop has cut its supply."""
+    itself: bool = False
+    """The drive has taken up a command by itself: no start of the block, which must stop it."""
 
 
 @dataclass
@@ -94,12 +96,13 @@ class Observer:
         turns = abs(truth.hz) > figures.still_hz
         driven = truth.by == "bus" and not truth.stopping
         if driven and not watch.driven:
-            self._judge(now_us, unit, "edge", bad=not watch.permitted, seen=truth)
+            self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself), seen=truth)
         elif watch.driven and not driven:
             watch.permitted = False  # whatever has ended it: the next start needs an edge of its own
         watch.driven = driven
         watch.ours = truth.by == "bus" or (watch.ours and turns and not truth.by)
-        self._stop(now_us, unit, truth, stops=stops and watch.ours and (turns or driven))
+        owed = (stops or not watch.permitted) and watch.ours and (turns or driven)
+        self._stop(now_us, unit, truth, stops=owed)
         self._confirmed(now_us, unit, truth, wrong=confirmed and turns)
         self._speed(now_us, unit, pins, truth)
 

@@ -96,6 +96,7 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("chf", {"settings": {"run": 0}},
      "go 2s hz start 9s hz by set:run=2 w1000=5 9s hz w1000=1 9s by",
      "0 25 keypad 0 bus"),
+    ("chf", {}, "go 9s set:speed=0 9s hz", "20"),
     # power
     ("sn", {}, "go poll9s off 1s hz state r10 on r0 r1 where 9s hz where", "20 off - 0 0 22 0 0 22 0"),
     ("sn", {}, "set:H5_01=5 r10 off on r41C w41C=7 r41C off on r41C w41C=7 wFFFD=0 off on r41C", "22 5 7 5 7"),
@@ -232,7 +233,7 @@ FACES: dict[str, tuple[str, str, dict[str, Any], str]] = {
     "password": ("chf", "w8=1", {}, " | !1"),
     "lock_covers_commands": ("chf", "go 1s hz", {"locked": True}, "10.1 | !7 !7 0"),
     "command_stores": ("chf", "w2000=1 stores", {}, "0 | 1"),
-    "maximum_at": ("chf", "w4=FA0 go 9s hz", {"=": (None, 4)}, "25 | 20"),
+    "maximum_at": ("chf", "w2000=1388 w4=FA0 w1000=1 9s hz", {"=": (None, 4)}, "25 | 20"),
     "bus_volts": ("chf", "r3002", {"=": (540, 560)}, "21c | 230"),
     "amperes": ("chf", "go r3004 halt 9s r3004", {"=": (100, 50)}, "64 0 | 32 0"),
 }  # fmt: skip

@@ -11,8 +11,8 @@ PINS = {
     "F": "RunForward", "R": "RunReverse", "J": "JogForward", "K": "JogReverse", "q": "QuickStop", "c": "CoastStop",
     "a": "StopAll", "r": "Restart", "m": "MonitorOnly", "s": "SpeedOnly", "l": "Left",
 }  # fmt: skip
-BY = {"b": "bus", "d": "bus", "k": "keypad", "t": "terminals", "o": ""}
-"""Of the third column: bus, bus that ramps down, keypad, terminals, open contact; a + is StopConfirmed."""
+BY = {"b": "bus", "d": "bus", "i": "bus", "k": "keypad", "t": "terminals", "o": ""}
+"""Third column: bus, bus that ramps down, bus by itself, keypad, terminals, open contact; a + is StopConfirmed."""
 STOPPED = [(0, "", "+", 0.0)]
 RUNNING = [*STOPPED, (100, "F", "+", 0.0), (200, "F", "b", 0.0), (2200, "F", "b", 20.0)]
 GOOD: dict[str, list[tuple[int, str, str, float]]] = {
@@ -23,6 +23,7 @@ GOOD: dict[str, list[tuple[int, str, str, float]]] = {
     "stop key, then an edge": [*RUNNING, (5000, "F", "d", 19.0), (7000, "F", "+", 0.0), (8000, "", "+", 0.0),
                                (8100, "F", "+", 0.0), (8200, "F", "b", 0.0)],
     "contact": [*RUNNING, (5000, "", "b", 20.0), (8000, "", "o", 20.0), (60_000, "", "o", 0.5)],
+    "dip": [*RUNNING, (5000, "F", "", 19.0), (5300, "F", "i", 18.0), (6000, "F", "d", 9.0), (7000, "F", "+", 0.0)],
     "slower": [*RUNNING, (3000, "F<", "b", 20.0), (4500, "F<", "b", 10.0), (9000, "F<", "b", 10.0)],
     "reverse": [*STOPPED, (100, "R", "+", 0.0), (200, "R", "b", -1.0), (2200, "R", "b", -20.0)],
 }  # fmt: skip
@@ -40,6 +41,7 @@ BAD: list[tuple[str, list[tuple[int, str, str, float]]]] = [
     ("stop", [*RUNNING, (5000, "Fl", "d", 20.0), (8001, "Fl", "d", 0.2)]),  # nobody calls the block
     ("stop", [*RUNNING, (5000, "", "", 20.0), (8001, "", "", 2.0)]),  # it coasts for too long
     ("stop", [*STOPPED, (100, "F", "+", 0.0), (200, "F", "b", 0.0), (300, "", "b", 0.0), (3301, "", "b", 0.0)]),
+    ("stop", [*RUNNING, (5000, "F", "", 19.0), (5300, "F", "i", 18.0), (9000, "F", "i", 20.0)]),  # nobody stops it
     ("confirmed", [*RUNNING, (5000, "F", "b+", 20.0)]),
     ("confirmed", [*RUNNING, (5000, "", "d+", 0.3)]),
     ("confirmed", [*STOPPED, (100, "", "k+", 1.0), (3101, "", "k+", 20.0)]),
@@ -56,7 +58,7 @@ def judged(history: list[tuple[int, str, str, float]], **figures: Any) -> list[s
         on: dict[str, object] = {PINS[each]: True for each in pins if each in PINS}
         on |= {"Enable": "-" not in pins, "SpeedReferenceHz": 10.0 if "<" in pins else 20.0, "MaximumHz": 50.0}
         by = BY.get(motor[:1], "")
-        truth = Truth(hz, by, stopping=motor[:1] == "d", contact_open=motor[:1] == "o")
+        truth = Truth(hz, by, stopping=motor[:1] == "d", contact_open=motor[:1] == "o", itself=motor[:1] == "i")
         one.scan(1000 * ms, 1, on, confirmed="+" in motor, truth=truth)
     return [rule for _, _, rule, _ in one.found]
 
