@@ -97,6 +97,8 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
      "go 2s hz start 9s hz by set:run=2 w1000=5 9s hz w1000=1 9s by",
      "0 25 keypad 0 bus"),
     ("chf", {}, "go 9s set:speed=0 9s hz", "20"),
+    ("sn", {}, "w181=0 go poll1s hz", "13.5"),
+    ("sn", {"settings_act": "at once"}, "w181=0 go poll1s hz", "0"),
     # power
     ("sn", {}, "go poll9s off 1s hz state r10 on r0 r1 where 9s hz where", "20 off - 0 0 22 0 0 22 0"),
     ("sn", {}, "set:H5_01=5 r10 off on r41C w41C=7 r41C off on r41C w41C=7 wFFFD=0 off on r41C", "22 5 7 5 7"),
