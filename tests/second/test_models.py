@@ -346,3 +346,21 @@ def test_every_fault_of_the_manuals_shows() -> None:
         assert one.say("r19+2 r10") == " ".join([*(f"{1 << bit:x}" if at == row else "0" for at in (0, 1)), "62"])
     for code in FAULTS:
         assert talk("jscc").say(f"trip:{code} r3000") == f"{code:x}"
+
+
+@pytest.mark.parametrize(
+    ("kind", "spans"),
+    [
+        # SN300G5 tables (I) to (VI), JSCC section 5, CHF 11.6.4
+        ("sn", "0-9 e-1a 20-36 39-3b 80-8d 90-97 100-125 180-1a5 200-242 280-296 300-30c 30e-324 380-397 400-420 480-4b1 "
+               "500-50d fffd-fffd"),
+        ("jscc", "0-ff 1000-1002 2000-2001 3000-3000"),
+        ("chf", "0-1ff 1000-1001 2000-2000 3000-3014 5000-5001"),
+    ],
+)  # fmt: skip
+def test_the_addresses_that_a_manual_lists(kind: str, spans: str) -> None:
+    one = drive(kind)
+    listed = {*one.ram, *one.LIVE}
+    first = sorted(each for each in listed if each - 1 not in listed)
+    last = sorted(each for each in listed if each + 1 not in listed)
+    assert " ".join(f"{a:x}-{b:x}" for a, b in zip(first, last, strict=True)) == spans
