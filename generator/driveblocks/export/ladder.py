@@ -59,7 +59,8 @@ class _Drawing:
     blocks: dict[str, _Block] = field(default_factory=dict)
 
     def whole(self) -> Iterator[Element]:
-        for self.turn, statement in enumerate(self.program.body, 1):
+        for statement in self.program.body:
+            self.turn += 1
             if isinstance(statement, tree.CallStatement):
                 self.block(statement.call)
             elif isinstance(statement, tree.Assign):
