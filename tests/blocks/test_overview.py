@@ -19,7 +19,8 @@ TYPES = {
     "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 194, "MB_Slots8": 8 * 194, "MB_Slots32": 32 * 194, "MB_Track": 21,
     "MB_Tracks8": 8 * 21, "MB_Tracks32": 32 * 21, "VFD_Settings": 40, "VFD_Diagnosis": 78,
 }  # fmt: skip
-"""ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes; the line's; the drive blocks'."""
+"""ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
+the line's; the drive blocks'."""
 
 _ROW = re.compile(r"^\| \[`(\w+)`\]\(\S+\)( FB| function)? \|.*\| *(\d*) *\| *([^|]*?) *\|$", re.MULTILINE)
 _TYPE = re.compile(r"^\| \[`(\w+)`\]\(\S+types/\w+\.st\) \|[^|]*\| (\d+) \|$", re.MULTILINE)

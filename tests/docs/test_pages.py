@@ -156,6 +156,19 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
         assert BRAKE in page(family).partition("## Keypad and wiring")[2].partition("\n## ")[0]
 
 
+def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its_output_does() -> None:
+    text = (FOLDER / "VFD_HardStop.md").read_text(encoding="utf-8")
+    pins = re.findall(r"^  (\w+) : (BOOL);", SOURCES["VFD_HardStop"].text, re.MULTILINE)
+    assert re.findall(r"^\| `(\w+)` \| (\w+) \|", text, re.MULTILINE) == pins[:4]
+    assert "**In series with the hard stop, never instead of it**, and never as the only channel of an STO" in text
+    overview = (FOLDER.parent / "README.md").read_text(encoding="utf-8")
+    assert re.search(r"^\| \[`VFD_HardStop`\].*\[its page\]\(docs/VFD_HardStop.md\)", overview, re.MULTILINE)
+    for name in ("codesys", "openplc", "plcopen", "siemens", "twincat"):
+        said = (FOLDER.parent / name / "README.md").read_text(encoding="utf-8")
+        assert "(../docs/VFD_HardStop.md)" in said
+        assert "put a retriggered relay between" in said
+
+
 def test_a_first_motor_wires_nine_inputs_at_most() -> None:
     """Ten with the number that a second-hand map asks for; the slot is no input."""
     for drive in shipped().values():

@@ -60,8 +60,11 @@ class Plant:
 def test_one_motor(engine: Engine) -> None:
     plant = Plant(engine, "OneMotor", ["CHF"], 10)
     (drive,) = plant.drives
-    # power-up: stopped and confirmed; then a start, which gives reference and run once each and turns up to speed
+    # power-up: stopped and confirmed, and the contact of the hard stop waits for its button; then a start, which gives
+    # reference and run once each and turns up to speed
     assert set(plant.run(2000, NotStop=True, Hertz=30.0)) == {STOP}
+    assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, False]
+    assert [*plant.run(100, Reset=True), *plant.run(100, Reset=False)] == []
     assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, True]
     started = [*plant.run(100, Start=True), *plant.run(900, Start=False)]
     assert started[:2] == [bytes.fromhex(each) for each in ("010620001770", "010610000001")]
@@ -96,6 +99,8 @@ def test_three_makes(engine: Engine) -> None:
     plant = Plant(engine, "ThreeMakes", ["SN300G5", "JSCC", "CHF"], 11)
     names = ("Pump1", "Pump2", "Fan")
     plant.run(4000, PumpHertz=40.0, FanHertz=30.0, CountsPerHertz=100.0)
+    plant.run(100, Reset=True)
+    plant.run(100, Reset=False)
     assert plant.says("AllStand", "HardStopOk", *(f"{name}.Reason" for name in names)) == [True, True, 1, 1, 1]
     plant.run(8000, Pump1On=True, Pump2On=True, FanOn=True)
     assert [drive.hertz for drive in plant.drives] == [40, 40, 30]

@@ -206,7 +206,7 @@ class _Drawing:
         self.drawn.append(element("outVariable", _sized(self.number(), width, 20) | self.order(), where, wire, text))
 
     def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
-        """What stands at the right end of a wire: a coil, or for other than BOOL a variable."""
+        """What is at the right end of a wire: a coil, or for other than BOOL a variable."""
         if not _is_bool(self.declared(target)):
             self.out(target, source, start, pin)
             return

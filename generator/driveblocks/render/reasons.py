@@ -23,7 +23,13 @@ REASONS = (
     Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
     Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing"),
     # the line
-    Reason(10, "RESTARTED", "Restart is TRUE", "Restart为真", "wire `Restart` of the line to the first-scan bit, not to TRUE"),
+    Reason(
+        10,
+        "RESTARTED",
+        "Restart is TRUE",
+        "Restart为真",
+        "wire `Restart` of the line to the first-scan bit, not to TRUE",
+    ),
     Reason(
         11,
         "NO_LINE",
@@ -71,7 +77,7 @@ REASONS = (
         "运行信号一直保持",
         "release all run and jog pins, then set one",
     ),
-    Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see the capability outputs"),
+    Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see `Diagnosis.Can...`"),
     Reason(26, "MONITOR", "reads only", "仅监视", "release `MonitorOnly`"),
     Reason(
         27,
