@@ -120,7 +120,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
         slot=checked.types["MB_SLOT"].size,
         settable=structures["VFD_Settings"],
         diagnosis=structures["VFD_Diagnosis"],
-        state_names=[name for name, _ in NAMES],
+        states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
         hard_stop=HARD_STOP,
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
