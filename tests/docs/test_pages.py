@@ -14,7 +14,7 @@ from tests.examples.port import Port
 from driveblocks.docs import timing
 from driveblocks.docs.page import documents
 from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Source
+from driveblocks.host.engine import Engine, Instance, Source
 from driveblocks.render.library import PLATFORMS, first_motor, generic
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.reasons import REASONS, STATES
@@ -298,3 +298,29 @@ def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
         story.run(2000)
     assert story.columns == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
+
+
+HARD_STOP = (
+    # Overdue, Restart, Reset -> HardStopOk, as the page says it row by row
+    (False, False, True, False, "the first call"),
+    (False, False, True, False, "a button that is held since then"),
+    (False, False, False, False, "nothing happens"),
+    (False, False, True, True, "the button rises"),
+    (False, False, False, True, "and is released"),
+    (True, False, False, False, "overdue"),
+    (False, False, False, False, "no longer overdue: as before"),
+    (True, False, True, False, "the button rises while something is overdue"),
+    (False, False, True, False, "and is held"),
+    (False, False, False, False, "and is released"),
+    (False, False, True, True, "the button rises"),
+    (False, True, True, False, "a restart"),
+    (False, False, True, False, "the button was held through it"),
+)
+
+
+def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) -> None:
+    block = built(engine, "hard stop", [SOURCES["VFD_HardStop"]]).library.instance("VFD_HardStop")
+    for overdue, restart, reset, closed, why in HARD_STOP:
+        block["Overdue"], block["Restart"], block["Reset"] = overdue, restart, reset
+        block.scan()
+        assert block["HardStopOk"] == closed, why
