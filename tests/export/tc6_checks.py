@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from itertools import combinations
 from pathlib import Path
 
 from lxml import etree
@@ -21,8 +22,10 @@ DIALECTS = {
 }
 _CALL = re.compile(r"^  (\w+)\((.*?)\);", re.DOTALL | re.MULTILINE)
 _WIRED = re.compile(r"(\w+) := ([^,]+)")
+ROOM = 2
+"""Pixels between any two things in a ladder."""
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
-_ASSIGNED = re.compile(r"^  (\w+) := (.*);", re.MULTILINE)
+_ASSIGNED = re.compile(r"^  ([\w.]+) := (.*);", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -169,6 +172,16 @@ def ladders(one: Made) -> None:
         assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
 
 
+def room(one: Made) -> None:
+    """No two things of a ladder touch: boxes, contacts and coils with the names above them, rails."""
+    for prefix in one.prefixes if one.target == "plcopen" else ():
+        (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
+        boxes = one.file.boxes(node)
+        assert len(boxes) > 20
+        close = [(a.what, b.what) for a, b in combinations(boxes, 2) if a.near(b, ROOM)]
+        assert not close
+
+
 CHECKS: tuple[Callable[[Made], None], ...] = (
-    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders,
+    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders, room,
 )  # fmt: skip
