@@ -80,8 +80,10 @@ class Values:
         return value if low <= value <= high else low + (value - low) % (high - low + 1)
 
     def number(self) -> float:
-        """A REAL: an edge, a landmark, a half of a hundredth, a usual frequency or below 0, or any bit pattern."""
+        """A REAL: 0, an edge, a landmark, a half of a hundredth, a usual frequency or below 0, or any bit pattern."""
         draws, way = self.draws, self.draws.fraction()
+        if way < 0.1:
+            return 0.0
         if way < 0.3:
             return draws.one_of(self.real)
         if way < 0.5:
