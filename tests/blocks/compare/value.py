@@ -89,7 +89,9 @@ class Values:
         if way < 0.5:
             return single((draws.whole(0, 66000) + 0.5) / draws.one_of((1, 2, 10, 100, 200)))
         if way < 0.85:
-            return single(draws.between(draws.one_of((0.0, 0.0, -60.0)), draws.one_of((1.0, 60.0, 400.0, 9000.0, 70000.0))))
+            return single(
+                draws.between(draws.one_of((0.0, 0.0, -60.0)), draws.one_of((1.0, 60.0, 400.0, 9000.0, 70000.0)))
+            )
         return float(struct.unpack("<f", self.noise.octets(4))[0])
 
     def array(self, pin: Pin) -> Value:
