@@ -164,7 +164,7 @@ def test_silence_is_no_alarm_while_it_boots(boot_ms: int) -> None:
     bench.run(1500)
     assert bench.shows("StopOverdue")
     bench.deaf = set()
-    bench.stopped()
+    bench.stopped().run(40)
     assert not bench.shows("StopOverdue")
 
 

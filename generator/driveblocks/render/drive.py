@@ -59,6 +59,7 @@ def drive_block(drive: Drive) -> Context:
         "proof_reads": sorted({number[each] for each in _proof(drive)}),
         "fault": _fault(drive),
         "fault_reads": _fault_reads(drive, number),
+        "stop_reads": sorted({*_fault_reads(drive, number), *(number[each] for each in _proof(drive))}),
         "verify": [_condition(drive, each) for each in operation.reference.verify],
         "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
         "measures": {one.shows: _measure(drive, one) for one in operation.measures},

@@ -86,6 +86,20 @@ REASONS = (
         "由端子控制启停",
         "start and stop by the drive's own terminals",
     ),
+    Reason(
+        28,
+        "STALE",
+        "the status is older than StaleMs",
+        "状态数据过期",
+        "fewer drives, a higher bit rate, or a longer `Settings.StaleMs`",
+    ),
+    Reason(
+        29,
+        "SLOW_LINE",
+        "the status is older than half of StaleMs",
+        "总线刷新过慢",
+        "fewer drives, a higher bit rate, or a longer `Settings.StaleMs`, before it stops the motor",
+    ),
     # what is missing
     Reason(
         30,
@@ -158,6 +172,13 @@ REASONS = (
         "the reset was refused or has not helped",
         "复位被拒绝或无效",
         "release the run pins, remove the cause, then a rising `FaultReset`",
+    ),
+    Reason(
+        49,
+        "READ_REFUSED",
+        "the drive refuses to be read",
+        "变频器拒绝读取",
+        "`RefusedAddress` and `RefusedReason` of the slot: another model, or a register that it does not have",
     ),
 )
 _BY_NAME = {reason.name: reason for reason in REASONS}
