@@ -178,8 +178,8 @@ PLANTED = (
     ),
     Planted(
         "a repeated stop cuts a reset of two writes",
-        "(Resetting <> SENDING) AND NOT ResetSends AND NOT (Stands AND CommOk)",
-        "NOT ResetSends AND NOT (Stands AND CommOk)",
+        "  Stirs := (State = STOPPED) AND (Moving OR (ProofRead AND NOT Stands));",
+        "  Stirs := (State = STOPPED) AND (Moving OR NOT Stands);",
         partial(test_reset.test_a_reset_ends_the_fault_and_starts_nothing, "CIA"),
         CIA,
     ),

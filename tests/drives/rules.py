@@ -154,7 +154,7 @@ class Observer:
         self.idle = self.wish is None and not shows["StopConfirmed"] and not others and not anew
         self._time(pins)
         state = self.bench.out("Control.State", self.drive) if pins.get("MonitorOnly") else 0
-        self.only_reads = state == ONLY_READS and bench.elapsed <= 1000
+        self.only_reads = state == ONLY_READS and bench.elapsed <= 1000 and not bench.line_pins.get("Restart")
         self.asked_before, self.was_confirmed = bool(asked), shows["StopConfirmed"]
 
     # ------------------------------------------------------------ who may start
