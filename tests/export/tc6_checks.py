@@ -22,7 +22,8 @@ DIALECTS = {
 _CALL = re.compile(r"^  (\w+)\((.*?)\);", re.DOTALL | re.MULTILINE)
 _WIRED = re.compile(r"(\w+) := ([^,]+)")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
-_ASSIGNED = re.compile(r"^  (\w+) := (.*);", re.MULTILINE)
+_ASSIGNED = re.compile(r"^  ([\w.]+) := (.*);", re.MULTILINE)
+_ORDERED = re.compile(r"^  ([\w.]+)(?:\(| := \w+;)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -165,6 +166,9 @@ def ladders(one: Made) -> None:
             name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
         }
         assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
+        assert [drawn.order[number] for number in sorted(drawn.order)] == [
+            name for name in _ORDERED.findall(body) if not drawn.coils.get(name, "").startswith("reset")
+        ]
         assert drawn.loose == []
         assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
 

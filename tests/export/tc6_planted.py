@@ -226,9 +226,7 @@ PLANTED = (
         checks.ladders,
         ("plcopen",),
     ),
-    Planted(
-        "a negation is lost", "ladder", '{"negated": "true"} if negated else {}', "{}", checks.ladders, ("plcopen",)
-    ),
+    Planted("a setting comes after its block", "ladder", "None, self.turn()", "None, {}", checks.ladders),
     Planted(
         "a contact is a wire",
         "ladder",

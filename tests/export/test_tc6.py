@@ -16,6 +16,7 @@ from driveblocks.export.target import WRITERS
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Library, Source
 from driveblocks.maps import catalog, collection
+from driveblocks.maps.revision import checked
 from driveblocks.render import library, text
 from driveblocks.render.library import File
 from driveblocks.render.results import code
@@ -83,8 +84,9 @@ def test_a_ladder_keeps_the_comment_of_a_pin() -> None:
     unproved = replace(drive, manual=replace(drive.manual, second_hand=True))
     for one in made(WRITERS["plcopen"], replace(_few(), drives={"jscc": unproved}), "plcopen"):
         ladders(one)
-        assert one.file.text.count("ManualChecked := FALSE, (* TRUE once") == 1
-        assert one.file.text.count("<![CDATA[TRUE once") == 1
+        said = f"{checked(unproved)} once somebody has checked the map with the manual"
+        assert one.file.text.count(f"ManualChecked := 0, (* {said}") == 1
+        assert one.file.text.count(f"<![CDATA[{said}") == 1
 
 
 def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:
@@ -142,7 +144,17 @@ def test_a_first_motor_for_any_port_lints_clean_and_asks_its_drive(prefix: str) 
 def _few() -> Shelf:
     """Enough to show every mistake: the samples, and what one ladder calls."""
     whole = stock()
-    names = ("X_Mix", "X_Grid", "X_Sum", "X_Block", "MB_Adu", "JSCC_Reference", "JSCC_Drive", "MB_ByteLine8")
+    names = (
+        "X_Mix",
+        "X_Grid",
+        "X_Sum",
+        "X_Block",
+        "MB_Adu",
+        "JSCC_Reference",
+        "JSCC_Drive",
+        "MB_ByteLine8",
+        "VFD_HardStop",
+    )
     parts = tuple(part for part in whole.parts if part.name in names)
     return replace(whole, parts=parts, drives={"jscc": whole.drives["jscc"]})
 

@@ -46,6 +46,7 @@ class _Drawing:
     parts: Mapping[str, Part]
     y: int = 60
     last: int = 2
+    turns: int = 0
     drawn: list[Element] = field(default_factory=list)
     starts: list[int] = field(default_factory=list)
     ends: list[tuple[int, Point]] = field(default_factory=list)
@@ -55,8 +56,7 @@ class _Drawing:
         for statement in self.program.body:
             if isinstance(statement, tree.CallStatement):
                 self.block(statement.call)
-        for statement in self.program.body:
-            if isinstance(statement, tree.Assign):
+            elif isinstance(statement, tree.Assign):
                 self.coil(statement)
         width = max(x for _, (x, _) in self.ends) + 60
         yield _rail("leftPowerRail", 1, _RAIL, self.y, [_pin("Out", (3, y), rail=True) for y in self.starts])
@@ -67,6 +67,11 @@ class _Drawing:
     def number(self) -> int:
         self.last += 1
         return self.last
+
+    def turn(self) -> dict[str, str]:
+        """The attribute by which what comes next is executed next: Beremiz goes by it, others from top to bottom."""
+        self.turns += 1
+        return {"executionOrderId": str(self.turns)}
 
     def declared(self, name: str) -> VarDecl:
         return next(v for block in self.program.blocks for v in block.variables if v.name == name)
@@ -93,7 +98,7 @@ class _Drawing:
         outputs = [self.formal(pin, _pin("Out", (width, below))) for pin, below in rows]
         spec = self.declared(name).spec
         assert isinstance(spec, tree.NamedSpec)  # noqa: S101
-        named = {"typeName": spec.name, "instanceName": name, "executionOrderId": str(len(self.blocks) + 1)}
+        named = {"typeName": spec.name, "instanceName": name, **self.turn()}
         made = _Block(self.number(), {pin: (_BLOCK + width, self.y + below) for pin, below in rows})
         self.drawn.append(
             element(
@@ -169,30 +174,29 @@ class _Drawing:
             self.y += 2 * _LINE
             self.end(target, start, 1, None, {"storage": "set" if value.value else "reset"})
             return
-        negated = isinstance(value, tree.Unary)
-        output = value.operand if isinstance(value, tree.Unary) else value
-        assert isinstance(output, tree.Member)  # noqa: S101  (all that the first motor assigns)
-        block = self.blocks[_said(output.base)]
-        self.end(target, block.pins[output.name], block.number, output.name, {"negated": "true"} if negated else {})
+        assert isinstance(value, tree.Member)  # noqa: S101  (all that the first motor assigns)
+        block = self.blocks[_said(value.base)]
+        self.end(target, block.pins[value.name], block.number, value.name, {})
 
     def move(self, target: str, source: str) -> None:
-        """A variable that gets the value of another."""
+        """A variable that gets the value of another, before the blocks below it are called."""
         number, there = self.value(source, self.y)
-        self.out(target, number, there, None)
+        self.out(target, number, there, None, self.turn())
         self.y += 2 * _LINE
 
-    def out(self, target: str, source: int, start: Point, pin: str | None) -> None:
+    def out(self, target: str, source: int, start: Point, pin: str | None, how: Mapping[str, str]) -> None:
         """A variable at the right end of a wire."""
         place, width = (max(start[0], _BLOCK) + 100, start[1]), 8 * len(target) + 20
         wire = _pin("In", (0, 10), _link(source, place, start, pin))
         text = Element("expression", {}, text=target)
         where = _position(place[0], place[1] - 10)
-        self.drawn.append(element("outVariable", _sized(self.number(), width, 20), where, wire, text))
+        sized = {**_sized(self.number(), width, 20), **how}
+        self.drawn.append(element("outVariable", sized, where, wire, text))
 
     def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
         """What stands at the right end of a wire: a coil, or for other than BOOL a variable."""
         if not _is_bool(self.declared(target)):
-            self.out(target, source, start, pin)
+            self.out(target, source, start, pin, how)
             return
         number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])
         wire = _pin("In", (0, 8), _link(source, (x, y), start, pin))
