@@ -69,7 +69,7 @@ def _commands(blocks: Blocks, drive: Drive) -> None:
 
 def _references(blocks: Blocks, drive: Drive) -> None:
     for given in driving.references(drive):
-        driving.check_reference(blocks, drive, *given)
+        driving.check_reference(blocks, drive, given)
 
 
 def _nothing(_: Blocks, __: Drive) -> None:

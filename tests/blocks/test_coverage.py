@@ -16,7 +16,7 @@ FOURTH = sorted((Path(__file__).parent / "fourth_drive").glob("*.yaml"))
 BOTH = languages(["en", "zh"], "utf-8")
 IN_TIME = (
     *(f"line/{path.name}" for path in sorted((BLOCKS / "line").glob("*.st"))),
-    *(f"vfd/VFD_{name}.st" for name in ("Control", "Link", "ReadParameter", "Store", "WriteParameter")),
+    *(f"vfd/VFD_{name}.st" for name in ("Control", "HardStop", "Link", "ReadParameter", "Store", "WriteParameter")),
     "invt_chf/CHF_Drive.st", "jscc/JSCC_Drive.st", "shuen_sn300g5/SN300G5_Drive.st",
 )  # fmt: skip
 """What runs in time alone: tests/line and tests/drives reach it."""

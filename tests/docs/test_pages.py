@@ -12,15 +12,20 @@ from tests.blocks.library import BLOCKS, built, shipped, sources
 from tests.examples.port import Port
 
 from driveblocks.docs import timing
+from driveblocks.docs.page import documents
 from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Source
-from driveblocks.render.reasons import REASONS
+from driveblocks.host.engine import Engine, Instance, Source
+from driveblocks.render.library import PLATFORMS, first_motor, generic
+from driveblocks.render.library import drive as library_of
+from driveblocks.render.reasons import REASONS, STATES
+from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.st.lint import lint_sources
 
 FOLDER = Path(BLOCKS).parent / "docs"
 FAMILIES = sorted(shipped())
 SOURCES = {Path(each.path).stem: each for each in sources()}
+LANGUAGES = languages(["en"], "utf-8")
 _PIN = re.compile(r"^  (\w+) : (\w+)", re.MULTILINE)
 every_family = pytest.mark.parametrize("family", FAMILIES)
 
@@ -47,33 +52,152 @@ def picture(name: str) -> ET.Element:
     return ET.parse(FOLDER / name).getroot()  # noqa: S314  (the generator wrote it)
 
 
+def rows(family: str, heading: str) -> list[list[str]]:
+    """The cells of the tables of a section, without their heads, marks and headings of groups."""
+    section = page(family).partition(f"\n{heading}\n")[2].partition("\n#")[0]
+    found = [
+        [cell.strip().replace("**", "") for cell in line[1:-1].split(" |")]
+        for line in section.splitlines()
+        if line[:1] == "|"
+    ]
+    return [cells for cells in found if cells[0].startswith("`")]
+
+
 @every_family
 def test_every_pin_and_reason_is_on_the_page_and_every_pin_in_the_picture(family: str) -> None:
     pins = declared(family)
-    assert len(pins) > 70
-    rows = dict(re.findall(r"^\| (?:\*\*)?`(\w+)`(?:\*\*)?[^|]*\| (\w+)", page(family), re.MULTILINE))
-    assert rows == pins
+    assert len(pins) == 18 + 17 + 1
+    cells = rows(family, "## The block")
+    assert [(re.findall(r"\w+", name)[0], type_.partition(",")[0]) for name, type_, *_ in cells] == [
+        *list(pins.items())[:18], ("Slot", "MB_Slot"), *list(pins.items())[18:35],
+    ]  # fmt: skip
     assert {int(code) for code in re.findall(r"^\| (\d+) \|", page(family), re.MULTILINE)} == {r.code for r in REASONS}
     drawn = [each.text for each in picture(f"{family}_Drive.svg").iter() if each.tag.endswith("text")]
-    assert set(pins) <= set(drawn)
+    assert [each for each in drawn if each in pins] == list(pins)
     assert sorted(pins.values()) == sorted(each for each in drawn if each in set(pins.values()))
 
 
+@every_family
+@pytest.mark.parametrize("structure", ["Settings", "Diagnosis"])
+def test_every_member_of_both_structures_is_on_the_page(family: str, structure: str) -> None:
+    text = re.sub(r"\(\*.*?\*\)", "", SOURCES[f"VFD_{structure}"].text, flags=re.DOTALL)
+    members = re.findall(r"^    (\w+) : (\w+)", text, re.MULTILINE)
+    cells = rows(family, f"### {structure}")
+    assert [(name.strip("`"), type_.partition(",")[0]) for name, type_, *_ in cells] == members
+    assert all(says for _, _, says, *_ in cells)
+    assert structure == "Diagnosis" or all(zero for _, _, _, zero, _ in cells)
+
+
+def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> None:
+    said = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Settings")}
+    assert said["JSCC", "ReferenceScale"] == "required: the manual gives no scale of 1001H"
+    assert said["CHF", "ReferenceScale"] == said["SN300G5", "FrequencyScale"] == "no use: the map has the scale"
+    assert said["CHF", "FrequencyScale"] == "of 3000H: without it `OutputFrequencyHz` is the bare word"
+    assert said["JSCC", "CurrentScale"] == "no use: the drive does not show it"
+    assert (said["SN300G5", "KeepWord"], said["CHF", "KeepWord"]) == ("16#00FC of 0000H", "no use: no bit is left over")
+    shown = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Diagnosis")}
+    assert shown["JSCC", "OutputPowerKW"] == "always 0: the drive does not show it"
+    assert shown["SN300G5", "DcBusVoltageValid"] == "FALSE without `DcVoltageScale`"
+    assert [shown[family, "CanCoastStop"] for family in ("CHF", "JSCC", "SN300G5")] == ["TRUE", "FALSE", "FALSE"]
+
+
 def test_required_pins_are_those_without_which_nothing_starts() -> None:
-    always = {"MaximumHz", "Address", "TurnRoundMs", "StopWithinMs", "Slot"}
+    always = {"MaximumHz", "Address", "StopWithinMs", "Slot"}
     bold = {family: set(re.findall(r"^\| \*\*`(\w+)`", page(family), re.MULTILINE)) for family in FAMILIES}
-    assert bold == {"CHF": always, "JSCC": always | {"ReferenceScale"}, "SN300G5": always}
+    assert bold == {"CHF": always | {"FullScaleHz"}, "JSCC": always | {"ReferenceScale"}, "SN300G5": always}
+
+
+def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> None:
+    drive = shipped()["SN300G5"]
+    heard = replace(drive, manual=replace(drive.manual, second_hand=True))
+    files = [*generic(LANGUAGES), *library_of("heard", heard, LANGUAGES)]
+    text = documents(files, [heard])["docs/SN300G5_Drive.md"]
+    (needed,) = re.findall(r"ManualChecked <> (\d+)", next(file.text for file in files if file.name == "SN300G5_Drive"))
+    assert f"**`ManualChecked := {needed}`**" in text
+    assert f"ManualChecked := 0, (* {needed} once" in text
+    assert "| **`ManualChecked`** | UINT |" in text
+    assert not any("ManualChecked :=" in page(family) for family in FAMILIES)
+
+
+@every_family
+def test_the_ladder_of_the_page_has_the_wires_of_the_first_motor(family: str) -> None:
+    motor = first_motor("plcopen", shipped()[family]).text
+    drawn = [each.text for each in picture(f"{family}_Drive_ladder.svg").iter() if each.tag.endswith("text")]
+    wired = re.findall(r"\w+ := ([^,()]+?)(?=[,)])", re.sub(r"\(\*.*?\*\)", "", motor, flags=re.DOTALL))
+    assert len(wired) > 15
+    for value in set(wired) - {"TRUE"}:
+        assert drawn.count(value) >= wired.count(value), value
+    assert set(declared(family)) <= set(drawn)
+
+
+def test_the_states_are_named_by_their_numbers() -> None:
+    for family in FAMILIES:
+        named = [(number.strip("`"), name) for number, name, _ in rows(family, "## States")]
+        assert named == [(str(number), name) for number, (name, _) in enumerate(STATES)]
+
+
+BRAKE = "Not for hoists, lifts, or loads that can fall or run back: no output releases or holds a brake."
+
+
+def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> None:
+    """Rule of safety: on the first screen, in the heads of the blocks, on pages of wiring, platforms and motors."""
+    root = FOLDER.parents[1]
+    screen = "\n".join((root / "README.md").read_text("utf-8").splitlines()[:12])
+    blocks = [*(f"{family}_Drive" for family in FAMILIES), "VFD_HardStop"]
+    heads = {name: SOURCES[name].text.partition("*)")[0] for name in blocks}
+    platforms = [root / f"blocks/{name}/README.md" for name in ("codesys", "openplc", "plcopen", "siemens", "twincat")]
+    pages = [root / "docs/line.md", root / "blocks/README.md", *FOLDER.glob("*.md"), *platforms]
+    motors = [root / "examples/one_motor.st", root / "examples/three_makes.st"]
+    texts = {"README.md": screen, **heads, **{str(path): path.read_text("utf-8") for path in [*pages, *motors]}}
+    assert len(pages) == 2 + len(blocks) + len(platforms)
+    lost = [name for name, text in texts.items() if BRAKE not in " ".join(text.replace("> ", "").split())]
+    assert lost == []
+    for family in FAMILIES:
+        assert BRAKE in page(family).partition("## Keypad and wiring")[2].partition("\n## ")[0]
+
+
+def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its_output_does() -> None:
+    text = (FOLDER / "VFD_HardStop.md").read_text(encoding="utf-8")
+    pins = re.findall(r"^  (\w+) : (BOOL);", SOURCES["VFD_HardStop"].text, re.MULTILINE)
+    assert re.findall(r"^\| `(\w+)` \| (\w+) \|", text, re.MULTILINE) == pins[:4]
+    assert "**In series with the hard stop, never instead of it**, and never as the only channel of an STO" in text
+    overview = (FOLDER.parent / "README.md").read_text(encoding="utf-8")
+    assert re.search(r"^\| \[`VFD_HardStop`\].*\[its page\]\(docs/VFD_HardStop.md\)", overview, re.MULTILINE)
+    for name in ("codesys", "openplc", "plcopen", "siemens", "twincat"):
+        said = " ".join((FOLDER.parent / name / "README.md").read_text(encoding="utf-8").split())
+        assert "(../docs/VFD_HardStop.md)" in said
+        assert "put a retriggered relay between" in said.lower()
+
+
+def test_a_first_motor_wires_nine_inputs_at_most() -> None:
+    """Ten with the number that a second-hand map asks for; the slot is no input."""
+    for drive in shipped().values():
+        for second_hand in (False, True):
+            one = replace(drive, manual=replace(drive.manual, second_hand=second_hand))
+            for platform in PLATFORMS:
+                text = re.sub(r"\(\*.*?\*\)", "", first_motor(platform, one).text, flags=re.DOTALL)
+                (call,) = re.findall(r"^  Motor\((.*?)\);", text, re.DOTALL | re.MULTILINE)
+                wired = set(re.findall(r"(\w+) :=", call)) - {"Slot"}
+                assert {"Enable", "RunForward", "MaximumHz", "StopWithinMs"} <= wired
+                assert len(wired) <= 9 + second_hand
+                assert ("ManualChecked" in wired) == second_hand
+
+
+def anchors(path: Path) -> set[str]:
+    """What the headings of a page are called in links."""
+    heads = re.findall(r"^#+ (.*)", path.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
 def test_links_and_pictures_are_there_and_pictures_are_whole() -> None:
     for path in [*FOLDER.glob("*.md"), FOLDER.parent / "README.md"]:
-        text = path.read_text(encoding="utf-8")
-        anchors = {
-            re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in re.findall(r"^#+ (.*)", text, re.M)
-        }
-        for target in re.findall(r"\]\(([^)]+)\)", text):
-            assert target[1:] in anchors if target.startswith("#") else (path.parent / target).exists(), target
-    linked = {each for family in FAMILIES for each in re.findall(r"\((\w+\.svg)\)", page(family))}
+        for target in re.findall(r"\]\(([^)]+)\)", path.read_text(encoding="utf-8")):
+            name, _, anchor = target.partition("#")
+            there = path.parent / name if name else path
+            assert there.exists(), target
+            assert not anchor or anchor in anchors(there), target
+    texts = [path.read_text(encoding="utf-8") for path in FOLDER.glob("*.md")]
+    linked = {each for text in texts for each in re.findall(r"\((\w+\.svg)\)", text)}
     assert linked == {each.name for each in FOLDER.glob("*.svg")}
     for name in linked:
         size = picture(name).attrib
@@ -117,7 +241,7 @@ class Story:
         self.program["Hertz"] = 20.0
         if family == "JSCC":
             self.program["CountsPerHertz"] = 100.0
-        self.program["Motor.FrequencyScale"] = 0.01
+        self.program["Motor.Settings.FrequencyScale"] = 0.01
         self.columns: list[timing.Column] = []
 
     def run(self, ms: int, **pins: bool) -> None:
@@ -167,10 +291,36 @@ def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
     story.run(3000)
     story.run(6000, StartSwitch=False)
     story.drive.clear_cause()
-    if "ResetButton" in example(family).text:
+    if "FaultReset := ResetButton" in example(family).text:
         story.run(2000, ResetButton=True)
     else:
         story.drive.reset()
         story.run(2000)
     assert story.columns == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
+
+
+HARD_STOP = (
+    # Overdue, Restart, Reset -> HardStopOk, as the page says it row by row
+    (False, False, True, False, "the first call"),
+    (False, False, True, False, "a button that is held since then"),
+    (False, False, False, False, "nothing happens"),
+    (False, False, True, True, "the button rises"),
+    (False, False, False, True, "and is released"),
+    (True, False, False, False, "overdue"),
+    (False, False, False, False, "no longer overdue: as before"),
+    (True, False, True, False, "the button rises while something is overdue"),
+    (False, False, True, False, "and is held"),
+    (False, False, False, False, "and is released"),
+    (False, False, True, True, "the button rises"),
+    (False, True, True, False, "a restart"),
+    (False, False, True, False, "the button was held through it"),
+)
+
+
+def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) -> None:
+    block = built(engine, "hard stop", [SOURCES["VFD_HardStop"]]).library.instance("VFD_HardStop")
+    for overdue, restart, reset, closed, why in HARD_STOP:
+        block["Overdue"], block["Restart"], block["Reset"] = overdue, restart, reset
+        block.scan()
+        assert block["HardStopOk"] == closed, why

@@ -122,27 +122,27 @@ def test_what_cannot_be_off_is_refused(name: str) -> None:
 def test_the_turn_round_is_learned_from_replies() -> None:
     bench = Bench("CHF").put(TurnRoundMs=0)
     bench.run(40)
-    assert bench.block["Slots[0].TurnRoundMs"] == 500
+    assert bench.number("Diagnosis.TurnRoundMs") == 500
     bench.run(3000)
     seen = bench.number("LongestReplyMs")
-    assert bench.block["Slots[0].TurnRoundMs"] == max(50, 2 * seen + 20) < 100
+    assert bench.number("Diagnosis.TurnRoundMs") == max(50, 2 * seen + 20) < 100
     bench.drives[0].turn_us = 70_000
     bench.run(3000)
     assert 70 <= bench.number("LongestReplyMs") <= 110
-    assert bench.block["Slots[0].TurnRoundMs"] == 2 * bench.number("LongestReplyMs") + 20
+    assert bench.number("Diagnosis.TurnRoundMs") == 2 * bench.number("LongestReplyMs") + 20
     bench.drives[0].turn_us = 400_000
     bench.put(LongestMs=600).run(3000)
-    assert bench.block["Slots[0].TurnRoundMs"] == 500
+    assert bench.number("Diagnosis.TurnRoundMs") == 500
     assert bench.shows("CommOk")
 
 
 def test_what_is_learned_is_forgotten_with_the_address() -> None:
     bench = Bench("CHF").put(TurnRoundMs=0).stopped()
     bench.run(3000)
-    assert bench.block["Slots[0].TurnRoundMs"] < 100
+    assert bench.number("Diagnosis.TurnRoundMs") < 100
     bench.drives[0].unit = 9
     bench.put(Address=9).run(100)
-    assert bench.block["Slots[0].TurnRoundMs"] == 500
+    assert bench.number("Diagnosis.TurnRoundMs") == 500
 
 
 def test_a_second_hand_map_wants_its_own_number() -> None:

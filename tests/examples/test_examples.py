@@ -60,7 +60,8 @@ class Plant:
 def test_one_motor(engine: Engine) -> None:
     plant = Plant(engine, "OneMotor", ["CHF"], 10)
     (drive,) = plant.drives
-    # power-up: stopped and confirmed; then a start, which gives reference and run once each and turns up to speed
+    # power-up: stopped and confirmed, and the contact of the hard stop waits for its button; then a start, which gives
+    # reference and run once each and turns up to speed
     assert set(plant.run(2000, NotStop=True, Hertz=30.0)) == {STOP}
     assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, False]
     # the contact closes by a press of the reset button, which sends nothing

@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from itertools import combinations
 from pathlib import Path
 
 from lxml import etree
@@ -21,9 +22,11 @@ DIALECTS = {
 }
 _CALL = re.compile(r"^  (\w+)\((.*?)\);", re.DOTALL | re.MULTILINE)
 _WIRED = re.compile(r"(\w+) := ([^,]+)")
+ROOM = 2
+"""Pixels between any two things in a ladder."""
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 _ASSIGNED = re.compile(r"^  ([\w.]+) := (.*);", re.MULTILINE)
-_ORDERED = re.compile(r"^  ([\w.]+)(?:\(| := \w+;)", re.MULTILINE)
+_DONE = re.compile(r"^  ([\w.]+)(?:\(| :=)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -166,13 +169,21 @@ def ladders(one: Made) -> None:
             name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
         }
         assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
-        assert [drawn.order[number] for number in sorted(drawn.order)] == [
-            name for name in _ORDERED.findall(body) if not drawn.coils.get(name, "").startswith("reset")
-        ]
+        assert [drawn.order[number] for number in sorted(drawn.order)] == _DONE.findall(body)
         assert drawn.loose == []
         assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
 
 
+def room(one: Made) -> None:
+    """No two things of a ladder touch: boxes, contacts and coils with the names above them, rails."""
+    for prefix in one.prefixes if one.target == "plcopen" else ():
+        (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
+        boxes = one.file.boxes(node)
+        assert len(boxes) > 20
+        close = [(a.what, b.what) for a, b in combinations(boxes, 2) if a.near(b, ROOM)]
+        assert not close
+
+
 CHECKS: tuple[Callable[[Made], None], ...] = (
-    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders,
+    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders, room,
 )  # fmt: skip

@@ -16,7 +16,7 @@ from driveblocks.export.part import Shelf
 
 BOTH = ("plcopen", "codesys")
 MODULES = ("element", "tc6", "ladder", *BOTH)
-"""What writes, each behind what it imports."""
+"""What writes, each after what it imports."""
 
 
 @dataclass(frozen=True)
@@ -226,11 +226,12 @@ PLANTED = (
         checks.ladders,
         ("plcopen",),
     ),
-    Planted("a setting comes after its block", "ladder", "None, self.turn()", "None, {}", checks.ladders),
+    Planted("statements are done in another order", "ladder", "str(self.turn)", "str(99 - self.turn)", checks.ladders),
+    Planted("two boxes touch", "ladder", "_PITCH = 32", "_PITCH = 20", checks.room, ("plcopen",)),
     Planted(
         "a contact is a wire",
         "ladder",
-        "number, there = self.contact(value.name, here[1])",
+        "number, there = self.contact(_said(value), here[1])",
         "number, there = 1, (_RAIL + 3, here[1])",
         checks.ladders,
         ("plcopen",),

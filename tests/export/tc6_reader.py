@@ -33,6 +33,26 @@ class Rung:
 
 
 @dataclass(frozen=True)
+class Box:
+    """What a ladder shows at a place, in pixels; y goes down."""
+
+    what: str
+    left: int
+    top: int
+    right: int
+    bottom: int
+
+    def near(self, other: "Box", room: int) -> bool:
+        """Whether there is less than some room between the two."""
+        across = self.left < other.right + room and other.left < self.right + room
+        return across and self.top < other.bottom + room and other.top < self.bottom + room
+
+
+NAME = (8, 12, 2)
+"""Of a name above a contact, a coil or a block: width of a letter, height, and distance; as Beremiz draws it."""
+
+
+@dataclass(frozen=True)
 class File:
     """A file of one dialect: `tag` holds the text of bodies and comments."""
 
@@ -171,6 +191,21 @@ class File:
                 assert number not in made.order
                 made.order[number] = name
         return made
+
+    def boxes(self, pou: Node) -> list[Box]:
+        """Everything that is drawn in the ladder of a program, but for its wires; names above count as theirs."""
+        return [self.box(node) for node in self.all("body/LD", pou)[0]]
+
+    def box(self, node: Node) -> Box:
+        """The place of an element, with the name that an editor writes above it."""
+        x, y = _at(self.all("position", node)[0])
+        width, height = int(node.get("width", "")), int(node.get("height", ""))
+        named = self.one("variable", node)
+        name = (named.text or "" if named is not None else "") or node.get("instanceName", "")
+        letter, tall, above = NAME
+        beside = max(0, letter * len(name) - width + 1) // 2
+        top = y - (tall + above if name else 0)
+        return Box(f"{node.get('localId')} {name}", x - beside, top, x + width + beside, y + height)
 
     def source(self, pin: Node, node: Node, drawn: dict[str, Node], made: Rung) -> str:
         """What a pin is wired to, in ST; the wire must begin and end where the pins are."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from tests.export.tc6_checks import CHECKS, Made, declarations, ladders, made, names, schema
+from tests.export.tc6_checks import CHECKS, Made, declarations, ladders, made, names, room, schema
 from tests.export.tc6_planted import PLANTED, Planted
 from tests.shapes import shapes
 
@@ -84,9 +84,9 @@ def test_a_ladder_keeps_the_comment_of_a_pin() -> None:
     unproved = replace(drive, manual=replace(drive.manual, second_hand=True))
     for one in made(WRITERS["plcopen"], replace(_few(), drives={"jscc": unproved}), "plcopen"):
         ladders(one)
-        said = f"{checked(unproved)} once somebody has checked the map with the manual"
-        assert one.file.text.count(f"ManualChecked := 0, (* {said}") == 1
-        assert one.file.text.count(f"<![CDATA[{said}") == 1
+        room(one)
+        assert one.file.text.count(f"ManualChecked := 0, (* {checked(drive)} once") == 1
+        assert one.file.text.count(f"<![CDATA[{checked(drive)} once") == 1
 
 
 def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:

@@ -6,10 +6,14 @@ from xml.sax.saxutils import escape
 STYLE = """text { font: 13px system-ui, sans-serif; fill: #24292f }
 .head { font-weight: 600 }
 .small, .type { font-size: 11px; fill: #57606a }
+.group { font-size: 10px; fill: #0969da; letter-spacing: 0.06em }
 .mono { font-family: ui-monospace, Menlo, Consolas, monospace; font-size: 12px }
 .page { fill: #ffffff; stroke: #d0d7de }
 .box { fill: #f6f8fa; stroke: #24292f; stroke-width: 1.5 }
 .line { fill: none; stroke: #24292f; stroke-width: 1.5 }
+.rail { fill: #24292f }
+.gap { fill: #ffffff }
+.dashed { fill: none; stroke: #24292f; stroke-dasharray: 5 4 }
 .thin { fill: none; stroke: #afb8c1; stroke-dasharray: 3 3 }
 .go { fill: none; stroke: #0969da; stroke-width: 2 }
 .stop { fill: none; stroke: #cf222e; stroke-width: 2 }
@@ -19,9 +23,13 @@ STYLE = """text { font: 13px system-ui, sans-serif; fill: #24292f }
 @media (prefers-color-scheme: dark) {
 text { fill: #e6edf3 }
 .small, .type { fill: #9198a1 }
+.group { fill: #4493f8 }
 .page { fill: #0d1117; stroke: #30363d }
 .box { fill: #151b23; stroke: #e6edf3 }
 .line { stroke: #e6edf3 }
+.rail { fill: #e6edf3 }
+.gap { fill: #0d1117 }
+.dashed { stroke: #e6edf3 }
 .thin { stroke: #656c76 }
 .go { stroke: #4493f8 }
 .stop { stroke: #f85149 }
@@ -53,6 +61,11 @@ class Canvas:
         """A line through points."""
         way = " ".join(f"{x:g},{y:g}" for x, y in points)
         self.body.append(f'<polyline class="{kind}" points="{way}"/>')
+
+    def curve(self, begin: tuple[float, float], by: tuple[float, float], end: tuple[float, float]) -> None:
+        """A line that bends towards a point."""
+        (x0, y0), (x1, y1), (x, y) = begin, by, end
+        self.body.append(f'<path class="line" d="M{x0:g},{y0:g} Q{x1:g},{y1:g} {x:g},{y:g}"/>')
 
     def arrow(self, points: list[tuple[float, float]], kind: str = "line") -> None:
         """The same with a head at its end."""

@@ -4,25 +4,30 @@ from collections.abc import Iterator, Mapping
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import ladder, states, timing
+from driveblocks.docs import chain, ladder, network, states, timing
+from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
+from driveblocks.export.ladder import diagram
+from driveblocks.export.part import Part
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.render import context
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
-from driveblocks.render.library import File
+from driveblocks.render.library import BYTES, DRIVE_TYPES, File, first_motor
 from driveblocks.render.motor import SCAN_MS, motor
 from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
+from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.st.checker import check
 from driveblocks.st.parser import parse
-from driveblocks.st.tree import FunctionBlock, VarKind
-from driveblocks.st.types import Type
+from driveblocks.st.tree import Checked, FunctionBlock, TypeDecl, VarKind
 
 FOLDER = "docs"
 STATES = "drive_states.svg"
+HARD_STOP = "VFD_HardStop"
+"""Block of the contact in the hard stop, which has a page, too."""
 RATES = (9600, 19200)
 DRIVES = (1, 3, 7)
 TURN_ROUND_MS, BITS = 5, 10
@@ -40,22 +45,48 @@ def documents(files: list[File], drives: list[Drive], *, linked: bool = True) ->
     checked = check([parse("\n".join(file.text for file in files), "library")])
     return {
         "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
-        **pages(drives, checked.blocks, checked.types),
+        **pages(drives, checked),
     }
 
 
-def pages(drives: list[Drive], blocks: Mapping[str, FunctionBlock], types: Mapping[str, Type]) -> dict[str, str]:
+def pages(drives: list[Drive], checked: Checked) -> dict[str, str]:
     """Every page and picture, path below the output folder -> text."""
-    found = {f"{FOLDER}/{STATES}": states.picture()} if drives else {}
+    found = _shared(drives, checked.blocks) if drives else {}
     for drive in drives:
         name = f"{drive.prefix}_Drive"
-        block = blocks[name.upper()]
+        block = checked.blocks[name.upper()]
         inputs, in_outs, outputs = _pins(drive, block)
         values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
-        found[f"{FOLDER}/{name}.md"] = _page(drive, block, values, types["MB_SLOT"].size)
-        found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, inputs, in_outs, outputs)
+        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values)
+        found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
+        found[f"{FOLDER}/{name}_ladder.svg"] = _network(drive, checked.blocks)
     return found
+
+
+def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[str, str]:
+    """The states of all drive blocks, and the page of the contact in the hard stop."""
+    block = blocks[HARD_STOP.upper()]
+    inputs, outputs = (pins(block, kind, {}) for kind in (VarKind.INPUT, VarKind.OUTPUT))
+    text = render("docs/HardStop.md.j2", name=HARD_STOP, inputs=inputs, outputs=outputs, drives=drives)
+    return {
+        f"{FOLDER}/{STATES}": states.picture(),
+        f"{FOLDER}/{HARD_STOP}.md": text,
+        f"{FOLDER}/{HARD_STOP}.svg": chain.picture(HARD_STOP),
+    }
+
+
+def _network(drive: Drive, blocks: Mapping[str, FunctionBlock]) -> str:
+    """The first motor for any port as a ladder: the one that PLCopen XML has."""
+    file = first_motor(BYTES, drive)
+    named = {block.name: block for block in blocks.values()}
+    return network.picture(f"{file.name} as a ladder", diagram(Part(file.folder, parse(file.text, file.path)), named))
+
+
+def _structures(drive: Drive, checked: Checked) -> dict[str, list[Member]]:
+    """Name of each structure of the block -> its members."""
+    declared = (one for unit in checked.units for one in unit.elements if isinstance(one, TypeDecl))
+    return {one.name: members(one, drive) for one in declared if one.name in DRIVE_TYPES}
 
 
 def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], list[Pin]]:
@@ -65,13 +96,14 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot: int) -> str:
+def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
+    block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
-        hides=[pin.name for pin in values["outputs"] if pin.idle and not pin.name.endswith("Valid")],
+        hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=drive.settings,
         run_sources=[each for each in drive.settings if each.needed and each.needed.by_terminals is not None],
         stay=[each for each in drive.settings if _stays(each)],
@@ -85,7 +117,11 @@ def _page(drive: Drive, block: FunctionBlock, values: dict[str, list[Pin]], slot
         drives=DRIVES,
         unlisted=[rate for rate in RATES if listed and rate not in listed],
         bytes=block.type.size if block.type else 0,
-        slot=slot,
+        slot=checked.types["MB_SLOT"].size,
+        settable=structures["VFD_Settings"],
+        diagnosis=structures["VFD_Diagnosis"],
+        states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
+        hard_stop=HARD_STOP,
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
         proved_tripped=timing.proves_while_tripped(drive),

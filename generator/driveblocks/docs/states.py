@@ -33,7 +33,7 @@ def _starts(canvas: Canvas) -> None:
     canvas.arrow([(110, 20), (110, 60)])
     canvas.text(120, 34, "power-up, Restart, late scan, new Address", "small")
     canvas.arrow([(110, 118), (110, 240)], "go")
-    _note(canvas, 118, 170, "stop acknowledged,", "standstill read", "behind it")
+    _note(canvas, 118, 170, "stop acknowledged,", "standstill read", "after it")
     canvas.arrow([(250, 269), (470, 269)], "go")
     _note(canvas, 262, 246, "Ready, and a run or jog", "pin rises")
     canvas.arrow([(560, 298), (560, 350)], "go")

@@ -7,26 +7,32 @@ from driveblocks.export.element import Element, element, escaped
 from driveblocks.export.part import Part
 from driveblocks.export.tc6 import NEUTRAL
 from driveblocks.st import tree
-from driveblocks.st.tree import Expression, VarDecl, VarKind
+from driveblocks.st.tree import Expression, FunctionBlock, VarDecl, VarKind
 
 Point = tuple[int, int]
 _RAIL = 40
-_CONTACT = 160
-_BLOCK = 420
-_LINE = 20
-_FIRST = 30
-"""Height of a line in a block, as Beremiz draws it; the first pin is _FIRST below the top.
+_CONTACT = 130
+_BLOCK = 440
+_VALUE = 400
+"""Left ends of the left rail, the contacts and the blocks, and the right end of what is wired to a block."""
+_TITLE = 20
+_PITCH = 32
+"""Height of a block's title and of each line of pins; Beremiz shares out the rest of the height among the lines.
 
-Contacts and coils are 21 x 15, their pins 8 below the top.
+A value is a box 20 high. Contacts and coils are 21 x 15, their pins 8 below the top, their names above them.
 """
 
 
-def ladder(written: Element, part: Part, parts: Mapping[str, Part]) -> Element:
-    """A program that was written with its text, with the same as a ladder in place of it."""
-    assert isinstance(part.element, tree.Program)  # noqa: S101  (the first motor is a program)
-    drawn = _Drawing(part, part.element, parts)
-    body = element("body", {}, element("LD", {}, *drawn.whole()))
+def ladder(written: Element, part: Part, blocks: Mapping[str, FunctionBlock]) -> Element:
+    """A program that was written with its text, with the same as a ladder in place of it; see `diagram`."""
+    body = element("body", {}, diagram(part, blocks))
     return replace(written, content=tuple(body if each.tag == "body" else each for each in written.content))
+
+
+def diagram(part: Part, blocks: Mapping[str, FunctionBlock]) -> Element:
+    """A program of calls and assignments as the element LD of TC6; `blocks` are those that it calls, by name."""
+    assert isinstance(part.element, tree.Program)  # noqa: S101  (the first motor is a program)
+    return element("LD", {}, *_Drawing(part, part.element, blocks).whole())
 
 
 @dataclass(frozen=True)
@@ -43,10 +49,10 @@ class _Drawing:
 
     part: Part
     program: tree.Program
-    parts: Mapping[str, Part]
+    known: Mapping[str, FunctionBlock]
     y: int = 60
     last: int = 2
-    turns: int = 0
+    turn: int = 0
     drawn: list[Element] = field(default_factory=list)
     starts: list[int] = field(default_factory=list)
     ends: list[tuple[int, Point]] = field(default_factory=list)
@@ -54,6 +60,7 @@ class _Drawing:
 
     def whole(self) -> Iterator[Element]:
         for statement in self.program.body:
+            self.turn += 1
             if isinstance(statement, tree.CallStatement):
                 self.block(statement.call)
             elif isinstance(statement, tree.Assign):
@@ -68,21 +75,23 @@ class _Drawing:
         self.last += 1
         return self.last
 
-    def turn(self) -> dict[str, str]:
-        """The attribute by which what comes next is executed next: Beremiz goes by it, others from top to bottom."""
-        self.turns += 1
-        return {"executionOrderId": str(self.turns)}
-
     def declared(self, name: str) -> VarDecl:
         return next(v for block in self.program.blocks for v in block.variables if v.name == name)
+
+    def is_bool(self, value: Expression) -> bool:
+        """Whether a variable, or an output of a block, is a BOOL."""
+        if isinstance(value, tree.Name):
+            return _is_bool(self.declared(value.name))
+        if not isinstance(value, tree.Member):
+            return False
+        return any(_is_bool(pin) for pin in self.pins(_said(value.base))[1] if pin.name == value.name)
 
     def pins(self, instance: str) -> tuple[list[VarDecl], list[VarDecl]]:
         """What a block has on its left and on its right: an in-out is on both."""
         named = self.declared(instance).spec
         assert isinstance(named, tree.NamedSpec)  # noqa: S101  (an instance has the name of its block)
-        one = self.parts[named.name].element
-        assert isinstance(one, tree.FunctionBlock)  # noqa: S101
-        by = {kind: [v for b in one.blocks if b.kind is kind for v in b.variables] for kind in VarKind}
+        groups = self.known[named.name].blocks
+        by = {kind: [v for b in groups if b.kind is kind for v in b.variables] for kind in VarKind}
         both = by[VarKind.IN_OUT]
         return by[VarKind.INPUT] + both, by[VarKind.OUTPUT] + both
 
@@ -90,15 +99,15 @@ class _Drawing:
         name = _said(call.callee)
         left, right = self.pins(name)
         width = 8 * (max(len(v.name) for v in left) + max(len(v.name) for v in right)) + 30
-        height = _LINE * (max(len(left), len(right)) + 1)
+        height = _TITLE + _PITCH * max(len(left), len(right))
         given, remarks = {each.name: each for each in call.arguments}, self.remarks(call)
-        rows = [(v.name, _FIRST + _LINE * row) for row, v in enumerate(left)]
+        rows = [(v.name, _below(row)) for row, v in enumerate(left)]
         inputs = [self.formal(pin, self.pin(below, given.get(pin)), remarks.get(pin)) for pin, below in rows]
-        rows = [(v.name, _FIRST + _LINE * row) for row, v in enumerate(right)]
+        rows = [(v.name, _below(row)) for row, v in enumerate(right)]
         outputs = [self.formal(pin, _pin("Out", (width, below))) for pin, below in rows]
         spec = self.declared(name).spec
         assert isinstance(spec, tree.NamedSpec)  # noqa: S101
-        named = {"typeName": spec.name, "instanceName": name, **self.turn()}
+        named = {"typeName": spec.name, "instanceName": name, **self.order()}
         made = _Block(self.number(), {pin: (_BLOCK + width, self.y + below) for pin, below in rows})
         self.drawn.append(
             element(
@@ -111,14 +120,18 @@ class _Drawing:
             )
         )
         self.blocks[name] = made
-        self.y += height + 3 * _LINE
+        self.y += height + 2 * _PITCH
+
+    def order(self) -> dict[str, str]:
+        """The place of a statement among all, so that what is drawn is done in the order of the text."""
+        return {"executionOrderId": str(self.turn)}
 
     @staticmethod
     def formal(name: str, pin: Element, remark: Element | None = None) -> Element:
         return element("variable", {"formalParameter": name}, pin, remark)
 
     def remarks(self, call: tree.Call) -> dict[str | None, Element | None]:
-        """The comments behind arguments, each on the line of its own."""
+        """The comments after arguments, each on the line of its own."""
         unit, found = self.part.unit, dict[str | None, Element | None]()
         for comment in unit.comments:
             line = [
@@ -135,8 +148,8 @@ class _Drawing:
             return _pin("In", place)
         if isinstance(value, tree.Literal) and value.value is True:
             return _pin("In", place, self.rail(here))
-        if isinstance(value, tree.Name) and _is_bool(self.declared(value.name)):
-            number, there = self.contact(value.name, here[1])
+        if self.is_bool(value):
+            number, there = self.contact(_said(value), here[1])
         else:
             number, there = self.value(_said(value), here[1])
         return _pin("In", place, _link(number, here, there))
@@ -156,7 +169,7 @@ class _Drawing:
 
     def value(self, said: str, y: int) -> tuple[int, Point]:
         number, width = self.number(), 8 * len(said) + 20
-        x = _BLOCK - 60 - width
+        x = _VALUE - width
         text = Element("expression", {}, text=escaped(said))
         place = _position(x, y - 10)
         self.drawn.append(element("inVariable", _sized(number, width, 20), place, _pin("Out", (width, 10)), text))
@@ -171,7 +184,7 @@ class _Drawing:
         if isinstance(value, tree.Literal):
             start, y = (_RAIL + 3, self.y), self.y
             self.starts.append(y)
-            self.y += 2 * _LINE
+            self.y += _PITCH
             self.end(target, start, 1, None, {"storage": "set" if value.value else "reset"})
             return
         assert isinstance(value, tree.Member)  # noqa: S101  (all that the first motor assigns)
@@ -179,30 +192,34 @@ class _Drawing:
         self.end(target, block.pins[value.name], block.number, value.name, {})
 
     def move(self, target: str, source: str) -> None:
-        """A variable that gets the value of another, before the blocks below it are called."""
+        """A variable that gets the value of another."""
         number, there = self.value(source, self.y)
-        self.out(target, number, there, None, self.turn())
-        self.y += 2 * _LINE
+        self.out(target, number, there, None)
+        self.y += 2 * _PITCH
 
-    def out(self, target: str, source: int, start: Point, pin: str | None, how: Mapping[str, str]) -> None:
+    def out(self, target: str, source: int, start: Point, pin: str | None) -> None:
         """A variable at the right end of a wire."""
         place, width = (max(start[0], _BLOCK) + 100, start[1]), 8 * len(target) + 20
         wire = _pin("In", (0, 10), _link(source, place, start, pin))
         text = Element("expression", {}, text=target)
         where = _position(place[0], place[1] - 10)
-        sized = {**_sized(self.number(), width, 20), **how}
-        self.drawn.append(element("outVariable", sized, where, wire, text))
+        self.drawn.append(element("outVariable", _sized(self.number(), width, 20) | self.order(), where, wire, text))
 
     def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
-        """What stands at the right end of a wire: a coil, or for other than BOOL a variable."""
+        """What is at the right end of a wire: a coil, or for other than BOOL a variable."""
         if not _is_bool(self.declared(target)):
-            self.out(target, source, start, pin, how)
+            self.out(target, source, start, pin)
             return
         number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])
         wire = _pin("In", (0, 8), _link(source, (x, y), start, pin))
-        said, sized = Element("variable", {}, text=target), {**_sized(number, 21, 15), **how}
+        said, sized = Element("variable", {}, text=target), {**_sized(number, 21, 15), **self.order(), **how}
         self.drawn.append(element("coil", sized, _position(x, y - 8), wire, _pin("Out", (21, 8)), said))
         self.ends.append((number, (x + 21, y)))
+
+
+def _below(row: int) -> int:
+    """How far below the top of its block a pin is."""
+    return _TITLE + _PITCH // 2 + _PITCH * row
 
 
 def _is_bool(variable: VarDecl) -> bool:

@@ -27,7 +27,13 @@ def page(
         for library in shelf.libraries()
     ]
     prefix, first = next(iter(programs.items()))
-    values = {"files": files, "kinds": list(KINDS.values()), "prefix": prefix, "scan": SCAN_MS}
+    values = {
+        "files": files,
+        "kinds": list(KINDS.values()),
+        "prefix": prefix,
+        "prefixes": list(programs),
+        "scan": SCAN_MS,
+    }
     text = render(f"{target}/README.md.j2", motor=first[0].text, master=len(first) > 1, **values)
     return {f"{target}/README.md": text}
 

@@ -12,16 +12,17 @@ from driveblocks.render.library import BYTES
 from driveblocks.render.motor import SCAN_MS
 from driveblocks.st.parser import parse
 from driveblocks.st.problems import Problem
+from driveblocks.st.tree import FunctionBlock
 
 
 def write(shelf: Shelf) -> dict[str, str]:
     """A file of each library, with a first motor of each drive as text and as a ladder. Raises ExportError."""
     problems: list[Problem] = []
-    parts = {part.name: part for part in shelf.parts}
+    blocks = {part.name: part.element for part in shelf.parts if isinstance(part.element, FunctionBlock)}
     programs = {drive.prefix: _programs(shelf, drive) for drive in shelf.drives.values()}
     every = (*shelf.parts, *(one for both in programs.values() for one in both))
     made = {part.name: written(part, NEUTRAL, problems) for part in every}
-    made |= {twin.name: ladder(made[twin.name], twin, parts) for _, twin in programs.values()}
+    made |= {twin.name: ladder(made[twin.name], twin, blocks) for _, twin in programs.values()}
     if problems:
         raise ExportError(problems)
     files: dict[str, str] = {}

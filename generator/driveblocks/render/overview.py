@@ -12,6 +12,8 @@ from driveblocks.st.types import Type
 
 _TITLE = re.compile(r"\(\* \w+: (.*?)\n\s+-{20,}", re.DOTALL)
 _LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Body", re.DOTALL | re.MULTILINE)
+PAGES = ("_Drive", "_HardStop")
+"""Ends of the names of blocks that have a page."""
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 
@@ -74,7 +76,7 @@ def _row(file: File, block: Function | FunctionBlock) -> dict[str, object]:
         "title": _found(_TITLE, file.text),
         "kind": "FB" if isinstance(block, FunctionBlock) else "function",
         "pins": _pins(block),
-        "page": f"docs/{file.name}.md" if file.name.endswith("_Drive") else "",
+        "page": f"docs/{file.name}.md" if file.name.endswith(PAGES) else "",
         "bytes": block.type.size if isinstance(block, FunctionBlock) and block.type else 0,
         "loops": _found(_LOOPS, file.text),
     }

@@ -77,7 +77,7 @@ REASONS = (
         "运行信号一直保持",
         "release all run and jog pins, then set one",
     ),
-    Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see the capability outputs"),
+    Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see `Diagnosis.Can...`"),
     Reason(26, "MONITOR", "reads only", "仅监视", "release `MonitorOnly`"),
     Reason(
         27,

@@ -80,14 +80,18 @@ class Values:
         return value if low <= value <= high else low + (value - low) % (high - low + 1)
 
     def number(self) -> float:
-        """A REAL: an edge, a landmark, a half of a hundredth, a usual frequency, or any bit pattern."""
+        """A REAL: 0, an edge, a landmark, a half of a hundredth, a usual frequency or below 0, or any bit pattern."""
         draws, way = self.draws, self.draws.fraction()
+        if way < 0.1:
+            return 0.0
         if way < 0.3:
             return draws.one_of(self.real)
         if way < 0.5:
             return single((draws.whole(0, 66000) + 0.5) / draws.one_of((1, 2, 10, 100, 200)))
         if way < 0.85:
-            return single(draws.between(0.0, draws.one_of((1.0, 60.0, 400.0, 70000.0))))
+            return single(
+                draws.between(draws.one_of((0.0, 0.0, -60.0)), draws.one_of((1.0, 60.0, 400.0, 9000.0, 70000.0)))
+            )
         return float(struct.unpack("<f", self.noise.octets(4))[0])
 
     def array(self, pin: Pin) -> Value:

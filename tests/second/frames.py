@@ -1,0 +1,53 @@
+"""Modbus frames written by hand from the manuals: RTU with the CRC of their C function, ASCII with their LRC."""
+
+from functools import lru_cache
+
+
+def _entry(byte: int) -> int:
+    """One turn of the C function that SN300G5 (lines 211 to 227) and CHF (lines 277 to 294) print."""
+    for _ in range(8):
+        byte = (byte >> 1) ^ 0xA001 if byte & 1 else byte >> 1
+    return byte
+
+
+TABLE = tuple(_entry(byte) for byte in range(256))
+
+
+@lru_cache(maxsize=1 << 16)
+def crc(data: bytes) -> bytes:
+    """CRC-16, low byte first, as all three manuals send it."""
+    value = 0xFFFF
+    for byte in data:
+        value = (value >> 8) ^ TABLE[(value ^ byte) & 0xFF]
+    return value.to_bytes(2, "little")
+
+
+def lrc(data: bytes) -> int:
+    """Two's complement of the sum of the bytes: CHF 11.6.3.3, line 300."""
+    return -sum(data) & 0xFF
+
+
+def rtu(body: bytes) -> bytes:
+    """Unit, function and data as an RTU frame."""
+    return body + crc(body)
+
+
+def ascii_(body: bytes) -> bytes:
+    """... as an ASCII frame: colon, capital hexadecimal digits, CR LF (CHF line 87, JSCC lines 68 to 79)."""
+    return b":" + (body + bytes([lrc(body)])).hex().upper().encode() + b"\r\n"
+
+
+@lru_cache(maxsize=1 << 16)
+def opened(frame: bytes) -> bytes | None:
+    """Unit, function and data of an RTU frame; None: damaged."""
+    return frame[:-2] if len(frame) >= 4 and crc(frame[:-2]) == frame[-2:] else None
+
+
+@lru_cache(maxsize=1 << 16)
+def ascii_opened(frame: bytes) -> bytes | None:
+    """... of an ASCII frame; None: damaged, or written in small letters."""
+    digits = frame[1:-2]
+    if frame[:1] != b":" or frame[-2:] != b"\r\n" or digits.strip(b"0123456789ABCDEF") or len(digits) % 2:
+        return None
+    data = bytes.fromhex(digits.decode())
+    return data[:-1] if len(data) >= 3 and not lrc(data[:-1]) - data[-1] else None

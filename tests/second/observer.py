@@ -1,0 +1,151 @@
+"""Judges a line of drives by what cannot be argued away: bytes on the wire, true shafts, and the pins of the blocks.
+
+It knows no vendor map, no state of a block, and no reply.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from tests.second.frames import ascii_opened, opened
+
+RUN, JOG = ("RunForward", "RunReverse"), ("JogForward", "JogReverse")
+STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "Left")
+"""Pins that stop while they are TRUE; `Left` is for a block that is not called. Enable stops while it is FALSE."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figures:
+    """What is promised; times in microseconds."""
+
+    stop_us: int
+    """From a pin that stops to standstill, or to the open contact."""
+    seen_us: int = 0
+    """How long StopConfirmed may outlive the start of a motion that the bus has not begun."""
+    follow_us: int = 2_000_000
+    """How long the motor may be faster than a reference that was lowered."""
+    still_hz: float = 0.1
+    """What counts as standstill: less than the coarsest monitor shows."""
+    coast_counts: bool = False
+    """StopConfirmed is wrong, too, while the motor coasts without output."""
+
+
+@dataclass(frozen=True)
+class Truth:
+    """A motor as it truly is."""
+
+    hz: float
+    by: str = ""
+    """Who drives it: bus, keypad, terminals; empty: it has no output."""
+    stopping: bool = False
+    """The drive ramps it down to a stop, whoever has asked."""
+    contact_open: bool = False
+    """The hard stop has cut its supply."""
+    itself: bool = False
+    """The drive has taken up a command by itself: no start of the block, which must stop it."""
+
+
+@dataclass
+class Watch:
+    """What is remembered of one motor."""
+
+    asked_before: bool = True
+    permitted: bool = False
+    """A run or jog pin rose after the last stop, and is still TRUE."""
+    driven: bool = False
+    ours: bool = False
+    """It turns because of the bus."""
+    stop_since: int | None = None
+    others_since: int | None = None
+    most_hz: float = 0.0
+    lowered_at: int = 0
+    broken: set[str] = field(default_factory=set)
+    """Rules that are broken at present: each is told once."""
+
+
+class Observer:
+    """Watches a line; `found` are broken rules: time, unit, rule, what was seen."""
+
+    def __init__(
+        self, stores: Mapping[int, Callable[[bytes], bool]], figures: Figures, *, ascii_: bool = False
+    ) -> None:
+        """Units of the blocks, each with what says of a request without checksum that it stores."""
+        self.stores, self.figures = stores, figures
+        self.opened = ascii_opened if ascii_ else opened
+        self.watches = {unit: Watch() for unit in stores}
+        self.may_store: set[int] = set()
+        """Units for which somebody has asked to store."""
+        self.found: list[tuple[int, int, str, str]] = []
+
+    def sent(self, now_us: int, frame: bytes) -> None:
+        """A frame of the master."""
+        body = self.opened(frame)
+        if body is None:
+            self.found.append((now_us, -1, "frame", frame.hex()))
+        elif body[0] not in self.stores:
+            self.found.append((now_us, body[0], "unit", body.hex()))
+        elif body[0] not in self.may_store and self.stores[body[0]](body):
+            self.found.append((now_us, body[0], "store", body.hex()))
+
+    def scan(self, now_us: int, unit: int, pins: Mapping[str, object], *, confirmed: bool, truth: Truth) -> None:
+        """A scan: the pins that a block was called with, whether it shows StopConfirmed, and the motor after it."""
+        watch, figures = self.watches[unit], self.figures
+        asked = any(pins.get(name) for name in RUN + JOG)
+        stops = not asked or not pins.get("Enable", True) or any(pins.get(name) for name in STOPPING)
+        watch.permitted = not stops and (watch.permitted or not watch.asked_before)
+        watch.asked_before = asked
+        turns = abs(truth.hz) > figures.still_hz
+        driven = truth.by == "bus" and not truth.stopping
+        if driven and not watch.driven:
+            self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself), seen=truth)
+        elif watch.driven and not driven:
+            watch.permitted = False  # whatever has ended it: the next start needs an edge of its own
+        watch.driven = driven
+        watch.ours = truth.by == "bus" or (watch.ours and turns and not truth.by)
+        owed = (stops or not watch.permitted) and watch.ours and (turns or driven)
+        self._stop(now_us, unit, truth, stops=owed)
+        self._confirmed(now_us, unit, truth, wrong=confirmed and turns)
+        self._speed(now_us, unit, pins, truth)
+
+    def _judge(self, now_us: int, unit: int, rule: str, *, bad: bool, seen: Truth) -> None:
+        broken = self.watches[unit].broken
+        if bad and rule not in broken:
+            broken.add(rule)
+            self.found.append((now_us, unit, rule, str(seen)))
+        elif not bad:
+            broken.discard(rule)
+
+    def _stop(self, now_us: int, unit: int, truth: Truth, *, stops: bool) -> None:
+        watch = self.watches[unit]
+        owed = stops and not truth.contact_open
+        watch.stop_since = (now_us if watch.stop_since is None else watch.stop_since) if owed else None
+        late = watch.stop_since is not None and now_us - watch.stop_since > self.figures.stop_us
+        self._judge(now_us, unit, "stop", bad=late, seen=truth)
+
+    def _confirmed(self, now_us: int, unit: int, truth: Truth, *, wrong: bool) -> None:
+        watch, figures = self.watches[unit], self.figures
+        if truth.by in ("", "bus") or not wrong:
+            watch.others_since = None
+        elif watch.others_since is None:
+            watch.others_since = now_us
+        young = watch.others_since is not None and now_us - watch.others_since <= figures.seen_us
+        coasts = not truth.by and not figures.coast_counts
+        self._judge(now_us, unit, "confirmed", bad=wrong and not young and not coasts, seen=truth)
+
+    def _speed(self, now_us: int, unit: int, pins: Mapping[str, object], truth: Truth) -> None:
+        """Not faster than asked, and not the other way round; a jog has a speed of its own."""
+        watch = self.watches[unit]
+        if not watch.driven or not any(pins.get(name) for name in RUN):
+            watch.most_hz = 0.0
+            return
+        asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)
+        assert isinstance(asked, float)
+        assert isinstance(limit, float)
+        most = min(asked, limit) if limit else asked
+        if most >= watch.most_hz:
+            watch.most_hz, watch.lowered_at = most, now_us
+        elif now_us - watch.lowered_at > self.figures.follow_us:
+            watch.most_hz = most
+        far = abs(truth.hz) > watch.most_hz + 0.01 * watch.most_hz + self.figures.still_hz
+        wrong_way = truth.hz * (-1 if pins.get("RunReverse") else 1) < -self.figures.still_hz
+        self._judge(now_us, unit, "speed", bad=far, seen=truth)
+        self._judge(now_us, unit, "direction", bad=wrong_way, seen=truth)

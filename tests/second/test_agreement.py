@@ -1,0 +1,161 @@
+"""The second models and the drives made from the maps, asked the same: where both must agree, and where they differ.
+
+This file alone knows both. A new difference is a wrong belief of one of them: the manual says of which.
+"""
+
+from decimal import Decimal
+from typing import Any
+
+import pytest
+from tests.second.drive import Drive
+from tests.second.frames import rtu
+from tests.second.script import drive
+
+from driveblocks.maps import catalog
+from driveblocks.maps.load import load
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.simulator.habits import Habits
+
+MAPS = {load(path).prefix: load(path) for path in catalog.shipped()}
+PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF"}
+SETTINGS: dict[str, dict[str, Any]] = {
+    "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},
+}  # fmt: skip
+"""The maps' drives have no watchdog unless asked, and 0.01 Hz where the manual gives no scale."""
+CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5)}
+
+
+class Pair:
+    """A drive of each kind, and one clock."""
+
+    def __init__(self, kind: str, **options: Any) -> None:
+        """Powered and standing, with the same ramps."""
+        self.kind, self.now = kind, 0
+        self.second: Drive = drive(kind, **(SETTINGS[kind] | options))
+        habits = Habits(bus_volts=540 if kind == "chf" else 589, scales=dict.fromkeys((0x26, 0x3002), Decimal(1)))
+        self.map = SimulatedDrive(MAPS[PREFIX[kind]], 1, habits)
+
+    def do(self, step: str) -> tuple[object, object]:
+        """A wait in ms, something that happens, or a request; what the drive of the map and the second one give."""
+        if step.isdigit() and len(step) < 6:
+            self.now += int(step)
+            self.map.step(int(step))
+        elif step in ("trip", "cure", "off", "on", "stop"):
+            self._happens(step)
+        else:
+            body = bytes.fromhex(step)
+            self.do("50")
+            replies = self.second.receive(rtu(body), 1000 * self.now)
+            reply = self.map.reply(body)
+            return ("-" if reply is None else rtu(reply).hex()), (replies[0][1].hex() if replies else "-")
+        return round(self.map.hertz, 2), round(self.second.shaft_hz(1000 * self.now), 2)
+
+    def _happens(self, what: str) -> None:
+        us, (fault, code) = 1000 * self.now, CODES[self.kind]
+        if what == "trip":
+            self.map.trip(code)
+            self.second.trip(fault, us, cause=True)
+        elif what == "cure":
+            self.map.clear_cause()
+            self.second.clear_cause(us)
+        elif what == "stop":
+            self.map.keypad_stop()
+            self.second.press("stop", us)
+        else:
+            self.map.power(on=what == "on")
+            self.second.power(what == "on", us)
+
+
+def r(address: str, words: int = 1) -> str:
+    """A read."""
+    return f"0103{address}{words:04x}"
+
+
+def w(kind: str, address: str, word: int) -> str:
+    """A write of one word."""
+    return f"0106{address}{word:04x}" if kind != "sn" else f"0110{address}000102{word:04x}"
+
+
+RUN = {"sn": ("0001", 2500, "0000"), "jscc": ("1001", 2500, "1000"), "chf": ("2000", 5000, "1000")}
+STOP = {"sn": 0, "jscc": 3, "chf": 5}
+LOOK = {"sn": (r("0010"), r("0021"), r("0014", 5)), "jscc": (r("2000", 2), r("3000")),
+        "chf": (r("1001"), r("3000"), r("5000"))}  # fmt: skip
+AGREED = [
+    "", "go 1000 look 3000 look halt 1000 look 3000 look", "back 4000 look go 1000 look 1500 look 5000 look",
+    "go 4000 slower 500 look 4000 look", "go 4000 trip look 1000 look halt 9000 cure look",
+    "go 4000 stop 900 look 9000 look", "go 4000 off 1000 look on 100 look 9000 look", "go 4000 halt 500 go 500 look",
+    "slower look go look halt look",
+]  # fmt: skip
+ALONE = {
+    "sn": [r("0026", 2), r("0000"), r("0000", 2), r("0010", 3), "010800001234", "010600000001", "010300000000",
+           "010300000011", r("4000"), w("sn", "0010", 1), w("sn", "4000", 1), w("sn", "fffd", 0),
+           "0110000000020400010064", "020300100001", "0103001000", "010800010000", r("0013")],
+    "jscc": [r("0005"), w("jscc", "0005", 7), r("4000"), w("jscc", "2000", 1), w("jscc", "4000", 1), "010400000001",
+             "010300000000", "01030000000d", "0110100000020400010064", w("jscc", "1000", 0)],
+    "chf": [r("0005"), w("chf", "0005", 7), r("0005"), w("chf", "8005", 9), r("0005"), r("8005"), r("4000"),
+            w("chf", "3000", 1), w("chf", "4000", 1), "010400000001", "010300000000", "010300000011",
+            w("chf", "2000", 10001), w("chf", "2000", 0xD8EF), w("chf", "2000", 0xD8F0), r("1000"), r("5001"),
+            r("3000", 3)],
+}  # fmt: skip
+
+
+def steps(kind: str, text: str) -> list[str]:
+    """The words of AGREED as steps."""
+    speed, full, command = RUN[kind]
+    short = {
+        "go": [w(kind, speed, full), w(kind, command, 1)], "back": [w(kind, speed, full), w(kind, command, 2)],
+        "halt": [w(kind, command, STOP[kind])], "slower": [w(kind, speed, full // 5)], "look": list(LOOK[kind]),
+    }  # fmt: skip
+    return [step for word in text.split() for step in short.get(word, [word])]
+
+
+@pytest.mark.parametrize("kind", PREFIX)
+@pytest.mark.parametrize("text", AGREED)
+def test_both_agree(kind: str, text: str) -> None:
+    pair = Pair(kind)
+    for step in steps(kind, text):
+        of_map, of_second = pair.do(step)
+        assert of_map == of_second, step
+
+
+DIFFER = [
+    # what the map's drive cannot know, or knows otherwise: words before, request, reply of the second, and why
+    ("sn", "go 4000", r("002b"), "010302 0031", "002BH is 0010H once more: line 392"),
+    ("sn", "go 4000", r("0020"), "010302 09c4", "0020H is the frequency reference: line 381"),
+    ("sn", "trip", r("0080"), "010302 0007", "0080H is the present fault"),
+    ("sn", "", w("sn", "0180", 5), "0190 21", "b1-01 is 0 to 4: line 49"),
+    ("sn", "", w("sn", "0001", 5001), "0190 21", "control data have limits: line 862"),
+    ("sn", "", "0110000000000000", "0190 03", "a number of words outside 1 to 16: line 861"),
+    ("sn", "", "011000000001040001", "0190 03", "as if the number were wrong"),
+    ("sn", "", r("0035", 4), "010308 0000000000000000", "refused only if no address is registered: line 860"),
+    ("sn", "", w("sn", "041c", 0x21), "0190 21", "H5-01 is 0 to 20, read as hexadecimal: line 51"),
+    ("sn", "", w("sn", "0002", 1), "011000020001", "a row that says unused is not called read-only"),
+    ("sn", "go 4000 trip", r("0081"), "010302 0007", "0081H is the past fault, 0083H its output frequency"),
+    ("sn", "go 4000 trip", r("0083"), "010302 09c4", "lines 411 and 413"),
+    ("jscc", "go 4000", w("jscc", "0005", 1), "0186 07", "open: whether parameters are written while it runs"),
+    ("jscc", "", w("jscc", "1000", 4), "0186 03", "1000H is 0 to 3: lines 105 to 108"),
+    ("jscc", "", w("jscc", "1001", 5001), "0186 03", "above the drive's own maximum"),
+    ("chf", "go 4000", w("chf", "0005", 1), "010650010006", "some are not changed while it runs: line 312"),
+    ("chf", "go 4000 010610000003 4000", r("3000"), "010302 09c4", "open: whether a jog ends a run"),
+    ("chf", "go 4000 trip cure 010610000007", r("1001"), "010302 0003", "open: whether it is reset while it coasts"),
+    ("chf", "", w("chf", "1000", 0), "010650010005", "1000H is 1 to 8: lines 319 to 326"),
+    ("chf", "", w("chf", "1000", 9), "010650010005", "1000H is 1 to 8"),
+    ("chf", "go 4000", r("3001"), "010302 09c4", "3001H is the set frequency: line 334"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", PREFIX)
+def test_both_answer_alike(kind: str) -> None:
+    for step in ALONE[kind]:
+        of_map, of_second = Pair(kind).do(step)
+        assert of_map == of_second, step
+
+
+@pytest.mark.parametrize(("kind", "before", "request_", "reply", "why"), DIFFER)
+def test_where_they_differ(kind: str, before: str, request_: str, reply: str, why: str) -> None:
+    pair = Pair(kind)
+    for step in steps(kind, before):
+        pair.do(step)
+    of_map, of_second = pair.do(request_)
+    assert of_second == rtu(bytes.fromhex(reply)).hex(), why
+    assert of_map != of_second, "they agree: this row belongs to ALONE"
