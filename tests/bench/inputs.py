@@ -43,6 +43,7 @@ USUAL: dict[str, Pin] = {
     "RunForward": True,
     "SpeedReferenceHz": 42.5,
     "MaximumHz": 50.0,
+    "FullScaleHz": 60.0,
     "ReferenceScale": 100.0,
     "FaultContents1Word": 0x0040,
     "Value": 1,

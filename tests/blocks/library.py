@@ -9,7 +9,7 @@ from driveblocks.host.engine import Engine, Instance, Library, Source, Value
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.render.library import LINE_TYPES
+from driveblocks.render.library import DRIVE_TYPES, LINE_TYPES
 from driveblocks.render.results import RESULTS
 
 BLOCKS = Path(__file__).parents[2] / "blocks" / "iec61131"
@@ -50,7 +50,8 @@ def sources(folder: Path = BLOCKS) -> list[Source]:
 
 def alone(folder: Path = BLOCKS) -> list[Source]:
     """The files of what can be called by itself: all but line and drive blocks, which run against drives elsewhere."""
-    line = re.compile(rf"line/.*|vfd/V.*|.*_Drive\.st|types/(?:{'|'.join(LINE_TYPES)}|MB_(?:Slots|Tracks)\d+)\.st")
+    types = "|".join((*LINE_TYPES, *DRIVE_TYPES))
+    line = re.compile(rf"line/.*|vfd/V.*|.*_Drive\.st|types/(?:{types}|MB_(?:Slots|Tracks)\d+)\.st")
     return [each for each in sources(folder) if not line.fullmatch(each.path)]
 
 

@@ -26,6 +26,7 @@ ROOM = 2
 """Pixels between any two things in a ladder."""
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
 _ASSIGNED = re.compile(r"^  ([\w.]+) := (.*);", re.MULTILINE)
+_DONE = re.compile(r"^  ([\w.]+)(?:\(| :=)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -168,6 +169,7 @@ def ladders(one: Made) -> None:
             name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
         }
         assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
+        assert [drawn.order[number] for number in sorted(drawn.order)] == _DONE.findall(body)
         assert drawn.loose == []
         assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
 

@@ -226,6 +226,7 @@ PLANTED = (
         checks.ladders,
         ("plcopen",),
     ),
+    Planted("statements are done in another order", "ladder", "str(self.turn)", "str(99 - self.turn)", checks.ladders),
     Planted("two boxes touch", "ladder", "_PITCH = 32", "_PITCH = 20", checks.room, ("plcopen",)),
     Planted(
         "a contact is a wire",

@@ -20,12 +20,16 @@ Point = tuple[int, int]
 
 @dataclass(frozen=True)
 class Rung:
-    """What is wired in a ladder: pins of blocks and coils, each with its source, and what is wrong or said beside."""
+    """What is wired in a ladder: pins of blocks and coils, each with its source, and what is wrong or said beside.
+
+    `order` has what is executed by a number, in the order of these numbers: names of blocks and of variables.
+    """
 
     calls: dict[str, dict[str, str]] = field(default_factory=dict)
     coils: dict[str, str] = field(default_factory=dict)
     loose: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    order: dict[int, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -169,7 +173,8 @@ class File:
                 pins = self.all("inputVariables/variable", node)
                 remarks = (self.written(self.one("documentation", pin)) for pin in pins)
                 made.remarks.extend(filter(None, remarks))
-                made.calls[node.get("instanceName", "")] = {
+                name = node.get("instanceName", "")
+                made.calls[name] = {
                     pin.get("formalParameter", ""): source
                     for pin in pins
                     if (source := self.source(self.all("connectionPointIn", pin)[0], node, drawn, made))
@@ -182,6 +187,9 @@ class File:
             elif tag == "rightPowerRail":
                 for pin in self.all("connectionPointIn", node):
                     self.source(pin, node, drawn, made)
+            if number := int(node.get("executionOrderId", 0)):
+                assert number not in made.order
+                made.order[number] = name
         return made
 
     def boxes(self, pou: Node) -> list[Box]:

@@ -118,7 +118,10 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
             port.scan()
         return [program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
 
-    assert run(2000) == [True, False, True]
+    assert run(2000) == [True, False, False]
+    program["ResetButton"] = True
+    assert run(10) == [True, False, True]
+    program["ResetButton"] = False
     program["Hertz"], program["StartSwitch"] = 30.0, True
     assert run(6000) == [False, True, True]
     assert drive.hertz == 30
@@ -130,9 +133,9 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
 def test_its_task_calls_it(engine: Engine) -> None:
     configuration = built(engine).configuration()
     assert configuration.tick_ns == 10_000_000
-    assert configuration["Res0.First.HardStopOk"] is False
+    assert configuration["Res0.First.FirstScan"] is True
     configuration.run()
-    assert configuration["Res0.First.HardStopOk"] is True
+    assert configuration["Res0.First.FirstScan"] is False
 
 
 def test_the_first_motor_on_linux_runs_and_says_that_its_port_is_missing(matiec: Engine) -> None:

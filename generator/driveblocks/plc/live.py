@@ -21,6 +21,7 @@ PASSED_ON = frozenset({
     "SIGKILL", "SIGSTOP",  # nobody can catch these
     "SIGSEGV", "SIGBUS", "SIGFPE", "SIGILL",  # nothing can go on after these
     "SIGCHLD", "SIGCONT", "SIGINFO", "SIGURG", "SIGWINCH", "SIGPIPE", "SIGXFSZ",  # these end nothing
+    "SIGVTALRM",  # the clock by which an engine sees that a scan does not end; Python would not give it back
 })  # fmt: skip
 SUSPENDS = ("SIGTSTP", "SIGTTIN", "SIGTTOU")
 _NAMES = {int(each): each.name for each in signal.Signals}

@@ -73,7 +73,7 @@ VERBS = (
     Verb("stop", UNIT, "stop 2", "somebody stops it at the keypad", lambda drive, _: drive.keypad_stop()),
     Verb("load", PERCENT + UNIT, "load 80 % 2", "the motor's load",
          lambda drive, words: setattr(drive, "load", round(float(words["percent"] or 0)))),
-    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin so long behind a request"),
+    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin so long after a request"),
     Verb("drop", PERCENT + LASTS, "drop 10 % for 5 s", "so many of all frames, to and fro, get lost"),
     Verb("damage", PERCENT + LASTS, "damage 1 %", "so many of all frames arrive with a wrong bit"),
 )  # fmt: skip

@@ -424,8 +424,9 @@ class Owned:
         self.wrote: list[tuple[object, object]] = []
         for name, value in {"UnitAddress": 1, "Enable": True, "SpeedReferenceHz": 25.0, "MaximumHz": 50.0}.items():
             self.motor[name] = value
-        if "REFERENCESCALE" in self.motor.state():
-            self.motor["ReferenceScale"] = 100.0
+        for name, number in {"ReferenceScale": 100.0, "FullScaleHz": 50.0}.items():
+            if name.upper() in self.motor.state():
+                self.motor[name] = number
 
     def scan(self, scans: int, **pins: bool) -> None:
         """Scans with some pins; keeps each register that is written with its word."""

@@ -23,6 +23,18 @@ static float real(uint32_t pattern)
     return value;
 }
 
+enum { PINS = 4 };
+
+/* What a reference block is given: SpeedReferenceHz, MaximumHz, FullScaleHz, ReferenceScale. */
+typedef struct {
+    float asked, most, whole, scale;
+} Pins;
+
+static Pins pins_of(const uint32_t bits[PINS])
+{
+    return (Pins){real(bits[0]), real(bits[1]), real(bits[2]), real(bits[3])};
+}
+
 /* What a reference block answers. */
 typedef struct {
     uint16_t error, value;
@@ -36,6 +48,6 @@ typedef struct {
 typedef struct {
     const char *name;
     int (*standstill)(const char *, int);
-    int (*sweep)(int, uint32_t[3], uint32_t, uint32_t, uint32_t);
+    int (*sweep)(int, uint32_t[PINS], uint32_t, uint32_t, uint32_t);
     int (*patterns)(void);
 } Family;

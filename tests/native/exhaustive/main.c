@@ -13,8 +13,11 @@ static int by_family(const Family *family, char **argument)
         to = fopen(argument[4], "wb");
         return family->patterns() | fclose(to);
     }
-    uint32_t pins[3] = {pattern(argument[4]), pattern(argument[5]), pattern(argument[6])};
-    return family->sweep(atoi(argument[3]), pins, pattern(argument[7]), pattern(argument[8]), pattern(argument[9]));
+    uint32_t bits[PINS];
+    for (int pin = 0; pin < PINS; pin++)
+        bits[pin] = pattern(argument[4 + pin]);
+    char **range = argument + 4 + PINS;
+    return family->sweep(atoi(argument[3]), bits, pattern(range[0]), pattern(range[1]), pattern(range[2]));
 }
 
 int main(int count, char **argument)
@@ -22,7 +25,7 @@ int main(int count, char **argument)
     if (count == 3 && strcmp(argument[1], "checksums") == 0)
         return checksums(atoi(argument[2]));
     for (const Family *family = FAMILIES; count > 3 && family->name != NULL; family++)
-        if (strcmp(family->name, argument[2]) == 0 && count == (strcmp(argument[1], "sweep") == 0 ? 10 : 5))
+        if (strcmp(family->name, argument[2]) == 0 && count == (strcmp(argument[1], "sweep") == 0 ? 7 + PINS : 5))
             return by_family(family, argument);
     for (const Permitting *one = PERMITTING; count == 4 && one->name != NULL; one++)
         if (strcmp(one->name, argument[2]) == 0 && strcmp(argument[1], "permission") == 0)

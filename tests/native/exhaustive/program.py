@@ -32,7 +32,7 @@ SCANS: tuple[scan.AnyScan, ...] = (
     *requests.SCANS,
     *replies.SCANS,
 )
-RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM")
+RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM", "NO_FULL_SCALE")
 
 
 def text() -> str:

@@ -1,7 +1,7 @@
 /* FAMILY_Reference against the rule in exact arithmetic.
  *
- * The count of a reference is asked * TIMES * scale / (BY * maximum), where the scale is there only HAS_SCALE and the
- * maximum only PERCENT. A double holds numerator and denominator exactly: 24 bits of a REAL, or 48 of two, and few more.
+ * The count of a reference is asked * TIMES * scale / (BY * whole), where the scale is there only HAS_SCALE and the
+ * whole, which is FullScaleHz, only PERCENT. A double holds numerator and denominator exactly: 24 bits of a REAL, or 48 of two, and few more.
  * The word is the count rounded half up, at most HIGHEST. Single precision may round a count that is within 2^-21 of
  * itself beside a half to the other side; `beside` counts those. */
 typedef struct {
@@ -9,25 +9,28 @@ typedef struct {
     int limited;
 } NAME(Count);
 
-static NAME(Count) NAME(count)(float asked, float most, float scale)
+static NAME(Count) NAME(count)(const Pins *pins)
 {
-    NAME(Count) count = {.limited = asked > most};
-    count.above = (double)(count.limited ? most : asked) * TIMES * (HAS_SCALE ? (double)scale : 1);
-    count.below = (PERCENT ? (double)most : 1) * BY;
+    const float limit = pins->whole > 0 && pins->whole < pins->most ? pins->whole : pins->most;
+    NAME(Count) count = {.limited = pins->asked > limit};
+    count.above = (double)(count.limited ? limit : pins->asked) * TIMES * (HAS_SCALE ? (double)pins->scale : 1);
+    count.below = (PERCENT ? (double)pins->whole : 1) * BY;
     return count;
 }
 
 /* The error that the pins must give; 0 without. */
-static unsigned NAME(refusal)(float asked, float most, float scale)
+static unsigned NAME(refusal)(const Pins *pins)
 {
     const float largest = 1.0e30f;
-    if (!(asked >= -largest && asked <= largest))
+    if (!(pins->asked >= -largest && pins->asked <= largest))
         return NOT_A_NUMBER;
-    if (!(most >= 0.1f && most <= 10000.0f))
+    if (!(pins->most >= 0.1f && pins->most <= 10000.0f))
         return NO_MAXIMUM;
-    if (HAS_SCALE && !(scale > 0 && scale <= 1.0e6f))
+    if (!(pins->whole >= 0.1f && pins->whole <= 10000.0f) && (PERCENT || pins->whole != 0))
+        return NO_FULL_SCALE;
+    if (HAS_SCALE && !(pins->scale > 0 && pins->scale <= 1.0e6f))
         return NO_SCALE;
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     return 2 * count.above < -count.below ? NEGATIVE : 0;
 }
 
@@ -55,12 +58,12 @@ static int NAME(is_rounded)(const NAME(Count) *count, unsigned word)
            (2.0 * word + 1) * count->below > 2 * count->above;
 }
 
-static Encoded NAME(rule)(float asked, float most, float scale)
+static Encoded NAME(rule)(const Pins *pins)
 {
-    Encoded wanted = {.error = NAME(refusal)(asked, most, scale), .address_is_right = 1};
+    Encoded wanted = {.error = NAME(refusal)(pins), .address_is_right = 1};
     if (wanted.error)
         return wanted;
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     wanted.value = NAME(rounded)(&count);
     wanted.limited = count.limited || count.above > HIGHEST * count.below;
     return wanted;
@@ -68,12 +71,13 @@ static Encoded NAME(rule)(float asked, float most, float scale)
 
 static NAME(REFERENCE) NAME(block);
 
-static Encoded NAME(encode)(float asked, float most, float scale)
+static Encoded NAME(encode)(const Pins *pins)
 {
-    NAME(block).SPEEDREFERENCEHZ.value = asked;
-    NAME(block).MAXIMUMHZ.value = most;
+    NAME(block).SPEEDREFERENCEHZ.value = pins->asked;
+    NAME(block).MAXIMUMHZ.value = pins->most;
+    NAME(block).FULLSCALEHZ.value = pins->whole;
 #if HAS_SCALE
-    NAME(block).REFERENCESCALE.value = scale;
+    NAME(block).REFERENCESCALE.value = pins->scale;
 #endif
     NAME(REFERENCE_body__)(&NAME(block));
     return (Encoded){NAME(block).ERRORID.value, NAME(block).VALUE.value, NAME(block).LIMITED.value,
@@ -81,38 +85,38 @@ static Encoded NAME(encode)(float asked, float most, float scale)
 }
 
 /* Whether another word than the exact one is as good: the count is beside the half between them. */
-static int NAME(beside)(unsigned found, unsigned wanted, float asked, float most, float scale)
+static int NAME(beside)(unsigned found, unsigned wanted, const Pins *pins)
 {
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     double half = (double)found + wanted;
     return (found == wanted + 1 || wanted == found + 1) &&
            fabs(2 * count.above - half * count.below) <= 2 * count.above * 0x1p-21;
 }
 
 /* Whether the count is so near the highest word that single precision cannot say if it is above. */
-static int NAME(at_the_end)(float asked, float most, float scale)
+static int NAME(at_the_end)(const Pins *pins)
 {
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     return fabs(count.above - HIGHEST * count.below) <= count.above * 0x1p-21;
 }
 
 /* Whether the count is so near half a count below zero that single precision cannot say if it is below. */
-static int NAME(at_zero)(float asked, float most, float scale)
+static int NAME(at_zero)(const Pins *pins)
 {
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     return count.above < 0 && fabs(2 * count.above + count.below) <= count.below * 0x1p-21;
 }
 
 /* Whether the answer is what the rule says, or as good; `beside` counts the latter. */
-static int NAME(is_right)(Swept *swept, const Encoded *found, float asked, float most, float scale)
+static int NAME(is_right)(Swept *swept, const Encoded *found, const Pins *pins)
 {
-    unsigned error = NAME(refusal)(asked, most, scale);
+    unsigned error = NAME(refusal)(pins);
     if (error || found->error) {
-        int either = (error ? error : found->error) == NEGATIVE && NAME(at_zero)(asked, most, scale);
+        int either = (error ? error : found->error) == NEGATIVE && NAME(at_zero)(pins);
         swept->beside += either && found->error != error;
         return (found->error == error || either) && found->value == 0 && !found->limited && found->address_is_right;
     }
-    NAME(Count) count = NAME(count)(asked, most, scale);
+    NAME(Count) count = NAME(count)(pins);
     int limited = count.limited || count.above > HIGHEST * count.below;
     swept->words++;
     if (found->limited == limited && NAME(is_rounded)(&count, found->value))
@@ -120,33 +124,33 @@ static int NAME(is_right)(Swept *swept, const Encoded *found, float asked, float
     swept->beside++;
     unsigned wanted = NAME(rounded)(&count);
     return found->address_is_right &&
-           (found->value == wanted || NAME(beside)(found->value, wanted, asked, most, scale)) &&
-           (found->limited == limited || NAME(at_the_end)(asked, most, scale));
+           (found->value == wanted || NAME(beside)(found->value, wanted, pins)) &&
+           (found->limited == limited || NAME(at_the_end)(pins));
 }
 
-static void NAME(judge)(Swept *swept, const Encoded *found, float asked, float most, float scale)
+static void NAME(judge)(Swept *swept, const Encoded *found, const Pins *pins)
 {
     swept->cases++;
-    if (NAME(is_right)(swept, found, asked, most, scale) || swept->wrong++ >= 5)
+    if (NAME(is_right)(swept, found, pins) || swept->wrong++ >= 5)
         return;
-    Encoded wanted = NAME(rule)(asked, most, scale);
-    printf("difference %a of %a by %a: %u %u %u, not %u %u %u\n", asked, most, scale, found->error, found->value,
-           found->limited, wanted.error, wanted.value, wanted.limited);
+    Encoded wanted = NAME(rule)(pins);
+    printf("difference %a below %a of %a by %a: %u %u %u, not %u %u %u\n", pins->asked, pins->most, pins->whole,
+           pins->scale, found->error, found->value, found->limited, wanted.error, wanted.value, wanted.limited);
 }
 
-/* `sweep FAMILY PIN ASKED MOST SCALE FIRST LAST STEP`: PIN 0, 1 or 2 goes through the bit patterns FIRST to LAST, the
- * others keep theirs. Where the reference itself goes up, its word must not fall; `reached` counts the words. */
-static int NAME(sweep)(int pin, uint32_t pins[3], uint32_t first, uint32_t last, uint32_t step)
+/* `sweep FAMILY PIN ASKED MOST WHOLE SCALE FIRST LAST STEP`: PIN 0 to 3 goes through the bit patterns FIRST to LAST,
+ * the others keep theirs. Where the reference itself goes up, its word must not fall; `reached` counts the words. */
+static int NAME(sweep)(int pin, uint32_t bits[PINS], uint32_t first, uint32_t last, uint32_t step)
 {
     static uint8_t seen[65536];
     Swept swept = {0};
     unsigned before = 0, reached = 0;
     START_NAMED(NAME(REFERENCE), NAME(block));
     for (uint64_t pattern = first; pattern <= last; pattern += step) {
-        pins[pin] = pattern;
-        float asked = real(pins[0]), most = real(pins[1]), scale = real(pins[2]);
-        Encoded found = NAME(encode)(asked, most, scale);
-        NAME(judge)(&swept, &found, asked, most, scale);
+        bits[pin] = pattern;
+        const Pins pins = pins_of(bits);
+        Encoded found = NAME(encode)(&pins);
+        NAME(judge)(&swept, &found, &pins);
         if (found.error)
             continue;
         reached += !seen[found.value];
@@ -159,18 +163,18 @@ static int NAME(sweep)(int pin, uint32_t pins[3], uint32_t first, uint32_t last,
     return swept.wrong + swept.falling != 0;
 }
 
-/* `patterns FAMILY IN OUT`: records of three patterns; what the block and what the rule answer, and the judgement. */
+/* `patterns FAMILY IN OUT`: records of four patterns; what the block and what the rule answer, and the judgement. */
 static int NAME(patterns)(void)
 {
     Swept swept = {0};
-    uint32_t pins[3];
+    uint32_t bits[PINS];
     START_NAMED(NAME(REFERENCE), NAME(block));
     while (more()) {
-        TAKE(pins);
-        float asked = real(pins[0]), most = real(pins[1]), scale = real(pins[2]);
-        Encoded found = NAME(encode)(asked, most, scale), wanted = NAME(rule)(asked, most, scale);
-        NAME(judge)(&swept, &found, asked, most, scale);
-        NAME(judge)(&swept, &wanted, asked, most, scale);
+        TAKE(bits);
+        const Pins pins = pins_of(bits);
+        Encoded found = NAME(encode)(&pins), wanted = NAME(rule)(&pins);
+        NAME(judge)(&swept, &found, &pins);
+        NAME(judge)(&swept, &wanted, &pins);
         GIVE(found);
         GIVE(wanted);
     }

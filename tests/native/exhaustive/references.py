@@ -16,8 +16,11 @@ from driveblocks.maps.model import Drive
 from driveblocks.reference.single import nearest, stored
 from driveblocks.reference.speed import SpeedReference
 
-SPEED, MAXIMUM, SCALE = range(3)
+SPEED, MAXIMUM, FULL, SCALE = range(4)
 """The pins, as the driver counts them."""
+
+Patterns = tuple[int, int, int, int]
+"""The bits of all pins."""
 
 REAL_BITS, DOUBLE_BITS = 24, 53
 """Digits of the significands, IEEE 754."""
@@ -30,27 +33,31 @@ INFINITY = 0x7F800000
 
 @dataclass(frozen=True)
 class Sweep:
-    """A pin that goes through all REALs while the others keep their values in Hz, Hz and counts per Hz."""
+    """A pin that goes through all REALs while the others keep their values in Hz, and the last in counts per Hz."""
 
     prefix: str
     pin: int
     speed: float = 0.0
     maximum: float = 10000.0
+    full: float = 0.0
     scale: float = 0.0
 
     def run(self, bench: Bench, first: int, last: int, step: int) -> Finding:
         """Bit patterns `first` to `last`, each `step`-th."""
-        pins = [f"{pattern(value):08X}" for value in (self.speed, self.maximum, self.scale)]
+        pins = [f"{pattern(value):08X}" for value in (self.speed, self.maximum, self.full, self.scale)]
         return bench.command("sweep", self.prefix, self.pin, *pins, f"{first:X}", f"{last:X}", f"{step:X}")
 
 
 SWEEPS = {
     "reference-SN300G5-speed": Sweep("SN300G5", SPEED),
     "reference-SN300G5-maximum": Sweep("SN300G5", MAXIMUM, speed=37.21),
-    "reference-CHF-speed": Sweep("CHF", SPEED, maximum=50.0),
-    "reference-CHF-maximum": Sweep("CHF", MAXIMUM, speed=37.21),
+    "reference-SN300G5-full": Sweep("SN300G5", FULL, speed=37.21),
+    "reference-CHF-speed": Sweep("CHF", SPEED, full=50.0),
+    "reference-CHF-maximum": Sweep("CHF", MAXIMUM, speed=37.21, full=50.0),
+    "reference-CHF-full": Sweep("CHF", FULL, speed=37.21),
     "reference-JSCC-speed": Sweep("JSCC", SPEED, scale=100.0),
     "reference-JSCC-maximum": Sweep("JSCC", MAXIMUM, speed=37.21, scale=16.7),
+    "reference-JSCC-full": Sweep("JSCC", FULL, speed=37.21, scale=16.7),
     "reference-JSCC-scale": Sweep("JSCC", SCALE, speed=37.21),
 }
 
@@ -119,19 +126,17 @@ def words(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
         yield from _judged(benches, prefix, pins, [*counts])
 
 
-def _around(model: SpeedReference, count: int) -> Iterator[tuple[int, int, int]]:
+def _around(model: SpeedReference, count: int) -> Iterator[Patterns]:
     """The REAL nearest to a count, then those on both sides of the half below and of the half above it."""
-    maximum, scale = (50.0 if model.percent else 10000.0), (100.0 if model.factor is None else 0.0)
-    step = (model.factor or Fraction(1, 100)) * (Fraction(maximum) / 100 if model.percent else 1)
+    full, scale = (50.0 if model.percent else 0.0), (100.0 if model.factor is None else 0.0)
+    step = (model.factor or Fraction(1, 100)) * (Fraction(full) / 100 if model.percent else 1)
     for part in (Fraction(0), Fraction(-1, 2), Fraction(1, 2)):
         at = pattern(nearest(max(step * (count + part), Fraction(0))))
         for near in range(max(at - 2, 0), at + 3) if part else (at,):
-            yield near, pattern(maximum), pattern(scale)
+            yield near, pattern(10000.0), pattern(full), pattern(scale)
 
 
-def _judged(
-    benches: Sequence[Bench], prefix: str, pins: list[tuple[int, int, int]], counts: list[int]
-) -> Iterator[Finding]:
+def _judged(benches: Sequence[Bench], prefix: str, pins: list[Patterns], counts: list[int]) -> Iterator[Finding]:
     """The driver's judgement, and whether every count was given at all."""
     for bench in benches:
         found, answers = _patterns(bench, prefix, pins)
@@ -144,13 +149,11 @@ Answered = tuple[int, int, bool, bool]
 """Error, word, limited, and whether the register is right."""
 
 
-def _patterns(
-    bench: Bench, prefix: str, pins: list[tuple[int, int, int]]
-) -> tuple[Finding, list[tuple[Answered, Answered]]]:
+def _patterns(bench: Bench, prefix: str, pins: list[Patterns]) -> tuple[Finding, list[tuple[Answered, Answered]]]:
     """What the block and what the driver's rule answer."""
     with tempfile.TemporaryDirectory() as folder:
         given, answered = Path(folder, "in"), Path(folder, "out")
-        given.write_bytes(b"".join(struct.pack("=3I", *each) for each in pins))
+        given.write_bytes(b"".join(struct.pack("=4I", *each) for each in pins))
         finding = bench.command("patterns", prefix, given, answered)
         rows = struct.iter_unpack("=HH??HH??", answered.read_bytes())
         return finding, [(row[:4], row[4:]) for row in rows]
@@ -167,7 +170,7 @@ def rules(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
             yield _ruled(bench, SpeedReference(drive), prefix, pins)
 
 
-def _ruled(bench: Bench, model: SpeedReference, prefix: str, pins: list[tuple[int, int, int]]) -> Finding:
+def _ruled(bench: Bench, model: SpeedReference, prefix: str, pins: list[Patterns]) -> Finding:
     finding, answers = _patterns(bench, prefix, pins)
     wrong = []
     for each, (_, rule) in zip(pins, answers, strict=True):
@@ -177,7 +180,7 @@ def _ruled(bench: Bench, model: SpeedReference, prefix: str, pins: list[tuple[in
     return Finding(bench.line, len(pins), len(wrong) + finding.wrong, (*finding.examples, *wrong[:5]), finding.note)
 
 
-def _tried(model: SpeedReference, several: int) -> Iterator[tuple[int, int, int]]:
+def _tried(model: SpeedReference, several: int) -> Iterator[Patterns]:
     edges = [
         0.0,
         1.0e-45,
@@ -200,18 +203,20 @@ def _tried(model: SpeedReference, several: int) -> Iterator[tuple[int, int, int]
     near += [INFINITY - 1, INFINITY, INFINITY + 1]
     both = [*near, *(bits | 0x80000000 for bits in near)]
     scales = near[::3] if model.factor is None else [0]
-    yield from itertools.product(both, [*near[::6], pattern(-1.0)], scales)
+    yield from itertools.product(both, [*near[::6], pattern(-1.0)], [0, pattern(50.0)], scales)
+    yield from itertools.product(near[::5], near[::6], [*near[::4], pattern(-0.0), pattern(-1.0)], scales[-12::4])
     chance = random.Random(model.address)
     for _ in range(several):
-        yield chance.randrange(1 << 32), chance.randrange(1 << 32), chance.randrange(1 << 32)
+        yield chance.randrange(1 << 32), chance.randrange(1 << 32), chance.randrange(1 << 32), chance.randrange(1 << 32)
         yield from _around_half(model, chance)
 
 
-def _around_half(model: SpeedReference, chance: random.Random) -> Iterator[tuple[int, int, int]]:
-    """A frequency within two REALs of a half between two words, with a maximum and a scale by chance."""
-    maximum, scale = stored(chance.uniform(10.0, 400.0)), stored(chance.uniform(0.5, 150.0))
+def _around_half(model: SpeedReference, chance: random.Random) -> Iterator[Patterns]:
+    """A frequency within two REALs of a half between two words, with a maximum, a full scale and a scale by chance."""
+    maximum, full = stored(chance.uniform(10.0, 400.0)), stored(chance.uniform(10.0, 400.0))
+    scale = stored(chance.uniform(0.5, 150.0))
     half = chance.randrange(model.highest) + Fraction(1, 2)
     unit = model.factor if model.factor is not None else 1 / Fraction(scale)
-    at = nearest(half * unit * (Fraction(maximum) / 100 if model.percent else 1))
+    at = nearest(half * unit * (Fraction(full) / 100 if model.percent else 1))
     for step in (-2, -1, 0, 1, 2):
-        yield pattern(at) + step, pattern(maximum), pattern(scale)
+        yield pattern(at) + step, pattern(maximum), pattern(full), pattern(scale)

@@ -105,6 +105,7 @@ FAULTS = {
     "JSCC_Reply": ("WordCount := Parse.WordCount;", "WordCount := 0;", "the number of words is wrong"),
     "JSCC_Reference": ("NOT Number THEN", "NOT Number AND (MaximumHz < 0.0) THEN", "what is no number is taken"),
     "CHF_Reference": ("(MaximumHz >= LEAST)", "(MaximumHz >= 0.0)", "there is no maximum"),
+    "SN300G5_Reference": ("NOT Full AND NOT Without THEN", "FALSE THEN", "there is no full scale"),
     "JSCC_Command": ("Halted := Stop OR QuickStop", "Halted := Stop", "a stop does not win"),
     "CHF_DriveStatus": ("Fault := Value", "Fault := Fault OR Value", "FAULT depends on the past"),
     "SN300G5_FaultNumber": ("Rest := SHR(Rest, 1) AND WORD#16#7FFF;", "Count := 0;", "a scan does not end"),

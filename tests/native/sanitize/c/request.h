@@ -87,9 +87,10 @@ static const char *MB_HEXDIGIT_right(UINT number, BYTE result)
     return digit_value(result) == number % 16 && MB_HEXVALUE_call(result) == number % 16 ? NULL : "the digit is wrong";
 }
 
-/* References: what is no number, infinite or negative is refused, and everything without a maximum; 0.0 and -0.0 are a
- * standstill, and what is below them gives no other word. */
-static const char *check_reference(float hertz, float maximum, unsigned value, unsigned limited, unsigned error)
+/* References: what is no number, infinite or negative is refused, and everything without a maximum or with a full scale that
+ * makes no sense; 0.0 and -0.0 are a standstill, and what is below them gives no other word. */
+static const char *check_reference(float hertz, float maximum, float full, unsigned value, unsigned limited,
+                                   unsigned error)
 {
     if (error && (value || limited))
         return "a value in spite of an error";
@@ -97,6 +98,8 @@ static const char *check_reference(float hertz, float maximum, unsigned value, u
         return "what is no number is taken";
     if (isfinite(hertz) && !(maximum >= 0.1f && maximum <= 10000.0f) && error != 17 && error != 12)
         return "there is no maximum";
+    if (!(full >= 0.1f && full <= 10000.0f) && full != 0.0f && error != 19 && error != 17 && error != 12)
+        return "there is no full scale";
     if (isfinite(hertz) && hertz < 0.0f && value)
         return "a negative reference is taken";
     if (hertz >= 0.0f && hertz <= 1.0e30f && (error == 12 || error == 13))
@@ -107,7 +110,8 @@ static const char *check_reference(float hertz, float maximum, unsigned value, u
 #define REFERENCE_BLOCK(NAME)                                                                                          \
     static const char *NAME##_right(const NAME *x, const NAME *was)                                                    \
     {                                                                                                                  \
-        return check_reference(was->SPEEDREFERENCEHZ.value, was->MAXIMUMHZ.value, x->VALUE.value, x->LIMITED.value, x->ERRORID.value);       \
+        return check_reference(was->SPEEDREFERENCEHZ.value, was->MAXIMUMHZ.value, was->FULLSCALEHZ.value,              \
+                               x->VALUE.value, x->LIMITED.value, x->ERRORID.value);                                    \
     }
 
 /* Commands: a stop wins over every motion; forward and reverse together are a stop and an error, and a run that is not
