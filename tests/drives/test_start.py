@@ -295,8 +295,7 @@ def test_a_short_dip_of_the_supply_starts_nothing(kind: str) -> None:
     bench.run(8000)
     frames = bench.frames[before:]
     assert not motions(bench, frames)
-    frames = bench.frames[noticed:]
-    assert not sent(bench, frames, "reference")
+    assert not sent(bench, bench.frames[noticed:], "reference")
     assert sent(bench, frames, "stop")
     assert bench.shows("StopConfirmed")
     assert bench.reason() == "BY_ITSELF"
