@@ -5,6 +5,7 @@ import re
 from tests.export.stock import canon, made
 
 from driveblocks.export import CANONICAL, TARGETS
+from driveblocks.maps.rules import identifier
 from driveblocks.render import library
 from driveblocks.st.reserved import TARGET_WORDS
 
@@ -27,3 +28,15 @@ def test_no_platform_has_a_name_of_the_library_or_twice_in_one_line_of_sight() -
             names = [name.upper() for name in DECLARED.findall(file.text)]
             assert len(names) == len(set(names)) > 0, file.path
             assert not {*names} & {*outer, *known}, file.path
+
+
+def test_no_family_may_begin_its_names_as_we_do() -> None:
+    """A map with the prefix VFD would make a VFD_Drive beside VFD_HardStop."""
+    ours = {*canon(), *(name for platform in library.PLATFORMS for name in adapters(platform))}
+    drives = tuple(f"{drive.prefix}_" for drive in made().drives.values())
+    assert {name.partition("_")[0] for name in ours if not name.startswith(drives)} == set(identifier.LIBRARY)
+
+
+def adapters(platform: str) -> set[str]:
+    """The names of a platform's own blocks."""
+    return {name for file in library.adapter(platform, []) for name in OUTER.findall(file.text)}

@@ -9,7 +9,7 @@ from driveblocks.maps.model import Bit, Drive, Register, Value
 from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Report
 
-_LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
+LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
 """Prefixes of the blocks that every drive shares, of the harness of the tests, and of the platforms' adapters."""
 
 OWN_NAMES = (
@@ -86,7 +86,7 @@ def _prefix(drive: Drive, report: Report) -> bool:
     """Whether the prefix spoils none of the names that every drive has."""
     made = (names.block(drive.prefix, name) for name in OWN_NAMES)
     wrong = next((f"the block name {each} {why}" for each in made if (why := names.wrong_block(each))), None)
-    if drive.prefix in _LIBRARY:
+    if drive.prefix in LIBRARY:
         wrong = f"the prefix {drive.prefix} is the library's own"
     if wrong:
         report.add(drive.place("prefix"), wrong, "choose another prefix")
