@@ -226,14 +226,25 @@ def test_what_a_refused_reference_and_run_say(does: str) -> None:
     assert bench.shows("StopConfirmed")
 
 
+def test_a_run_that_is_obeyed_without_an_answer_runs() -> None:
+    """The status says that it was heard, so it is not repeated."""
+    bench = watched("CHF").stopped()
+    bench.spoil = lambda frame, reply: None if sent(bench, [frame], "run_forward") else reply
+    edge(bench)
+    bench.run(6000)
+    assert bench.shows("AtSpeed")
+    assert not motions(bench, bench.run(3000))
+
+
 def test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed() -> None:
     bench = watched("CHF").stopped()
+    bench.drives[0].follows = False
     bench.spoil = lambda frame, reply: None if sent(bench, [frame], "run_forward") else reply
     edge(bench)
     frames = bench.run(6000)
     assert len(motions(bench, frames)) >= 2
-    last = motions(bench, frames)[-1]
-    assert sent(bench, frames[frames.index(last) :], "stop")
+    last = frames.index(motions(bench, frames)[-1])
+    assert sent(bench, frames[last:], "stop")
     assert bench.shows("StopConfirmed")
     assert bench.drives[0].mode == "standing"
     assert bench.reason() == "NO_RUN"
