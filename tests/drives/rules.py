@@ -24,6 +24,8 @@ UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 LEFT_US = 1_050_000
 """A block that was not called for so long: the line has stopped its drive."""
+BOOT_MS = 10_000
+"""BootMs where it is 0."""
 ONLY_READS = 5
 """The state in which a block has stopped its drive and only reads."""
 
@@ -91,6 +93,10 @@ class Observer:
     """When the drive last acknowledged a stop."""
     frames: int = 0
     acknowledged: int = 0
+    heard: int = 0
+    boots_us: int = 1000 * BOOT_MS
+    moved: bool = True
+    """It may have moved since standstill was proved."""
 
     def __post_init__(self) -> None:
         """Begin to watch."""
@@ -261,8 +267,21 @@ class Observer:
         self.stopping_us = self.stopping_us + 1000 * self.bench.ms if self.idle else 0
         within = pins["StopWithinMs"]
         assert isinstance(within, int)
+        self.moved = not shows["StopConfirmed"] and (self.moved or shows["Running"] or self.commanded)
+        self.moved |= bool(self.bench.line_pins.get("Restart") or self.bench.elapsed > 1000)
+        if self._boots(pins) or not self.moved:
+            return  # proved, and nothing posted since: its answer ends the stop, and proof outlives silence
         if self.stopping_us > 1000 * within + 1_500_000 and not shows["StopOverdue"]:
             self.fail(f"neither StopConfirmed nor StopOverdue for {self.stopping_us // 1000} ms")
+
+    def _boots(self, pins: dict[str, Value]) -> bool:
+        """Whether its silence is no alarm yet: no read was answered since power-up, a restart, or the return of its supply."""
+        if self.bench.line_pins.get("Restart") or self.bench.elapsed > 1000 or pins.get("SupplyOff"):
+            self.boots_us = self.bench.now + 1000 * BOOT_MS
+        elif any(frame.read and frame.unit == self.drive + 1 for frame in self.bench.acknowledged[self.heard :]):
+            self.boots_us = 0
+        self.heard = len(self.bench.acknowledged)
+        return self.bench.now < self.boots_us + 1_500_000
 
 
 def watched(*types: str, start: bool = True, **options: object) -> Bench:
