@@ -275,7 +275,7 @@ class Observer:
             self.fail(f"neither StopConfirmed nor StopOverdue for {self.stopping_us // 1000} ms")
 
     def _boots(self, pins: dict[str, Value]) -> bool:
-        """Whether its silence is no alarm yet: no read was answered since power-up, a restart, or the return of its supply."""
+        """Whether its silence is no alarm yet: no read was answered since power-up, or since its supply is back."""
         if self.bench.line_pins.get("Restart") or self.bench.elapsed > 1000 or pins.get("SupplyOff"):
             self.boots_us = self.bench.now + 1000 * BOOT_MS
         elif any(frame.read and frame.unit == self.drive + 1 for frame in self.bench.acknowledged[self.heard :]):
