@@ -280,7 +280,7 @@ def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
 @every_family
 def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
     story, drive = Story(family), shipped()[family]
-    story.run(2000)
+    story.run(3500)
     story.run(6000, StartSwitch=True)
     story.run(4000, StartSwitch=False)
     # status and frequency may come by different reads; a drive that has just left off running is then not proved yet

@@ -118,7 +118,7 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
             port.scan()
         return [program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
 
-    assert run(2000) == [True, False, False]
+    assert run(3500) == [True, False, False]
     program["ResetButton"] = True
     assert run(10) == [True, False, True]
     program["ResetButton"] = False

@@ -269,7 +269,7 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive() -> None:
             port.scan()
         return [terminal.program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
 
-    assert run(2000) == [True, False, False]
+    assert run(3500) == [True, False, False]
     terminal.program["ResetButton"] = True
     assert run(SCAN_MS) == [True, False, True]
     terminal.program["ResetButton"] = False
