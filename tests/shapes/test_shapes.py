@@ -168,7 +168,7 @@ def test_show_tells_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     assert "identity 2003H = 786 (table 2)" in page
     for shape, says in (
         ("profidrive", "cable cut the motor coasts; after 2003H x 1 ms; fed by a written reference (section 1)"),
-        ("pulse", "stops by the quick stop; fed by a read; the manual does not say after how long (section 1)"),
+        ("pulse", "the motor stops quickly; fed by a read; the manual does not say after how long (section 1)"),
         ("two_registers", "the motor ramps down; fed by a written run command; the manual does not say after how long"),
         ("active_low", "cable cut the manual does not say: count on a motor that runs on"),
         ("active_low", "trip the manual does not say whether the motor coasts or is ramped down"),
