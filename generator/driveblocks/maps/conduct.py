@@ -15,7 +15,7 @@ _FEEDS = {
 }  # fmt: skip
 _TRIPS = {
     "coasts": "the output is switched off and the motor coasts", "ramps": "the motor is decelerated",
-    "differs": "differs",
+    "differs": "the motor coasts or is decelerated, by the fault or a setting",
 }  # fmt: skip
 
 
@@ -58,7 +58,7 @@ def trip(drive: Drive) -> str:
     output = drive.faults.trip_output
     if output is None:
         return UNKNOWN + " whether the motor coasts or is ramped down"
-    return f"{_TRIPS[output.motor]}{f', {output.note}' if output.note else ''}"
+    return f"{_TRIPS[output.motor]}{f'; {output.note}' if output.note else ''}"
 
 
 def in_command(drive: Drive) -> str:
