@@ -34,7 +34,7 @@ def test_a_good_map_is_said_to_be_good_with_what_it_holds(good: str) -> None:
     result = CliRunner().invoke(app, ["check", good])
     assert result.exit_code == 0
     assert result.stdout.splitlines() == [
-        "good.yaml: good: 26 registers, 17 bits, 13 enum values, 4 settings, 4 faults, 4 errors, 9 frames, "
+        "good.yaml: good: 27 registers, 17 bits, 13 enum values, 4 settings, 4 faults, 4 errors, 9 frames, "
         "8 errata, 2 absent",
         "1 map good",
     ]

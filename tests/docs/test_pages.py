@@ -10,11 +10,13 @@ from xml.etree import ElementTree as ET
 import pytest
 from tests.blocks.library import BLOCKS, built, shipped, sources
 from tests.examples.port import Port
+from tests.shapes import shapes
 
 from driveblocks.docs import timing
 from driveblocks.docs.page import documents
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Engine, Instance, Source
+from driveblocks.maps.model import Drive
 from driveblocks.render.library import PLATFORMS, first_motor, generic
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.reasons import REASONS, STATES
@@ -117,6 +119,33 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
     assert f"ManualChecked := 0, (* {needed} once" in text
     assert "| **`ManualChecked`** | UINT |" in text
     assert not any("ManualChecked :=" in page(family) for family in FAMILIES)
+
+
+def by_itself(drive: Drive) -> dict[str, str]:
+    """What the generated page of a drive says that it does by itself, by what happens."""
+    files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]
+    text = documents(files, [drive])[f"docs/{drive.prefix}_Drive.md"]
+    section = text.partition("\n### What the drive does by itself\n")[2].partition("\n#")[0]
+    return dict(re.findall(r"^\| ([A-Z][^|]*) \| (.*) \|$", section, re.MULTILINE))
+
+
+def test_the_page_says_what_a_drive_does_by_itself_and_what_the_manual_does_not_say() -> None:
+    said = by_itself(shipped()["SN300G5"])
+    assert list(said) == [
+        "The cable is cut", "The drive trips", "The bus is in command", "The drive is of this family",
+        "Its own maximum frequency",
+    ]  # fmt: skip
+    cut, trips, *rest = said.values()
+    for words in ("1 emergency stop (factory): the motor stops quickly", "2 coast stop: the motor coasts"):
+        assert words in cut
+    for words in ("H5-05 = 0: the motor runs on", "does not say after how long nor what feeds", "more than 2 s before"):
+        assert words in cut
+    assert trips == "The manual does not say whether the motor coasts or is ramped down."
+    assert all(each.startswith("The manual does not say") for each in rest)
+    assert list(by_itself(shapes()["cia402"]).values())[1:] == [
+        "The output is switched off and the motor coasts.", "While 2000H bit 9 = 1.", "2003H = 786.",
+        "2004H (P1.08) x 0.1 Hz.",
+    ]  # fmt: skip
 
 
 @every_family

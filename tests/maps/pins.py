@@ -469,6 +469,10 @@ def _present(document: Document, _: Path, new: str) -> bool:
     return not any(number(new) in addresses(text) for text in document.root["faults"]["registers"])
 
 
+def _watched(document: Document, _: Path, new: str) -> bool:
+    return number(new) not in {number(one["code"]) for one in document.root["faults"]["codes"]}
+
+
 def _equals(document: Document, path: Path, new: str) -> bool:
     """A number that its bits cannot hold, or that the register does not list, or that it calls turning."""
     condition = document.at(path[:-1])
@@ -492,6 +496,9 @@ _REFERENCES = (
     "operation.standstill.all[].register",
     "operation.status[].any[].register",
     "operation.measures[].register",
+    "operation.commanded_by.all[].register",
+    "identity.all[].register",
+    "watchdog.time.register",
     "sections[].registers[].scale.when.register",
     "faults.registers[]",
     "faults.bits.first",
@@ -516,6 +523,7 @@ _ALWAYS = (
     "operation.commands[].set[]",
     "storage.method",
     "settings[].register",
+    "watchdog.reactions[].value",
     *(f"frames[].means.{key}" for key in _MEANS),
 )
 PINS: dict[str, Pin] = {
@@ -548,6 +556,7 @@ PINS: dict[str, Pin] = {
     "operation.status[].shows": _shows,
     "operation.measures[].shows": _shows,
     "faults.present": _present,
+    "watchdog.fault": _watched,
     "settings[].id": _setting_id,
     "settings[].values[].value": _setting_value,
     "settings[].needed.value": _needed,

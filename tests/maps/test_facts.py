@@ -109,6 +109,22 @@ def test_what_the_manual_asks_for_is_a_notice(drive: str, about: str, chinese: s
     assert any(chinese in zh and english in en for zh, en in said), said
 
 
+@pytest.mark.parametrize("drive", DRIVES)
+def test_what_a_drive_does_by_itself_and_says_of_itself_is_there_or_listed_as_absent(drive: str) -> None:
+    """None of the three manuals says any of it, but for what SN300G5 does when its line is silent."""
+    known = DRIVES[drive]
+    told = {
+        "identity": known.identity,
+        "watchdog": known.watchdog,
+        "commanded_by": known.operation.commanded_by,
+        "own_maximum": known.operation.own_maximum,
+        "trip_output": known.faults.trip_output,
+    }
+    assert [key for key, one in told.items() if one] == (["watchdog"] if drive == "sn300g5" else [])
+    for key in told:
+        assert any(key in one.about and one.find_out for one in known.absent), key
+
+
 SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS}
 
 
@@ -409,8 +425,22 @@ def test_sn300g5_settings() -> None:
     }
 
 
+def test_sn300g5_watchdog_is_h5_04_and_h5_05() -> None:
+    watchdog = SN.watchdog
+    assert watchdog is not None
+    assert (watchdog.chosen_by, {one.value: one.does for one in watchdog.reactions}) == ("H5-04", sn300g5.REACTIONS)
+    assert watchdog.disabled_by is not None
+    assert (watchdog.disabled_by.setting, watchdog.disabled_by.value, watchdog.fault) == ("H5-05", 0, 0x21)
+    assert (watchdog.feeds, watchdog.time) == (None, None)
+    noted = {one.code: one.note or "" for one in SN.faults.codes}[0x21]
+    assert all("2 s before the reset signal" in text for text in (noted, watchdog.note or ""))
+    assert "without communication" in noted
+
+
 def test_sn300g5_settings_that_may_stop_another_way_or_act_later_say_so() -> None:
     settings = {one.id: one for one in SN.settings}
+    for one in SN.settings:
+        assert "acts only after the supply was switched off and on" in (one.note or ""), one.id
     for value, other in ((1, "coast"), (2, "decelerate")):
         note = settings["H5-04"].values[value].note or ""
         assert "another drive" in note, value
@@ -419,9 +449,13 @@ def test_sn300g5_settings_that_may_stop_another_way_or_act_later_say_so() -> Non
         assert "taken over at power-up" in (settings[id_].note or ""), id_
 
 
-def test_sn300g5_no_parameter_is_written_while_the_drive_runs() -> None:
-    assert "while the drive runs" in (next(one for one in SN.sections if one.id == "parameters").note or "")
-    assert not any("written while the drive runs" in one.what for one in SN.absent)
+def test_sn300g5_refusals_list_attempts_and_forbid_nothing() -> None:
+    """Lines 22H to 24H of the table name what the PLC tried as a cause, and not what it may not do."""
+    note = next(one for one in SN.sections if one.id == "parameters").note or ""
+    assert "an attempt to write a parameter while the drive runs is listed as a cause" in note
+    about = [one for one in SN.notices if any(ref.startswith("error 2") for ref in one.about)]
+    assert len(about) == 4
+    assert all(one.kind == "warning" and re.match("Causes? of error 2[234]H: ", one.text.en) for one in about)
 
 
 def test_sn300g5_reasons_of_errata_hold_for_every_row() -> None:

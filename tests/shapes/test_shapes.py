@@ -3,6 +3,7 @@
 import json
 import re
 from dataclasses import replace
+from decimal import Decimal
 from functools import cache
 from pathlib import Path
 
@@ -15,8 +16,10 @@ from driveblocks.cli import app
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
-from driveblocks.maps.model import Command, Does, Drive, Step
+from driveblocks.maps.form import Span
+from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
+from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
 from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
@@ -150,6 +153,69 @@ def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) 
     assert operation["status"][0]["any"] == [{"register": 0x2000, "mask": 0x6F, "equals": 0x27}]
     assert operation["measures"][0]["shows"] == "output_frequency"
     assert operation["states"][1]["name"] == "switched_on"
+
+
+def test_show_tells_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
+    page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
+    assert (
+        "cable cut P3.02 = 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "
+        "the motor goes to another speed; P3.01 = 0: the motor runs on, whatever else is set; after P3.01 x 100 ms; "
+        "fed by any good frame; it does not start again by itself (section 1)"
+    ) in page
+    assert "trip the output is switched off and the motor coasts (table 3)" in page
+    assert "bus commands while 2000H bit 9 = 1 (table 2)" in page
+    assert "own maximum 2004H (P1.08) x 0.1 Hz (table 2)" in page
+    assert "identity 2003H = 786 (table 2)" in page
+    for shape, says in (
+        ("profidrive", "cable cut the motor coasts; after 2003H x 1 ms; fed by a written reference (section 1)"),
+        ("pulse", "the motor stops quickly; fed by a read; the manual does not say after how long (section 1)"),
+        ("two_registers", "the motor ramps down; fed by a written run command; the manual does not say after how long"),
+        ("active_low", "cable cut the manual does not say: count on a motor that runs on"),
+        ("active_low", "trip the manual does not say whether the motor coasts or is ramped down"),
+        ("active_low", "identity the manual does not say how to see it"),
+    ):
+        assert says in " ".join(run(shape, tmp_path, "show", "MAP").split()), shape
+    for address, says in (("2000H", "bus in command: 2000H bit 9 = 1"), ("2003H", "identity: 2003H = 786")):
+        assert says in run("cia402", tmp_path, "show", "MAP", address)
+    assert "own maximum frequency" in run("cia402", tmp_path, "show", "MAP", "P1.08")
+
+
+def test_json_carries_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
+    seen = json.loads(run("cia402", tmp_path, "show", "MAP", "--json"))
+    assert seen["identity"]["all"] == [{"register": 0x2003, "equals": 0x312}]
+    assert seen["watchdog"]["feeds"] == "any"
+    assert seen["operation"]["own_maximum"] == {"register": 0x2004, "source": "table 2"}
+    assert seen["fault_report"]["trip_output"] == {"motor": "coasts", "source": "table 3"}
+    assert json.loads(run("active_low", tmp_path, "show", "MAP", "--json"))["identity"] is None
+
+
+def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
+    values = drive_block(shapes()["cia402"])
+    identity, bus, maximum = values["identity"], values["commanded_by"], values["own_maximum"]
+    assert (identity["function"], identity["address"], identity["words"]) == (3, 0x2003, 1)
+    assert identity["tests"] == [{"index": 0, "mask": 0xFFFF, "value": 0x0312}]
+    assert (bus["tests"], bus["reads"]) == ([("DriveStatusWord", 0x0200, 0x0200)], [1])
+    assert (maximum["word"]["address"], maximum["scale"].factor, maximum["reads"]) == (0x2004, Decimal("0.1"), [1])
+    assert {name: drive_block(drive)["feeds"] for name, drive in shapes().items()} == {
+        "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
+    }  # fmt: skip
+    bare = drive_block(shapes()["active_low"])
+    assert [bare[key] for key in ("identity", "commanded_by", "own_maximum")] == [None, None, None]
+
+
+def test_an_identity_of_several_bits_is_one_read() -> None:
+    drive = shapes()["cia402"]
+    asked = (
+        Condition(register=0x2004, bit=Span(4, 7), equals=9),
+        Condition(register=0x2003, mask=0xFF00, equals=0x0300),
+    )
+    assert drive.identity is not None
+    identity = drive_block(replace(drive, identity=replace(drive.identity, all=asked)))["identity"]
+    assert (identity["address"], identity["words"]) == (0x2003, 2)
+    assert identity["tests"] == [
+        {"index": 1, "mask": 0x00F0, "value": 0x0090},
+        {"index": 0, "mask": 0xFF00, "value": 0x0300},
+    ]
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

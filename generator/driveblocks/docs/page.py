@@ -9,6 +9,7 @@ from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
+from driveblocks.maps import conduct
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
@@ -37,6 +38,8 @@ ABILITIES = {
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
 }  # fmt: skip
 """Command -> what a drive can do over the bus if it has it."""
+CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
+"""What gaps about what a drive does by itself refer to."""
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 
 
@@ -124,6 +127,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
         hard_stop=HARD_STOP,
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
+        conduct=_conduct(drive),
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=TURN_ROUND_MS,
@@ -146,9 +150,23 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     for shows in ("at_speed", "ready", "warning"):
         having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
         rows[f"say itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
+    rows["be recognised over the bus"] = [_yes(drive.identity is not None) for drive in drives]
+    rows["say whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
+    rows["tell its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
     for shows in MEASURES:
         rows[f"show `{pin_of(shows)['pin']}`"] = [_shows(drive, shows) for drive in drives]
     return {"families": [drive.prefix for drive in drives], "rows": rows}
+
+
+def _conduct(drive: Drive) -> list[tuple[str, str]]:
+    """What happens, and what the drive then does by itself, or says."""
+    return [
+        ("The cable is cut", conduct.silent_line(drive)),
+        ("The drive trips", conduct.trip(drive)),
+        ("The bus is in command", conduct.in_command(drive)),
+        ("The drive is of this family", conduct.recognised(drive)),
+        ("Its own maximum frequency", conduct.own_maximum(drive)),
+    ]
 
 
 def _yes(one: bool) -> str:
@@ -179,11 +197,11 @@ def _matters(notice: Notice) -> bool:
 
 
 def _open(drive: Drive, one: Absence) -> bool:
-    """Whether a gap of the manual is about the line, the commands, the reference or a scale that a pin needs."""
+    """Whether a gap of the manual is about the line, commands, reference, a scale that a pin needs, or conduct."""
     rows = {each.register: drive.register_at(each.register) for each in drive.operation.measures}
     words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
     words |= {address for address, row in rows.items() if row and not row.scale}
-    about = {"serial", "operation", *(f"register {address_text(word)}" for word in words)}
+    about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 

@@ -58,7 +58,7 @@ def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
     released = replace(STOPPED, fault=True) if proved else Column(0, ("stop",), fault=True)
     begin = (STARTING[-1], tripped, *stands, replace(released, event="release"))
     if not any(one.does == "fault_reset" for one in drive.operation.commands):
-        return (*begin, replace(STOPPED, event="reset by hand"))
+        return (*begin, replace(STOPPED, event="reset by other means"))
     asked = Column(0, ("stop", "reset"), fault=True, reset=True, event="reset")
     return (*begin, asked, Column(0, ("stop",), reset=True), replace(STOPPED, reset=True))
 

@@ -6,9 +6,9 @@ from decimal import Decimal
 
 from driveblocks.maps import view
 from driveblocks.maps.adu import number
+from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Area, Bit, Command, Condition, Drive, Register, Step, Value
-from driveblocks.tables.register import condition
 
 WORD = Span(0, 15)
 

@@ -8,6 +8,7 @@ from driveblocks.maps.rules import (
     condition,
     fault,
     identifier,
+    identity,
     line,
     name,
     operation,
@@ -18,11 +19,12 @@ from driveblocks.maps.rules import (
     setting,
     standstill,
     vector,
+    watchdog,
 )
 
 _PARTS = (
     *(register, name, identifier, parameter, area, line, setting),
-    *(command, operation, standstill, condition, fault, vector, record, reading),
+    *(command, operation, standstill, condition, identity, watchdog, fault, vector, record, reading),
 )
 
 

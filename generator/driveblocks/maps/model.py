@@ -37,6 +37,10 @@ Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warnin
 """What a status word can show on a pin of the drive block."""
 Measure = Literal["output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power"]
 """What a register can show on a pin of the drive block."""
+Feed = Literal["read", "reference", "run", "any"]
+"""What a drive's own watchdog takes for a sign of life of its master."""
+Reacts = Literal["stop", "quick_stop", "coast_stop", "runs_on", "other_speed"]
+"""What a drive does by itself when its line is silent; the stops are those of the commands."""
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
     "fault_reset",
@@ -654,6 +658,22 @@ class Standstill(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class InCommand(Entry):
+    """What says that the bus is in command of the drive, and not its keypad or its terminals: all of these at once."""
+
+    all: tuple[Condition, ...] = fact("the conditions", "[{register: 0C81H, bit: 9, equals: 1}]")
+    source: English = fact("where the manual says so", "table of the status word")
+
+
+@dataclass(frozen=True, kw_only=True)
+class OwnMaximum(Entry):
+    """The register that holds the drive's own maximum frequency; its row has the unit Hz and a scale."""
+
+    register: Address = fact("the register", "0303H")
+    source: English = fact("where the manual says so", "table of parameters, E1-04")
+
+
+@dataclass(frozen=True, kw_only=True)
 class State(Entry):
     """A named state of the drive: a masked value of a status word."""
 
@@ -683,6 +703,66 @@ class Measured(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Identity(Entry):
+    """By what one sees that the drive at an address is of this family: all of these at once, in one read."""
+
+    all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, equals: 1205H}]")
+    source: English = fact("where the manual says so", "table of device data, product code")
+    why: English = fact("why no other drive answers so", "the maker gives each family a code of its own")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SilenceTime(Entry):
+    """After how much silence the watchdog acts: a keypad setting or a register, and what one count of it is."""
+
+    setting: Id | None = fact("the keypad setting that holds it", "P14.04", optional=True)
+    register: Address | None = fact("the register that holds it, where it is no keypad setting", "0000H", optional=True)
+    milliseconds: Factor = fact("what one count is, ms", "100")
+    source: English = fact("where the manual says so", "table of communication parameters")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Switch(Entry):
+    """A value of a keypad setting that switches something off."""
+
+    setting: Id = fact("id of the keypad setting", "H5-05")
+    value: Number = fact("the value", "0")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reaction(Entry):
+    """What the drive does when its line is silent, for one value of the setting that chooses it."""
+
+    value: Number | None = fact("value of the setting; left out where none chooses", "0", optional=True)
+    does: Reacts = fact("what the drive does", "coast_stop")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Watchdog(Entry):
+    """The drive's own watchdog of a silent line: what feeds it, when it acts, and what it then does."""
+
+    feeds: Feed | None = fact(
+        "what it takes for a sign of life: a read, a written reference, a written run command, or any good frame; left "
+        "out where the manual does not say",
+        "reference",
+        optional=True,
+    )
+    time: SilenceTime | None = fact(
+        "after how much silence it acts", "{setting: P14.04, milliseconds: 100, source: ...}", optional=True
+    )
+    disabled_by: Switch | None = fact("what switches it off", "{setting: H5-05, value: 0}", optional=True)
+    chosen_by: Id | None = fact("the keypad setting that chooses what it does", "H5-04", optional=True)
+    reactions: tuple[Reaction, ...] = fact(
+        "what the drive does, by value of that setting", "[{value: 0, does: stop}, {value: 3, does: runs_on}]"
+    )
+    fault: Number | None = fact("code of the fault that it shows", "21H", optional=True)
+    source: English = fact("where the manual says so", "table of communication parameters")
+    note: English | None = fact(
+        "what else a person must know", "the motor does not start again by itself", optional=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Operation(Entry):
     """Commands, reference, what proves standstill, and what the drive shows."""
 
@@ -706,6 +786,16 @@ class Operation(Entry):
         "[{name: switched_on, register: 2100H, mask: 006FH, equals: 0023H, ...}]",
         optional=True,
         default=(),
+    )
+    commanded_by: InCommand | None = fact(
+        "what says that the bus is in command",
+        "{all: [{register: 0C81H, bit: 9, equals: 1}], source: ...}",
+        optional=True,
+    )
+    own_maximum: OwnMaximum | None = fact(
+        "the register of the drive's own maximum frequency, where its scale is known, too",
+        "{register: 0303H, source: ...}",
+        optional=True,
     )
 
     @property
@@ -734,6 +824,20 @@ class Fault(Returned):
 
 
 @dataclass(frozen=True, kw_only=True)
+class TripOutput(Entry):
+    """What becomes of the motor when the drive trips."""
+
+    motor: Literal["coasts", "ramps", "differs"] = fact(
+        "`coasts`: the output is switched off; `ramps`: it is decelerated first; `differs`: by the fault or a setting",
+        "coasts",
+    )
+    source: English = fact("where the manual says so", "table of faults, column of the response")
+    note: English | None = fact(
+        "what else a person must know; a must with `differs`", "a fault of the fan ramps down", optional=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Faults(Entry):
     """Fault codes and the registers that report them."""
 
@@ -747,6 +851,9 @@ class Faults(Entry):
     )
     bits: BitRelation | None = fact(
         "relation of codes to fault bits", "{first: 0014H, last: 0016H, source: ...}", optional=True
+    )
+    trip_output: TripOutput | None = fact(
+        "what becomes of the motor in a trip", "{motor: coasts, source: ...}", optional=True
     )
 
 
@@ -941,6 +1048,16 @@ class Drive(Entry):
     )
     storage: Storage = fact("what happens to written parameters", "{method: unexplained, source: ..., note: ...}")
     operation: Operation = fact("commands, reference, standstill", "{commands: [...], reference: ..., standstill: ...}")
+    identity: Identity | None = fact(
+        "by what the drive is recognised over the bus",
+        "{all: [{register: 0010H, equals: 1205H}], source: ..., why: ...}",
+        optional=True,
+    )
+    watchdog: Watchdog | None = fact(
+        "the drive's own watchdog of a silent line",
+        "{feeds: any, chosen_by: H5-04, reactions: [...], source: ...}",
+        optional=True,
+    )
     faults: Faults = fact("fault codes", "{source: ..., registers: [...], codes: [...]}")
     errors: Errors = fact("error replies", "{form: ..., source: ..., codes: [...]}")
     tolerances: tuple[Tolerance, ...] = fact(

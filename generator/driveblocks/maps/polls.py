@@ -41,9 +41,10 @@ class Poll:
 
 
 def fast_words(drive: Drive) -> frozenset[int]:
-    """What must be fresh: registers of status, standstill and states, and the output frequency."""
+    """What must be fresh: registers of status, standstill, states and who commands, and the output frequency."""
     operation = drive.operation
     conditions = [*operation.standstill.all, *(each for status in operation.status for each in status.any)]
+    conditions += operation.commanded_by.all if operation.commanded_by else ()
     measured = (each.register for each in operation.measures if each.shows == "output_frequency")
     return frozenset(
         [*(each.register for each in conditions), *(state.register for state in operation.states), *measured]
@@ -51,11 +52,15 @@ def fast_words(drive: Drive) -> frozenset[int]:
 
 
 def slow_words(drive: Drive) -> frozenset[int]:
-    """What may be older: other measures, the present fault, and what gives the reference and the measures meaning."""
+    """What may be older: other measures, the present fault, and what gives the reference and the measures meaning.
+
+    The drive's own maximum frequency is of that kind, too.
+    """
     operation, faults = drive.operation, drive.faults
-    rows = [drive.register_at(each.register) for each in operation.measures]
-    meaning = [row.scale.when for row in rows if row and row.scale and row.scale.when]
     words = {each.register for each in operation.measures}
+    words |= {operation.own_maximum.register} if operation.own_maximum else set()
+    rows = map(drive.register_at, words)
+    meaning = [row.scale.when for row in rows if row and row.scale and row.scale.when]
     words |= {each.register for each in (*operation.reference.verify, *meaning)}
     if faults.present is not None:
         words.add(faults.present)
@@ -75,6 +80,17 @@ def polls(drive: Drive) -> tuple[Poll, ...]:
     if len(found) > MOST_POLLS:
         raise ValueError(f"what its pins show takes {len(found)} reads; {MOST_POLLS} fit into the drive block's plan")
     return tuple(_apart(drive, found))
+
+
+def identity_read(drive: Drive) -> Poll | None:
+    """The one read of all words of the identity; None where the map has none. Raises ValueError if it takes more."""
+    if drive.identity is None:
+        return None
+    words = sorted({each.register for each in drive.identity.all})
+    found = _cheapest(drive, words)
+    if len(found) > 1:
+        raise ValueError(f"the identity takes {len(found)} reads, and a stop waits for it")
+    return found[0]
 
 
 def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:

@@ -36,6 +36,7 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         "serial": plain(drive.serial),
         "limits": _limits(drive),
         **{key: plain(getattr(drive, key)) for key in ("functions", "settings", "operation", "notices", "tolerances")},
+        **{key: plain(getattr(drive, key)) for key in ("identity", "watchdog")},
         "storage": _without(drive.storage, *(() if drive.storage.add is not None else ("readable",))),
     }
 

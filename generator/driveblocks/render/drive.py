@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps import names
 from driveblocks.maps.model import Command, Condition, Drive, Measured
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import Poll, beyond, fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
@@ -83,6 +83,10 @@ def drive_block(drive: Drive) -> Context:
         "second_hand": drive.manual.second_hand,
         "checked": checked(drive),
         "maximum": reference["maximum"],
+        "identity": _identity(drive),
+        "commanded_by": _commanded_by(drive, number),
+        "own_maximum": _own_maximum(drive, number),
+        "feeds": drive.watchdog.feeds if drive.watchdog else None,
     }
 
 
@@ -129,6 +133,51 @@ def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
 def _read(drive: Drive, number: int, read: Poll, places: list[Context], taken: set[int]) -> Context:
     words = [place for place in places if place["number"] == number]
     return {"number": number, "read": read, "words": words, "other": beyond(drive, read, taken)}
+
+
+def _identity(drive: Drive) -> Context | None:
+    """The one read that shows the family, and the bits that count in each of its words, in their place."""
+    read = identity_read(drive)
+    if read is None or drive.identity is None:
+        return None
+    tests = [_condition(drive, each) for each in drive.identity.all]
+    words = [each.register - read.address for each in drive.identity.all]
+    return {
+        "function": read.function,
+        "address": read.address,
+        "words": read.words,
+        "tests": [
+            {"index": index, "mask": test.mask or 0xFFFF, "value": test.value}
+            for index, test in zip(words, tests, strict=True)
+        ],
+        "source": context.source_of(drive, drive.identity.source),
+    }
+
+
+def _commanded_by(drive: Drive, number: dict[int, int]) -> Context | None:
+    """What all has to hold while the bus is in command, and the reads that bring it."""
+    bus = drive.operation.commanded_by
+    if bus is None:
+        return None
+    return {
+        "tests": [_condition(drive, each) for each in bus.all],
+        "reads": sorted({number[each.register] for each in bus.all}),
+        "source": context.source_of(drive, bus.source),
+    }
+
+
+def _own_maximum(drive: Drive, number: dict[int, int]) -> Context | None:
+    """The word of the drive's own maximum frequency, its scale, and the read that brings it."""
+    maximum = drive.operation.own_maximum
+    row = drive.register_at(maximum.register) if maximum else None
+    if maximum is None or row is None:
+        return None
+    return {
+        "word": word_input(drive, maximum.register),
+        "scale": row.scale,
+        "reads": [number[maximum.register]],
+        "source": context.source_of(drive, maximum.source),
+    }
 
 
 def _proof(drive: Drive) -> list[int]:

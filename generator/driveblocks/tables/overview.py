@@ -5,15 +5,28 @@ from pathlib import Path
 
 from rich.console import RenderableType
 
-from driveblocks.maps import counts, view
+from driveblocks.maps import conduct, counts, view
+from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Command, Drive, Reference, Step, Text
+from driveblocks.maps.model import (
+    Command,
+    Drive,
+    Identity,
+    InCommand,
+    OwnMaximum,
+    Reference,
+    Step,
+    Text,
+    TripOutput,
+    Watchdog,
+)
 from driveblocks.maps.revision import revision
 from driveblocks.tables.layout import both, facts, heading, listed, table
 from driveblocks.tables.line import line, settings
-from driveblocks.tables.register import condition, value_text
+from driveblocks.tables.register import value_text
 from driveblocks.tables.registers import tables
 
+Sourced = Watchdog | TripOutput | InCommand | OwnMaximum | Identity
 KINDS = ("settings", "faults", "errors", "frames", "errata", "absent", "notices")
 """What a map lists beside registers; each is a topic of `show`."""
 
@@ -66,6 +79,24 @@ def operation(drive: Drive) -> Iterator[RenderableType]:
         ("storage", _storage(drive)),
     )
     yield from _shown(drive)
+    yield from _conduct(drive)
+
+
+def _conduct(drive: Drive) -> Iterator[RenderableType]:
+    """What the drive does by itself, and what it says of itself, with the places in the manual."""
+    run, faults = drive.operation, drive.faults
+    yield heading("What the drive does by itself")
+    yield facts(
+        ("cable cut", _from(conduct.silent_line(drive), drive.watchdog)),
+        ("trip", _from(conduct.trip(drive), faults.trip_output)),
+        ("bus commands", _from(conduct.in_command(drive), run.commanded_by)),
+        ("own maximum", _from(conduct.own_maximum(drive), run.own_maximum)),
+        ("identity", _from(conduct.recognised(drive), drive.identity)),
+    )
+
+
+def _from(said: str, entry: Sourced | None) -> str:
+    return f"{said}  ({entry.source})" if entry is not None else said
 
 
 def _shown(drive: Drive) -> Iterator[RenderableType]:

@@ -6,8 +6,9 @@ from rich.console import RenderableType
 from rich.padding import Padding
 
 from driveblocks.maps import view
-from driveblocks.maps.form import address_text, bits_text, masked_text, span_text
-from driveblocks.maps.model import Area, Command, Condition, Drive, Register, Section, State, Step, Value
+from driveblocks.maps.conduct import condition
+from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
 from driveblocks.tables.errata import corroborated
 from driveblocks.tables.faults import recorded
 from driveblocks.tables.layout import OWN, both, card, code_text, listed, listing
@@ -76,14 +77,6 @@ def _scale(row: Register) -> str | None:
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
 
 
-def condition(one: Condition | State) -> str:
-    """A condition or state in words: `000FH bit 0 = 0`."""
-    if one.mask is not None:
-        return masked_text(one.register, one.mask, one.equals)
-    bit = f" bit {bits_text(one.bit)}" if isinstance(one, Condition) and one.bit is not None else ""
-    return f"{address_text(one.register)}{bit} = {one.equals}"
-
-
 def _commands(drive: Drive, address: int) -> Iterator[str]:
     for command in drive.operation.commands:
         does = command.does.replace("_", " ")
@@ -121,6 +114,12 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
     if address == drive.faults.present:
         yield "fault code"
     yield from (f"state {one.name}: {condition(one)}" for one in operation.states if one.register == address)
+    for what, told in (("bus in command", operation.commanded_by), ("identity", drive.identity)):
+        asked = [condition(one) for one in told.all if one.register == address] if told else []
+        if asked:
+            yield f"{what}: {' and '.join(asked)}"
+    if operation.own_maximum is not None and operation.own_maximum.register == address:
+        yield "own maximum frequency"
 
 
 def _frames(drive: Drive, address: int) -> str:

@@ -152,4 +152,9 @@ register 3004H | scale | current
 register 1001H | values | 1001H
 faults | fault codes | causes
 storage | EEPROM | writes
+watchdog | communication is lost | frames
+identity | recognised | register
+commanded_by | bus is in command | keypad
+own_maximum | register of P0.04 | scale
+trip_output | coasting | ramp
 """

@@ -153,6 +153,11 @@ serial | turn-round | request
 serial | lost | time
 storage | EEPROM | write
 register 2001H | combine | values
-operation | fault reset | bus
+operation | fault is reset | bus
+watchdog | communication is lost | frames
+identity | recognised | register
+commanded_by | bus is in command | keypad
+own_maximum | maximum frequency | scale
+trip_output | coasting | ramp
 broadcast | broadcast | obeys
 """

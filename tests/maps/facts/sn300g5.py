@@ -361,6 +361,9 @@ FAULTS = """
 
 PRINTED_CODES = {0x01: "01H01H", 0x0A: "OAH", 0x0B: "OBH", 0x0C: "OCH", 0x0D: "ODH", 0x0E: "OEF", 0x0F: "OFH"}
 
+REACTIONS = {0: "stop", 1: "quick_stop", 2: "coast_stop", 3: "runs_on"}
+"""H5-04: 减速停止, 紧急停止, 自由停止, 继续运转; H5-05 = 0 (无效) switches the detection off; the fault is CE."""
+
 SHOWS = """
 running | 0010H.0 = 1
 zero_speed | 0010H.1 = 1
@@ -579,7 +582,9 @@ PRINTED_BITS = {
 NOTICES = """
 serial | 异步串行，半双工传输方式 | half duplex
 setting H5-03 | H5-01~03在变频器投入时设定 | powered up
-error 22H | 运行中 PLC 试图写入参数 | cannot be written
+error 22H | 运行中 PLC 试图写入参数 | Causes of error 22H
+error 23H | UV"故障时,PLC 试图写入参数 | Causes of error 23H
+fault 21H | 在复位信号输入 2 秒前 | 2 seconds before the reset
 """
 """Notices: what each is about, a piece of the Chinese, a piece of the English."""
 
@@ -629,5 +634,14 @@ fault 04H | UV3 | MC
 bit 0010H.1 | zero speed | standstill
 broadcast | broadcast | 0002H
 storage | ENTER | answers
+identity | identified | capacity
+watchdog | silence | CE
+watchdog | restart the CE timer | own address
+commanded_by | LOCAL | bus
+own_maximum | scale of E1-04 | 0303H
+trip_output | coasting | ramp
+register 0182H | B1-03 | stops
+register 0000H | reset signal | 0010H bit 3
+error 22H | refused while the drive runs | 22H
 """
 """What the manual does not say: what it is about, and two words that the entry must hold."""

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Bit, Condition, Drive, Register, State
+from driveblocks.maps.model import Bit, Condition, Drive, Register, State, Value
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.access import known
 
@@ -11,9 +11,10 @@ WORD = 0xFFFF
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note every rule that the conditions of standstill, reference, scales or status break, and that states do."""
+    """Note every rule that a condition of the map breaks, whatever it is for, and that states do."""
     operation = drive.operation
     conditions = [*operation.standstill.all, *operation.reference.verify]
+    conditions += [each for one in (drive.identity, operation.commanded_by) if one for each in one.all]
     conditions += [row.scale.when for _, row in drive.registers() if row.scale and row.scale.when]
     conditions += [condition for status in operation.status for condition in status.any]
     for condition in conditions:
@@ -32,6 +33,17 @@ def counted(condition: Condition | State) -> tuple[int, int]:
     if isinstance(condition, State) or condition.bit is None:
         return (WORD if condition.mask is None else condition.mask), condition.equals
     return sum(1 << number for number in condition.bit), condition.equals << condition.bit.first
+
+
+def called(row: Register, condition: Condition) -> Bit | Value | None:
+    """The one bit or value that a condition asks for; None where it asks for several bits at once, or for a 0."""
+    mask, value = counted(condition)
+    for bit in row.bits:
+        if mask == sum(1 << number for number in bit.bit):
+            listed = (one for one in bit.values if one.value == value >> bit.bit.first)
+            return next(listed, bit if value and len(bit.bit) == 1 and not bit.values else None)
+    whole = mask == (value if row.masks else WORD)
+    return next((one for one in row.values if whole and one.value == value), None)
 
 
 def exclude(one: Condition | State, other: Condition | State) -> bool:

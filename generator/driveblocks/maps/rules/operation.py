@@ -5,7 +5,6 @@ from typing import get_args
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import (
     Bit,
-    Condition,
     Drive,
     Measure,
     Measured,
@@ -19,7 +18,7 @@ from driveblocks.maps.model import (
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import term
 from driveblocks.maps.rules.access import cyclic, known
-from driveblocks.maps.rules.condition import WORD, counted
+from driveblocks.maps.rules.condition import called
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.unique import unique
 
@@ -53,21 +52,10 @@ def _status(drive: Drive, status: Status, report: Report) -> None:
         if row is not None and row.masks and condition.mask is None:
             wrong = f"the values of {address_text(condition.register)} are bits that may combine"
             report.add(condition.place("equals"), wrong, f"add `mask: {condition.equals}`")
-        named = _called(row, condition) if row is not None else None
+        named = called(row, condition) if row is not None else None
         if named is not None and _other(status.shows, named, get_args(Shows)):
             wrong = f"`{status.shows}` is shown by what {address_text(condition.register)} calls `{named.name}`"
             report.add(condition.at, wrong, "correct the pin, the bit or value, or the register's table")
-
-
-def _called(row: Register, condition: Condition) -> Bit | Value | None:
-    """The one bit or value that a condition asks for; None where it asks for several bits at once, or for a 0."""
-    mask, value = counted(condition)
-    for bit in row.bits:
-        if mask == sum(1 << number for number in bit.bit):
-            listed = (one for one in bit.values if one.value == value >> bit.bit.first)
-            return next(listed, bit if value and len(bit.bit) == 1 and not bit.values else None)
-    whole = mask == (value if row.masks else WORD)
-    return next((one for one in row.values if whole and one.value == value), None)
 
 
 def _other(pin: str, named: Bit | Value | Register, pins: tuple[str, ...]) -> bool:

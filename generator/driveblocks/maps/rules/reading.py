@@ -1,16 +1,20 @@
-"""Rule on what the drive block reads again and again: it has to be readable, and to fit into its plan."""
+"""Rule on what is read of a drive: it has to be readable, and to fit into the plan of reads."""
+
+from collections.abc import Callable
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.polls import polls
-from driveblocks.maps.problem import Report
+from driveblocks.maps.polls import identity_read, polls
+from driveblocks.maps.problem import Place, Report
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note pins that no plan of reads can serve; what is not readable at all was told where it stands."""
+    """Note pins or an identity that no plan of reads can serve; what is not readable was told where it stands."""
     if report.problems:
         return
-    try:
-        polls(drive)
-    except ValueError as error:
-        right = "ask for fewer registers, or for some that lie together"
-        report.add(drive.operation.place("status"), str(error), right)
+    plans: list[tuple[Callable[[Drive], object], Place]] = [(polls, drive.operation.place("status"))]
+    plans += [(identity_read, drive.identity.place("all"))] if drive.identity else []
+    for plan, place in plans:
+        try:
+            plan(drive)
+        except ValueError as error:
+            report.add(place, str(error), "ask for fewer registers, or for some that lie together")

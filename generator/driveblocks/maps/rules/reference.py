@@ -7,7 +7,10 @@ from driveblocks.maps.form import Span, address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Place, Report
 
-_SINGLE = ("prose", "serial", "storage", "operation", "broadcast", "errors", "faults", "limits", "manual", "silence")
+_SINGLE = (
+    *("prose", "serial", "storage", "operation", "broadcast", "errors", "faults", "limits", "manual", "silence"),
+    *("identity", "watchdog", "commanded_by", "own_maximum", "trip_output"),
+)
 _LIMITS = ("read_words", "write_words", "data_bytes", "ascii_data_bytes")
 _NUMBER = re.compile(r"[0-9]{1,9}|[0-9A-F]{1,8}H")
 _ADDRESSES = re.compile(r"([0-9A-F]{4})H(?:-([0-9A-F]{4})H)?")

@@ -1,0 +1,108 @@
+"""Rules on what a drive does by itself: when its line is silent, and to the motor when it trips."""
+
+from typing import get_args
+
+from driveblocks.maps.model import Drive, Reaction, Reacts, Setting, SilenceTime, TripOutput, Watchdog
+from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.rules import term
+from driveblocks.maps.rules.access import known
+from driveblocks.maps.rules.unique import unique
+
+_STOPS: tuple[Reacts, ...] = ("stop", "quick_stop", "coast_stop")
+_DECELERATES = ("decel", "ramp", "减速")
+
+
+def check(drive: Drive, report: Report) -> None:
+    """Note every rule that the watchdog or the output in a trip break."""
+    settings = {setting.id: setting for setting in drive.settings}
+    if drive.watchdog is not None:
+        _watchdog(drive, drive.watchdog, settings, report)
+    if drive.faults.trip_output is not None:
+        _trip(drive.faults.trip_output, report)
+
+
+def _watchdog(drive: Drive, watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:
+    off = watchdog.disabled_by
+    if watchdog.time is not None:
+        _time(drive, watchdog.time, settings, report)
+    if off is not None and off.setting not in settings:
+        report.miss(off.place("setting"), f"there is no setting `{off.setting}`", "name an entry of `settings`")
+    elif off is not None:
+        _possible(settings[off.setting], off.value, off.place("value"), report)
+    if watchdog.fault is not None and watchdog.fault not in {fault.code for fault in drive.faults.codes}:
+        wrong = f"there is no fault {watchdog.fault:02X}H"
+        report.miss(watchdog.place("fault"), wrong, "name a code of `faults`")
+    _reactions(watchdog, settings, report)
+
+
+def _time(drive: Drive, time: SilenceTime, settings: dict[str, Setting], report: Report) -> None:
+    if (time.setting is None) == (time.register is None):
+        report.add(time.at, "the time has not exactly one place", "write either `setting` or `register`")
+    elif time.setting is not None and time.setting not in settings:
+        report.miss(time.place("setting"), f"there is no setting `{time.setting}`", "name an entry of `settings`")
+    elif time.register is not None:
+        known(drive, time.register, "r", time.place("register"), report)
+    if time.milliseconds <= 0:
+        report.add(time.place("milliseconds"), f"{time.milliseconds} ms is no time", "write what one count is, in ms")
+
+
+def _possible(setting: Setting, value: int, place: Place, report: Report) -> None:
+    values = [one.value for one in setting.values]
+    if (values and value not in values) or (setting.range is not None and not setting.range.holds(value)):
+        report.miss(place, f"{value} is no value of {setting.id}", "write one that the setting can have")
+
+
+def _reactions(watchdog: Watchdog, settings: dict[str, Setting], report: Report) -> None:
+    place, reactions = watchdog.place("reactions"), watchdog.reactions
+    unique(reactions, "value", "reaction for", report, str)
+    if watchdog.chosen_by is None:
+        if len(reactions) != 1 or reactions[0].value is not None:
+            wrong = "no setting chooses among the reactions"
+            report.miss(place, wrong, "add `chosen_by`, or write one reaction without `value`")
+    elif watchdog.chosen_by not in settings:
+        wrong = f"there is no setting `{watchdog.chosen_by}`"
+        report.miss(watchdog.place("chosen_by"), wrong, "name an entry of `settings`")
+    else:
+        _chosen(settings[watchdog.chosen_by], watchdog, report)
+
+
+def _chosen(setting: Setting, watchdog: Watchdog, report: Report) -> None:
+    for reaction in watchdog.reactions:
+        if reaction.value is None:
+            report.miss(reaction.at, f"a reaction without a value of {setting.id}", "add `value`")
+        else:
+            _possible(setting, reaction.value, reaction.place("value"), report)
+            _same(setting, reaction, report)
+    missing = {one.value for one in setting.values} - {one.value for one in watchdog.reactions}
+    if missing:
+        wrong = f"what {setting.id} = {min(missing)} does is missing"
+        report.miss(watchdog.place("reactions"), wrong, "write what the drive does for each value of the setting")
+
+
+def _same(setting: Setting, reaction: Reaction, report: Report) -> None:
+    """Note a reaction that says something else than the name of the setting's value."""
+    named = next((one for one in setting.values if one.value == reaction.value), None)
+    if named is None or term.negated(named.name, named.text_zh or ""):
+        return
+    if reaction.does not in _meant(named.name, named.text_zh or ""):
+        wrong = f"`does: {reaction.does}`, but {setting.id} calls {reaction.value} `{named.name}`"
+        report.add(reaction.place("does"), wrong, "the manual's table decides which of the two is wrong")
+
+
+def _meant(name: str, zh: str) -> tuple[Reacts, ...]:
+    """What a name may stand for; everything, where it holds no term for a stop or a run."""
+    means = term.of(name, zh)
+    if term.COAST in means:
+        return ("coast_stop",)
+    if term.QUICK in means:
+        return ("quick_stop",)
+    if any(word in f"{name.lower()} {zh}" for word in _DECELERATES):
+        return ("stop", "quick_stop")
+    if term.STOP in means:
+        return _STOPS
+    return ("runs_on", "other_speed") if term.RUN in means else get_args(Reacts)
+
+
+def _trip(output: TripOutput, report: Report) -> None:
+    if output.motor == "differs" and output.note is None:
+        report.miss(output.place("motor"), "nothing says by what it differs", "add a `note` with it")
