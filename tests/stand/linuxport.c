@@ -94,9 +94,6 @@ int ioctl(int handle, unsigned long request, ...) {
     case 0x540C: /* TIOCEXCL */
       note(",exclusive", 0);
       return (int)answer(EXCLUSIVE, 0);
-    case 0x540D: /* TIOCNXCL */
-      note(",shared", 0);
-      return 0;
     case 0x5411: /* TIOCOUTQ */
       *(int *)with = (int)answer(QUEUE, 0);
       return 0;
