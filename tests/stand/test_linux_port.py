@@ -7,7 +7,6 @@ import subprocess
 from collections.abc import Callable
 from dataclasses import dataclass
 from errno import EAGAIN, EBADF, EBUSY, EINTR, EIO, ENOENT, ENOTSUP, ENOTTY
-from pathlib import Path
 
 import pytest
 from tests.blocks.toolchains import FOUND
