@@ -35,8 +35,8 @@ QUICK = Habits(ramp=100, coast_ramp=200)
 """A motor for which nobody has to wait."""
 
 
-def built(folder: Path, tool: Installation | None = None) -> Path:
-    """The soft PLC as a program."""
+def built(folder: Path, tool: Installation | None = None, driver: str = "softplc.c") -> Path:
+    """The soft PLC as a program, or what another driver in C makes of it."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     mine = ("types/", "modbus/", "line/", "vfd/", "invt_chf/")
     files = [BLOCKS / name for name in names if name.startswith(mine)]
@@ -47,7 +47,7 @@ def built(folder: Path, tool: Installation | None = None) -> Path:
     program = folder / "softplc"
     headers = ["-isystem", str(tool.headers), "-I", "."]
     flags = ["-std=gnu11", "-O1", "-fwrapv", "-fno-strict-aliasing", "-w"]
-    run([str(COMPILER), *flags, *headers, "-o", str(program), str(HERE / "softplc.c"), "-lm"], folder)
+    run([str(COMPILER), *flags, *headers, "-o", str(program), str(HERE / driver), "-lm"], folder)
     return program
 
 
