@@ -95,7 +95,9 @@ class Walk:
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
-            if bench["ErrorID"] in (55, 56, 58) and not sent.stop and not bench.config.tx_late:
+            slots = [slot for slot in range(bench.config.drives) if bench[f"Track[{slot}].UnitAddress"] == sent.unit]
+            barred = bench["ErrorID"] == 58 or any(bench.slot(slot, "LineErrorID") in (55, 56) for slot in slots)
+            if barred and not sent.stop and not bench.config.tx_late:
                 raise BrokenRuleError(
                     f"seed {self.seed}, scan {number}: {sent} leaves though ErrorID {bench['ErrorID']}"
                 )
