@@ -4,7 +4,7 @@ import re
 from functools import cache
 
 from tests.blocks.library import sources
-from tests.line.vline import Bench, Config, Drive, line_sources
+from tests.line.vline import PARAMETER, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
 from driveblocks.host.embedded import EmbeddedEngine
@@ -143,8 +143,11 @@ def late(bench: Bench) -> None:
 
 
 def stalls(bench: Bench) -> None:
-    """A late scan while a reply is awaited; a port that takes no poll; an address that two slots have."""
-    bench.ready().drives[0].turn_us = 100_000
+    """A store; a late scan while a reply is awaited; a port that takes no poll; an address that two slots have."""
+    bench.ready().ask(0, PARAMETER, 6, 0x0123)
+    bench.block["Slots[0].Ask[2].Words[3]"] = 2
+    bench.run(200)
+    bench.drives[0].turn_us = 100_000
     for _ in range(20):
         bench.run(30)
         bench.scan(took=200_000)

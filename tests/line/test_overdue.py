@@ -56,6 +56,18 @@ def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds() -> None:
     assert not any(bench.slot(slot, "StopOverdue") for slot in range(8) if slot != 3)
 
 
+@pytest.mark.parametrize("cut_off", [3, 5, 7])
+def test_who_still_answers_stays_online(cut_off: int) -> None:
+    bench = Bench(EIGHT).ready()
+    bench.run(500)
+    for drive in bench.drives[:cut_off]:
+        drive.alive = False
+    for _ in range(1500):
+        bench.scan()
+        assert all(bench.slot(slot, "Online") for slot in range(cut_off, 8)), "nobody else is dead"
+    assert bench["OnlineCount"] == 8 - cut_off
+
+
 def test_never_before_the_longest_reply() -> None:
     bench = Bench(Config(drives=1, longest_ms=5000)).ready()
     bench.drives[0].alive = False
