@@ -18,10 +18,10 @@ class Planted:
 
 
 PLANTED = (
-    Planted("a new stop ranks as a command", "          Rank := 0;\n", "          Rank := 2;\n"),
+    Planted("a new stop ranks as a command", "          Rank := RANK_STOP;\n", "          Rank := RANK_COMMAND;\n"),
     Planted(
         "a new stop is sent after polls",
-        "OR ((Best > 0) AND (Behind >= MAX(PollAfter, 1))",
+        "OR ((Best > RANK_STOP) AND (Behind >= MAX(PollAfter, 1))",
         "OR ((Behind >= MAX(PollAfter, 1))",
     ),
     Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMost) + ", "OnTop := "),
@@ -31,21 +31,23 @@ PLANTED = (
         "UINT_TO_UDINT(SilenceMs) + 2",
     ),
     Planted(
-        "a stop waits for late replies", "IF (Best > 1) AND (DrainMs > 0) THEN", "IF (Best < 9) AND (DrainMs > 0) THEN"
+        "a stop waits for late replies",
+        "IF (Best > RANK_AGAIN) AND (DrainMs > 0) THEN",
+        "IF (Best < RANK_NONE) AND (DrainMs > 0) THEN",
     ),
     Planted(
         "an echo is believed", "Mirrors AND (Echo <> 1) AND NOT OwnHeard", "Mirrors AND (Echo > 2) AND NOT OwnHeard"
     ),
     Planted(
         "a stop is given up behind its retries",
-        "              Track[Slot].StopLost := TRUE;\n",
-        "              Slots[Slot].Answer[0].Number := Asked;\n",
+        "            Track[Slot].StopLost := TRUE;\n",
+        "            Slots[Slot].Answer[0].Number := Asked;\n",
     ),
     Planted(
         "a stop is acknowledged when it leaves",
-        "  IF Box = 3 THEN\n      Track",
-        "  IF Box = 0 THEN\n      Slots[Slot].Answer[0].Number := Asked;\n    END_IF;\n"
-        "    IF Box = 3 THEN\n      Track",
+        "  IF Box = BOX_POLL THEN\n      Track",
+        "  IF Box = BOX_STOP THEN\n      Slots[Slot].Answer[0].Number := Asked;\n    END_IF;\n"
+        "    IF Box = BOX_POLL THEN\n      Track",
     ),
     Planted("the turn of stops never moves", "      TurnRest := Slot + 1;\n", "      TurnRest := 0;\n"),
     Planted("the line keeps no silence", "(NOT LineKeeps OR (QuietMs > SilenceMs))", "(QuietMs < 65535)", "timing"),
@@ -64,8 +66,8 @@ PLANTED = (
     ),
     Planted(
         "late replies are not waited out",
-        "IF (Best > 1) AND (DrainMs > 0) THEN",
-        "IF (Best > 9) AND (DrainMs > 0) THEN",
+        "IF (Best > RANK_AGAIN) AND (DrainMs > 0) THEN",
+        "IF (Best > RANK_NONE) AND (DrainMs > 0) THEN",
         "late",
     ),
     Planted(
@@ -90,8 +92,8 @@ PLANTED = (
     ),
     Planted(
         "a parameter leaves without its drive block",
-        "IF Asked = Slots[Index].ParameterCleared THEN",
-        "IF Asked > 0 THEN",
+        "IF (Slots[Index].ParameterCleared = Asked) AND (Count < 256) THEN",
+        "IF Count < 256 THEN",
     ),
     Planted("a fault reset is repeated", "      Most := 0;\n", "      Most := CommandMost;\n"),
 )

@@ -4,7 +4,7 @@ import re
 from functools import cache
 
 from tests.blocks.library import sources
-from tests.line.vline import Bench, Config, line_sources
+from tests.line.vline import PARAMETER, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
 from driveblocks.host.embedded import EmbeddedEngine
@@ -27,11 +27,13 @@ def idle(bench: Bench) -> Bench:
 
 
 def strangers(bench: Bench) -> None:
-    """One frame too many of another master; a late reply behind a stop that did not wait for it."""
+    """Frames of another master, too many at last; a late reply behind a stop that did not wait for it."""
     bench.set(ForeignMost=1)
     bench.put(0, PollEveryMs=400)
-    idle(bench.ready()).foreign(bytes([99, 6, 0, 1, 0, 2]))
-    bench.run(300)
+    bench.ready()
+    for function, pause in ((6, 11_000), (3, 300), (6, 300)):
+        idle(bench).foreign(bytes([99, function, 0, 1, 0, 2]))
+        bench.run(pause)
     bench.command(0)
     bench.run(100)
     for longest in (0, 60_000):
@@ -59,15 +61,42 @@ def odd_replies(bench: Bench) -> None:
 
 
 def full_counts(bench: Bench) -> None:
-    """Attempts at the end of their count; StopAll on a port that takes nothing."""
+    """Attempts at the end of their count; StopAll, and a stop, on a port that takes nothing."""
     bench.ready().drives[0].alive = False
     bench.stop(0)
-    bench.run(50)
-    bench.block["Slots[0].Answer[0].Tries"] = 255
-    bench.run(200)
+    bench.run(1500)
+    for count in ("Slots[0].Answer[0].Tries", "Track[0].StopTries", "LineTries"):
+        bench.block[count] = 255
+    bench.run(3000)
     bench.port_takes = False
     bench.set(StopAll=True)
     bench.run(3000)
+    bench.drives[0].alive = bench.port_takes = True
+    bench.run(300)
+    bench.port_takes = False
+    bench.stop(0)
+    bench.run(3000)
+
+
+def own_stops(bench: Bench) -> None:
+    """Stops of the line's own: one, two, in either order, refused; a drive whose block writes none; calm at last."""
+    register, reply = bench.kind.stop_address, Drive(1, bench.kind).reply
+    words = {"StopRegister": register, "StopWord": 5, "JogStopRegister": register, "JogStopWord": 8}
+    for jog_stop, refused in ((0, 0), (1, 8), (2, 8), (1, 5)):
+        bench.put(0, JogStop=jog_stop, **words)
+        bench.drives[0].answer = lambda frame, refused=refused: (
+            bytes([1, 0x86, 3]) if frame[4:6] == bytes([0, refused]) and frame[1] == 6 else reply(frame)
+        )
+        bench.run(100)
+        bench.attended = set()
+        bench.run(2500)
+        bench.attended = {0}
+        bench.drives[0].answer = None
+        bench.run(1500)
+    bench.put(0, JogStop=0, StopRegister=0, StopWord=0)
+    bench.run(100)
+    bench.set(StopAll=True)
+    bench.run(31_000)
 
 
 def unset(bench: Bench) -> None:
@@ -113,6 +142,25 @@ def late(bench: Bench) -> None:
         bench.run(300)
 
 
+def stalls(bench: Bench) -> None:
+    """A store; a late scan while a reply is awaited; a port that takes no poll; an address that two slots have."""
+    bench.ready().ask(0, PARAMETER, 6, 0x0123)
+    bench.block["Slots[0].Ask[2].Words[3]"] = 2
+    bench.run(200)
+    bench.drives[0].turn_us = 100_000
+    for _ in range(20):
+        bench.run(30)
+        bench.scan(took=200_000)
+    bench.drives[0].turn_us = None
+    bench.port_takes = False
+    bench.run(2500)
+    bench.port_takes = True
+    bench.put(1, StopConfirmed=True)
+    bench.run(100)
+    bench.put(1, UnitAddress=1)
+    bench.run(1500)
+
+
 def echo_ends(bench: Bench) -> None:
     """A port that no longer hears itself, without an error."""
     bench.ready().echoes = False
@@ -129,6 +177,8 @@ TOURS = (
     (odd_replies, Config(drives=1, kind=2)),
     (odd_replies, Config(drives=1, kind=2, ascii=True)),
     (full_counts, Config(drives=1)),
+    (own_stops, Config(drives=1)),
+    (stalls, Config(drives=2)),
 )
 """What chance seldom finds."""
 

@@ -76,6 +76,8 @@ def test_a_stalled_scan_does_not_hold_up_the_stops_of_a_dead_drive() -> None:
 
 def test_a_new_address_is_a_new_drive() -> None:
     bench = Bench().ready()
+    bench.put(1, StopConfirmed=True)
+    bench.scan()
     bench.drives[1].unit = 20
     bench.put(1, UnitAddress=20)
     bench.scan()

@@ -56,6 +56,8 @@ VAR
   Drive : T_Drive;          (* the drive block *)
   Get2 : VFD_ReadParameter;  (* behind it *)
   Put2 : VFD_WriteParameter; (* behind it *)
+  Store2 : VFD_Store;        (* behind it *)
+  Stores2 : UDINT;           (* of Store2 *)
   Line : MB_Line8;          (* the line *)
 END_VAR
 
@@ -69,6 +71,7 @@ END_VAR
   END_IF;
   Get2(Slot := Slots[0]);
   Put2(Slot := Slots[0]);
+  Store2(Slot := Slots[0], Stores := Stores2);
   IF Lined THEN
     Line(ElapsedMs := ElapsedMs, BitRate := BitRate, CharacterBits := CharacterBits, Ascii := Ascii,
       MaxScanMs := MaxScanMs, Port := Port, Slots := Slots);
@@ -110,7 +113,8 @@ class Scene(Bench):
 
     def rested(self) -> "Scene":
         """Long behind the last store."""
-        self.block["Keep.SinceMs"] = 60_000
+        self.block["Keep.SinceMs"] = self.block["Store2.SinceMs"] = 60_000
+        self.put(0, SinceStoreMs=60_000)
         return self
 
     def reply(self, request: bytes) -> bytes | None:
@@ -370,6 +374,55 @@ def test_a_store_waits_for_its_turn() -> None:
     assert [each[1:3].hex() for each in scene.written()] == ["0200", "fffd"]
 
 
+@pytest.mark.parametrize("scans", range(20))
+def test_no_number_is_used_again_after_a_restart(scans: int) -> None:
+    """Whatever was open then: a value is that of its own address, and what is Done was sent."""
+    scene = Scene("SN300G5")
+    scene.execute("Get1", Address=0x0200)
+    scene.execute("Put1", Address=0x0201, Value=1)
+    for _ in range(scans):
+        scene.scan()
+    before = scene.slot(0, "Ask[2].Number")
+    scene.scan(took=1_500_000)
+    scene.execute("Get2", Address=0x0280)
+    scene.execute("Put2", Address=0x0202, Value=2)
+    numbers = [before]
+    for _ in range(120):
+        scene.scan()
+        numbers.append(scene.slot(0, "Ask[2].Number"))
+    assert numbers == sorted(numbers)
+    said = {name: scene.result(name) for name in ("Get1", "Put1", "Get2", "Put2")}
+    assert set(said.values()) <= {"OK", "RESTARTED", "OFFLINE"}
+    assert scene["Get1.Value"] == (0x0200 if said["Get1"] == "OK" else 0)
+    assert scene["Get2.Value"] == (0x0280 if said["Get2"] == "OK" else 0)
+    sent = {each[1:3].hex() for each in scene.written()}
+    assert "0201" in sent or said["Put1"] != "OK"
+    assert "0202" in sent or said["Put2"] != "OK"
+
+
+def test_a_read_of_one_register_shows_no_other() -> None:
+    scene = Scene("SN300G5")
+    assert scene.done("Get1", Address=0x0200, Quantity=4) == "OK"
+    assert scene.done("Get2", Address=0x0280) == "OK"
+    assert [scene[f"Get2.Value{name}"] for name in ("", "2", "3", "4")] == [0x0280, 0, 0, 0]
+
+
+@pytest.mark.parametrize("block", ["Put1", "Put2"])
+@pytest.mark.parametrize("within", range(10, 90, 2))
+def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -> None:
+    """Not sent means not sent, also if the block is called after the drive block, which has let it pass."""
+    scene = Scene("SN300G5")
+    scene.put(0, PollEveryMs=0)
+    for _ in range(within % 6):
+        scene.scan()
+    scene.execute(block, Address=0x0200, Value=1, WithinMs=within)
+    while not scene.result(block):
+        scene.scan()
+    said = scene.result(block)
+    scene.run(300)
+    assert len(scene.written()) == (0 if said == "NOT_SENT" else 1)
+
+
 # ---------------------------------------------------------------- results
 
 
@@ -490,6 +543,41 @@ def test_stores_are_apart_and_counted() -> None:
     scene.run(2000)
     scene.silent = False
     assert scene.done("Keep") == "OK"
+
+
+@pytest.mark.parametrize("apart", [0, 1, 3, 50])
+def test_two_blocks_store_in_one_drive_a_minute_apart(apart: int) -> None:
+    scene = Scene("SN300G5").rested()
+    scene.execute("Keep")
+    for _ in range(apart):
+        scene.scan()
+    scene.execute("Store2")
+    scene.run(500)
+    assert {scene.result("Keep"), scene.result("Store2")} == {"OK", "TOO_SOON"}
+    assert len(scene.written()) == 1
+    assert scene["Stores"] + scene["Stores2"] == 1
+    scene.drop("Keep")
+    scene.drop("Store2")
+    scene.run(59_000)
+    assert scene.done("Store2") == "TOO_SOON"
+    scene.drop("Store2")
+    scene.run(2000)
+    assert scene.done("Store2") == "OK"
+
+
+@pytest.mark.parametrize("scans", range(12))
+def test_a_store_counts_only_its_own_attempts(scans: int) -> None:
+    """The line and the drive block restart meanwhile; another block's write is under way."""
+    scene = Scene("SN300G5").rested()
+    scene.execute("Put1", Address=0x0200, Value=7)
+    scene.execute("Keep")
+    for _ in range(scans):
+        scene.scan()
+    scene.scan(took=1_500_000)
+    scene.run(600)
+    stored = [each for each in scene.written() if each[1:3].hex() == "fffd"]
+    assert scene["Stores"] == len(stored)
+    assert (scene.result("Keep") == "OK") is (len(stored) == 1 and scene["Keep.ErrorID"] == 0)
 
 
 @pytest.mark.parametrize(("prefix", "stands", "why"), [("SN300G5", False, "NOT_STOPPED"), ("JSCC", True, "NOT_ABLE")])

@@ -162,9 +162,12 @@ def test_a_drive_whose_block_is_no_longer_called_is_stopped_and_no_longer_polled
     sent = bench.run(1500)
     assert len([each for each in sent if each.stop]) == 1
     assert bench.slot(1, "Unattended")
-    assert not any(each.unit == 2 for each in bench.run(500))
+    again = [each for each in bench.run(3000) if each.unit == 2]
+    assert all(each.stop for each in again)
+    assert 5 <= len(again) <= 6, "without its block nobody proves that it stands"
     bench.attended.add(1)
-    assert any(each.unit == 2 for each in bench.run(500))
+    bench.run(20)
+    assert all(each.read for each in bench.run(2000))
     assert not bench.slot(1, "Unattended")
 
 
@@ -235,3 +238,56 @@ def test_a_standing_poll_does_not_outlive_a_stop_in_numbers() -> None:
     bench.run(100)
     assert bench.slot(1, "Answer[3].Number") == number
     assert bench.slot(1, "PollCount") == 2
+
+
+def refreshes(bench: Bench, flickers: bool, scans: int = 1500) -> int:
+    """Polls of the seven others while one drive's pin flickers in every scan."""
+    before = sum(bench.slot(slot, "Fresh") for slot in range(1, 8))
+    for _ in range(scans):
+        if flickers:
+            bench.put(0, StopAgain=True)
+            bench.stop(0)
+        bench.scan()
+    return sum(bench.slot(slot, "Fresh") for slot in range(1, 8)) - before
+
+
+def test_a_flickering_pin_costs_the_others_next_to_nothing() -> None:
+    bench = Bench(Config(drives=8)).ready()
+    bench.stop(0)
+    bench.run(100)
+    calm = refreshes(bench, flickers=False)
+    before = len(bench.sent)
+    assert refreshes(bench, flickers=True) > 0.95 * calm
+    stops = [each.ms for each in bench.sent[before:] if each.stop]
+    assert 28 <= len(stops) <= 30
+    assert max(later - first for first, later in pairwise(stops)) <= 1000, "within 500 ms of falling due"
+
+
+def test_a_repetition_does_not_make_a_new_stop_wait_that_is_not_sent_yet() -> None:
+    bench = Bench().ready()
+    bench.port_takes = False
+    bench.run(30)
+    bench.stop(1)
+    bench.scan()
+    bench.put(1, StopAgain=True)
+    bench.stop(1)
+    bench.scan()
+    bench.port_takes = True
+    assert next(each.stop for each in bench.run(40))
+
+
+def test_a_repetition_takes_the_command_back_from_the_mailbox_too() -> None:
+    """A draft let a run pass at 30 ms whose stop went out at 380 ms."""
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(100)
+    bench.port_takes = False
+    bench.command(1)
+    while (bench["Phase"], bench["Box"], bench["Slot"]) != (1, COMMAND, 1):
+        bench.scan()
+    bench.put(1, StopAgain=True)
+    bench.stop(1)
+    bench.scan()
+    assert bench.answer(1, COMMAND) == "TAKEN_BACK"
+    bench.port_takes = True
+    assert all(each.read or each.stop for each in bench.run(800))

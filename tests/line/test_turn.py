@@ -136,23 +136,43 @@ def test_a_parameter_that_may_no_longer_pass_is_withdrawn_from_the_port() -> Non
     assert all(each.read for each in bench.run(300))
 
 
-def test_one_address_twice_lets_only_stops_out() -> None:
+def test_one_address_twice_lets_only_stops_out_and_the_others_go_on() -> None:
     bench = Bench().ready()
+    bench.put(2, StopConfirmed=True)
+    bench.scan()
     bench.put(2, UnitAddress=2)
     bench.run(100)
     assert (bench["ErrorID"], bench["ErrorSlot"]) in ((55, 1), (55, 2))
+    assert [bench.slot(slot, "LineErrorID") for slot in range(3)] == [0, 55, 55]
     bench.command(0)
-    bench.stop(0)
-    assert [each.stop for each in bench.run(300)] == [True]
+    bench.command(1)
+    bench.stop(1)
+    sent = bench.run(300)
+    assert [each.stop for each in sent if each.unit == 2] == [True]
+    assert len([each for each in sent if each.unit == 1]) > 10
+    assert bench.answer(0, COMMAND) == "OK"
     bench.put(2, UnitAddress=3)
     bench.run(600)
     assert bench["ErrorID"] == 0
+    assert {each.unit for each in bench.run(100)} == {1, 2, 3}
 
 
-def test_one_slot_for_two_drive_blocks_lets_only_stops_out() -> None:
+def test_one_slot_for_two_drive_blocks_lets_only_stops_out_and_the_others_go_on() -> None:
     bench = Bench().ready()
+    bench.run(50)
     bench.put(1, Shared=True)
-    bench.run(60)
-    bench.stop(1)
-    assert [each.stop for each in bench.run(300)] == [True]
+    bench.scan()
+    assert bench.slot(1, "StopOverdue"), "at once"
+    sent = bench.run(2000)
+    stops = [each for each in sent if each.unit == 2]
+    assert all(each.stop for each in stops)
+    assert 4 <= len(stops) <= 5, "nobody proves that it stands"
+    assert len([each for each in sent if each.unit != 2]) > 80
+    bench.command(0)
+    bench.run(100)
+    assert bench.answer(0, COMMAND) == "OK"
     assert (bench["ErrorID"], bench["ErrorSlot"]) == (56, 1)
+    assert [bench.slot(slot, "LineErrorID") for slot in (0, 1)] == [61, 56]
+    bench.put(1, Shared=False)
+    assert any(each.read and each.unit == 2 for each in bench.run(300))
+    assert bench["ErrorID"] == 0

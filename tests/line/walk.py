@@ -63,7 +63,7 @@ class Walk:
         actions: list[Callable[[int], None]] = [
             self.stop, self.stop, self.again, self.command, self.command, self.reset, self.parameter, self.invalid,
             self.polls, self.die, self.die, self.refuse, self.busy, self.pins, self.port, self.foreign, self.noise,
-            self.neglect, self.address, self.shared, self.stall, self.supply, self.clear, self.clear,
+            self.neglect, self.address, self.shared, self.stall, self.supply, self.claims, self.clear, self.clear,
         ]  # fmt: skip
         for number in range(scans):
             if self.chance.random() < 0.08:
@@ -95,7 +95,9 @@ class Walk:
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
-            if bench["ErrorID"] in (55, 56, 58) and not sent.stop and not bench.config.tx_late:
+            slots = [slot for slot in range(bench.config.drives) if bench[f"Track[{slot}].UnitAddress"] == sent.unit]
+            barred = bench["ErrorID"] == 58 or any(bench.slot(slot, "LineErrorID") in (55, 56) for slot in slots)
+            if barred and not sent.stop and not bench.config.tx_late:
                 raise BrokenRuleError(
                     f"seed {self.seed}, scan {number}: {sent} leaves though ErrorID {bench['ErrorID']}"
                 )
@@ -219,6 +221,8 @@ class Walk:
 
     def address(self, slot: int) -> None:
         unit = self.chance.choice([slot + 1, slot + 1, 0, 1, 50])
+        self.bench.put(slot, StopConfirmed=self.chance.random() < 0.7)
+        self.bench.scan()
         self.bench.put(slot, UnitAddress=unit)
         if unit not in [each.unit for each in self.bench.drives] and unit:
             self.bench.drives[slot].unit = unit
@@ -235,6 +239,14 @@ class Walk:
 
     def supply(self, slot: int) -> None:
         self.bench.put(slot, SupplyOff=not self.bench.slot(slot, "SupplyOff"), StopConfirmed=self.chance.random() < 0.5)
+
+    def claims(self, slot: int) -> None:
+        """What a drive block says of its motor and its stops."""
+        chance, kind = self.chance, self.bench.kind
+        names = ("EndsByAnswer", "ProvedStill", "Tripped", "StopConfirmed")
+        self.bench.put(slot, **{name: chance.random() < 0.5 for name in names})
+        jog = {"JogStopRegister": kind.stop_address, "JogStopWord": kind.stop_word + 1}
+        self.bench.put(slot, JogStop=chance.choice([0, 1, 2]), **jog)
 
     def clear(self, slot: int) -> None:
         """All is well again, so that the next trouble finds a line that works."""

@@ -1,0 +1,119 @@
+"""Frames that nobody here asked for are a rate: what counts, when starts pass no more, and when again."""
+
+import pytest
+from tests.line.vline import COMMAND, Bench, Config
+
+REQUEST = bytes([9, 3, 0x20, 0, 0, 2])
+
+
+def quiet(longest_ms: int = 30) -> Bench:
+    """A line with much room between its polls."""
+    bench = Bench(Config(drives=1, longest_ms=longest_ms))
+    bench.put(0, PollEveryMs=200)
+    return bench.ready()
+
+
+def idle(bench: Bench) -> Bench:
+    """Wait until nothing is open or near."""
+    while bench["Phase"] or bench["QuietMs"] < 30 or bench["Track[0].PauseMs"] < 100:
+        bench.scan()
+    return bench
+
+
+def strange(bench: Bench, frame: bytes = REQUEST) -> None:
+    """Somebody speaks, while nothing is open or near."""
+    idle(bench).foreign(frame)
+    bench.run(50)
+
+
+def passes(bench: Bench) -> bool:
+    """Whether a start passes."""
+    bench.command(0)
+    bench.run(100)
+    assert (bench.answer(0, COMMAND) == "FOREIGN") is (bench["ErrorID"] == 54)
+    return bench.answer(0, COMMAND) == "OK"
+
+
+@pytest.mark.parametrize(("most", "limit"), [(0, 5), (2, 2)])
+def test_more_than_so_many_in_ten_seconds(most: int, limit: int) -> None:
+    bench = quiet()
+    bench.set(ForeignMost=most)
+    for _ in range(limit):
+        strange(bench)
+    assert passes(bench)
+    strange(bench)
+    assert bench["ForeignFrames"] == limit + 1
+    assert not passes(bench)
+    bench.run(28_000)
+    assert not passes(bench)
+    bench.run(2500)
+    assert passes(bench)
+    assert bench["ForeignFrames"] == 0
+
+
+def test_five_in_ten_seconds_for_minutes_stop_nobody() -> None:
+    bench = quiet()
+    for _ in range(30):
+        strange(bench)
+        bench.run(2100)
+        assert bench["ErrorID"] == 0
+
+
+def test_it_clears_by_a_person_and_needs_half_a_minute_with_few_of_them() -> None:
+    bench = quiet()
+    for _ in range(6):
+        strange(bench)
+    for _ in range(10):
+        bench.run(4000)
+        strange(bench)
+    assert not passes(bench), "ten in forty seconds are more than five in thirty"
+    bench.set(Acknowledge=True)
+    assert passes(bench)
+    assert bench["ForeignFrames"] == 0
+
+
+def test_a_copy_of_the_last_reply_is_none() -> None:
+    bench = quiet()
+    for _ in range(20):
+        bench.run(200)
+        reads = idle(bench).drives[0].reads
+        strange(bench, bytes([1, 3, 12]) + reads.to_bytes(2, "big") * 6)
+    assert bench["ForeignFrames"] == 0
+    strange(bench, bytes([1, 3, 12]) + bytes(12))
+    assert bench["ForeignFrames"] == 1
+
+
+@pytest.mark.parametrize("drives", [1, 3])
+@pytest.mark.parametrize("ascii_", [False, True])
+def test_one_reply_in_a_hundred_comes_twice(drives: int, ascii_: bool) -> None:
+    bench = Bench(Config(drives=drives, duplicate=1000, ascii=ascii_), seed=5).ready()
+    for _ in range(6000):
+        bench.scan()
+        assert bench["ErrorID"] == 0
+
+
+def test_each_request_accounts_for_one_late_reply() -> None:
+    """Two stops go unanswered, since a stop waits for nobody; both replies come late."""
+    bench = Bench(Config(drives=2, longest_ms=400)).ready()
+    bench.put(0, PollEveryMs=5000)
+    bench.put(1, PollEveryMs=5000)
+    bench.run(300)
+    for drive in bench.drives:
+        drive.turn_us = 200_000
+    bench.stop(0)
+    bench.stop(1)
+    bench.run(75)
+    for drive in bench.drives:
+        drive.alive = False
+    bench.run(500)
+    heard = [len([each for each in drive.heard if each[1] == 6]) for drive in bench.drives]
+    assert min(heard) >= 2
+    assert bench["ForeignFrames"] == 0
+    assert bench["LateReplies"] >= 1
+
+
+def test_damaged_frames_are_none() -> None:
+    bench = Bench(Config(drives=1, garble=20_000), seed=3).ready()
+    bench.run(20_000)
+    assert bench["Bad"] > 50
+    assert bench["ForeignFrames"] == 0

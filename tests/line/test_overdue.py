@@ -1,0 +1,183 @@
+"""When a stop is overdue: silence that is beyond doubt, and no other; from a cut cable to the contact."""
+
+import pytest
+from tests.line.vline import STOP, Bench, Config
+
+LEARNED = Config(drives=1, turn_ms=50, longest_ms=500, turn_high=20_000)
+EIGHT = Config(drives=8, turn_ms=50, longest_ms=500, turn_high=20_000)
+"""Reply times as drive blocks learn them."""
+
+
+def cut(config: Config, held: bool, after: int = 0) -> tuple[int, int]:
+    """Cut the cable; ms until StopOverdue of every slot, and what the line says of it."""
+    bench = Bench(config).ready()
+    bench.run(500 + after)
+    for drive in bench.drives:
+        drive.alive = False
+    began = bench.now
+    if not held:
+        for slot in range(config.drives):
+            bench.stop(slot)
+    posted = not held
+    while not all(bench.slot(slot, "StopOverdue") for slot in range(config.drives)):
+        bench.scan()
+        if not posted and not bench.slot(0, "Online"):
+            posted = True  # as its drive block does
+            for slot in range(config.drives):
+                bench.stop(slot)
+        assert bench.now - began < 20_000_000
+    return (bench.now - began) // 1000, bench["CutToContactMs"]
+
+
+@pytest.mark.parametrize("held", [False, True])
+@pytest.mark.parametrize("config", [LEARNED, EIGHT])
+@pytest.mark.parametrize("after", [0, 7, 23, 61])
+def test_from_a_cut_cable_to_the_contact(config: Config, held: bool, after: int) -> None:
+    took, stated = cut(config, held, after)
+    assert config.longest_ms < took <= stated
+    assert stated <= (2500 if config.drives == 1 else 4000)
+
+
+def test_before_reply_times_are_learned_it_takes_longer() -> None:
+    took, stated = cut(Config(drives=8, turn_ms=500, longest_ms=500, turn_high=20_000), held=True)
+    assert 2500 < took <= stated
+
+
+def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds() -> None:
+    bench = Bench(EIGHT).ready()
+    bench.drives[3].alive = False
+    began = bench.now
+    while bench.slot(3, "Online"):
+        bench.scan()
+    bench.stop(3)
+    while not bench.slot(3, "StopOverdue"):
+        bench.scan()
+    assert bench.now - began < 4_000_000
+    assert not any(bench.slot(slot, "StopOverdue") for slot in range(8) if slot != 3)
+
+
+@pytest.mark.parametrize("cut_off", [3, 5, 7])
+def test_who_still_answers_stays_online(cut_off: int) -> None:
+    bench = Bench(EIGHT).ready()
+    bench.run(500)
+    for drive in bench.drives[:cut_off]:
+        drive.alive = False
+    for _ in range(1500):
+        bench.scan()
+        assert all(bench.slot(slot, "Online") for slot in range(cut_off, 8)), "nobody else is dead"
+    assert bench["OnlineCount"] == 8 - cut_off
+
+
+def test_never_before_the_longest_reply() -> None:
+    bench = Bench(Config(drives=1, longest_ms=5000)).ready()
+    bench.drives[0].alive = False
+    bench.stop(0)
+    bench.run(4900)
+    assert not bench["StopOverdue"]
+    bench.run(300)
+    assert bench["StopOverdue"]
+
+
+def test_a_port_that_stalls_opens_no_contact() -> None:
+    """It says that it has taken frames, and sends none for 300 ms; 1,000 stops in the long form."""
+    bench = Bench(Config(drives=2)).ready()
+    for _ in range(60):
+        bench.stop(1)
+        for drive in bench.drives:
+            drive.alive = False
+        for _ in range(30):
+            bench.scan()
+            assert not bench["StopOverdue"]
+        for drive in bench.drives:
+            drive.alive = True
+        while not bench.answer(1, STOP):
+            bench.scan()
+            assert not bench["StopOverdue"]
+
+
+def test_silent_units_get_one_attempt_each_before_retries() -> None:
+    bench = Bench(Config(drives=4)).ready()
+    for drive in bench.drives[:3]:
+        drive.alive = False
+    bench.run(6000)
+    assert bench["OnlineCount"] == 1
+    for slot in range(3):
+        bench.stop(slot)
+    sent = [each.unit for each in bench.run(1000) if each.stop]
+    assert sorted(sent[:3]) == sorted(sent[3:6]) == [1, 2, 3]
+    bench.stop(3)
+    assert next(each for each in bench.run(60) if each.stop).unit == 4, "a new stop passes between"
+
+
+def test_new_numbers_do_not_hide_that_nobody_answers() -> None:
+    """A pin that flickers posts a stop in every scan."""
+    bench = Bench(Config(drives=1)).ready()
+    bench.drives[0].alive = False
+    for _ in range(200):
+        bench.stop(0)
+        bench.scan()
+    assert bench["StopOverdue"]
+
+
+@pytest.mark.parametrize("still", [False, True])
+def test_proof_outlives_silence(still: bool) -> None:
+    """The isolator of a fan that stands is opened."""
+    bench = Bench().ready()
+    bench.put(1, StopConfirmed=True, ProvedStill=still, StopWithinMs=700)
+    bench.run(100)
+    bench.drives[1].alive = False
+    bench.put(1, StopConfirmed=False)
+    bench.stop(1)
+    seen = []
+    for _ in range(1000):
+        bench.scan()
+        seen.append(bench["StopOverdue"])
+    assert any(seen) is not still
+    bench.drives[1].alive = True
+    bench.put(1, StopConfirmed=True)
+    bench.run(1500)
+    assert not bench["StopOverdue"]
+    read = bytes.fromhex("0203 0C") + bytes(12)
+    bench.put(1, OtherQuantity=0)
+    bench.drives[1].answer = lambda request: None if request[1] == 6 else read
+    bench.stop(1)
+    bench.run(2000)
+    assert bench["StopOverdue"], "it answers, but not its stop"
+
+
+def test_a_tripped_drive_owes_no_standstill_while_that_is_fresh() -> None:
+    bench = Bench().ready()
+    bench.put(1, StopWithinMs=800)
+    bench.stop(1)
+    bench.run(400)
+    bench.put(1, Tripped=True)
+    bench.run(10_000)
+    assert not bench["StopOverdue"]
+    bench.put(1, Tripped=False)
+    bench.run(700)
+    assert not bench["StopOverdue"], "it counts anew"
+    bench.run(200)
+    assert bench["StopOverdue"]
+
+
+def test_what_stays_unanswered_while_it_boots_counts_anew_then() -> None:
+    bench = Bench(Config(drives=1))
+    bench.put(0, BootMs=3000)
+    bench.drives[0].alive = False
+    bench.stop(0)
+    bench.run(2500)
+    bench.drives[0].alive = True
+    for _ in range(100):
+        bench.scan()
+        assert not bench["StopOverdue"], "the first reply ends it, and says no evil"
+
+
+def test_without_supply_an_answering_drive_that_falls_silent_is_no_alarm() -> None:
+    bench = Bench().ready()
+    bench.put(1, SupplyOff=True, StopWithinMs=300)
+    bench.drives[1].alive = False
+    bench.run(60)
+    bench.stop(1)
+    for _ in range(500):
+        bench.scan()
+        assert not bench["StopOverdue"]

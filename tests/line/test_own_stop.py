@@ -1,0 +1,169 @@
+"""Stops that the line sends by itself: its own copy, one stop after the other, again until the drive block is back."""
+
+from itertools import pairwise
+
+import pytest
+from tests.line.vline import STOP, Bench, Config, Sent
+
+PLAIN, JOG, COAST = 0x0005, 0x0008, 0x0006
+"""Words of stops; all go to the register of the drives' kind."""
+
+
+def copied(slot: int = 1, jog_stop: int = 1, **fields: int | bool) -> Bench:
+    """A line that has copied the stops of its drives, one of which may jog."""
+    bench = Bench().ready()
+    bench.put(slot, JogStopRegister=bench.kind.stop_address, JogStopWord=JOG, JogStop=jog_stop, **fields)
+    bench.run(50)
+    return bench
+
+
+def words(sent: list[Sent], unit: int = 2) -> list[int]:
+    """What was written to a unit."""
+    return [int.from_bytes(each.pdu[4:6], "big") for each in sent if each.unit == unit and not each.read]
+
+
+@pytest.mark.parametrize(("jog_stop", "order"), [(0, [PLAIN]), (1, [PLAIN, JOG]), (2, [JOG, PLAIN])])
+@pytest.mark.parametrize("how", ["StopAll", "not called", "shared"])
+def test_the_stop_of_the_last_order_goes_first_then_the_other(jog_stop: int, order: list[int], how: str) -> None:
+    bench = copied(jog_stop=jog_stop)
+    bench.put(1, StopAgain=False)
+    bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)  # whatever was posted last
+    if how == "StopAll":
+        bench.set(StopAll=True)
+        assert words(bench.run(3000)) == order, "its block goes on"
+        return
+    if how == "shared":
+        bench.put(1, Shared=True)
+    else:
+        bench.attended.discard(1)
+        bench.run(990)
+    found = words(bench.run(1700))
+    assert len(found) >= 3 * len(order)
+    assert found == (order * len(found))[: len(found)]
+
+
+def test_the_first_leaves_within_worst_stop_and_the_other_within_half_a_second() -> None:
+    bench = Bench(Config(drives=7)).ready()
+    for slot in range(7):
+        bench.put(slot, JogStopRegister=bench.kind.stop_address, JogStopWord=JOG, JogStop=1)
+    bench.run(100)
+    begun = bench.now / 1000
+    bench.set(StopAll=True)
+    sent = bench.run(3000)
+    for unit in range(1, 8):
+        first, other = (each.ms - begun for each in sent if each.unit == unit and not each.read)
+        assert first <= bench["WorstStopMs"]
+        assert other <= bench["WorstStopMs"] + 500
+
+
+def test_another_block_cannot_change_the_copy() -> None:
+    """It writes its stop, its words and its address in the scan in which it begins; only the next call knows of it."""
+    bench = copied()
+    bench.drives.append(type(bench.drives[0])(9, bench.kind))
+    bench.put(1, StopWord=0x0001, JogStop=0, Alive=bench.slot(1, "Alive") + 1, UnitAddress=9)
+    bench._alive[1] += 1
+    bench.fill(1, STOP, 6, bench.kind.stop_address, word=0x0001)
+    bench.scan()
+    assert bench.slot(1, "StopOverdue"), "at once"
+    bench.put(1, Shared=True)
+    sent = bench.run(1200)
+    assert words(sent, unit=2)[:4] == [PLAIN, JOG] * 2
+    assert not [each for each in sent if each.unit == 9]
+    assert bench.slot(1, "LineErrorID") == 56
+    bench.put(1, Shared=False, UnitAddress=2, StopWord=PLAIN)
+    bench.run(500)
+    assert not bench.slot(1, "StopOverdue")
+    assert any(each.read for each in bench.run(200) if each.unit == 2)
+
+
+@pytest.mark.parametrize("why", ["StopConfirmed", "EndsByAnswer", "SupplyOff"])
+def test_a_new_address_is_taken_where_nothing_is_owed(why: str) -> None:
+    bench = copied(**{why: True})
+    bench.drives[1].unit = 9
+    bench.put(1, UnitAddress=9)
+    bench.run(700)
+    assert bench.slot(1, "Online")
+    assert not bench.slot(1, "StopOverdue")
+
+
+def test_no_address_at_all_does_not_end_what_is_owed() -> None:
+    bench = copied()
+    bench.put(1, UnitAddress=0)
+    assert words(bench.run(1200))[:4] == [PLAIN, JOG] * 2
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    assert not words(bench.run(1200)), "a restart begins anew"
+
+
+def test_a_restart_voids_the_copy_until_the_block_writes_it_anew() -> None:
+    bench = copied()
+    bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)
+    bench.attended.discard(1)
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    assert set(words(bench.run(2500))) == {COAST}
+    bench.attended.add(1)
+    bench.run(100)
+    bench.attended.discard(1)
+    assert set(words(bench.run(2500))) == {PLAIN, JOG}
+
+
+def test_the_refusal_of_the_other_is_no_failure() -> None:
+    bench = copied(StopWithinMs=0)
+    word = JOG.to_bytes(2, "big")
+    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
+    bench.attended.discard(1)
+    assert words(bench.run(4000)).count(JOG) >= 5
+    assert not bench["StopOverdue"]
+    assert max(words(bench.sent[-8:]).count(PLAIN), 1) >= 1
+
+
+def test_the_other_goes_even_if_the_first_is_refused() -> None:
+    bench = copied()
+    word = PLAIN.to_bytes(2, "big")
+    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
+    bench.attended.discard(1)
+    found = words(bench.run(3000))
+    assert found.count(JOG) >= 5
+    assert bench.slot(1, "StopOverdue"), "the first is not acknowledged"
+
+
+def test_a_stop_whose_answer_ends_it_goes_once() -> None:
+    bench = copied(EndsByAnswer=True, StopWithinMs=500)
+    bench.attended.discard(1)
+    assert words(bench.run(5000)) == [PLAIN, JOG]
+    assert not bench["StopOverdue"]
+
+
+def test_without_its_block_a_stop_is_overdue_in_time() -> None:
+    bench = copied(StopWithinMs=2000, StopConfirmed=True, Tripped=True, ProvedStill=True)
+    bench.attended.discard(1)
+    bench.run(2900)
+    assert not bench["StopOverdue"]
+    bench.run(300)
+    assert bench["StopOverdue"], "what the block has said is worth nothing any more"
+    bench.attended.add(1)
+    bench.run(100)
+    assert not bench["StopOverdue"]
+    assert not words(bench.run(2000))
+
+
+def test_a_silent_drive_without_its_block_gets_its_stop_every_second() -> None:
+    bench = copied()
+    bench.attended.discard(1)
+    bench.drives[1].alive = False
+    bench.run(4000)
+    times = [each.ms for each in bench.run(10_000) if each.stop]
+    assert max(later - before for before, later in pairwise(times)) < 1150
+    assert bench.slot(1, "StopOverdue")
+
+
+def test_a_new_stop_of_the_block_takes_the_place_of_the_lines_own() -> None:
+    bench = copied()
+    bench.set(StopAll=True)
+    bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)
+    bench.stop(1)
+    assert words(bench.run(1000)) == [COAST]
+    assert bench.answer(1, STOP) == "OK"
