@@ -111,12 +111,12 @@ def test_silent_units_get_one_attempt_each_before_retries() -> None:
 
 def test_new_numbers_do_not_hide_that_nobody_answers() -> None:
     """A pin that flickers posts a stop in every scan."""
-    bench = Bench(Config(drives=1)).ready()
+    bench = Bench(Config(drives=2)).ready()
     bench.drives[0].alive = False
-    for _ in range(200):
+    for _ in range(400):
         bench.stop(0)
         bench.scan()
-    assert bench["StopOverdue"]
+    assert bench.slot(0, "StopOverdue")
 
 
 @pytest.mark.parametrize("still", [False, True])

@@ -76,6 +76,16 @@ def test_another_block_cannot_change_the_copy() -> None:
     assert any(each.read for each in bench.run(200) if each.unit == 2)
 
 
+def test_another_block_with_the_same_address_cannot_change_the_copy_either() -> None:
+    bench = copied()
+    bench._alive[1] += 1  # it is called, too; its first call does not know of the other
+    bench.put(1, StopWord=0x0001, JogStop=0)
+    bench.scan()
+    bench._alive[1] += 1
+    bench.put(1, Shared=True)
+    assert words(bench.run(1200))[:4] == [PLAIN, JOG] * 2
+
+
 @pytest.mark.parametrize("why", ["StopConfirmed", "EndsByAnswer", "SupplyOff"])
 def test_a_new_address_is_taken_where_nothing_is_owed(why: str) -> None:
     bench = copied(**{why: True})
