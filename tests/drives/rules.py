@@ -269,10 +269,10 @@ class Observer:
         assert isinstance(within, int)
         self.moved = not shows["StopConfirmed"] and (self.moved or shows["Running"] or self.commanded)
         self.moved |= bool(self.bench.line_pins.get("Restart") or self.bench.elapsed > 1000)
-        if self._boots(pins) or not self.moved:
-            return  # proved, and nothing posted since: its answer ends the stop, and proof outlives silence
-        if shows["Fault"] and shows["ZeroSpeed"]:
-            self.stopping_us = 0  # tripped: its stop stays open, and is not overdue
+        if self._boots(pins) or not self.moved or (shows["Fault"] and shows["ZeroSpeed"]):
+            # it counts anew after the boot; proved, and nothing posted since: proof outlives silence; a tripped drive's
+            # stop stays open, and is not overdue
+            self.stopping_us = 0
         if self.stopping_us > 1000 * within + 1_500_000 and not shows["StopOverdue"]:
             self.fail(f"neither StopConfirmed nor StopOverdue for {self.stopping_us // 1000} ms")
 

@@ -231,7 +231,7 @@ def test_a_run_that_is_obeyed_without_an_answer_runs() -> None:
     bench = watched("CHF").stopped()
     bench.spoil = lambda frame, reply: None if sent(bench, [frame], "run_forward") else reply
     edge(bench)
-    bench.run(6000)
+    assert len(motions(bench, bench.run(6000))) == 1
     assert bench.shows("AtSpeed")
     assert not motions(bench, bench.run(3000))
 

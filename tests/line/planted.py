@@ -95,5 +95,9 @@ PLANTED = (
         "IF (Slots[Index].ParameterCleared = Asked) AND (Count < 256) THEN",
         "IF Count < 256 THEN",
     ),
-    Planted("a fault reset is repeated", "      Most := 0;\n", "      Most := CommandMost;\n"),
+    Planted(
+        "a fault reset is repeated",
+        "        Most := 0;\n        Away := 0;\n",
+        "        Most := CommandMost;\n        Away := 0;\n",
+    ),
 )

@@ -161,6 +161,14 @@ def stalls(bench: Bench) -> None:
     bench.run(1500)
 
 
+def once(bench: Bench) -> None:
+    """A run that nobody answers."""
+    bench.ready().put(0, Once=True)
+    bench.drives[0].alive = False
+    bench.command(0)
+    bench.run(300)
+
+
 def echo_ends(bench: Bench) -> None:
     """A port that no longer hears itself, without an error."""
     bench.ready().echoes = False
@@ -173,6 +181,7 @@ TOURS = (
     (unset, Config(drives=1)),
     (supplies, Config(drives=1)),
     (late, Config(drives=1, longest_ms=300)),
+    (once, Config(drives=1)),
     (echo_ends, Config(drives=1, echo=True)),
     (odd_replies, Config(drives=1, kind=2)),
     (odd_replies, Config(drives=1, kind=2, ascii=True)),

@@ -265,3 +265,16 @@ def test_damage_is_counted_and_never_believed(fault: str, counter: str) -> None:
             assert bench.slot(0, "PollWords[0]") == bench.drives[0].reads
     assert bench[counter] > 10
     assert bench["LastErrorID"] in (20, 23)
+
+
+def test_a_run_that_nobody_answers_is_sent_once() -> None:
+    """It may have been obeyed: the drive block reads the status before it repeats it."""
+    bench = Bench().ready()
+    bench.drives[0].alive = False
+    bench.put(0, Once=True)
+    before = len(bench.sent)
+    number = bench.command(0)
+    bench.run(400)
+    assert len([each for each in bench.sent[before:] if not each.read]) == 1
+    assert bench.slot(0, "Answer[1].Number") == number
+    assert bench.slot(0, "Answer[1].ErrorID") == 20
