@@ -1,0 +1,207 @@
+"""What can happen to the first drive of a line: each event begins, lasts, and ends."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from random import Random
+
+from tests.drives.bench import Faults
+from tests.second.bench import Second
+
+Does = Callable[[Second, Random], None]
+FAULT = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
+STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+ABSENT = 77
+"""A unit address that no drive has."""
+
+
+def nothing(_: Second, __: Random) -> None:
+    """..."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event: for how long, in ms, what begins and what ends it, and whether it concerns a drive alone."""
+
+    begins: Does
+    lasts: int = 0
+    ends: Does = nothing
+    stops: bool = True
+    """The first drive may stop for it; else it must run on."""
+    stops_all: bool = False
+    """Others may stop for it, too."""
+
+
+def pin(name: str, value: bool, lasts: int, **more: bool) -> Event:
+    """An input of the block, for a time."""
+    return Event(lambda b, _: _put(b, name, value), lasts, lambda b, _: _put(b, name, not value), **more)
+
+
+def line(name: str) -> Event:
+    """An input of the line, for 100 ms."""
+    return Event(lambda b, _: _line(b, name, True), 100, lambda b, _: _line(b, name, False), stops_all=True)
+
+
+def key(name: str) -> Event:
+    """A key of the drive's own keypad."""
+    return Event(lambda b, _: b.models[0].press(name, b.now))  # type: ignore[arg-type]  # one of them
+
+
+def late(ms: int, *, stops: bool) -> Event:
+    """A scan that comes late."""
+    return Event(lambda b, _: b.stall(ms), stops=stops, stops_all=stops)
+
+
+def _put(b: Second, name: str, value: bool) -> None:
+    b.put(0, **{name: value})
+
+
+def _line(b: Second, name: str, on: bool) -> None:
+    b.line(**{name: on})
+
+
+def _restart_into(mode: str) -> Does:
+    def begin(b: Second, _: Random) -> None:
+        b.put(0, **{mode: True}).line(Restart=True)
+
+    return begin
+
+
+def _twin(b: Second, chance: Random) -> None:
+    b.twin(on=True, address=chance.choice([1, 2]))
+    b.judge.observer.stores.setdefault(2, lambda body: body[1] != 3)  # type: ignore[union-attr, attr-defined]
+
+
+def _absent(b: Second, _: Random) -> None:
+    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[union-attr, index]
+    b.put(0, Address=ABSENT)
+
+
+def _wrong_from_the_start(b: Second, chance: Random) -> None:
+    _absent(b, chance)
+    b.line(Restart=True)
+    b.scan()
+    b.line(Restart=False)
+
+
+def _right(b: Second, _: Random) -> None:
+    b.put(0, Address=1)
+
+
+def _dead(b: Second, _: Random) -> None:
+    b.deaf.add(1)
+
+
+def _back(b: Second, _: Random) -> None:
+    b.deaf.discard(1)
+
+
+def _trip(b: Second, chance: Random) -> None:
+    b.models[0].trip(FAULT[b.types[0]], b.now, cause=chance.random() < 0.3)
+
+
+def _power(on: bool) -> Does:
+    return lambda b, _: b.models[0].power(on, b.now)
+
+
+def _inhibit(on: bool) -> Does:
+    return lambda b, _: b.models[0].inhibit(on, b.now)
+
+
+def _flicker(name: str) -> Event:
+    def begin(b: Second, _: Random) -> None:
+        b.flicker = name
+
+    def end(b: Second, _: Random) -> None:
+        b.flicker = ""
+        _put(b, name, name == "Enable")
+
+    return Event(begin, 8000, end)
+
+
+def _wire(lasts: int, **faults: int) -> Event:
+    def begin(b: Second, _: Random) -> None:
+        b.faults = Faults(**faults)
+
+    def end(b: Second, _: Random) -> None:
+        b.faults = Faults()
+
+    return Event(begin, lasts, end, stops=False)
+
+
+def _slow(b: Second, _: Random) -> None:
+    b.line(MaxScanMs=60)
+    b.ms, b.was_ms = 50, b.ms  # type: ignore[attr-defined]
+
+
+def _fast(b: Second, _: Random) -> None:
+    b.ms = b.was_ms  # type: ignore[attr-defined]
+
+
+def _unreadable(on: bool) -> Does:
+    def does(b: Second, _: Random) -> None:
+        one = b.models[0]
+        one.o = replace(one.o, forbidden=frozenset([STATUS[b.types[0]]] if on else []))
+
+    return does
+
+
+def _again(b: Second, _: Random) -> None:
+    b.release()
+
+
+def _asked(b: Second, _: Random) -> None:
+    b.put(0, **{b.start_pin: True})  # type: ignore[attr-defined]
+
+
+def _other_way(b: Second, _: Random) -> None:
+    b.release().put(0, **{b.start_pin.replace("Forward", "Reverse"): True})  # type: ignore[attr-defined]
+
+
+def _half(b: Second, _: Random) -> None:
+    b.put(0, SpeedReferenceHz=10.0)
+
+
+def _whole(b: Second, _: Random) -> None:
+    b.put(0, SpeedReferenceHz=25.0)
+
+
+EVENTS: dict[str, Event] = {
+    "nothing": Event(nothing, 3000, stops=False),
+    "StopAll pulse": line("StopAll"),
+    "Restart": Event(lambda b, _: _line(b, "Restart", True), 1, lambda b, _: _line(b, "Restart", False), stops_all=True),
+    "Restart into SpeedOnly": Event(_restart_into("SpeedOnly"), 1, lambda b, _: _line(b, "Restart", False), stops_all=True),
+    "Restart into MonitorOnly": Event(
+        _restart_into("MonitorOnly"), 1, lambda b, _: _line(b, "Restart", False), stops_all=True
+    ),
+    "block not called for 2 s": Event(lambda b, _: _leave(b, True), 2000, lambda b, _: _leave(b, False)),
+    "a stall of 300 ms": late(300, stops=False),
+    "a stall of 2 s": late(2000, stops=True),
+    "a shared slot": Event(_twin, 4000, lambda b, _: b.twin(on=False), stops_all=True),
+    "a changed address": Event(_absent, 4000, _right),
+    "a wrong address from the start": Event(_wrong_from_the_start, 3000, _right, stops_all=True),
+    "a reset": pin("FaultReset", True, 100),
+    "a dead drive": Event(_dead, 9000, _back),
+    "a trip": Event(_trip, 9000),
+    "a supply dip of 300 ms": Event(_power(False), 300, _power(True)),
+    "a safe torque off": Event(_inhibit(True), 1000, _inhibit(False)),
+    "keypad start": key("start"),
+    "keypad stop": key("stop"),
+    "Enable falls": pin("Enable", False, 4000),
+    "QuickStop": pin("QuickStop", True, 4000),
+    "CoastStop": pin("CoastStop", True, 4000),
+    "the pin falls and rises": Event(_again, 200, _asked),
+    "the other direction": Event(_other_way, 2000, _again),
+    "SpeedOnly": pin("SpeedOnly", True, 4000),
+    "MonitorOnly": pin("MonitorOnly", True, 4000),
+    "Enable flickers": _flicker("Enable"),
+    "QuickStop flickers": _flicker("QuickStop"),
+    "replies doubled": _wire(10_000, twice=200),
+    "frames lost": _wire(4000, lost=200, unanswered=100),
+    "slow scans": Event(_slow, 12_000, _fast, stops=False),
+    "it refuses to be read": Event(_unreadable(True), 12_000, _unreadable(False)),
+    "another reference": Event(_half, 3000, _whole, stops=False),
+}
+
+
+def _leave(b: Second, on: bool) -> None:
+    b.leave("Skip0", on=on)

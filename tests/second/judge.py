@@ -1,0 +1,164 @@
+"""Judges a second bench: the observer's rules, the contact of the hard stop, what the outputs say, who is kept running.
+
+It reads pins of blocks, true models and bytes; no state of a block, no map, and no reply.
+"""
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from tests.second.observer import Figures, Observer, Truth
+
+if TYPE_CHECKING:
+    from tests.second.bench import Second
+
+EVERY_US = 200_000
+"""How often outputs are looked at."""
+LAG_US = 300_000
+"""What an age of words does not say: the reply's way, and the scan in which it is shown."""
+CUT_US = 3_000_000
+"""From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop with its retries."""
+CALM_US = 8_000_000
+"""A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
+FACTS = ("Running", "Fault")
+SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
+"""Reasons that speak of silence, by the table of the drive block's page."""
+
+
+@dataclass
+class Unit:
+    """What is remembered of one drive."""
+
+    seen: dict[tuple[str, bool], int] = field(default_factory=dict)
+    """When a fact was last so."""
+    shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=40))
+    """Frequencies that the drive showed, with their times."""
+    away_us: int = 0
+    """When it could last not be reached."""
+    reached_us: int = 0
+    silent_since: int | None = None
+    turned_us: int = 0
+    """When it last stood, or was asked to turn: it turns unasked since then."""
+    broken: set[str] = field(default_factory=set)
+
+
+class Judge:
+    """Looks after every scan; `found` are broken rules: time in us, unit, rule, what was seen."""
+
+    def __init__(self, bench: "Second", stores: Mapping[int, Callable[[bytes], bool]], figures: Figures) -> None:
+        """Watch a bench from its power-up."""
+        self.bench, self.figures = bench, figures
+        self.observer = Observer(stores, figures, ascii_=bench.ascii)
+        self.found = self.observer.found
+        self.units = [Unit() for _ in bench.models]
+        self.kept: set[int] = set()
+        """Drives that nobody asks to stop and that nothing happens to: they run."""
+        self.others_move = False
+        """Keypad or terminals may move the motor without the block's having a say: SpeedOnly, MonitorOnly."""
+        self.contact = False
+        self.next_us = 0
+
+    def sent(self, now_us: int, frame: bytes) -> None:
+        """A frame of the master."""
+        self.observer.sent(now_us, frame)
+
+    def tell(self, index: int, rule: str, seen: str) -> None:
+        """A broken rule."""
+        self.found.append((self.bench.now, index + 1, rule, seen))
+
+    def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+        broken = self.units[index].broken
+        if bad and rule not in broken:
+            broken.add(rule)
+            self.tell(index, rule, f"{seen} {self.bench.told()}".strip())
+        elif not bad:
+            broken.discard(rule)
+
+    # ------------------------------------------------------------ every scan
+
+    def scan(self) -> None:
+        """The models and pins after a scan."""
+        bench, now = self.bench, self.bench.now
+        looks = now >= self.next_us
+        opened = self.contact and not bench.contact
+        for index, one in enumerate(bench.models):
+            if now >= one.due:
+                one.advance(now)
+            unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
+            open_now = not bench.contact
+            truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
+            shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
+            self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
+            self._reach(index, unit)
+            driven = one.by == "bus" and not one.stopping
+            if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
+                unit.turned_us = now
+            self._cut(index, unit, hz)
+            if self.kept:
+                self._once(index, "kept", bad=index in self.kept and not driven)
+            unit.seen["Running", one.runs and one.fault is None] = now
+            unit.seen["Fault", one.fault is not None] = now
+            if looks:
+                unit.shaft.append((now, one.shown_hz(now)))
+                self._outputs(index, unit)
+        if looks:
+            self.next_us = now + EVERY_US
+        if opened and not any(self._excused(index) for index in range(len(self.units))):
+            self.tell(-1, "contact", f"opens for nothing; {bench.told()}")
+        if bench.contact and not self.contact and not bench.hand:
+            self.tell(-1, "hand", "the contact closes by itself")
+        self.contact = bench.contact
+
+    def _reach(self, index: int, unit: Unit) -> None:
+        if not self.bench.reachable(index) or self.bench.pins[index].get("Left") or self.bench.pins[index].get("Shared"):
+            unit.away_us = self.bench.now
+        else:
+            unit.reached_us = self.bench.now
+
+    def _cut(self, index: int, unit: Unit, hz: float) -> None:
+        """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
+        bench, one = self.bench, self.bench.models[index]
+        silent = index + 1 in bench.deaf or one.cut or bool(bench.pins[index].get("Shared"))
+        owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
+        unit.silent_since = (unit.silent_since or bench.now) if owed else None
+        late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
+        self._once(index, "cut", bad=late)
+
+    def _excused(self, index: int) -> bool:
+        """Whether the contact may open for this drive."""
+        now, unit = self.bench.now, self.units[index]
+        patience = self.figures.stop_us
+        away = unit.away_us > 0 and now - unit.away_us < patience + 2_000_000
+        turns = now - unit.turned_us > patience * 3 // 4 and not self.others_move
+        return away or turns
+
+    # ------------------------------------------------------------ what outputs say
+
+    def _outputs(self, index: int, unit: Unit) -> None:
+        bench, now = self.bench, self.bench.now
+        if bench.pins[index].get("Left"):
+            return
+        calm = now - unit.away_us > CALM_US and unit.reached_us == now
+        good = bench.shows("CommOk", index)
+        self._once(index, "comm", bad=calm and not good)
+        reason = bench.out("Reason", index)
+        self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason}, and it answers")
+        if not good:
+            return
+        self._once(index, "stale", bad=now - unit.reached_us > 6_500_000)
+        age = bench.number("StatusAgeMs", index)
+        since = now - int(1000 * age) - LAG_US
+        for name in FACTS:
+            shown = bench.shows(name, index)
+            late = unit.seen.get((name, shown), -1) < since
+            self._once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
+        if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
+            self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - LAG_US)
+
+    def _frequency(self, index: int, unit: Unit, since: int) -> None:
+        hz = self.bench.number("OutputFrequencyHz", index)
+        window = [each for at, each in unit.shaft if at >= since - EVERY_US]
+        if unit.shaft[0][0] < since - EVERY_US:
+            far = not min(window) - 0.3 <= hz <= max(window) + 0.3
+            self._once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {window};")
