@@ -60,7 +60,7 @@ class Second(Bench):
             if one.o.comm_us is not None:
                 self.put(index, WatchdogMs=one.o.comm_us // 1000)
             self.put(index, StopWithinMs=STOP_WITHIN_MS)
-        self.put(0, **(pins or {}))
+        self.put(0, **(pins or {})).line(MaxScanMs=60)
         self.judge = Judge(self, {i + 1: STORES[kind] for i, kind in enumerate(types)}, FIGURES)
         self.watch.append(Second._look)
         self.restart()
@@ -166,14 +166,15 @@ class Second(Bench):
                 if index != who and index + 1 not in self.deaf:
                     one.receive(text, at)
 
-    def told(self) -> str:
-        """What blocks and models show, for messages."""
+    def told(self, about: int | None = None) -> str:
+        """What blocks and models show, for messages: the first drive and another, or all."""
         shown = [
             f"{kind} {round(one.shaft_hz(self.now), 1):g} Hz by {one.by or 'nobody'} {one.state(self.now)},"
             f" block Reason {self.out('Reason', i)} State {self.out('State', i)}"
             for i, (kind, one) in enumerate(zip(self.types, self.models, strict=True))
+            if about is None or i in (0, about)
         ]
-        return f"{self.now // 1000} ms: {'; '.join(shown[:1] if len(shown) > 3 else shown)}"
+        return f"{self.now // 1000} ms: {'; '.join(shown)}"
 
     def release(self, drive: int = 0) -> "Second":
         """All run and jog pins FALSE."""

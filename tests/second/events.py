@@ -1,6 +1,6 @@
 """What can happen to the first drive of a line: each event begins, lasts, and ends."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from random import Random
 
@@ -10,6 +10,8 @@ from tests.second.bench import Second
 Does = Callable[[Second, Random], None]
 FAULT = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
 STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+UNUSED = {"SN300G5": 0x0013}
+"""A row that the manual lists as unused, between two that can be read."""
 ABSENT = 77
 """A unit address that no drive has."""
 
@@ -129,7 +131,6 @@ def _wire(lasts: int, **faults: int) -> Event:
 
 
 def _slow(b: Second, _: Random) -> None:
-    b.line(MaxScanMs=60)
     b.ms, b.was_ms = 50, b.ms  # type: ignore[attr-defined]
 
 
@@ -137,10 +138,10 @@ def _fast(b: Second, _: Random) -> None:
     b.ms = b.was_ms  # type: ignore[attr-defined]
 
 
-def _unreadable(on: bool) -> Does:
+def _unreadable(addresses: Mapping[str, int], *, on: bool) -> Does:
     def does(b: Second, _: Random) -> None:
-        one = b.models[0]
-        one.o = replace(one.o, forbidden=frozenset([STATUS[b.types[0]]] if on else []))
+        one, address = b.models[0], addresses.get(b.types[0])
+        one.o = replace(one.o, forbidden=frozenset([address] if on and address is not None else []))
 
     return does
 
@@ -198,7 +199,10 @@ EVENTS: dict[str, Event] = {
     "replies doubled": _wire(10_000, twice=200),
     "frames lost": _wire(4000, lost=200, unanswered=100),
     "slow scans": Event(_slow, 12_000, _fast, stops=False),
-    "it refuses to be read": Event(_unreadable(True), 12_000, _unreadable(False)),
+    "it refuses to be read": Event(_unreadable(STATUS, on=True), 12_000, _unreadable(STATUS, on=False)),
+    "an unused row is refused": Event(
+        _unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False
+    ),
     "another reference": Event(_half, 3000, _whole, stops=False),
 }
 

@@ -6,7 +6,7 @@ It reads pins of blocks, true models and bytes; no state of a block, no map, and
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tests.second.observer import Figures, Observer, Truth
 
@@ -21,6 +21,15 @@ CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop with its retries."""
 CALM_US = 8_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
+GRACE_US = 1_500_000
+"""A contact may open so long after its reason has ended, which the block cannot know at once."""
+SHAFT = 700
+"""Scans of which the frequency is remembered."""
+SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
+    "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
+    "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
+    "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
+}
 FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
@@ -32,7 +41,7 @@ class Unit:
 
     seen: dict[tuple[str, bool], int] = field(default_factory=dict)
     """When a fact was last so."""
-    shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=40))
+    shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=SHAFT))
     """Frequencies that the drive showed, with their times."""
     away_us: int = 0
     """When it could last not be reached."""
@@ -40,6 +49,8 @@ class Unit:
     silent_since: int | None = None
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
+    unasked_us: int = 0
+    """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
     broken: set[str] = field(default_factory=set)
 
 
@@ -71,7 +82,7 @@ class Judge:
         broken = self.units[index].broken
         if bad and rule not in broken:
             broken.add(rule)
-            self.tell(index, rule, f"{seen} {self.bench.told()}".strip())
+            self.tell(index, rule, f"{seen} {self.bench.told(index)}".strip())
         elif not bad:
             broken.discard(rule)
 
@@ -94,13 +105,16 @@ class Judge:
             driven = one.by == "bus" and not one.stopping
             if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
                 unit.turned_us = now
+            foreign = one.by in ("keypad", "terminals")
+            if now - unit.turned_us > (0 if foreign else self.figures.stop_us * 3 // 4) and not self.others_move:
+                unit.unasked_us = now
             self._cut(index, unit, hz)
             if self.kept:
                 self._once(index, "kept", bad=index in self.kept and not driven)
-            unit.seen["Running", one.runs and one.fault is None] = now
+            unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
             unit.seen["Fault", one.fault is not None] = now
+            unit.shaft.append((now, one.shown_hz(now)))
             if looks:
-                unit.shaft.append((now, one.shown_hz(now)))
                 self._outputs(index, unit)
         if looks:
             self.next_us = now + EVERY_US
@@ -128,10 +142,8 @@ class Judge:
     def _excused(self, index: int) -> bool:
         """Whether the contact may open for this drive."""
         now, unit = self.bench.now, self.units[index]
-        patience = self.figures.stop_us
-        away = unit.away_us > 0 and now - unit.away_us < patience + 2_000_000
-        turns = now - unit.turned_us > patience * 3 // 4 and not self.others_move
-        return away or turns
+        away = unit.away_us > 0 and now - unit.away_us < self.figures.stop_us + 2_000_000
+        return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
 
     # ------------------------------------------------------------ what outputs say
 
@@ -158,7 +170,7 @@ class Judge:
 
     def _frequency(self, index: int, unit: Unit, since: int) -> None:
         hz = self.bench.number("OutputFrequencyHz", index)
-        window = [each for at, each in unit.shaft if at >= since - EVERY_US]
-        if unit.shaft[0][0] < since - EVERY_US:
+        window = [each for at, each in unit.shaft if at >= since]
+        if window and unit.shaft[0][0] < since:
             far = not min(window) - 0.3 <= hz <= max(window) + 0.3
-            self._once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {window};")
+            self._once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")
