@@ -8,7 +8,7 @@ from tests.second import chf, jscc, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu
-from tests.second.judge import Judge
+from tests.second.judge import Asked, Judge
 from tests.second.observer import Figures
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
@@ -46,6 +46,8 @@ class Second(Bench):
         self.models: list[Drive] = []
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
+        self.restarts_contact = False
+        """The first-scan bit goes to the contact, too, at present."""
         self._later: list[tuple[int, int, bytes]] = []
         named = _Named(stations, name_of(types))
         super().__init__(*types, stations=named, seed=seed, ms=ms, ascii_=ascii_, start=False)  # type: ignore[arg-type]
@@ -103,6 +105,19 @@ class Second(Bench):
         self.scan()
         self.block["Contact.Reset"] = self.hand = False
 
+    def ask(self, name: str, index: int, address: int, value: int) -> None:
+        """A rising edge of a parameter block: where, and what."""
+        assert self.judge
+        if name.startswith("Reader"):
+            self.models[index].ram[address] = value
+        pins = {"Address": address, "Value": value, "AllowUnknown": True}
+        for pin, given in pins.items() if not name.startswith("Storer") else ():
+            if not (pin == "Value" and name.startswith("Reader")):
+                self.block[f"{name}.{pin}"] = given
+        self.block[f"{name}.Execute"] = True
+        self.judge.observer.may_store.add(index + 1)
+        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames)))
+
     hand = False
 
     @property
@@ -130,7 +145,7 @@ class Second(Bench):
 
     def _look(self, *_: object) -> None:
         if self.flicker:
-            self.put(0, **{self.flicker: not self.pins[0][self.flicker]})
+            self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
         more = self.block["More"]
         assert isinstance(more, int)
         self.seen |= more << (16 + 8 * IN_SEEN)

@@ -10,6 +10,8 @@ from tests.second.bench import Second
 Does = Callable[[Second, Random], None]
 FAULT = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
 STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "SN300G5": 0x0200}
+WRITES = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
 ABSENT = 77
@@ -69,8 +71,8 @@ def _restart_into(mode: str) -> Does:
 
 
 def _twin(b: Second, chance: Random) -> None:
-    b.twin(on=True, address=chance.choice([1, 2]))
-    b.judge.observer.stores.setdefault(2, lambda body: body[1] != 3)  # type: ignore[union-attr, attr-defined]
+    b.twin(on=True, address=chance.choice([1, ABSENT]))
+    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[union-attr, index]
 
 
 def _absent(b: Second, _: Random) -> None:
@@ -80,9 +82,36 @@ def _absent(b: Second, _: Random) -> None:
 
 def _wrong_from_the_start(b: Second, chance: Random) -> None:
     _absent(b, chance)
+    b.block["Contact.Restart"] = b.restarts_contact = True
     b.line(Restart=True)
     b.scan()
     b.line(Restart=False)
+    b.block["Contact.Restart"] = b.restarts_contact = False
+
+
+def _absent_and_stall(b: Second, chance: Random) -> None:
+    _absent(b, chance)
+    b.scan()
+    b.stall(2000)
+
+
+def _parameters(b: Second, chance: Random) -> None:
+    """Readers and writers of some drives, before and after their blocks, within some scans."""
+    for index in range(min(len(b.models), 3)):
+        address, kind = PARAMETER[b.types[index]], b.types[index]
+        for name in (*(("Reader", "Writer") if index == 0 else ()), f"Reader{index}", f"Writer{index}"):
+            reads = name.startswith("Reader")
+            b.ask(name, index, address + 1 if reads else WRITES[kind] | address, chance.randrange(1, 500))
+            b.run(chance.choice([0, 0, 20, 60]))
+
+
+def _stores(b: Second, _: Random) -> None:
+    """Two blocks of one drive, more than a minute after power-up."""
+    b.release()
+    b.run(62_000)
+    for name in ("Storer", "Storer0"):
+        b.ask(name, 0, 0xFFFD, 0)
+        b.run(2000)
 
 
 def _right(b: Second, _: Random) -> None:
@@ -177,8 +206,9 @@ EVENTS: dict[str, Event] = {
     "block not called for 2 s": Event(lambda b, _: _leave(b, True), 2000, lambda b, _: _leave(b, False)),
     "a stall of 300 ms": late(300, stops=False),
     "a stall of 2 s": late(2000, stops=True),
-    "a shared slot": Event(_twin, 4000, lambda b, _: b.twin(on=False), stops_all=True),
+    "a shared slot": Event(_twin, 4000, lambda b, _: b.twin(on=False)),
     "a changed address": Event(_absent, 4000, _right),
+    "a changed address and a stall of 2 s": Event(_absent_and_stall, 4000, _right, stops_all=True),
     "a wrong address from the start": Event(_wrong_from_the_start, 3000, _right, stops_all=True),
     "a reset": pin("FaultReset", True, 100),
     "a dead drive": Event(_dead, 9000, _back),
@@ -203,6 +233,8 @@ EVENTS: dict[str, Event] = {
     "an unused row is refused": Event(
         _unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False
     ),
+    "parameters": Event(_parameters, 1000, stops=False),
+    "two stores": Event(_stores, 1000),
     "another reference": Event(_half, 3000, _whole, stops=False),
 }
 

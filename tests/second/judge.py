@@ -19,6 +19,10 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop with its retries."""
+PIN_US = 3_500_000
+"""In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
+STORE_US = 60_000_000
+"""At most one store of a drive in that time, by the page of VFD_Store."""
 CALM_US = 8_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
 GRACE_US = 1_500_000
@@ -33,6 +37,10 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
 FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
+STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
+"""The bit of an address that leaves EEPROM alone."""
+NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 
 
 @dataclass
@@ -46,12 +54,51 @@ class Unit:
     away_us: int = 0
     """When it could last not be reached."""
     reached_us: int = 0
+    unknown_us: int = 0
+    """When it could last not be reached, or all began anew."""
+    refuses_us: int = 0
+    """When it last refused to be read, by its options."""
+    pin_us: int | None = None
+    stored_us: int = 0
     silent_since: int | None = None
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
     unasked_us: int = 0
     """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
     broken: set[str] = field(default_factory=set)
+
+
+@dataclass
+class Asked:
+    """A parameter block that was asked for something: its name, its drive, and what must come of it."""
+
+    name: str
+    index: int
+    address: int
+    value: int
+    since_us: int
+    frames: int
+    """Frames before."""
+
+    def over(self, judge: "Judge") -> bool:
+        """Whether it has ended; what it says is then judged."""
+        bench, one = judge.bench, judge.bench.models[self.index]
+        done, error = bench.block[f"{self.name}.Done"], bench.block[f"{self.name}.Error"]
+        if not (done or error):
+            return False
+        bench.block[f"{self.name}.Execute"] = False
+        mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
+        if self.name.startswith(READ):
+            value = bench.block[f"{self.name}.Value"]
+            if done and value != one.ram.get(self.address):
+                judge.tell(self.index, "parameter", f"{self.name} has read {value}")
+        elif self.name.startswith(WRITE) and done and (
+            one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine
+        ):
+            judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
+        if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
+            judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
+        return True
 
 
 class Judge:
@@ -69,10 +116,20 @@ class Judge:
         """Keypad or terminals may move the motor without the block's having a say: SpeedOnly, MonitorOnly."""
         self.contact = False
         self.next_us = 0
+        self.late: deque[int] = deque([0] * 100, maxlen=100)
+        """How long the last scans were, in us: nobody knows when in them a reply came."""
+        self.asked: list[Asked] = []
 
     def sent(self, now_us: int, frame: bytes) -> None:
         """A frame of the master."""
         self.observer.sent(now_us, frame)
+        body = self.observer.opened(frame)
+        if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):
+            return
+        unit = self.units[body[0] - 1]
+        if body[1] == 16 and now_us - unit.stored_us < STORE_US:
+            self.tell(body[0] - 1, "stores", f"{(now_us - unit.stored_us) // 1000} ms after the last one")
+        unit.stored_us = now_us
 
     def tell(self, index: int, rule: str, seen: str) -> None:
         """A broken rule."""
@@ -92,6 +149,7 @@ class Judge:
         """The models and pins after a scan."""
         bench, now = self.bench, self.bench.now
         looks = now >= self.next_us
+        self.late.append(1000 * bench.elapsed)
         opened = self.contact and not bench.contact
         for index, one in enumerate(bench.models):
             if now >= one.due:
@@ -109,6 +167,8 @@ class Judge:
             if now - unit.turned_us > (0 if foreign else self.figures.stop_us * 3 // 4) and not self.others_move:
                 unit.unasked_us = now
             self._cut(index, unit, hz)
+            if pins.get("SpeedOnly"):
+                self._stop_pin(index, unit, hz)
             if self.kept:
                 self._once(index, "kept", bad=index in self.kept and not driven)
             unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
@@ -123,12 +183,26 @@ class Judge:
         if bench.contact and not self.contact and not bench.hand:
             self.tell(-1, "hand", "the contact closes by itself")
         self.contact = bench.contact
+        self.asked = [each for each in self.asked if not each.over(self)]
 
     def _reach(self, index: int, unit: Unit) -> None:
         if not self.bench.reachable(index) or self.bench.pins[index].get("Left") or self.bench.pins[index].get("Shared"):
             unit.away_us = self.bench.now
         else:
             unit.reached_us = self.bench.now
+        if unit.away_us == self.bench.now or self.bench.pins[index].get("Restart"):
+            unit.unknown_us = self.bench.now
+        if STATUS[self.bench.types[index]] in self.bench.models[index].o.forbidden:
+            unit.refuses_us = self.bench.now
+
+    def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
+        """Terminals start and stop it, but a stop pin still takes its reference back."""
+        bench, pins = self.bench, self.bench.pins[index]
+        asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
+        heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by != "keypad"
+        unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
+        late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
+        self._once(index, "stop pin", bad=late and abs(hz) > self.figures.still_hz)
 
     def _cut(self, index: int, unit: Unit, hz: float) -> None:
         """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
@@ -143,6 +217,8 @@ class Judge:
         """Whether the contact may open for this drive."""
         now, unit = self.bench.now, self.units[index]
         away = unit.away_us > 0 and now - unit.away_us < self.figures.stop_us + 2_000_000
+        if self.bench.restarts_contact:
+            return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
 
     # ------------------------------------------------------------ what outputs say
@@ -151,22 +227,23 @@ class Judge:
         bench, now = self.bench, self.bench.now
         if bench.pins[index].get("Left"):
             return
-        calm = now - unit.away_us > CALM_US and unit.reached_us == now
+        calm = now - unit.unknown_us > CALM_US
         good = bench.shows("CommOk", index)
-        self._once(index, "comm", bad=calm and not good)
+        refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
+        self._once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
         self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason}, and it answers")
         if not good:
             return
         self._once(index, "stale", bad=now - unit.reached_us > 6_500_000)
-        age = bench.number("StatusAgeMs", index)
-        since = now - int(1000 * age) - LAG_US
+        lag = LAG_US + max(self.late)
+        since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
         for name in FACTS:
             shown = bench.shows(name, index)
             late = unit.seen.get((name, shown), -1) < since
             self._once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
         if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
-            self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - LAG_US)
+            self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)
 
     def _frequency(self, index: int, unit: Unit, since: int) -> None:
         hz = self.bench.number("OutputFrequencyHz", index)
