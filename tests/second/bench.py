@@ -22,7 +22,7 @@ CHAR_US = 521
 STOP_WITHIN_MS = 7000
 CONTACT = 1 << (16 + 8 * IN_SEEN + 16)
 """The bit of `seen` that is HardStopOk."""
-FIGURES = Figures(stop_us=1000 * STOP_WITHIN_MS + 1_800_000, seen_us=5_500_000)
+FIGURES = Figures(stop_us=1000 * STOP_WITHIN_MS + 1_800_000, seen_us=5_500_000, unseen_us=500_000)
 """The pin's time, and for a block that is not called a second before the line stops its drive; then attempts."""
 
 
@@ -43,6 +43,8 @@ class Second(Bench):
         """Power up. `options` of the models by family; `settings` of the first; `pins` of its block."""
         stations = stations or library()
         self.judge: Judge | None = None
+        self.mode, self.start_pin, self.was_ms = "", "RunForward", ms
+        """What the run that uses this bench is about: for events."""
         self.models: list[Drive] = []
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""

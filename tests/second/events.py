@@ -37,7 +37,12 @@ class Event:
 
 def pin(name: str, value: bool, lasts: int, **more: bool) -> Event:
     """An input of the block, for a time."""
-    return Event(lambda b, _: _put(b, name, value), lasts, lambda b, _: _put(b, name, not value), **more)
+
+    def end(b: Second, _: Random) -> None:
+        if name != b.mode:
+            _put(b, name, not value)
+
+    return Event(lambda b, _: _put(b, name, value), lasts, end, **more)
 
 
 def line(name: str) -> Event:
@@ -72,11 +77,11 @@ def _restart_into(mode: str) -> Does:
 
 def _twin(b: Second, chance: Random) -> None:
     b.twin(on=True, address=chance.choice([1, ABSENT]))
-    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[union-attr, index]
+    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[index]
 
 
 def _absent(b: Second, _: Random) -> None:
-    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[union-attr, index]
+    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[index]
     b.put(0, Address=ABSENT)
 
 
@@ -101,7 +106,9 @@ def _parameters(b: Second, chance: Random) -> None:
         address, kind = PARAMETER[b.types[index]], b.types[index]
         for name in (*(("Reader", "Writer") if index == 0 else ()), f"Reader{index}", f"Writer{index}"):
             reads = name.startswith("Reader")
-            b.ask(name, index, address + 1 if reads else WRITES[kind] | address, chance.randrange(1, 500))
+            place = address + (1 if name == "Reader" else 2)
+            value = 100 * place & 0xFFF if reads else chance.randrange(1, 500)
+            b.ask(name, index, place if reads else WRITES[kind] | address, value)
             b.run(chance.choice([0, 0, 20, 60]))
 
 
@@ -160,11 +167,11 @@ def _wire(lasts: int, **faults: int) -> Event:
 
 
 def _slow(b: Second, _: Random) -> None:
-    b.ms, b.was_ms = 50, b.ms  # type: ignore[attr-defined]
+    b.was_ms, b.ms = b.ms, 50
 
 
 def _fast(b: Second, _: Random) -> None:
-    b.ms = b.was_ms  # type: ignore[attr-defined]
+    b.ms = b.was_ms
 
 
 def _unreadable(addresses: Mapping[str, int], *, on: bool) -> Does:
@@ -180,11 +187,11 @@ def _again(b: Second, _: Random) -> None:
 
 
 def _asked(b: Second, _: Random) -> None:
-    b.put(0, **{b.start_pin: True})  # type: ignore[attr-defined]
+    b.put(0, **{b.start_pin: True})
 
 
 def _other_way(b: Second, _: Random) -> None:
-    b.release().put(0, **{b.start_pin.replace("Forward", "Reverse"): True})  # type: ignore[attr-defined]
+    b.release().put(0, **{b.start_pin.replace("Forward", "Reverse"): True})
 
 
 def _half(b: Second, _: Random) -> None:

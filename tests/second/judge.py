@@ -90,7 +90,7 @@ class Asked:
         mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
         if self.name.startswith(READ):
             value = bench.block[f"{self.name}.Value"]
-            if done and value != one.ram.get(self.address):
+            if done and value not in (self.value, one.ram.get(self.address)):
                 judge.tell(self.index, "parameter", f"{self.name} has read {value}")
         elif self.name.startswith(WRITE) and done and (
             one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine
@@ -112,8 +112,6 @@ class Judge:
         self.units = [Unit() for _ in bench.models]
         self.kept: set[int] = set()
         """Drives that nobody asks to stop and that nothing happens to: they run."""
-        self.others_move = False
-        """Keypad or terminals may move the motor without the block's having a say: SpeedOnly, MonitorOnly."""
         self.contact = False
         self.next_us = 0
         self.late: deque[int] = deque([0] * 100, maxlen=100)
@@ -163,8 +161,9 @@ class Judge:
             driven = one.by == "bus" and not one.stopping
             if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
                 unit.turned_us = now
+            watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
             foreign = one.by in ("keypad", "terminals")
-            if now - unit.turned_us > (0 if foreign else self.figures.stop_us * 3 // 4) and not self.others_move:
+            if now - unit.turned_us > (0 if foreign else self.figures.stop_us * 3 // 4) and not watches_only:
                 unit.unasked_us = now
             self._cut(index, unit, hz)
             if pins.get("SpeedOnly"):
@@ -199,7 +198,7 @@ class Judge:
         """Terminals start and stop it, but a stop pin still takes its reference back."""
         bench, pins = self.bench, self.bench.pins[index]
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
-        heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by != "keypad"
+        heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
         self._once(index, "stop pin", bad=late and abs(hz) > self.figures.still_hz)

@@ -95,6 +95,8 @@ class Outcome:
 
     cell: Cell
     seed: int
+    second: str = ""
+    """The second event."""
     rules: list[str] = field(default_factory=list)
     """Broken rules, the first one first; empty: all held."""
     told: list[str] = field(default_factory=list)
@@ -106,7 +108,7 @@ class Run:
 
     def __init__(self, cell: Cell, seed: int, stations: Library | None = None) -> None:
         """Draw options and times by name and seed, and power up."""
-        self.cell = cell
+        self.cell, self.seed = cell, seed
         self.chance = Random(f"{cell} {seed}")
         self.row = row = self.chance.choice(rows())
         second = self.chance.choice([each for each in EVENTS if each not in ("nothing", cell.event)])
@@ -128,8 +130,8 @@ class Run:
         )  # fmt: skip
         assert b.judge
         self.judge = b.judge
-        self.judge.others_move = not self.by_bus
-        b.start_pin = "JogForward" if cell.mode == "jog" else "RunForward"  # type: ignore[attr-defined]
+        b.mode = cell.mode
+        b.start_pin = "JogForward" if cell.mode == "jog" else "RunForward"
 
     def _options(self, family: str) -> dict[str, Any]:
         given = {k: v for k, v in self.row.items() if "." not in k and k not in LINE}
@@ -164,7 +166,7 @@ class Run:
     def start(self) -> None:
         """An edge, or the wired terminal."""
         if self.by_bus:
-            self.bench.put(0, **{self.bench.start_pin: True})  # type: ignore[attr-defined]
+            self.bench.put(0, **{self.bench.start_pin: True})
         else:
             self.one.terminal(True, self.bench.now)
 
@@ -354,7 +356,7 @@ class Run:
 
     def go(self) -> Outcome:
         """To the state, through the events, and back."""
-        out = Outcome(self.cell, 0)
+        out = Outcome(self.cell, self.seed, self.second)
         try:
             self.reach()
             self.happen()
@@ -364,15 +366,13 @@ class Run:
         for at, unit, rule, seen in self.judge.found:
             if rule not in out.rules:
                 out.rules.append(rule)
-            out.told.append(f"{at // 1000} ms, unit {unit}: {rule}: {seen}")
+            out.told.append(f"{rule}: {at // 1000} ms, unit {unit}: {seen}")
         return out
 
 
 def run(cell: Cell, seed: int = 0, stations: Library | None = None) -> Outcome:
     """Run a cell."""
-    outcome = Run(cell, seed, stations).go()
-    outcome.seed = seed
-    return outcome
+    return Run(cell, seed, stations).go()
 
 
 def frames(bench: Second, around_ms: int) -> Iterator[str]:
