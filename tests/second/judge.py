@@ -224,7 +224,7 @@ class Judge:
 
     def _outputs(self, index: int, unit: Unit) -> None:
         bench, now = self.bench, self.bench.now
-        if bench.pins[index].get("Left"):
+        if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
             return
         calm = now - unit.unknown_us > CALM_US
         good = bench.shows("CommOk", index)

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 
-from tests.second.failing import finding
+from tests.second.sample import finding
 from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
 from tests.second.station import built
 from tests.second.walk import walk
