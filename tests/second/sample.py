@@ -7,11 +7,11 @@ import yaml
 from tests.drives.station import FAMILIES
 from tests.second import pairs
 from tests.second.events import EVENTS
-from tests.second.matrix import MODES, STATES, Cell, Outcome
+from tests.second.matrix import JOGS, MODES, STATES, Cell, Outcome
 
 FAILING = Path(__file__).with_name("failing.yaml")
-SIZE = 84
-"""Cells: every second one of all pairs of family, mode, event and state."""
+SIZE = 160
+"""Cells of the sample."""
 
 
 @cache
@@ -22,12 +22,11 @@ def _rows() -> dict[str, list[dict[str, str | list[str]]]]:
 
 def sample() -> list[tuple[Cell, int]]:
     """Cells with their seeds: all pairs of family, mode, event and state; every second seed has a second event."""
-    # the seldom ones begin each row: they fill the sample evenly
     options = {"event": list(EVENTS), "state": STATES, "mode": MODES, "family": FAMILIES}
     rows = pairs.rows(options)
     step = max(1, len(rows) // SIZE)
     return [
-        (Cell(row["family"], row["mode"], row["event"], row["state"]), index % 4)
+        (Cell(row["family"] if row["mode"] != "jog" else JOGS[0], row["mode"], row["event"], row["state"]), index % 4)
         for index, row in enumerate(rows[::step][:SIZE])
     ]
 
