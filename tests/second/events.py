@@ -68,11 +68,15 @@ def _line(b: Second, name: str, on: bool) -> None:
     b.line(**{name: on})
 
 
-def _restart_into(mode: str) -> Does:
-    def begin(b: Second, _: Random) -> None:
-        b.put(0, **{mode: True}).line(Restart=True)
+def restart(mode: str = "") -> Event:
+    """The PLC's first scan, with a mode chosen in the same call; then time enough for a stop."""
 
-    return begin
+    def begin(b: Second, _: Random) -> None:
+        if mode:
+            b.put(0, **{mode: True})
+        b.restart()
+
+    return Event(begin, 10_000, stops_all=True)
 
 
 def _twin(b: Second, chance: Random) -> None:
@@ -88,9 +92,7 @@ def _absent(b: Second, _: Random) -> None:
 def _wrong_from_the_start(b: Second, chance: Random) -> None:
     _absent(b, chance)
     b.block["Contact.Restart"] = b.restarts_contact = True
-    b.line(Restart=True)
-    b.scan()
-    b.line(Restart=False)
+    b.restart()
     b.block["Contact.Restart"] = b.restarts_contact = False
 
 
@@ -205,12 +207,11 @@ def _whole(b: Second, _: Random) -> None:
 EVENTS: dict[str, Event] = {
     "nothing": Event(nothing, 3000, stops=False),
     "StopAll pulse": line("StopAll"),
-    "Restart": Event(lambda b, _: _line(b, "Restart", True), 1, lambda b, _: _line(b, "Restart", False), stops_all=True),
-    "Restart into SpeedOnly": Event(_restart_into("SpeedOnly"), 1, lambda b, _: _line(b, "Restart", False), stops_all=True),
-    "Restart into MonitorOnly": Event(
-        _restart_into("MonitorOnly"), 1, lambda b, _: _line(b, "Restart", False), stops_all=True
-    ),
+    "Restart": restart(),
+    "Restart into SpeedOnly": restart("SpeedOnly"),
+    "Restart into MonitorOnly": restart("MonitorOnly"),
     "block not called for 2 s": Event(lambda b, _: _leave(b, True), 2000, lambda b, _: _leave(b, False)),
+    "block not called for 12 s": Event(lambda b, _: _leave(b, True), 12_000, lambda b, _: _leave(b, False)),
     "a stall of 300 ms": late(300, stops=False),
     "a stall of 2 s": late(2000, stops=True),
     "a shared slot": Event(_twin, 4000, lambda b, _: b.twin(on=False)),
