@@ -165,7 +165,7 @@ def _wire(lasts: int, **faults: int) -> Event:
     def end(b: Second, _: Random) -> None:
         b.faults = Faults()
 
-    return Event(begin, lasts, end, stops=False)
+    return Event(begin, lasts, end, stops="lost" in faults, stops_all="lost" in faults)
 
 
 def _slow(b: Second, _: Random) -> None:
@@ -204,6 +204,8 @@ def _whole(b: Second, _: Random) -> None:
     b.put(0, SpeedReferenceHz=25.0)
 
 
+LONG = ("nothing", "two stores")
+"""Events that are no second ones: they take a minute of the bus, or none."""
 EVENTS: dict[str, Event] = {
     "nothing": Event(nothing, 3000, stops=False),
     "StopAll pulse": line("StopAll"),

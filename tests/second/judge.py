@@ -25,7 +25,7 @@ STORE_US = 60_000_000
 """At most one store of a drive in that time, by the page of VFD_Store."""
 CALM_US = 8_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
-GRACE_US = 1_500_000
+GRACE_US = 3_000_000
 """A contact may open so long after its reason has ended, which the block cannot know at once."""
 SHAFT = 700
 """Scans of which the frequency is remembered."""
@@ -163,7 +163,7 @@ class Judge:
                 unit.turned_us = now
             watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
             foreign = one.by in ("keypad", "terminals")
-            if now - unit.turned_us > (0 if foreign else self.figures.stop_us * 3 // 4) and not watches_only:
+            if now - unit.turned_us > (0 if foreign else self.figures.stop_us // 2) and not watches_only:
                 unit.unasked_us = now
             self._cut(index, unit, hz)
             if pins.get("SpeedOnly"):
@@ -189,6 +189,9 @@ class Judge:
             unit.away_us = self.bench.now
         else:
             unit.reached_us = self.bench.now
+        lossy = self.bench.faults.lost or self.bench.faults.unanswered
+        if lossy:  # a stop and its retries may be lost, and the connection with them
+            unit.away_us = self.bench.now
         if unit.away_us == self.bench.now or self.bench.pins[index].get("Restart"):
             unit.unknown_us = self.bench.now
         if STATUS[self.bench.types[index]] in self.bench.models[index].o.forbidden:
@@ -216,7 +219,8 @@ class Judge:
         """Whether the contact may open for this drive."""
         now, unit = self.bench.now, self.units[index]
         away = unit.away_us > 0 and now - unit.away_us < self.figures.stop_us + 2_000_000
-        if self.bench.restarts_contact:
+        refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
+        if self.bench.restarts_contact or refuses:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
 

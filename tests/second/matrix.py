@@ -17,7 +17,7 @@ from tests.drives.station import FAMILIES
 from tests.second import pairs
 from tests.second.bench import Second
 from tests.second.drive import Drive
-from tests.second.events import EVENTS, FAULT, Event
+from tests.second.events import EVENTS, FAULT, LONG, Event
 from tests.second.station import SIZES, types_of
 
 from driveblocks.host.engine import Library
@@ -112,7 +112,7 @@ class Run:
         self.cell, self.seed = cell, seed
         self.chance = Random(f"{cell} {seed}")
         self.row = row = self.chance.choice(rows())
-        second = self.chance.choice([each for each in EVENTS if each not in ("nothing", cell.event)])
+        second = self.chance.choice([each for each in EVENTS if each not in (*LONG, cell.event)])
         self.second = second if seed % 2 else ""
         ascii_ = row["ascii"] and cell.family != "SN300G5"
         types = types_of(cell.family, row["size"], ascii_=ascii_)

@@ -7,14 +7,12 @@ import sys
 from random import Random
 
 from tests.drives.station import FAMILIES
-from tests.second.events import EVENTS
+from tests.second.events import EVENTS, LONG
 from tests.second.matrix import MODES, STATES, Cell, Outcome, Run
 
 from driveblocks.host.engine import Library
 
 STEPS = 5
-LONG = ("two stores",)
-"""Events that take a minute of the bus."""
 
 
 class Walk(Run):
