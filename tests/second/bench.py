@@ -42,7 +42,6 @@ class Second(Bench):
     ) -> None:
         """Power up. `options` of the models by family; `settings` of the first; `pins` of its block."""
         stations = stations or library()
-        self.judge: Judge | None = None
         self.mode, self.start_pin, self.was_ms = "", "RunForward", ms
         """What the run that uses this bench is about: for events."""
         self.models: list[Drive] = []
@@ -66,7 +65,7 @@ class Second(Bench):
             self.put(index, StopWithinMs=STOP_WITHIN_MS)
         self.put(0, **(pins or {})).line(MaxScanMs=60)
         self.judge = Judge(self, {i + 1: STORES[kind] for i, kind in enumerate(types)}, FIGURES)
-        self.watch.append(Second._look)
+        self.watch.append(lambda _: self._look())
         self.restart()
 
     # ------------------------------------------------------------ pins
@@ -109,7 +108,6 @@ class Second(Bench):
 
     def ask(self, name: str, index: int, address: int, value: int) -> None:
         """A rising edge of a parameter block: where, and what."""
-        assert self.judge
         if name.startswith("Reader"):
             self.models[index].ram[address] = value
         pins = {"Address": address, "Value": value, "AllowUnknown": True}
@@ -145,18 +143,16 @@ class Second(Bench):
         for each in self.pins:
             each["Restart"] = self.line_pins.get("Restart", False)
 
-    def _look(self, *_: object) -> None:
+    def _look(self) -> None:
         if self.flicker:
             self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
         more = self.block["More"]
         assert isinstance(more, int)
         self.seen |= more << (16 + 8 * IN_SEEN)
-        if self.judge:
-            self.judge.scan()
+        self.judge.scan()
 
     def _answer(self, frame: Any, data: bytes, end: int) -> None:
         raw = ascii_frame(data) if self.ascii else rtu(data)
-        assert self.judge
         self.judge.sent(end, raw)
         self._hear_others(end)
         for index, one in enumerate(self.models):
@@ -187,7 +183,7 @@ class Second(Bench):
         """What blocks and models show, for messages: the first drive and another, or all."""
         shown = [
             f"{kind} {round(one.shaft_hz(self.now), 1):g} Hz by {one.by or 'nobody'} {one.state(self.now)},"
-            f" block Reason {self.out('Reason', i)} State {self.out('State', i)}"
+            f" block Reason {self.out('Reason', i)!r} State {self.out('State', i)!r}"
             for i, (kind, one) in enumerate(zip(self.types, self.models, strict=True))
             if about is None or i in (0, about)
         ]

@@ -6,9 +6,10 @@ from random import Random
 
 from tests.drives.bench import Faults
 from tests.second.bench import Second
+from tests.second.drive import Fault
 
 Does = Callable[[Second, Random], None]
-FAULT = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
+FAULT: dict[str, Fault] = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
 STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
 PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "SN300G5": 0x0200}
 WRITES = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
@@ -81,11 +82,11 @@ def restart(mode: str = "") -> Event:
 
 def _twin(b: Second, chance: Random) -> None:
     b.twin(on=True, address=chance.choice([1, ABSENT]))
-    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[index]
+    b.judge.stores[ABSENT] = lambda _: False
 
 
 def _absent(b: Second, _: Random) -> None:
-    b.judge.observer.stores[ABSENT] = lambda _: False  # type: ignore[index]
+    b.judge.stores[ABSENT] = lambda _: False
     b.put(0, Address=ABSENT)
 
 
@@ -240,9 +241,7 @@ EVENTS: dict[str, Event] = {
     "frames lost": _wire(4000, lost=200, unanswered=100),
     "slow scans": Event(_slow, 12_000, _fast, stops=False),
     "it refuses to be read": Event(_unreadable(STATUS, on=True), 12_000, _unreadable(STATUS, on=False)),
-    "an unused row is refused": Event(
-        _unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False
-    ),
+    "an unused row is refused": Event(_unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False),
     "parameters": Event(_parameters, 1000, stops=False),
     "two stores": Event(_stores, 1000),
     "another reference": Event(_half, 3000, _whole, stops=False),

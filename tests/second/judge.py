@@ -4,7 +4,7 @@ It reads pins of blocks, true models and bytes; no state of a block, no map, and
 """
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ EVERY_US = 200_000
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
-"""From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop with its retries."""
+"""From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 PIN_US = 3_500_000
 """In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
 STORE_US = 60_000_000
@@ -91,9 +91,11 @@ class Asked:
         if self.name.startswith(READ):
             value = bench.block[f"{self.name}.Value"]
             if done and value not in (self.value, one.ram.get(self.address)):
-                judge.tell(self.index, "parameter", f"{self.name} has read {value}")
-        elif self.name.startswith(WRITE) and done and (
-            one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine
+                judge.tell(self.index, "parameter", f"{self.name} has read {value!r}")
+        elif (
+            self.name.startswith(WRITE)
+            and done
+            and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
         ):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
@@ -104,10 +106,11 @@ class Asked:
 class Judge:
     """Looks after every scan; `found` are broken rules: time in us, unit, rule, what was seen."""
 
-    def __init__(self, bench: "Second", stores: Mapping[int, Callable[[bytes], bool]], figures: Figures) -> None:
+    def __init__(self, bench: "Second", stores: dict[int, Callable[[bytes], bool]], figures: Figures) -> None:
         """Watch a bench from its power-up."""
         self.bench, self.figures = bench, figures
         self.observer = Observer(stores, figures, ascii_=bench.ascii)
+        self.stores = stores
         self.found = self.observer.found
         self.units = [Unit() for _ in bench.models]
         self.kept: set[int] = set()
@@ -149,32 +152,8 @@ class Judge:
         looks = now >= self.next_us
         self.late.append(1000 * bench.elapsed)
         opened = self.contact and not bench.contact
-        for index, one in enumerate(bench.models):
-            if now >= one.due:
-                one.advance(now)
-            unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
-            open_now = not bench.contact
-            truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
-            shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
-            self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
-            self._reach(index, unit)
-            driven = one.by == "bus" and not one.stopping
-            if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
-                unit.turned_us = now
-            watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
-            foreign = one.by in ("keypad", "terminals")
-            if now - unit.turned_us > (0 if foreign else self.figures.stop_us // 2) and not watches_only:
-                unit.unasked_us = now
-            self._cut(index, unit, hz)
-            if pins.get("SpeedOnly"):
-                self._stop_pin(index, unit, hz)
-            if self.kept:
-                self._once(index, "kept", bad=index in self.kept and not driven)
-            unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
-            unit.seen["Fault", one.fault is not None] = now
-            unit.shaft.append((now, one.shown_hz(now)))
-            if looks:
-                self._outputs(index, unit)
+        for index in range(len(self.units)):
+            self._drive(index, looks=looks)
         if looks:
             self.next_us = now + EVERY_US
         if opened and not any(self._excused(index) for index in range(len(self.units))):
@@ -184,8 +163,40 @@ class Judge:
         self.contact = bench.contact
         self.asked = [each for each in self.asked if not each.over(self)]
 
+    def _drive(self, index: int, *, looks: bool) -> None:
+        bench, now, one = self.bench, self.bench.now, self.bench.models[index]
+        if now >= one.due:
+            one.advance(now)
+        unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
+        open_now = not bench.contact
+        truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
+        shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
+        self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
+        self._reach(index, unit)
+        driven = one.by == "bus" and not one.stopping
+        if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
+            unit.turned_us = now
+        watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
+        foreign = one.by in ("keypad", "terminals")
+        if now - unit.turned_us > (0 if foreign else self.figures.stop_us // 2) and not watches_only:
+            unit.unasked_us = now
+        self._cut(index, unit, hz)
+        if pins.get("SpeedOnly"):
+            self._stop_pin(index, unit, hz)
+        if self.kept:
+            self._once(index, "kept", bad=index in self.kept and not driven)
+        unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
+        unit.seen["Fault", one.fault is not None] = now
+        unit.shaft.append((now, one.shown_hz(now)))
+        if looks:
+            self._outputs(index, unit)
+
     def _reach(self, index: int, unit: Unit) -> None:
-        if not self.bench.reachable(index) or self.bench.pins[index].get("Left") or self.bench.pins[index].get("Shared"):
+        if (
+            not self.bench.reachable(index)
+            or self.bench.pins[index].get("Left")
+            or self.bench.pins[index].get("Shared")
+        ):
             unit.away_us = self.bench.now
         else:
             unit.reached_us = self.bench.now
@@ -198,13 +209,14 @@ class Judge:
             unit.refuses_us = self.bench.now
 
     def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
-        """Terminals start and stop it, but a stop pin still takes its reference back."""
+        """Terminals start and stop it, but a stop pin still sends its stop, and takes the reference back."""
         bench, pins = self.bench, self.bench.pins[index]
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
-        self._once(index, "stop pin", bad=late and abs(hz) > self.figures.still_hz)
+        obeys = bench.models[index].o.bus_stop_ends_others  # then the terminals' run is over, too
+        self._once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
 
     def _cut(self, index: int, unit: Unit, hz: float) -> None:
         """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
@@ -235,7 +247,7 @@ class Judge:
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self._once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
-        self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason}, and it answers")
+        self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
         if not good:
             return
         self._once(index, "stale", bad=now - unit.reached_us > 6_500_000)

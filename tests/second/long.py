@@ -1,4 +1,4 @@
-"""The matrix at length, `make matrix`: `python -m tests.second.long [--times N] [--first SEED] [--only WORDS] [--walks N]`.
+"""The matrix at length, `make matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
 
 Every cell so many times, each time with other options, other moments and, every second time, a second event on the
 heels of the first; then random walks with the same judge. On matiec where it is found, else on the embedded engine; in
@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import cache
 
-from tests.second.sample import finding
 from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
+from tests.second.sample import finding
 from tests.second.station import built
 from tests.second.walk import walk
 
@@ -81,7 +81,9 @@ def main() -> int:
     outcomes = []
     with ProcessPoolExecutor(options.jobs) as pool:
         waiting = [pool.submit(some, part, seed) for seed in seeds for part in parts]
-        waiting += [pool.submit(walks, first, min(CHUNK, options.walks - first)) for first in range(0, options.walks, CHUNK)]
+        waiting += [
+            pool.submit(walks, first, min(CHUNK, options.walks - first)) for first in range(0, options.walks, CHUNK)
+        ]
         for each in waiting:
             outcomes += each.result()
     return report(outcomes)

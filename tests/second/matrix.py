@@ -129,7 +129,6 @@ class Run:
             *types, options={each: self._options(each) for each in FAMILIES}, settings=settings, pins=pins,
             stations=stations, seed=seed, ms=row["ms"], ascii_=ascii_,
         )  # fmt: skip
-        assert b.judge
         self.judge = b.judge
         b.mode = cell.mode
         b.start_pin = "JogForward" if cell.mode == "jog" else "RunForward"
@@ -307,7 +306,7 @@ class Run:
         self._faults()
         b.line(Acknowledge=True).run(100)
         b.line(Acknowledge=False)
-        if not all([self.ready(index) for index in range(len(b.models))]):
+        if not all(self.ready(index) for index in range(len(b.models))):
             self.fail("again")
             return
         b.press()

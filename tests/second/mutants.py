@@ -76,14 +76,14 @@ def judged(number: int) -> tuple[Mutant, str]:
     one = drawn()[number]
     try:
         stations = built(EmbeddedEngine(), one.edit)
-    except Exception as error:  # noqa: BLE001  (whatever says that it is no program)
+    except Exception as error:
         return one, f"does not build: {type(error).__name__}"
     cells: list[tuple[Cell, int]] = passing()
     Random(number).shuffle(cells)
     for cell, seed in cells:
         try:
             outcome = run(cell, seed, stations)
-        except Exception as error:  # noqa: BLE001  (a program that fails is found)
+        except Exception as error:
             return one, f"{cell}, seed {seed}: {type(error).__name__}"
         if outcome.rules:
             return one, f"{cell}, seed {seed}: {outcome.rules[0]}"
