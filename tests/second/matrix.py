@@ -102,6 +102,8 @@ class Outcome:
     """Broken rules, the first one first; empty: all held."""
     told: list[str] = field(default_factory=list)
     not_reached: str = ""
+    events: list[str] = field(default_factory=list)
+    """All of them, in their order."""
 
 
 class Run:
@@ -114,6 +116,7 @@ class Run:
         self.row = row = self.chance.choice(rows())
         second = self.chance.choice([each for each in EVENTS if each not in (*LONG, cell.event)])
         self.second = second if seed % 2 else ""
+        self.events = [each for each in (cell.event, self.second) if each]
         ascii_ = row["ascii"] and cell.family != "SN300G5"
         types = types_of(cell.family, row["size"], ascii_=ascii_)
         self.by_bus = cell.mode in MODES[:2]
@@ -356,7 +359,7 @@ class Run:
 
     def go(self) -> Outcome:
         """To the state, through the events, and back."""
-        out = Outcome(self.cell, self.seed, self.second)
+        out = Outcome(self.cell, self.seed, self.second, events=self.events)
         try:
             self.reach()
             self.happen()

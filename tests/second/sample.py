@@ -10,7 +10,7 @@ from tests.second.events import EVENTS
 from tests.second.matrix import JOGS, MODES, STATES, Cell, Outcome
 
 FAILING = Path(__file__).with_name("failing.yaml")
-SIZE = 160
+SIZE = 120
 """Cells of the sample."""
 
 
@@ -45,7 +45,7 @@ def finding(outcome: Outcome) -> str:
     """The finding that explains a failure, by its rule, its events, its mode and its state; empty: none does."""
     for row in _rows()["findings"]:
         facts = {
-            "rule": outcome.rules[:1], "event": [outcome.cell.event, outcome.second], "mode": [outcome.cell.mode],
+            "rule": outcome.rules[:1], "event": outcome.events, "mode": [outcome.cell.mode],
             "state": [outcome.cell.state], "family": [outcome.cell.family],
         }  # fmt: skip
         if all(set(_list(row[name])) & set(given) for name, given in facts.items() if name in row):

@@ -1,14 +1,13 @@
 """Random walks over events on lines of second models, with the judge of the matrix.
 
-`python -m tests.second.walk SEED` walks a seed again. One of the events is the finding that a walk is told by.
+`python -m tests.second.walk SEED` walks a seed again.
 """
 
 import sys
 from random import Random
 
-from tests.drives.station import FAMILIES
 from tests.second.events import EVENTS, LONG
-from tests.second.matrix import MODES, STATES, Cell, Outcome, Run
+from tests.second.matrix import Outcome, Run, cells
 
 from driveblocks.host.engine import Library
 
@@ -19,10 +18,9 @@ class Walk(Run):
     """A cell whose first two events are followed by others."""
 
     def go(self) -> Outcome:
-        """To the state, through all events, and back."""
-        self.trail = [self.cell.event, self.second]
+        """As there; all events are in the message."""
         out = super().go()
-        out.told = [f"{each} ({', then '.join(self.trail)})" for each in out.told]
+        out.told = [f"{each} ({', then '.join(self.events)})" for each in out.told]
         return out
 
     def happen(self) -> None:
@@ -31,7 +29,7 @@ class Walk(Run):
         b, names = self.bench, [each for each in EVENTS if each not in LONG]
         for _ in range(STEPS):
             name = self.chance.choice(names)
-            self.trail.append(name)
+            self.events.append(name)
             self.judge.kept = set()
             self.stop()
             b.run(self.chance.choice([100, 1000, 4000]))
@@ -47,10 +45,7 @@ class Walk(Run):
 def walk(seed: int, stations: Library | None = None) -> Outcome:
     """Walk a seed."""
     chance = Random(f"second {seed}")
-    cell = Cell(
-        chance.choice(FAMILIES), chance.choice(MODES), chance.choice([each for each in EVENTS if each not in LONG]),
-        chance.choice(STATES),
-    )  # fmt: skip
+    cell = chance.choice([each for each in cells() if each.event not in LONG])
     return Walk(cell, seed, stations).go()
 
 
