@@ -71,8 +71,8 @@ def drawn() -> list[Mutant]:
     return Random(SEED).sample(list(every()), NUMBER)
 
 
-def judged(number: int) -> tuple[Mutant, str]:
-    """A change, and the cell that finds it, with its rule; empty: none does."""
+def judged(number: int, most: int | None = None) -> tuple[Mutant, str]:
+    """A change, and of so many cells the cell that finds it, with its rule; empty: none does."""
     one = drawn()[number]
     try:
         stations = built(EmbeddedEngine(), one.edit)
@@ -80,7 +80,7 @@ def judged(number: int) -> tuple[Mutant, str]:
         return one, f"does not build: {type(error).__name__}"
     cells: list[tuple[Cell, int]] = passing()
     Random(number).shuffle(cells)
-    for cell, seed in cells:
+    for cell, seed in cells[:most]:
         try:
             outcome = run(cell, seed, stations)
         except Exception as error:
@@ -95,12 +95,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="One-token changes of the blocks.")
     parser.add_argument("--only", type=int)
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--cells", type=int, help="cells for each, all unless said")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     numbers = [options.only] if options.only is not None else list(range(options.first, NUMBER))
     survived = []
     with ProcessPoolExecutor(options.jobs) as pool:
-        for number, (one, by) in zip(numbers, pool.map(judged, numbers), strict=True):
+        for number, (one, by) in zip(numbers, pool.map(judged, numbers, [options.cells] * len(numbers)), strict=True):
             print(f"{number:2} {one}: {by or 'SURVIVES'}", flush=True)
             survived += [] if by else [one]
     print(f"{len(numbers) - len(survived)} of {len(numbers)} found")
