@@ -53,6 +53,8 @@ def table(outcomes: Sequence[Outcome]) -> str:
     for event in dict.fromkeys(each.cell.event for each in outcomes):
         for mode in MODES:
             found = [_field(runs[event, mode, state]) for state in STATES]
+            if set(found) == {"-"}:
+                continue
             lines.append(f"{event[:28]:28} {SHORT.get(mode, mode):8}" + "".join(f"{each:>14}" for each in found))
     return "\n".join(lines)
 
@@ -97,7 +99,7 @@ def report(outcomes: Sequence[Outcome]) -> int:
             known = finding(each)
             new += not known
             print(f"{known or 'NEW'}: {each.cell}, seed {each.seed}: {', '.join(each.rules)}: {each.told[0][:300]}")
-    print(table(outcomes))
+    print(table([each for each in outcomes if len(each.events) <= 2]))  # walks have more
     reasons = Counter((each.cell.family, each.cell.mode, each.not_reached) for each in outcomes if each.not_reached)
     for (family, mode, why), count in sorted(reasons.items()):
         print(f"not reached {count} times: {family}, {mode}: {why}")
