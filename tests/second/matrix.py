@@ -350,7 +350,10 @@ class Run:
         b = self.bench
         if one.fault is not None and b.out("CanResetFault", index):
             b.put(index, FaultReset=True).run(100)
-            b.put(index, FaultReset=False).run(2000)
+            b.put(index, FaultReset=False).run(3000)
+            mine = (index or self.by_bus) and b.shows("CommOk", index) and not one.cut
+            if one.fault is not None and one.fault != one.LOW_VOLTAGE and mine:
+                self.fail("reset", index)
         if one.fault is not None:
             one.reset(b.now)  # a wired button: a key may end the connection
             b.run(500)
