@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives linux-line desk-line release
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix linux-line desk-line release
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -62,6 +62,9 @@ line:                 ## the line at length on a virtual RS-485 line: 10^6 rando
 
 drives:               ## drive blocks at length: planted mistakes, the matrix, 10^5 random walks, 24 hours of bus per family (matiec: faster)
 	$(PY) -m tests.drives.long
+
+matrix:               ## every mode x event x state on second models of the drives, TIMES=4 each, and random walks; matiec: faster
+	$(PY) -m tests.second.long --times $(or $(TIMES),4)
 
 linux-line:           ## an hour of a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.softplc $(or $(SECONDS),3600)

@@ -23,6 +23,8 @@ class Figures:
     """How long StopConfirmed may outlive the start of a motion that the bus has not begun."""
     follow_us: int = 2_000_000
     """How long the motor may be faster than a reference that was lowered."""
+    unseen_us: int = 0
+    """A drive that goes on by itself so soon was not seen to stop: a dip of the supply that it rides through."""
     still_hz: float = 0.1
     """What counts as standstill: less than the coarsest monitor shows."""
     coast_counts: bool = False
@@ -48,7 +50,7 @@ class Truth:
 class Watch:
     """What is remembered of one motor."""
 
-    asked_before: bool = True
+    asked_before: tuple[str, ...] = RUN
     permitted: bool = False
     """A run or jog pin rose after the last stop, and is still TRUE."""
     driven: bool = False
@@ -58,6 +60,9 @@ class Watch:
     others_since: int | None = None
     most_hz: float = 0.0
     lowered_at: int = 0
+    interrupted: bool = False
+    ended_us: int = 0
+    """When it was last driven no longer, and whether it was permitted to be until then."""
     broken: set[str] = field(default_factory=set)
     """Rules that are broken at present: each is told once."""
 
@@ -89,15 +94,18 @@ class Observer:
     def scan(self, now_us: int, unit: int, pins: Mapping[str, object], *, confirmed: bool, truth: Truth) -> None:
         """A scan: the pins that a block was called with, whether it shows StopConfirmed, and the motor after it."""
         watch, figures = self.watches[unit], self.figures
-        asked = any(pins.get(name) for name in RUN + JOG)
+        asked = tuple(name for name in RUN + JOG if pins.get(name))
         stops = not asked or not pins.get("Enable", True) or any(pins.get(name) for name in STOPPING)
-        watch.permitted = not stops and (watch.permitted or not watch.asked_before)
+        watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz
         driven = truth.by == "bus" and not truth.stopping
         if driven and not watch.driven:
+            if truth.itself and watch.interrupted and now_us - watch.ended_us <= self.figures.unseen_us and not stops:
+                watch.permitted = True
             self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself), seen=truth)
         elif watch.driven and not driven:
+            watch.interrupted, watch.ended_us = watch.permitted, now_us
             watch.permitted = False  # whatever has ended it: the next start needs an edge of its own
         watch.driven = driven
         watch.ours = truth.by == "bus" or (watch.ours and turns and not truth.by)
@@ -145,6 +153,8 @@ class Observer:
             watch.most_hz, watch.lowered_at = most, now_us
         elif now_us - watch.lowered_at > self.figures.follow_us:
             watch.most_hz = most
+        if not watch.permitted:
+            return
         far = abs(truth.hz) > watch.most_hz + 0.01 * watch.most_hz + self.figures.still_hz
         wrong_way = truth.hz * (-1 if pins.get("RunReverse") else 1) < -self.figures.still_hz
         self._judge(now_us, unit, "speed", bad=far, seen=truth)

@@ -1,0 +1,213 @@
+"""The bench of tests/drives with the second models on its wire, and a judge that looks after every scan."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from tests.drives.bench import RUNS, Bench
+from tests.second import chf, jscc, sn300g5
+from tests.second.drive import Drive
+from tests.second.frames import ascii_ as ascii_frame
+from tests.second.frames import rtu
+from tests.second.judge import Asked, Judge
+from tests.second.observer import Figures
+from tests.second.script import drive as model
+from tests.second.station import IN_SEEN, library, name_of
+
+from driveblocks.host.engine import Library, Value
+
+KIND = {"CHF": "chf", "JSCC": "jscc", "SN300G5": "sn"}
+STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "SN300G5": sn300g5.stores}
+CHAR_US = 521
+"""A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
+STOP_WITHIN_MS = 7000
+CONTACT = 1 << (16 + 8 * IN_SEEN + 16)
+"""The bit of `seen` that is HardStopOk."""
+FIGURES = Figures(stop_us=1000 * STOP_WITHIN_MS + 1_800_000, seen_us=5_500_000, unseen_us=500_000)
+"""The pin's time, and for a block that is not called a second before the line stops its drive; then attempts."""
+
+
+class Second(Bench):
+    """A line of second models. The first drive is the one that things happen to."""
+
+    def __init__(
+        self,
+        *types: str,
+        options: Mapping[str, Mapping[str, Any]] | None = None,
+        settings: Mapping[str, int] | None = None,
+        stations: Library | None = None,
+        seed: int = 0,
+        ms: int = 20,
+        ascii_: bool = False,
+        pins: Mapping[str, Value] | None = None,
+    ) -> None:
+        """Power up. `options` of the models by family; `settings` of the first; `pins` of its block."""
+        stations = stations or library()
+        self.mode, self.start_pin, self.was_ms = "", "RunForward", ms
+        """What the run that uses this bench is about: for events."""
+        self.models: list[Drive] = []
+        self.flicker = ""
+        """A pin of the first drive that changes in every scan."""
+        self.restarts_contact = False
+        """The first-scan bit goes to the contact, too, at present."""
+        self._later: list[tuple[int, int, bytes]] = []
+        named = _Named(stations, name_of(types))
+        super().__init__(*types, stations=named, seed=seed, ms=ms, ascii_=ascii_, start=False)  # type: ignore[arg-type]
+        self.drives = []
+        for index, kind in enumerate(types):
+            given = dict((options or {}).get(kind, {}))
+            given["settings"] = settings if settings and not index else {}
+            if kind == "JSCC":
+                given["reference_milli_hz"] = 10
+            one = model(KIND[kind], index + 1, ascii=ascii_, char_us=CHAR_US, seed=seed + index, **given)
+            self.models.append(one)
+            if one.o.comm_us is not None:
+                self.put(index, WatchdogMs=one.o.comm_us // 1000)
+            self.put(index, StopWithinMs=STOP_WITHIN_MS)
+        self.put(0, **(pins or {})).line(MaxScanMs=60)
+        self.judge = Judge(self, {i + 1: STORES[kind] for i, kind in enumerate(types)}, FIGURES)
+        self.watch.append(lambda _: self._look())
+        self.restart()
+
+    # ------------------------------------------------------------ pins
+
+    def put(self, drive: int = 0, /, **pins: Value) -> "Second":
+        """As there, and for a twin on the first drive's slot."""
+        super().put(drive, **pins)
+        return self
+
+    def line(self, **pins: Value) -> "Second":
+        """As there; what stops all drives is a pin of each for the judge."""
+        super().line(**pins)
+        for name in {"StopAll", "Restart"} & set(pins):
+            for each in self.pins:
+                each[name] = pins[name]
+        return self
+
+    def leave(self, what: str, *, on: bool = True) -> "Second":
+        """As there."""
+        super().leave(what, on=on)
+        if what != "SkipLine":
+            self.pins[int(what.removeprefix("Skip"))]["Left"] = on
+        return self
+
+    def twin(self, on: bool, address: int = 1) -> None:
+        """A second block on the slot of the first drive."""
+        self.block["UseTwin"] = on
+        self.block["Twin.Address"] = address
+        self.block["Twin.Enable"] = True
+        self.block["Twin.MaximumHz"] = self.block["Twin.FullScaleHz"] = 50.0
+        self.block["Twin.StopWithinMs"] = STOP_WITHIN_MS
+        self.pins[0]["Shared"] = on
+
+    def press(self) -> None:
+        """A person presses the reset of the contact, and lets go."""
+        self.hand = True
+        self.block["Contact.Reset"] = True
+        self.scan()
+        self.block["Contact.Reset"] = self.hand = False
+
+    def ask(self, name: str, index: int, address: int, value: int) -> None:
+        """A rising edge of a parameter block: where, and what."""
+        if name.startswith("Reader"):
+            self.models[index].ram[address] = value
+        pins = {"Address": address, "Value": value, "AllowUnknown": True}
+        for pin, given in pins.items() if not name.startswith("Storer") else ():
+            if not (pin == "Value" and name.startswith("Reader")):
+                self.block[f"{name}.{pin}"] = given
+        self.block[f"{name}.Execute"] = True
+        self.judge.observer.may_store.add(index + 1)
+        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames)))
+
+    hand = False
+
+    @property
+    def contact(self) -> bool:
+        """Whether the contact of the hard stop is closed."""
+        return bool(self.seen & CONTACT)
+
+    def reachable(self, drive: int) -> bool:
+        """Whether the drive hears what is sent to the address of its pins."""
+        one = self.models[drive]
+        return bool(
+            one.powered and not one.cut and self.now >= one.deaf_us and drive + 1 not in self.deaf
+            and one.unit == self.pins[drive]["Address"]
+        )  # fmt: skip
+
+    # ------------------------------------------------------------ time and wire
+
+    def stall(self, ms: int) -> None:
+        """A scan that comes late; beyond RestartMs it is a restart."""
+        for each in self.pins if ms > 1000 else []:
+            each["Restart"] = True
+        self.scan(ms)
+        for each in self.pins:
+            each["Restart"] = self.line_pins.get("Restart", False)
+
+    def _look(self) -> None:
+        if self.flicker:
+            self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
+        more = self.block["More"]
+        assert isinstance(more, int)
+        self.seen |= more << (16 + 8 * IN_SEEN)
+        self.judge.scan()
+
+    def _answer(self, frame: Any, data: bytes, end: int) -> None:
+        raw = ascii_frame(data) if self.ascii else rtu(data)
+        self.judge.sent(end, raw)
+        self._hear_others(end)
+        for index, one in enumerate(self.models):
+            if index + 1 in self.deaf:
+                continue
+            for at, text in one.receive(raw, end):
+                if not self._happens(self.faults.unanswered):
+                    self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
+
+    def _reply(self, index: int, text: bytes, at: int, frame: Any) -> None:
+        if self._happens(self.faults.garbled):
+            text, frame = self._garbled(text), None
+        self.transmit(text, at, frame)
+        self._later.append((at + CHAR_US * len(text), index, text))
+        if self._happens(self.faults.twice):
+            self.transmit(text, at + CHAR_US * (len(text) + 6), None)
+
+    def _hear_others(self, end: int) -> None:
+        """The models hear each other's replies."""
+        self._later.sort()
+        while self._later and self._later[0][0] < end:
+            at, who, text = self._later.pop(0)
+            for index, one in enumerate(self.models):
+                if index != who and index + 1 not in self.deaf:
+                    one.receive(text, at)
+
+    def told(self, about: int | None = None) -> str:
+        """What blocks and models show, for messages: the first drive and another, or all."""
+        shown = [
+            f"{kind} {round(one.shaft_hz(self.now), 1):g} Hz by {one.by or 'nobody'} {one.state(self.now)},"
+            f" block Reason {self.out('Reason', i)!r} State {self.out('State', i)!r}"
+            for i, (kind, one) in enumerate(zip(self.types, self.models, strict=True))
+            if about is None or i in (0, about)
+        ]
+        return f"{self.now // 1000} ms: {'; '.join(shown)}"
+
+    def release(self, drive: int = 0) -> "Second":
+        """All run and jog pins FALSE."""
+        return self.put(drive, **dict.fromkeys(RUNS, False))
+
+    def wait(self, test: Callable[[], object], ms: int) -> bool:
+        """Scan until something is so, or for so long."""
+        end = self.now + 1000 * ms
+        while not test():
+            if self.now >= end:
+                return False
+            self.scan()
+        return True
+
+
+class _Named:
+    """A library that has one station, whatever it is asked for."""
+
+    def __init__(self, stations: Library, name: str) -> None:
+        self.stations, self.name = stations, name
+
+    def instance(self, _: str) -> Any:
+        return self.stations.instance(self.name)

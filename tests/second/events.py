@@ -1,0 +1,252 @@
+"""What can happen to the first drive of a line: each event begins, lasts, and ends."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from random import Random
+
+from tests.drives.bench import Faults
+from tests.second.bench import Second
+from tests.second.drive import Fault
+
+Does = Callable[[Second, Random], None]
+FAULT: dict[str, Fault] = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
+STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "SN300G5": 0x0200}
+WRITES = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
+UNUSED = {"SN300G5": 0x0013}
+"""A row that the manual lists as unused, between two that can be read."""
+ABSENT = 77
+"""A unit address that no drive has."""
+
+
+def nothing(_: Second, __: Random) -> None:
+    """..."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event: for how long, in ms, what begins and what ends it, and whether it concerns a drive alone."""
+
+    begins: Does
+    lasts: int = 0
+    ends: Does = nothing
+    stops: bool = True
+    """The first drive may stop for it; else it must run on."""
+    stops_all: bool = False
+    """Others may stop for it, too."""
+
+
+def pin(name: str, value: bool, lasts: int, **more: bool) -> Event:
+    """An input of the block, for a time."""
+
+    def end(b: Second, _: Random) -> None:
+        if name != b.mode:
+            _put(b, name, not value)
+
+    return Event(lambda b, _: _put(b, name, value), lasts, end, **more)
+
+
+def line(name: str) -> Event:
+    """An input of the line, for 100 ms."""
+    return Event(lambda b, _: _line(b, name, True), 100, lambda b, _: _line(b, name, False), stops_all=True)
+
+
+def key(name: str) -> Event:
+    """A key of the drive's own keypad."""
+    return Event(lambda b, _: b.models[0].press(name, b.now))  # type: ignore[arg-type]  # one of them
+
+
+def late(ms: int, *, stops: bool) -> Event:
+    """A scan that comes late."""
+    return Event(lambda b, _: b.stall(ms), stops=stops, stops_all=stops)
+
+
+def _put(b: Second, name: str, value: bool) -> None:
+    b.put(0, **{name: value})
+
+
+def _line(b: Second, name: str, on: bool) -> None:
+    b.line(**{name: on})
+
+
+def restart(mode: str = "") -> Event:
+    """The PLC's first scan, with a mode chosen in the same call; then time enough for a stop."""
+
+    def begin(b: Second, _: Random) -> None:
+        if mode:
+            b.put(0, **{mode: True})
+        b.restart()
+
+    return Event(begin, 10_000, stops_all=True)
+
+
+def _twin(b: Second, chance: Random) -> None:
+    b.twin(on=True, address=chance.choice([1, ABSENT]))
+    b.judge.stores[ABSENT] = lambda _: False
+
+
+def _absent(b: Second, _: Random) -> None:
+    b.judge.stores[ABSENT] = lambda _: False
+    b.put(0, Address=ABSENT)
+
+
+def _wrong_from_the_start(b: Second, chance: Random) -> None:
+    _absent(b, chance)
+    b.block["Contact.Restart"] = b.restarts_contact = True
+    b.restart()
+    b.block["Contact.Restart"] = b.restarts_contact = False
+
+
+def _absent_and_stall(b: Second, chance: Random) -> None:
+    _absent(b, chance)
+    b.scan()
+    b.stall(2000)
+
+
+def _parameters(b: Second, chance: Random) -> None:
+    """Readers and writers of some drives, before and after their blocks, within some scans."""
+    for index in range(min(len(b.models), 3)):
+        address, kind = PARAMETER[b.types[index]], b.types[index]
+        for name in (*(("Reader", "Writer") if index == 0 else ()), f"Reader{index}", f"Writer{index}"):
+            reads = name.startswith("Reader")
+            place = address + (1 if name == "Reader" else 2)
+            value = 100 * place & 0xFFF if reads else chance.randrange(1, 500)
+            b.ask(name, index, place if reads else WRITES[kind] | address, value)
+            b.run(chance.choice([0, 0, 20, 60]))
+
+
+def _stores(b: Second, _: Random) -> None:
+    """Two blocks of one drive, more than a minute after power-up."""
+    b.release()
+    b.run(62_000)
+    for name in ("Storer", "Storer0"):
+        b.ask(name, 0, 0xFFFD, 0)
+        b.run(2000)
+
+
+def _right(b: Second, _: Random) -> None:
+    b.put(0, Address=1)
+
+
+def _dead(b: Second, _: Random) -> None:
+    b.deaf.add(1)
+
+
+def _back(b: Second, _: Random) -> None:
+    b.deaf.discard(1)
+
+
+def _trip(b: Second, chance: Random) -> None:
+    b.models[0].trip(FAULT[b.types[0]], b.now, cause=chance.random() < 0.3)
+
+
+def _power(on: bool) -> Does:
+    return lambda b, _: b.models[0].power(on, b.now)
+
+
+def _inhibit(on: bool) -> Does:
+    return lambda b, _: b.models[0].inhibit(on, b.now)
+
+
+def _flicker(name: str) -> Event:
+    def begin(b: Second, _: Random) -> None:
+        b.flicker = name
+
+    def end(b: Second, _: Random) -> None:
+        b.flicker = ""
+        _put(b, name, name == "Enable")
+
+    return Event(begin, 8000, end)
+
+
+def _wire(lasts: int, **faults: int) -> Event:
+    def begin(b: Second, _: Random) -> None:
+        b.faults = Faults(**faults)
+
+    def end(b: Second, _: Random) -> None:
+        b.faults = Faults()
+
+    return Event(begin, lasts, end, stops="lost" in faults, stops_all="lost" in faults)
+
+
+def _slow(b: Second, _: Random) -> None:
+    b.was_ms, b.ms = b.ms, 50
+
+
+def _fast(b: Second, _: Random) -> None:
+    b.ms = b.was_ms
+
+
+def _unreadable(addresses: Mapping[str, int], *, on: bool) -> Does:
+    def does(b: Second, _: Random) -> None:
+        one, address = b.models[0], addresses.get(b.types[0])
+        one.o = replace(one.o, forbidden=frozenset([address] if on and address is not None else []))
+
+    return does
+
+
+def _again(b: Second, _: Random) -> None:
+    b.release()
+
+
+def _asked(b: Second, _: Random) -> None:
+    b.put(0, **{b.start_pin: True})
+
+
+def _other_way(b: Second, _: Random) -> None:
+    b.release().put(0, **{b.start_pin.replace("Forward", "Reverse"): True})
+
+
+def _half(b: Second, _: Random) -> None:
+    b.put(0, SpeedReferenceHz=10.0)
+
+
+def _whole(b: Second, _: Random) -> None:
+    b.put(0, SpeedReferenceHz=25.0)
+
+
+LONG = ("nothing", "two stores")
+"""Events that are no second ones: they take a minute of the bus, or none."""
+EVENTS: dict[str, Event] = {
+    "nothing": Event(nothing, 3000, stops=False),
+    "StopAll pulse": line("StopAll"),
+    "Restart": restart(),
+    "Restart into SpeedOnly": restart("SpeedOnly"),
+    "Restart into MonitorOnly": restart("MonitorOnly"),
+    "block not called for 2 s": Event(lambda b, _: _leave(b, True), 2000, lambda b, _: _leave(b, False)),
+    "block not called for 12 s": Event(lambda b, _: _leave(b, True), 12_000, lambda b, _: _leave(b, False)),
+    "a stall of 300 ms": late(300, stops=False),
+    "a stall of 2 s": late(2000, stops=True),
+    "a shared slot": Event(_twin, 4000, lambda b, _: b.twin(on=False)),
+    "a changed address": Event(_absent, 4000, _right),
+    "a changed address and a stall of 2 s": Event(_absent_and_stall, 4000, _right, stops_all=True),
+    "a wrong address from the start": Event(_wrong_from_the_start, 3000, _right, stops_all=True),
+    "a reset": pin("FaultReset", True, 100),
+    "a dead drive": Event(_dead, 9000, _back),
+    "a trip": Event(_trip, 9000),
+    "a supply dip of 300 ms": Event(_power(False), 300, _power(True)),
+    "a safe torque off": Event(_inhibit(True), 1000, _inhibit(False)),
+    "keypad start": key("start"),
+    "keypad stop": key("stop"),
+    "Enable falls": pin("Enable", False, 4000),
+    "QuickStop": pin("QuickStop", True, 4000),
+    "CoastStop": pin("CoastStop", True, 4000),
+    "the pin falls and rises": Event(_again, 200, _asked),
+    "the other direction": Event(_other_way, 2000, _again),
+    "SpeedOnly": pin("SpeedOnly", True, 4000),
+    "MonitorOnly": pin("MonitorOnly", True, 4000),
+    "Enable flickers": _flicker("Enable"),
+    "QuickStop flickers": _flicker("QuickStop"),
+    "replies doubled": _wire(10_000, twice=200),
+    "frames lost": _wire(4000, lost=200, unanswered=100),
+    "slow scans": Event(_slow, 12_000, _fast, stops=False),
+    "it refuses to be read": Event(_unreadable(STATUS, on=True), 12_000, _unreadable(STATUS, on=False)),
+    "an unused row is refused": Event(_unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False),
+    "parameters": Event(_parameters, 1000, stops=False),
+    "two stores": Event(_stores, 1000),
+    "another reference": Event(_half, 3000, _whole, stops=False),
+}
+
+
+def _leave(b: Second, on: bool) -> None:
+    b.leave("Skip0", on=on)

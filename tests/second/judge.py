@@ -1,0 +1,268 @@
+"""Judges a second bench: the observer's rules, the contact of the hard stop, what the outputs say, who is kept running.
+
+It reads pins of blocks, true models and bytes; no state of a block, no map, and no reply.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from tests.second.observer import Figures, Observer, Truth
+
+if TYPE_CHECKING:
+    from tests.second.bench import Second
+
+EVERY_US = 200_000
+"""How often outputs are looked at."""
+LAG_US = 300_000
+"""What an age of words does not say: the reply's way, and the scan in which it is shown."""
+CUT_US = 3_000_000
+"""From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
+PIN_US = 3_500_000
+"""In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
+STORE_US = 60_000_000
+"""At most one store of a drive in that time, by the page of VFD_Store."""
+CALM_US = 8_000_000
+"""A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
+GRACE_US = 3_000_000
+"""A contact may open so long after its reason has ended, which the block cannot know at once."""
+SHAFT = 700
+"""Scans of which the frequency is remembered."""
+SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
+    "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
+    "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
+    "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
+}
+FACTS = ("Running", "Fault")
+SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
+"""Reasons that speak of silence, by the table of the drive block's page."""
+STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
+RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
+"""The bit of an address that leaves EEPROM alone."""
+NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
+
+
+@dataclass
+class Unit:
+    """What is remembered of one drive."""
+
+    seen: dict[tuple[str, bool], int] = field(default_factory=dict)
+    """When a fact was last so."""
+    shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=SHAFT))
+    """Frequencies that the drive showed, with their times."""
+    away_us: int = 0
+    """When it could last not be reached."""
+    reached_us: int = 0
+    unknown_us: int = 0
+    """When it could last not be reached, or all began anew."""
+    refuses_us: int = 0
+    """When it last refused to be read, by its options."""
+    pin_us: int | None = None
+    stored_us: int = 0
+    silent_since: int | None = None
+    turned_us: int = 0
+    """When it last stood, or was asked to turn: it turns unasked since then."""
+    unasked_us: int = 0
+    """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
+    broken: set[str] = field(default_factory=set)
+
+
+@dataclass
+class Asked:
+    """A parameter block that was asked for something: its name, its drive, and what must come of it."""
+
+    name: str
+    index: int
+    address: int
+    value: int
+    since_us: int
+    frames: int
+    """Frames before."""
+
+    def over(self, judge: "Judge") -> bool:
+        """Whether it has ended; what it says is then judged."""
+        bench, one = judge.bench, judge.bench.models[self.index]
+        done, error = bench.block[f"{self.name}.Done"], bench.block[f"{self.name}.Error"]
+        if not (done or error):
+            return False
+        bench.block[f"{self.name}.Execute"] = False
+        mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
+        if self.name.startswith(READ):
+            value = bench.block[f"{self.name}.Value"]
+            if done and value not in (self.value, one.ram.get(self.address)):
+                judge.tell(self.index, "parameter", f"{self.name} has read {value!r}")
+        elif (
+            self.name.startswith(WRITE)
+            and done
+            and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
+        ):
+            judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
+        if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
+            judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
+        return True
+
+
+class Judge:
+    """Looks after every scan; `found` are broken rules: time in us, unit, rule, what was seen."""
+
+    def __init__(self, bench: "Second", stores: dict[int, Callable[[bytes], bool]], figures: Figures) -> None:
+        """Watch a bench from its power-up."""
+        self.bench, self.figures = bench, figures
+        self.observer = Observer(stores, figures, ascii_=bench.ascii)
+        self.stores = stores
+        self.found = self.observer.found
+        self.units = [Unit() for _ in bench.models]
+        self.kept: set[int] = set()
+        """Drives that nobody asks to stop and that nothing happens to: they run."""
+        self.contact = False
+        self.next_us = 0
+        self.late: deque[int] = deque([0] * 100, maxlen=100)
+        """How long the last scans were, in us: nobody knows when in them a reply came."""
+        self.asked: list[Asked] = []
+
+    def sent(self, now_us: int, frame: bytes) -> None:
+        """A frame of the master."""
+        self.observer.sent(now_us, frame)
+        body = self.observer.opened(frame)
+        if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):
+            return
+        unit = self.units[body[0] - 1]
+        if body[1] == 16 and now_us - unit.stored_us < STORE_US:
+            self.tell(body[0] - 1, "stores", f"{(now_us - unit.stored_us) // 1000} ms after the last one")
+        unit.stored_us = now_us
+
+    def tell(self, index: int, rule: str, seen: str) -> None:
+        """A broken rule."""
+        self.found.append((self.bench.now, index + 1, rule, seen))
+
+    def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+        broken = self.units[index].broken
+        if bad and rule not in broken:
+            broken.add(rule)
+            self.tell(index, rule, f"{seen} {self.bench.told(index)}".strip())
+        elif not bad:
+            broken.discard(rule)
+
+    # ------------------------------------------------------------ every scan
+
+    def scan(self) -> None:
+        """The models and pins after a scan."""
+        bench, now = self.bench, self.bench.now
+        looks = now >= self.next_us
+        self.late.append(1000 * bench.elapsed)
+        opened = self.contact and not bench.contact
+        for index in range(len(self.units)):
+            self._drive(index, looks=looks)
+        if looks:
+            self.next_us = now + EVERY_US
+        if opened and not any(self._excused(index) for index in range(len(self.units))):
+            self.tell(-1, "contact", f"opens for nothing; {bench.told()}")
+        if bench.contact and not self.contact and not bench.hand:
+            self.tell(-1, "hand", "the contact closes by itself")
+        self.contact = bench.contact
+        self.asked = [each for each in self.asked if not each.over(self)]
+
+    def _drive(self, index: int, *, looks: bool) -> None:
+        bench, now, one = self.bench, self.bench.now, self.bench.models[index]
+        if now >= one.due:
+            one.advance(now)
+        unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
+        open_now = not bench.contact
+        truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
+        shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
+        self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
+        self._reach(index, unit)
+        driven = one.by == "bus" and not one.stopping
+        if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
+            unit.turned_us = now
+        watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
+        foreign = one.by in ("keypad", "terminals")
+        if now - unit.turned_us > (0 if foreign else self.figures.stop_us // 2) and not watches_only:
+            unit.unasked_us = now
+        self._cut(index, unit, hz)
+        if pins.get("SpeedOnly"):
+            self._stop_pin(index, unit, hz)
+        if self.kept:
+            self._once(index, "kept", bad=index in self.kept and not driven)
+        unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
+        unit.seen["Fault", one.fault is not None] = now
+        unit.shaft.append((now, one.shown_hz(now)))
+        if looks:
+            self._outputs(index, unit)
+
+    def _reach(self, index: int, unit: Unit) -> None:
+        if (
+            not self.bench.reachable(index)
+            or self.bench.pins[index].get("Left")
+            or self.bench.pins[index].get("Shared")
+        ):
+            unit.away_us = self.bench.now
+        else:
+            unit.reached_us = self.bench.now
+        lossy = self.bench.faults.lost or self.bench.faults.unanswered
+        if lossy:  # a stop and its retries may be lost, and the connection with them
+            unit.away_us = self.bench.now
+        if unit.away_us == self.bench.now or self.bench.pins[index].get("Restart"):
+            unit.unknown_us = self.bench.now
+        if STATUS[self.bench.types[index]] in self.bench.models[index].o.forbidden:
+            unit.refuses_us = self.bench.now
+
+    def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
+        """Terminals start and stop it, but a stop pin still sends its stop, and takes the reference back."""
+        bench, pins = self.bench, self.bench.pins[index]
+        asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
+        heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
+        unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
+        late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
+        obeys = bench.models[index].o.bus_stop_ends_others  # then the terminals' run is over, too
+        self._once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
+
+    def _cut(self, index: int, unit: Unit, hz: float) -> None:
+        """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
+        bench, one = self.bench, self.bench.models[index]
+        silent = index + 1 in bench.deaf or one.cut or bool(bench.pins[index].get("Shared"))
+        owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
+        unit.silent_since = (unit.silent_since or bench.now) if owed else None
+        late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
+        self._once(index, "cut", bad=late)
+
+    def _excused(self, index: int) -> bool:
+        """Whether the contact may open for this drive."""
+        now, unit = self.bench.now, self.units[index]
+        away = unit.away_us > 0 and now - unit.away_us < self.figures.stop_us + 2_000_000
+        refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
+        if self.bench.restarts_contact or refuses:
+            return True
+        return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
+
+    # ------------------------------------------------------------ what outputs say
+
+    def _outputs(self, index: int, unit: Unit) -> None:
+        bench, now = self.bench, self.bench.now
+        if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
+            return
+        calm = now - unit.unknown_us > CALM_US
+        good = bench.shows("CommOk", index)
+        refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
+        self._once(index, "comm", bad=calm and not good and not refuses)
+        reason = bench.out("Reason", index)
+        self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
+        if not good:
+            return
+        self._once(index, "stale", bad=now - unit.reached_us > 6_500_000)
+        lag = LAG_US + max(self.late)
+        since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
+        for name in FACTS:
+            shown = bench.shows(name, index)
+            late = unit.seen.get((name, shown), -1) < since
+            self._once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
+        if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
+            self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)
+
+    def _frequency(self, index: int, unit: Unit, since: int) -> None:
+        hz = self.bench.number("OutputFrequencyHz", index)
+        window = [each for at, each in unit.shaft if at >= since]
+        if window and unit.shaft[0][0] < since:
+            far = not min(window) - 0.3 <= hz <= max(window) + 0.3
+            self._once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")

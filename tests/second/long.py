@@ -1,0 +1,111 @@
+"""The matrix at length, `make matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
+
+Every cell so many times, each time with other options, other moments and, every second time, a second event on the
+heels of the first; then random walks with the same judge. On matiec where it is found, else on the embedded engine; in
+two processes. Prints each failure, then the table of cells; exit status 1 where a cell fails that `failing.yaml` does
+not explain.
+"""
+
+import argparse
+import sys
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import cache
+
+from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
+from tests.second.sample import finding
+from tests.second.station import built
+from tests.second.walk import walk
+
+from driveblocks.host.discovery import MATIEC_NAMES, survey
+from driveblocks.host.engine import Library
+
+JOBS = 2
+CHUNK = 28
+SHORT = {"full control": "full", "SpeedOnly": "speed", "MonitorOnly": "monitor"}
+
+
+@cache
+def stations() -> Library:
+    """The stations on the fastest engine, once per process."""
+    found = {each.name: each.engine for each in survey().candidates() if each.engine is not None}
+    name = next((each for each in MATIEC_NAMES if each in found), "embedded")
+    return built(found[name])
+
+
+def some(chosen: Sequence[Cell], seed: int) -> list[Outcome]:
+    """Cells with a seed."""
+    return [run(cell, seed, stations()) for cell in chosen]
+
+
+def walks(first: int, number: int) -> list[Outcome]:
+    """Random walks from a seed on."""
+    return [walk(seed, stations()) for seed in range(first, first + number)]
+
+
+def table(outcomes: Sequence[Outcome]) -> str:
+    """Runs that failed of those of each event and state, by mode; `-` is a cell that was never reached."""
+    runs: dict[tuple[str, str, str], list[Outcome]] = defaultdict(list)
+    for each in outcomes:
+        runs[each.cell.event, each.cell.mode, each.cell.state].append(each)
+    lines = [f"{'event':28} {'mode':8}" + "".join(f"{state:>14}" for state in STATES)]
+    for event in dict.fromkeys(each.cell.event for each in outcomes):
+        for mode in MODES:
+            found = [_field(runs[event, mode, state]) for state in STATES]
+            if set(found) == {"-"}:
+                continue
+            lines.append(f"{event[:28]:28} {SHORT.get(mode, mode):8}" + "".join(f"{each:>14}" for each in found))
+    return "\n".join(lines)
+
+
+def _field(runs: Sequence[Outcome]) -> str:
+    reached = [each for each in runs if not each.not_reached or each.rules]
+    failed = Counter(finding(each) or "?" for each in reached if each.rules)
+    if not reached:
+        return "-"
+    return " ".join(f"{name}:{count}" for name, count in failed.most_common(2)) or "."
+
+
+def main() -> int:
+    """Run all of it."""
+    parser = argparse.ArgumentParser(description="The matrix at length.")
+    parser.add_argument("--times", type=int, default=4, help="runs of each cell")
+    parser.add_argument("--first", type=int, default=0, help="the first seed")
+    parser.add_argument("--only", default="", help="cells whose name holds these words")
+    parser.add_argument("--walks", type=int, default=2000, help="random walks")
+    parser.add_argument("--jobs", type=int, default=JOBS, help="processes")
+    options = parser.parse_args()
+    stations()  # compiled once, for all processes
+    chosen = [each for each in cells() if options.only in str(each)]
+    parts = [chosen[at : at + CHUNK] for at in range(0, len(chosen), CHUNK)]
+    seeds = range(options.first, options.first + options.times)
+    outcomes = []
+    with ProcessPoolExecutor(options.jobs) as pool:
+        waiting = [pool.submit(some, part, seed) for seed in seeds for part in parts]
+        waiting += [
+            pool.submit(walks, first, min(CHUNK, options.walks - first)) for first in range(0, options.walks, CHUNK)
+        ]
+        for each in waiting:
+            outcomes += each.result()
+    return report(outcomes)
+
+
+def report(outcomes: Sequence[Outcome]) -> int:
+    """Print failures and table; 1 where there is one that nothing explains."""
+    new = 0
+    for each in outcomes:
+        if each.rules:
+            known = finding(each)
+            new += not known
+            print(f"{known or 'NEW'}: {each.cell}, seed {each.seed}: {', '.join(each.rules)}: {each.told[0][:300]}")
+    print(table([each for each in outcomes if len(each.events) <= 2]))  # walks have more
+    reasons = Counter((each.cell.family, each.cell.mode, each.not_reached) for each in outcomes if each.not_reached)
+    for (family, mode, why), count in sorted(reasons.items()):
+        print(f"not reached {count} times: {family}, {mode}: {why}")
+    print(f"{len(outcomes)} runs, {sum(bool(each.rules) for each in outcomes)} fail, {new} of them unexplained")
+    return 1 if new else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

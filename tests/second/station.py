@@ -1,0 +1,82 @@
+"""What a user writes around the drive blocks for the second models: a contact, a twin, parameter blocks on every side.
+
+The first drive is the one that things happen to. `Twin` is a second block on its slot, for who wires it wrongly.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+
+from tests.drives import station as first
+from tests.drives.station import FAMILIES, PINS
+
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import Engine, Library, Source
+
+Edit = Callable[[str], str]
+BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer": "VFD_Store"}
+IN_SEEN = 6
+"""Drives whose pins `Seen` has bits for; those of the others, and the contact's, are in `More`."""
+SIZES = (1, 3, 8)
+
+
+def types_of(family: str, number: int, *, ascii_: bool) -> tuple[str, ...]:
+    """A line of mixed drives; SN300G5 has no MODBUS ASCII."""
+    others = [each for each in FAMILIES if not ascii_ or each != "SN300G5"]
+    at = others.index(family)
+    return tuple((others[at:] + others[:at])[i % len(others)] for i in range(number))
+
+
+STATIONS = sorted(
+    {types_of(f, n, ascii_=a) for f in FAMILIES for n in SIZES for a in (False, True) if not a or f != "SN300G5"}
+)
+
+
+def name_of(types: Sequence[str]) -> str:
+    """The station of these drives."""
+    return "Second_" + "_".join(types)
+
+
+def station(types: Sequence[str]) -> str:
+    """Like that of tests/drives, with more around it."""
+    beyond = list(enumerate(types))[IN_SEEN:]
+    aside = range(min(len(types), 3))
+    declared = "".join(f"  Skip{i} : BOOL;\n  Drive{i} : {kind}_Drive;\n" for i, kind in beyond)
+    declared += "".join(
+        f"  {name}{i} : {block};\n  Stores{i} : UDINT;\n" if name == "Storer" else f"  {name}{i} : {block};\n"
+        for i in aside
+        for name, block in BLOCKS.items()
+    )
+    after = "".join(f"  IF NOT Skip{i} THEN\n    Drive{i}(Slot := Slots[{i}]);\n  END_IF;\n" for i, _ in beyond)
+    after += "  IF UseTwin THEN\n    Twin(Slot := Slots[0]);\n  END_IF;\n"
+    after += "".join(
+        f"  Reader{i}(Slot := Slots[{i}]);\n  Writer{i}(Slot := Slots[{i}]);\n"
+        f"  Storer{i}(Stores := Stores{i}, Slot := Slots[{i}]);\n"
+        for i in aside
+    )
+    more = [(f"Drive{i}.{pin}", 8 * (i - IN_SEEN) + place) for i, _ in beyond for place, pin in enumerate(PINS)]
+    more.append(("Contact.HardStopOk", 16))
+    seen = "".join(f"  IF {pin} THEN\n    More := More + {1 << place};\n  END_IF;\n" for pin, place in more)
+    text = first.station(types[:IN_SEEN]).replace(first.name_of(types[:IN_SEEN]), name_of(types))
+    for old, new in (
+        ("END_VAR\nVAR\n", "  More : UDINT;\nEND_VAR\nVAR\n"),
+        ("END_VAR\n  Index := 0;\n", f"{declared}  UseTwin : BOOL;\n  Twin : {types[0]}_Drive;\n"
+         "  Contact : VFD_HardStop;\nEND_VAR\n  Index := 0;\n"),
+        ("  IF NOT SkipLine THEN\n", f"{after}  IF NOT SkipLine THEN\n"),
+        ("  Port.TxTaken :=", "  Contact(Overdue := TheLine.StopOverdue);\n  Port.TxTaken :="),
+        ("END_FUNCTION_BLOCK", f"  More := 0;\n{seen}END_FUNCTION_BLOCK"),
+    ):  # fmt: skip
+        assert text.count(old) == 1, old
+        text = text.replace(old, new)
+    return text
+
+
+def built(engine: Engine, edit: Edit = str, stations: Sequence[Sequence[str]] = STATIONS) -> Library:
+    """The stations on an engine, the text of each block edited."""
+    texts = [each for each in first.texts(edit, FAMILIES) if each.path != "stations.st"]
+    return engine.build([*texts, Source("stations.st", "\n".join(map(station, stations)))])
+
+
+@cache
+def library() -> Library:
+    """Every station on the embedded engine."""
+    return built(EmbeddedEngine())

@@ -1,0 +1,69 @@
+"""The matrix of modes, events and states: a fixed sample in the suite; `make matrix` runs all of it."""
+
+import pytest
+from tests.second import pairs
+from tests.second.matrix import OPTIONS, STATES, Outcome, Run, cells, named, rows, run
+from tests.second.mutants import NUMBER, drawn, every
+from tests.second.sample import failing, finding, passing, sample
+from tests.second.walk import walk
+
+PARTS = 8
+"""Of the sample, for several processes."""
+WALKS = (6, 8, 9, 10, 13, 14, 18, 21)
+"""Seeds of walks that no finding of today stops."""
+
+
+def told(outcome: Outcome) -> str:
+    """What to read, and how to see it again."""
+    again = f'python -m tests.second.matrix "{outcome.cell}" --seed {outcome.seed}'
+    return "\n".join([*outcome.told, f"then {outcome.second or 'nothing more'}; again: {again}"])
+
+
+@pytest.mark.parametrize("part", range(PARTS))
+def test_every_rule_holds_in_the_sample(part: int) -> None:
+    for cell, seed in passing()[part::PARTS]:
+        outcome = run(cell, seed)
+        assert not outcome.rules, told(outcome)
+
+
+@pytest.mark.parametrize(("name", "seed"), failing())
+def test_what_fails_is_listed_with_its_finding(name: str, seed: int) -> None:
+    """Mended? Then remove its row of failing.yaml."""
+    outcome = run(named(name), seed)
+    assert outcome.rules, f"{name}, seed {seed} holds every rule now"
+    assert finding(outcome) == failing()[name, seed], told(outcome)
+
+
+def test_a_run_is_the_same_again() -> None:
+    one, two = (Run(named("CHF, full control, a trip, at speed"), 1) for _ in range(2))
+    assert one.go() == two.go()
+    assert one.bench.frames == two.bench.frames
+
+
+def test_the_sample_reaches_every_state() -> None:
+    """Cells that cannot be reached are few, and say why."""
+    assert len({str(cell) for cell, _ in sample()}) > 0.9 * len(sample())
+    assert {cell.state for cell, _ in passing()} == set(STATES)
+    assert {named(str(cell)) for cell in cells()} == set(cells())
+
+
+def test_pairs_come_together() -> None:
+    found = pairs.rows({"a": (1, 2, 3), "b": "xy", "c": (False, True), "d": (0, 1, 2)})
+    assert len(found) < 3 * 2 * 2 * 3 / 2
+    for one in (1, 2, 3):
+        assert {row["d"] for row in found if row["a"] == one} == {0, 1, 2}
+        assert {row["b"] for row in found if row["a"] == one} == {"x", "y"}
+    for name, values in OPTIONS.items():
+        assert {row[name] for row in rows()} == set(values)
+
+
+def test_changes_are_of_one_token_and_always_the_same() -> None:
+    assert len(drawn()) == NUMBER
+    assert drawn() == drawn()
+    assert len({each.block for each in every()}) == 7
+
+
+@pytest.mark.parametrize("seed", WALKS)
+def test_a_walk_holds_every_rule(seed: int) -> None:
+    outcome = walk(seed)
+    assert not outcome.rules, "\n".join(outcome.told)

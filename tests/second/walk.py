@@ -1,0 +1,55 @@
+"""Random walks over events on lines of second models, with the judge of the matrix.
+
+`python -m tests.second.walk SEED` walks a seed again.
+"""
+
+import sys
+from random import Random
+
+from tests.second.events import EVENTS, LONG
+from tests.second.matrix import Outcome, Run, cells
+
+from driveblocks.host.engine import Library
+
+STEPS = 5
+
+
+class Walk(Run):
+    """A cell whose first two events are followed by others."""
+
+    def go(self) -> Outcome:
+        """As there; all events are in the message."""
+        out = super().go()
+        out.told = [f"{each} ({', then '.join(self.events)})" for each in out.told]
+        return out
+
+    def happen(self) -> None:
+        """Events on each other's heels, with a start between."""
+        super().happen()
+        b, names = self.bench, [each for each in EVENTS if each not in LONG]
+        for _ in range(STEPS):
+            name = self.chance.choice(names)
+            self.events.append(name)
+            self.judge.kept = set()
+            self.stop()
+            b.run(self.chance.choice([100, 1000, 4000]))
+            self.start()
+            b.run(self.chance.choice([40, 1000, 4000]))
+            event = EVENTS[name]
+            event.begins(b, self.chance)
+            b.run(event.lasts)
+            event.ends(b, self.chance)
+            b.run(self.chance.choice([0, 100, 2000]))
+
+
+def walk(seed: int, stations: Library | None = None) -> Outcome:
+    """Walk a seed."""
+    chance = Random(f"second {seed}")
+    cell = chance.choice([each for each in cells() if each.event not in LONG])
+    return Walk(cell, seed, stations).go()
+
+
+if __name__ == "__main__":
+    outcome = walk(int(sys.argv[1]))
+    print(outcome.cell)
+    print("\n".join(outcome.told) or outcome.not_reached or "every rule has held")
