@@ -130,7 +130,7 @@ PLANTED = (
     ),
     Planted(
         "standstill is believed by words read before",
-        "      Reread := Reread OR ((State = STOPPING) AND (NOT Acknowledged OR (Resetting = NO_RESET)));\n",
+        "      Reread := Reread OR ((State = STOPPING) AND NOT Acknowledged);\n",
         "",
         test_stop.test_words_read_before_the_acknowledgement_prove_nothing,
     ),
