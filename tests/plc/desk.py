@@ -107,7 +107,16 @@ class Desk:
         self.session = Session(self.controller, self.clock, self.ending, SCAN_US)
         self.session.watchdog = Watchdog(now_us=lambda: 0)  # the time of this machine is none of its business
         self.session.connect(self.line, self.free)
+        self.session.known = self._probed(program)
         self.instance = self.controller.instance
+
+    def _probed(self, program: source.Loaded) -> Controller:
+        """The program after a scan without a port: a run that ends before its first scan stops the drives of this."""
+        probe = Controller(program.library, program.program.name, wired(self.text), program.drives, SCAN_US)
+        nobody = Line(Wire([], 19200, 10, ascii_mode=False), VirtualClock())
+        probe.connect(nobody, None)
+        probe.scan(SCAN_US)
+        return probe
 
     def scan(self, ms: int) -> "Desk":
         """Scan for so long, without an end."""

@@ -37,7 +37,7 @@ NET = 600
 CHF = ONE.replace("JSCC", "CHF")
 ASKED_HZ = 20
 COMMAND, STATUS, REFERENCE, FREQUENCY, FAULT = 0x1000, 0x1001, 0x2000, 0x3000, 0x5000
-RUN, STOP = 1, 5
+RUN, STOP, JOG_STOP = 1, 5, 8
 RUNNING, STANDING = 1, 3
 STEP = 500
 """So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
@@ -320,7 +320,7 @@ class Exchange:
         valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows]
         held = iter(self.peer.motor.frequencies)
         seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]
-        allowed = {(COMMAND, RUN), (COMMAND, STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
+        allowed = {(COMMAND, RUN), (COMMAND, STOP), (COMMAND, JOG_STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
         return sum(seen) + len(self.peer.motor.written - allowed)
 
     @property
