@@ -60,7 +60,7 @@ class Motor:
     @property
     def stands(self) -> bool:
         """Told to stop, and at rest."""
-        return self.command == STOP and self.frequencies[-1] == 0
+        return self.command != RUN and self.frequencies[-1] == 0
 
     async def act(self, *access: Any) -> None:
         """Before each access: function, first register of all, address, count, all registers, words that come."""
