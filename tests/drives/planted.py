@@ -299,12 +299,6 @@ PLANTED = (
         partial(test_stop.test_a_stop_follows_a_lost_connection, "CHF"),
     ),
     Planted(
-        "a reset outlives what it was asked for",
-        "    ResetGone := NOT CommOk OR SupplyOff OR MonitorOnly OR SpeedOnly OR (ResetMs > RESET_MS);",
-        "    ResetGone := ResetMs > RESET_MS;",
-        partial(test_reset.test_a_reset_does_not_outlive_what_it_was_asked_for, "MonitorOnly"),
-    ),
-    Planted(
         "a word is taken from the wrong place",
         "      DCBusVoltageWord := Slot.PollWords[2];",
         "      DCBusVoltageWord := Slot.PollWords[3];",
