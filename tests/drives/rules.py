@@ -95,6 +95,7 @@ class Observer:
     acknowledged: int = 0
     heard: int = 0
     boots_us: int = 1000 * BOOT_MS
+    anew_ms: int = 0
     moved: bool = True
     """It may have moved since standstill was proved."""
 
@@ -280,7 +281,9 @@ class Observer:
         """Whether its silence is no alarm yet: no read was answered since power-up, or since its supply is back."""
         if self.bench.line_pins.get("Restart") or self.bench.elapsed > 1000 or pins.get("SupplyOff"):
             self.boots_us = self.bench.now + 1000 * BOOT_MS
-        elif any(frame.read and frame.unit == self.drive + 1 for frame in self.bench.acknowledged[self.heard :]):
+            self.anew_ms = self.bench.now // 1000
+        heard = [frame for frame in self.bench.acknowledged[self.heard :] if frame.unit == self.drive + 1]
+        if any(frame.read and frame.ms >= self.anew_ms for frame in heard):
             self.boots_us = 0
         self.heard = len(self.bench.acknowledged)
         return self.bench.now < self.boots_us + 1_500_000
