@@ -311,7 +311,7 @@ def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
         heard.extend([desk.clock.now_us()] * bool(some))
         return some
 
-    desk.line.receive = noted  # type: ignore[method-assign]
+    desk.line.receive = noted  # type: ignore[method-assign]  # noted on the way
     before, good = len(desk.line.sent), desk.controller.number("Bus.Good")
     while len(desk.line.sent) == before:
         desk.scan(SCAN_US // 1000)
@@ -326,7 +326,7 @@ def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
         stopped.append(desk.clock.now_us())
         send(data)
 
-    desk.line.send = sent  # type: ignore[method-assign]
+    desk.line.send = sent  # type: ignore[method-assign]  # noted on the way
     desk.ending.ask("Ctrl-C")
     desk.session.run()
     replied = [at for at in heard if at <= stopped[0]]
@@ -349,7 +349,7 @@ def test_a_stop_does_not_wait_for_ever_for_a_reply_or_for_silence() -> None:
     def sent(_: bytes) -> None:
         stopped.append(desk.clock.now_us())
 
-    desk.line.send = sent  # type: ignore[assignment,method-assign]
+    desk.line.send = sent  # type: ignore[assignment,method-assign]  # a port that is watched
     desk.ending.ask("Ctrl-C")
     desk.session.run()
     assert len(desk.line.sent) == before

@@ -51,7 +51,14 @@ class Second(Bench):
         """The first-scan bit goes to the contact, too, at present."""
         self._later: list[tuple[int, int, bytes]] = []
         named = _Named(stations, name_of(types))
-        super().__init__(*types, stations=named, seed=seed, ms=ms, ascii_=ascii_, start=False)  # type: ignore[arg-type]
+        super().__init__(
+            *types,
+            stations=named,  # type: ignore[arg-type]  # a bench asks its library for an instance, and no more
+            seed=seed,
+            ms=ms,
+            ascii_=ascii_,
+            start=False,
+        )
         self.drives = []
         for index, kind in enumerate(types):
             given = dict((options or {}).get(kind, {}))
