@@ -9,13 +9,10 @@ from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, poll
 from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
+from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Context, word_input
 from driveblocks.render.expression import Test, times
 
-STOPS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
-"""Command -> its number as StopKind of VFD_Control."""
-ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8, "fault_reset": 9}
-"""Command -> its number as Order or Sent of VFD_Control."""
 MEASURES = {
     "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
     "output_current": ("OutputCurrent", "A", "CurrentScale"),

@@ -9,7 +9,7 @@ import jinja2
 from driveblocks.maps import form
 from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
-from driveblocks.render import expression, reasons, results
+from driveblocks.render import constants, expression, results
 from driveblocks.st import writing
 from driveblocks.st.fingerprint import body, fingerprint, stream
 
@@ -44,8 +44,7 @@ def environment() -> jinja2.Environment:
         result=results.code,
         fail=results.fail,
         abi=ABI,
-        reason=reasons.code,
-        given=reasons.given,
+        named=constants.named,
     )
     made.filters.update(
         word=writing.word,

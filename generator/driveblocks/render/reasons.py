@@ -195,12 +195,7 @@ STATES = (
 """State of VFD_Control -> its name in English and in Chinese."""
 
 
-def code(name: str) -> int:
-    """The number of a reason by its name. Raises KeyError."""
-    return _BY_NAME[name].code
+def by_name(name: str) -> Reason:
+    """The reason of this name. Raises KeyError."""
+    return _BY_NAME[name]
 
-
-def given(name: str, variable: str = "Reason") -> str:
-    """The statement that gives a reason, with its text beside the number. Raises KeyError."""
-    reason = _BY_NAME[name]
-    return f"{variable} := {reason.code}; (* {reason.en} *)"

@@ -91,6 +91,11 @@ RESULTS = (
 _BY_NAME = {result.name: result for result in RESULTS}
 
 
+def by_name(name: str) -> Result:
+    """The result of this name. Raises KeyError."""
+    return _BY_NAME[name]
+
+
 def code(name: str) -> int:
     """The number of a result by its name. Raises KeyError."""
     return _BY_NAME[name].code
