@@ -16,7 +16,7 @@ from random import Random
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
 from tests.second.matrix import Cell, run
-from tests.second.sample import passing
+from tests.second.sample import sample
 from tests.second.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
@@ -78,7 +78,7 @@ def judged(number: int, most: int | None = None) -> tuple[Mutant, str]:
         stations = built(EmbeddedEngine(), one.edit)
     except Exception as error:
         return one, f"does not build: {type(error).__name__}"
-    cells: list[tuple[Cell, int]] = passing()
+    cells: list[tuple[Cell, int]] = sample()
     Random(number).shuffle(cells)
     for cell, seed in cells[:most]:
         try:
