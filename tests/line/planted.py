@@ -21,8 +21,8 @@ PLANTED = (
     Planted("a new stop ranks as a command", "          Rank := RANK_STOP;\n", "          Rank := RANK_COMMAND;\n"),
     Planted(
         "a new stop is sent after polls",
-        "OR ((Best > RANK_STOP) AND (Behind >= MAX(PollAfter, 1))",
-        "OR ((Behind >= MAX(PollAfter, 1))",
+        "OR ((Best > RANK_STOP) AND (DrainMs = 0) AND (Behind >= MAX(PollAfter, 1))",
+        "OR ((DrainMs = 0) AND (Behind >= MAX(PollAfter, 1))",
     ),
     Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMost) + ", "OnTop := "),
     Planted(

@@ -175,7 +175,17 @@ def echo_ends(bench: Bench) -> None:
     bench.run(300)
 
 
+def falls_silent(bench: Bench) -> None:
+    """All eight at once: those that nobody has asked yet stay online until they are."""
+    bench.ready().run(500)
+    for drive in bench.drives:
+        drive.alive = False
+    bench.run(10_000)
+    assert bench["OnlineCount"] == 0
+
+
 TOURS = (
+    (falls_silent, Config(drives=8, turn_ms=400, longest_ms=400)),
     (long_dead, Config(drives=8)),
     (strangers, Config(drives=1, longest_ms=300)),
     (unset, Config(drives=1)),

@@ -16,13 +16,16 @@ from driveblocks.maps.polls import MOST_POLLS, Poll, polls, schedule, wire_ms
 SHIPPED = {drive.prefix: drive for drive in map(load, catalog.shipped())}
 
 
-def test_sn300g5_needs_two_reads() -> None:
-    """000FH (meaning), 0010H (status), 0014H-0016H (faults) in one; 0021H, 0022H, 0026H, 0027H in one.
+def test_sn300g5_needs_three_reads() -> None:
+    """000FH (meaning) and 0010H (status) in one; 0021H, 0022H, 0026H, 0027H in one; 0014H-0016H (faults) in one.
 
-    Three unused or unasked words in between cost 6 characters, a read of their own 23. 001BH-001FH are in no table, so
-    that nothing may be read over them.
+    0013H is listed as unused, and 001BH-001FH are in no table, so that nothing may be read over them.
     """
-    assert polls(SHIPPED["SN300G5"]) == (Poll(3, 0x000F, 8, fast=True), Poll(3, 0x0021, 7, fast=True))
+    assert polls(SHIPPED["SN300G5"]) == (
+        Poll(3, 0x000F, 2, fast=True),
+        Poll(3, 0x0021, 7, fast=True),
+        Poll(3, 0x0014, 3, fast=False),
+    )
 
 
 def test_jscc_needs_two_reads() -> None:
@@ -150,7 +153,7 @@ def test_the_schedule_sends_all_fast_ones_before_each_slow_one() -> None:
     assert of(True, True, False, False) == (0, 1, 2, 0, 1, 3)
     assert of(True) == (0,)
     assert of(True, False, False) == (0, 0, 1, 0, 0, 2)
-    assert schedule(polls(SHIPPED["SN300G5"])) == (0, 1)
+    assert schedule(polls(SHIPPED["SN300G5"])) == (0, 1, 2)
     assert schedule(polls(SHIPPED["CHF"])) == (0, 1, 2)
 
 

@@ -21,8 +21,12 @@ CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 PIN_US = 3_500_000
 """In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
+BOOT_US = 10_000_000
+"""After a restart silence is no alarm for so long, unless the drive has answered since."""
 STORE_US = 60_000_000
 """At most one store of a drive in that time, by the page of VFD_Store."""
+ANSWER_US = 2_000_000
+"""Within this time a drive that can be reached has answered something."""
 CALM_US = 8_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
 GRACE_US = 3_000_000
@@ -61,6 +65,9 @@ class Unit:
     pin_us: int | None = None
     stored_us: int = 0
     silent_since: int | None = None
+    restarted_us: int = 0
+    answered_us: int = 0
+    """For how long it could be reached since then."""
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
     unasked_us: int = 0
@@ -215,13 +222,20 @@ class Judge:
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
-        obeys = bench.models[index].o.bus_stop_ends_others  # then the terminals' run is over, too
+        o = bench.models[index].o
+        obeys = o.bus_stop_ends_others and o.not_in_command == "acknowledges"  # then the terminals' run is over, too
         self._once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
 
     def _cut(self, index: int, unit: Unit, hz: float) -> None:
         """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
         bench, one = self.bench, self.bench.models[index]
-        silent = index + 1 in bench.deaf or one.cut or bool(bench.pins[index].get("Shared"))
+        if bench.pins[index].get("Restart"):
+            unit.restarted_us, unit.answered_us = bench.now, 0
+        elif bench.reachable(index):
+            unit.answered_us += 1000 * bench.elapsed
+        silent = index + 1 in bench.deaf or one.cut
+        boots = unit.answered_us < ANSWER_US and bench.now - unit.restarted_us < BOOT_US
+        silent = (silent and not boots) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
         late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
@@ -250,7 +264,7 @@ class Judge:
         self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
         if not good:
             return
-        self._once(index, "stale", bad=now - unit.reached_us > 6_500_000)
+        self._once(index, "stale", bad=now - unit.reached_us > self.figures.seen_us + 1_000_000)
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
         for name in FACTS:

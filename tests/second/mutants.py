@@ -1,7 +1,8 @@
 """Sixty one-token changes of the blocks that run a motor, drawn by a seed: which of them does the matrix find?
 
-`python -m tests.second.mutants` builds each change, runs the sample of `sample.py` until a cell fails that passes on
-the real text, and prints which, and the survivors. `--only N` repeats one. A judge that has never been wrong is
+`python -m tests.second.mutants` draws changes that lint and build, runs the sample of `sample.py` on each until a cell
+fails, which none does on the real text, and prints which; the survivors are for a person to judge: what does the judge
+not look at, or can nobody tell the change from the text? `--only N` repeats one. A judge that has never been wrong is
 worthless; so this is the judge of the judge.
 """
 
@@ -9,19 +10,20 @@ import argparse
 import re
 import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from random import Random
 
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
-from tests.second.matrix import Cell, run
-from tests.second.sample import passing
+from tests.second.matrix import run
+from tests.second.sample import sample
 from tests.second.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.host.engine import EngineError, Library
+from driveblocks.st.lint import lint_sources
 
-SEED, NUMBER = 20261122, 60
+SEEDS, NUMBER = (411, 412), 60
 BLOCKS = ("VFD_Control", "VFD_Link", "VFD_HardStop", "MB_Line8", *(f"{each}_Drive" for each in FAMILIES))
 SWAPS = {
     "AND": "OR", "OR": "AND", "TRUE": "FALSE", "FALSE": "TRUE", "NOT": "", "<": "<=", "<=": "<", ">": ">=",
@@ -66,45 +68,59 @@ def every() -> Iterator[Mutant]:
                 yield Mutant(named[1], token.start(), plain.count("\n", 0, token.start()) + 1, old, new)
 
 
-def drawn() -> list[Mutant]:
-    """Those of the seed."""
-    return Random(SEED).sample(list(every()), NUMBER)
+def drawn(seed: int) -> Iterator[Mutant]:
+    """All changes in the order of a seed; who takes the first ones leaves out those that `mutated` refuses."""
+    found = list(every())
+    Random(seed).shuffle(found)
+    yield from found
 
 
-def judged(number: int, most: int | None = None) -> tuple[Mutant, str]:
-    """A change, and of so many cells the cell that finds it, with its rule; empty: none does."""
-    one = drawn()[number]
+def mutated(one: Mutant) -> Library | None:
+    """The stations with a change; None where it does not lint or does not build."""
+    if lint_sources((each.path, each.text) for each in first.texts(one.edit, FAMILIES)):
+        return None
     try:
-        stations = built(EmbeddedEngine(), one.edit)
-    except Exception as error:
-        return one, f"does not build: {type(error).__name__}"
-    cells: list[tuple[Cell, int]] = passing()
+        return built(EmbeddedEngine(), one.edit)
+    except EngineError:
+        return None
+
+
+def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
+    """Of so many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
+    stations = mutated(one)
+    if stations is None:
+        return None
+    cells = sample()
     Random(number).shuffle(cells)
     for cell, seed in cells[:most]:
         try:
             outcome = run(cell, seed, stations)
         except Exception as error:
-            return one, f"{cell}, seed {seed}: {type(error).__name__}"
+            return f"{cell}, seed {seed}: {type(error).__name__}"
         if outcome.rules:
-            return one, f"{cell}, seed {seed}: {outcome.rules[0]}"
-    return one, ""
+            return f"{cell}, seed {seed}: {outcome.rules[0]}"
+    return ""
 
 
 def main() -> int:
     """Judge all of them, or one."""
     parser = argparse.ArgumentParser(description="One-token changes of the blocks.")
-    parser.add_argument("--only", type=int)
-    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=SEEDS[0])
+    parser.add_argument("--only", type=int, nargs="*")
     parser.add_argument("--cells", type=int, help="cells for each, all unless said")
-    parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
-    numbers = [options.only] if options.only is not None else list(range(options.first, NUMBER))
-    survived = []
-    with ProcessPoolExecutor(options.jobs) as pool:
-        for number, (one, by) in zip(numbers, pool.map(judged, numbers, [options.cells] * len(numbers)), strict=True):
+    number = found = 0
+    for one in drawn(options.seed):
+        if options.only and number not in options.only:
+            number += mutated(one) is not None
+            continue
+        by = judged(one, number, options.cells)
+        if by is not None:
             print(f"{number:2} {one}: {by or 'SURVIVES'}", flush=True)
-            survived += [] if by else [one]
-    print(f"{len(numbers) - len(survived)} of {len(numbers)} found")
+            number, found = number + 1, found + bool(by)
+        if number >= NUMBER:
+            break
+    print(f"{found} of {number} found")
     return 0
 
 

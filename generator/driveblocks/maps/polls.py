@@ -100,7 +100,7 @@ def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:
     while words in taken:
         last = Span(poll.address, poll.address + words)
         words += 1
-        if words > most or drive.register_at(last.last) is None or not _together(drive, allowed, last):
+        if words > most or not _used(drive, last.last) or not _together(drive, allowed, last):
             return 0
     return words
 
@@ -140,9 +140,17 @@ def _cheapest(drive: Drive, words: list[int]) -> tuple[Poll, ...]:
 
 
 def _together(drive: Drive, readable: tuple[Span, ...], span: Span) -> bool:
-    """Whether one read may run from the first to the last of these: an area's rule does not say that all are there."""
-    listed = all(drive.register_at(address) for address in range(span.first + 1, span.last))
+    """Whether one read may run from the first to the last of these: an area's rule does not say that all are there.
+
+    A drive may refuse a read over an address that its manual lists as unused, and could not be run then.
+    """
+    listed = all(_used(drive, address) for address in range(span.first + 1, span.last))
     return listed and any(span.first in other and span.last in other for other in readable)
+
+
+def _used(drive: Drive, address: int) -> bool:
+    row = drive.register_at(address)
+    return row is not None and not row.unused
 
 
 def schedule(polls: tuple[Poll, ...]) -> tuple[int, ...]:
