@@ -63,7 +63,9 @@ PLANTED = (
         test_start.test_an_edge_before_the_stop_is_confirmed_is_lost,
     ),
     *(
-        Planted(f"{what} does not count", f"  ELSIF {old} THEN\n    Asked.Bar", "  ELSIF FALSE THEN\n    Asked.Bar", test)
+        Planted(
+            f"{what} does not count", f"  ELSIF {old} THEN\n    Asked.Bar", "  ELSIF FALSE THEN\n    Asked.Bar", test
+        )
         for what, old, test in (
             ("SupplyOff", "SupplyOff", partial(never_stored, "no supply")),
             ("a missing line", "NOT Seen.Linked", partial(never_stored, "no line")),
@@ -75,7 +77,11 @@ PLANTED = (
             ("a stop pin", "QuickStop OR CoastStop", partial(needs_release, "CoastStop")),
             ("both directions", "Asked.BothWays", partial(needs_release, "both directions")),
             ("a setting that is missing", "Seen.Missing", partial(needs_release, "no time to stop")),
-            ("a reference that is no number", "Asked.Motion AND (Seen.ReferenceErrorID <> 0)", partial(needs_release, "no number")),
+            (
+                "a reference that is no number",
+                "Asked.Motion AND (Seen.ReferenceErrorID <> 0)",
+                partial(needs_release, "no number"),
+            ),
         )
     ),
     Planted(

@@ -9,7 +9,7 @@ import pytest
 from driveblocks.st.lint import Selection, lint_sources
 from driveblocks.st.problems import Problem
 from driveblocks.st.reserved import TARGET_WORDS
-from driveblocks.st.rules import CODES, RULES
+from driveblocks.st.rules import CODES, ON_REQUEST, RULES
 
 FOLDER = Path(__file__).parent / "rules"
 PAGE = Path(__file__).parents[2] / "docs" / "lint.md"
@@ -35,6 +35,8 @@ def all_rows() -> list[object]:
 def judged(name: str, text: str, selection: Selection | None = None) -> list[Problem]:
     """What is found in a row or example of a rule: those about targets want to know for which."""
     targets = TARGET_WORDS if name in OF_TARGETS else ()
+    if selection is None and name in ON_REQUEST:
+        selection = Selection.of([name], [])
     return lint_sources([("row.st", text)], selection, targets)
 
 

@@ -14,8 +14,9 @@ from driveblocks.st.parser import parse
 from driveblocks.st.rules import RULES
 
 FINDS = re.compile(r"\(\* finds: ([\w, -]+) \*\)$")
-# Rules about what cannot stand beside the rest in a file, stops the parser, or counts for a target; `rules/` has them.
+# What cannot be beside the rest in a file, stops the parser, or is found for a target or where selected: see `rules/`.
 ELSEWHERE = {
+    "taken-back",
     "syntax",
     "long-expression",
     "undeclared-name",

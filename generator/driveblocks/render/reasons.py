@@ -198,4 +198,3 @@ STATES = (
 def by_name(name: str) -> Reason:
     """The reason of this name. Raises KeyError."""
     return _BY_NAME[name]
-

@@ -6,13 +6,21 @@ import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from driveblocks.st import lint_declaration, lint_expression, lint_literal, lint_statement, lint_target, lint_text
+from driveblocks.st import (
+    lint_decision,
+    lint_declaration,
+    lint_expression,
+    lint_literal,
+    lint_statement,
+    lint_target,
+    lint_text,
+)
 from driveblocks.st.checker import analyse
 from driveblocks.st.lint_scope import Scope
 from driveblocks.st.parser import ParseError, parse
 from driveblocks.st.problems import Problem
 from driveblocks.st.report import Report, nearest
-from driveblocks.st.rules import CODES, RULES
+from driveblocks.st.rules import CODES, ON_REQUEST, RULES
 from driveblocks.st.tree import Checked, Function, FunctionBlock, Pou, Program, Unit
 
 _WORD = re.compile(r"\w+")
@@ -25,7 +33,7 @@ class UnknownRuleError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """Which rules to tell: all those named by `select` (empty: every rule) but not those named by `ignore`."""
+    """Which rules to report: those named by `select` (empty: all but ON_REQUEST) but not those named by `ignore`."""
 
     select: frozenset[str] = frozenset()
     ignore: frozenset[str] = frozenset()
@@ -40,7 +48,7 @@ class Selection:
 
     def takes(self, rule: str) -> bool:
         """Whether problems of this rule are told."""
-        return rule not in self.ignore and (not self.select or rule in self.select)
+        return rule not in self.ignore and (rule in self.select or (not self.select and rule not in ON_REQUEST))
 
 
 def _named(word: str) -> list[str]:
@@ -118,3 +126,4 @@ def _pou(pou: Pou, checked: Checked, report: Report) -> None:
     lint_statement.pou(scope)
     lint_expression.pou(scope)
     lint_literal.pou(scope)
+    lint_decision.pou(scope)

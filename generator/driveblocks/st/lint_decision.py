@@ -87,9 +87,11 @@ class _Walk:
         """Each round decides anew."""
         heads = [statement.start, statement.stop] if isinstance(statement, For) else [statement.condition]
         self.looping += 1
-        inside = self.walk(statement.body, {name: Stage.OLD for name in stages})
+        inside = self.walk(statement.body, dict.fromkeys(stages, Stage.OLD))
         self.looping -= 1
-        return self._read(heads, {**stages, **{name: max(stage, stages.get(name, stage)) for name, stage in inside.items()}})
+        return self._read(
+            heads, {**stages, **{name: max(stage, stages.get(name, stage)) for name, stage in inside.items()}}
+        )
 
     def _join(self, bodies: list[list[Statement]], otherwise: list[Statement] | None, stages: Stages) -> Stages:
         ends = [self.walk(body, dict(stages)) for body in [*bodies, otherwise or []]]
@@ -103,11 +105,10 @@ class _Walk:
             return stages
         stage = stages.get(target, Stage.OLD)
         if stage is Stage.GIVEN and not (itself and self.looping):
-            text = f"{statement_name(statement)} was decided and used already in this call: decide it once"
+            text = f"{_written(statement.target)} was decided and used already in this call: decide it once"
             self.scope.add(statement.target.at, RULE, text)
-        memory = target in self.kept
-        stays = memory and stage is Stage.OLD
-        return {**stages, target: Stage.OLD if stays else Stage.DECIDED}
+        old = target in self.kept and (stage is Stage.OLD or (stage is Stage.USED and itself))
+        return {**stages, target: Stage.OLD if old else Stage.DECIDED}
 
     def _read(self, values: Iterable[Expression], stages: Stages, but: str | None = None) -> Stages:
         made = dict(stages)
@@ -116,11 +117,6 @@ class _Walk:
                 if each != but:
                     made[each] = Stage.GIVEN if made.get(each, Stage.OLD) >= Stage.DECIDED else Stage.USED
         return made
-
-
-def statement_name(statement: Assign) -> str:
-    """The variable as it is written."""
-    return _written(statement.target)
 
 
 def _written(value: Expression) -> str:
@@ -168,7 +164,9 @@ def _definite(body: list[Statement], known: set[str], own: set[str], kept: set[s
             _miss([statement.call], known, kept)
         elif isinstance(statement, If | Case):
             heads = (
-                [branch.condition for branch in statement.branches] if isinstance(statement, If) else [statement.selector]
+                [branch.condition for branch in statement.branches]
+                if isinstance(statement, If)
+                else [statement.selector]
             )
             _miss(heads, known, kept)
             ends = [_definite(branch.body, set(known), own, kept) for branch in statement.branches]

@@ -21,6 +21,7 @@ class Rule:
 
 # 0xx: no Structured Text of the second edition. 1xx: text and names. 2xx: declarations and types.
 # 3xx: legal, and compiled to something else somewhere. 4xx: what the canonical text leaves out.
+# 5xx: no question of portability, found only where it is selected.
 _ERRORS = """
 001 syntax                 the text cannot be parsed
 002 undeclared-name        a name that is declared nowhere in reach
@@ -145,6 +146,9 @@ _REMARKS = """
 408 bool-shift             SHL, SHR, ROL and ROR of a BOOL
 409 negated-comparison     NOT over a bracketed comparison of REALs
 """
+_HOUSE = """
+501 taken-back             with --select: a value that a call has decided and used is assigned again
+"""
 
 
 def _read(text: str, error: bool) -> list[Rule]:
@@ -153,5 +157,8 @@ def _read(text: str, error: bool) -> list[Rule]:
 
 
 # Every rule by name, in order of code.
-RULES: dict[str, Rule] = {rule.name: rule for rule in _read(_ERRORS, True) + _read(_REMARKS, False)}
+RULES: dict[str, Rule] = {
+    rule.name: rule for rule in _read(_ERRORS, True) + _read(_REMARKS, False) + _read(_HOUSE, False)
+}
+ON_REQUEST = frozenset(rule.name for rule in _read(_HOUSE, False))
 CODES: dict[str, Rule] = {rule.code: rule for rule in RULES.values()}
