@@ -25,8 +25,8 @@ LINE_TYPES = (
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_StopRound", "VFD_Send", "VFD_Why", "VFD_Control",
-    "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_StopRound",
+    "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = (8, 32)
