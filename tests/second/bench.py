@@ -55,6 +55,8 @@ class Second(Bench):
         self.mode, self.start_pin, self.was_ms = "", "RunForward", ms
         """What the run that uses this bench is about: for events."""
         self.models: list[Drive] = []
+        self.strange = False
+        """Another master speaks."""
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
         self.restarts_contact = False
@@ -144,11 +146,12 @@ class Second(Bench):
 
     def reachable(self, drive: int) -> bool:
         """Whether the drive hears what is sent to the address of its pins."""
+        return self.hears(drive) and self.models[drive].unit == self.pins[drive]["Address"]
+
+    def hears(self, drive: int) -> bool:
+        """Whether the drive hears what is sent to its own address."""
         one = self.models[drive]
-        return bool(
-            one.powered and not one.cut and self.now >= one.deaf_us and drive + 1 not in self.deaf
-            and one.unit == self.pins[drive]["Address"]
-        )  # fmt: skip
+        return one.powered and not one.cut and self.now >= one.deaf_us and drive + 1 not in self.deaf
 
     # ------------------------------------------------------------ time and wire
 

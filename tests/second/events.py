@@ -1,12 +1,12 @@
 """What can happen to the first drive of a line: each event begins, lasts, and ends."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from random import Random
 
 from tests.drives.bench import Faults
 from tests.second.bench import Second
-from tests.second.drive import Fault
+from tests.second.drive import RUNS, STOPS, Fault
 
 Does = Callable[[Second, Random], None]
 FAULT: dict[str, Fault] = {"CHF": 3, "JSCC": 1, "SN300G5": "OC"}
@@ -205,6 +205,87 @@ def _whole(b: Second, _: Random) -> None:
     b.put(0, SpeedReferenceHz=25.0)
 
 
+def _ready_again(b: Second) -> None:
+    b.release()
+    b.wait(lambda: b.shows("Ready"), 9000)
+
+
+def _ignores(b: Second, what: Iterable[str]) -> None:
+    b.models[0].o = replace(b.models[0].o, ignores=frozenset(what))
+
+
+def _ignores_runs(b: Second, _: Random) -> None:
+    _ready_again(b)
+    _ignores(b, RUNS)
+    b.put(0, **{b.start_pin: True})
+
+
+def _ignores_stops(b: Second, _: Random) -> None:
+    _ignores(b, STOPS)
+    b.release()
+
+
+def _obeys(b: Second, _: Random) -> None:
+    b.release()
+    _ignores(b, ())
+
+
+def _busy(b: Second, _: Random) -> None:
+    _ready_again(b)
+    b.models[0].be_busy(b.now, 700_000)
+    b.put(0, **{b.start_pin: True})
+
+
+def _stop_all_alone(b: Second, _: Random) -> None:
+    _leave(b, True)
+    b.line(StopAll=True)
+
+
+def _called_again(b: Second, _: Random) -> None:
+    b.line(StopAll=False)
+    _leave(b, False)
+
+
+def _switched_off(b: Second, _: Random) -> None:
+    b.release()
+    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    b.put(0, SupplyOff=True)
+    b.models[0].power(False, b.now)
+
+
+def _switched_on(b: Second, _: Random) -> None:
+    b.models[0].power(True, b.now)
+    b.run(100)
+    b.put(0, SupplyOff=False)
+
+
+def _strangers(b: Second, _: Random) -> None:
+    b.strange = True
+    for _ in range(9):
+        b.foreign(bytes((ABSENT, 3, 0, 1, 0, 1)))
+        b.run(300)
+    if b.block["TheLine.ErrorID"] not in (54, 61) or b.shows("Ready"):
+        b.judge.tell(0, "strangers", f"nine of their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
+
+
+def _strangers_gone(b: Second, _: Random) -> None:
+    b.strange = False
+    b.line(Acknowledge=True).run(100)
+    b.line(Acknowledge=False)
+
+
+def _both_ways(b: Second, _: Random) -> None:
+    b.put(0, RunForward=True, RunReverse=True)
+
+
+def _wrong_reference(b: Second, chance: Random) -> None:
+    b.put(0, SpeedReferenceHz=chance.choice([-5.0, -0.01]))
+
+
+def _too_fast(b: Second, _: Random) -> None:
+    b.put(0, SpeedReferenceHz=70.0)
+
+
 LONG = ("nothing", "two stores")
 """Events that are no second ones: they take a minute of the bus, or none."""
 EVENTS: dict[str, Event] = {
@@ -244,8 +325,22 @@ EVENTS: dict[str, Event] = {
     "an unused row is refused": Event(_unreadable(UNUSED, on=True), 12_000, _unreadable(UNUSED, on=False), stops=False),
     "parameters": Event(_parameters, 1000, stops=False),
     "two stores": Event(_stores, 1000),
+    "it ignores runs": Event(_ignores_runs, 9000, _obeys),
+    "it ignores stops": Event(_ignores_stops, 9500, _obeys),
+    "it is busy": Event(_busy, 3500),
+    "StopAll while its block is not called": Event(_stop_all_alone, 900, _called_again, stops_all=True),
+    "supply off on purpose": Event(_switched_off, 6000, _switched_on),
+    "SupplyOff while it runs": pin("SupplyOff", True, 4000),
+    "frames of another master": Event(_strangers, 100, _strangers_gone, stops_all=True),
+    "both directions": Event(_both_ways, 3000, lambda b, _: _released(b)),
+    "a negative reference": Event(_wrong_reference, 3000, _whole),
+    "a reference above the maximum": Event(_too_fast, 8000, _whole, stops=False),
     "another reference": Event(_half, 3000, _whole, stops=False),
 }
+
+
+def _released(b: Second) -> None:
+    b.release()
 
 
 def _leave(b: Second, on: bool) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tests.second.claims import Claims
 from tests.second.observer import Figures, Observer, Truth
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ class Unit:
     away_us: int = 0
     """When it could last not be reached."""
     reached_us: int = 0
+    heard_us: int = 0
+    """When it could last hear, whatever the address of its pins."""
     unknown_us: int = 0
     """When it could last not be reached, or all began anew."""
     refuses_us: int = 0
@@ -70,6 +73,8 @@ class Unit:
     """For how long it could be reached since then."""
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
+    excused_us: int = 0
+    """The same, but for a drive without supply on purpose."""
     unasked_us: int = 0
     """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
     broken: set[str] = field(default_factory=set)
@@ -127,11 +132,14 @@ class Judge:
         self.late: deque[int] = deque([0] * 100, maxlen=100)
         """How long the last scans were, in us: nobody knows when in them a reply came."""
         self.asked: list[Asked] = []
+        self.claims = Claims(self)
 
     def sent(self, now_us: int, frame: bytes) -> None:
         """A frame of the master."""
         self.observer.sent(now_us, frame)
         body = self.observer.opened(frame)
+        if body is not None and 0 < body[0] <= len(self.units):
+            self.claims.sent(now_us, body[0] - 1, body)
         if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):
             return
         unit = self.units[body[0] - 1]
@@ -143,7 +151,8 @@ class Judge:
         """A broken rule."""
         self.found.append((self.bench.now, index + 1, rule, seen))
 
-    def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+    def once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+        """A rule that may be broken at present: told when it breaks, not while it stays so."""
         broken = self.units[index].broken
         if bad and rule not in broken:
             broken.add(rule)
@@ -191,14 +200,17 @@ class Judge:
         if pins.get("SpeedOnly"):
             self._stop_pin(index, unit, hz)
         if self.kept:
-            self._once(index, "kept", bad=index in self.kept and not driven)
+            self.once(index, "kept", bad=index in self.kept and not driven)
         unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
         unit.seen["Fault", one.fault is not None] = now
         unit.shaft.append((now, one.shown_hz(now)))
         if looks:
             self._outputs(index, unit)
+        self.claims.scan(index, driven=driven, looks=looks)
 
     def _reach(self, index: int, unit: Unit) -> None:
+        if self.bench.hears(index):
+            unit.heard_us = self.bench.now
         if (
             not self.bench.reachable(index)
             or self.bench.pins[index].get("Left")
@@ -207,9 +219,11 @@ class Judge:
             unit.away_us = self.bench.now
         else:
             unit.reached_us = self.bench.now
-        lossy = self.bench.faults.lost or self.bench.faults.unanswered
+        lossy = self.bench.faults.lost or self.bench.faults.unanswered or self.bench.strange
         if lossy:  # a stop and its retries may be lost, and the connection with them
             unit.away_us = self.bench.now
+        if unit.away_us == self.bench.now and not self.bench.pins[index].get("SupplyOff"):
+            unit.excused_us = self.bench.now
         if unit.away_us == self.bench.now or self.bench.pins[index].get("Restart"):
             unit.unknown_us = self.bench.now
         if STATUS[self.bench.types[index]] in self.bench.models[index].o.forbidden:
@@ -224,7 +238,7 @@ class Judge:
         late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
         o = bench.models[index].o
         obeys = o.bus_stop_ends_others and o.not_in_command == "acknowledges"  # then the terminals' run is over, too
-        self._once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
+        self.once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
 
     def _cut(self, index: int, unit: Unit, hz: float) -> None:
         """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
@@ -239,12 +253,12 @@ class Judge:
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
         late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
-        self._once(index, "cut", bad=late)
+        self.once(index, "cut", bad=late)
 
     def _excused(self, index: int) -> bool:
         """Whether the contact may open for this drive."""
         now, unit = self.bench.now, self.units[index]
-        away = unit.away_us > 0 and now - unit.away_us < self.figures.stop_us + 2_000_000
+        away = unit.excused_us > 0 and now - unit.excused_us < self.figures.stop_us + 2_000_000
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
         if self.bench.restarts_contact or refuses:
             return True
@@ -259,18 +273,18 @@ class Judge:
         calm = now - unit.unknown_us > CALM_US
         good = bench.shows("CommOk", index)
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
-        self._once(index, "comm", bad=calm and not good and not refuses)
+        self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
-        self._once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
+        self.once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
         if not good:
             return
-        self._once(index, "stale", bad=now - unit.reached_us > self.figures.seen_us + 1_000_000)
+        self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
         for name in FACTS:
             shown = bench.shows(name, index)
             late = unit.seen.get((name, shown), -1) < since
-            self._once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
+            self.once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
         if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
             self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)
 
@@ -279,4 +293,4 @@ class Judge:
         window = [each for at, each in unit.shaft if at >= since]
         if window and unit.shaft[0][0] < since:
             far = not min(window) - 0.3 <= hz <= max(window) + 0.3
-            self._once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")
+            self.once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")

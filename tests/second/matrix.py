@@ -35,7 +35,7 @@ BOTH: tuple[Any, ...] = (False, True)
 OPTIONS: dict[str, tuple[Any, ...]] = {
     # the line
     "size": SIZES, "ascii": BOTH, "ms": (20, 10, 40), "others run": BOTH, "before": ("", "a jog", "a coast"),
-    "no scale": BOTH, "limit": BOTH,
+    "no scale": BOTH, "limit": BOTH, "refresh": (0, 300, 65535), "learns": BOTH,
     # all models
     "start_us": (0, 200_000), "reply_us": ((10_000, 10_000), (10_000, 18_000)), "late_per_1000": (0, 10),
     "stop_key": BOTH, "start_key": BOTH, "stop_key_holds": BOTH, "terminals_act": (False,),
@@ -51,9 +51,9 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
     "SN300G5.key_cuts_line": BOTH,
-    "SN300G5.run_needs_edge": BOTH, "SN300G5.zero_speed_of": ("output", "shaft"),
+    "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
 }  # fmt: skip
-LINE = ("size", "ascii", "ms", "others run", "before", "no scale", "limit")
+LINE = ("size", "ascii", "ms", "others run", "before", "no scale", "limit", "refresh", "learns", "KeepWord")
 
 
 @cache
@@ -128,6 +128,8 @@ class Run:
             pins["MaximumHz"] = 40.0
         if row["no scale"] and cell.family == "CHF":
             pins["FrequencyScale"] = 0.0
+        pins |= {"RefreshMs": row["refresh"], "KeepWord": row["KeepWord"]}
+        pins |= {"TurnRoundMs": 0} if row["learns"] else {}
         self.bench = b = Second(
             *types, options={each: self._options(each) for each in FAMILIES}, settings=settings, pins=pins,
             stations=stations, seed=seed, ms=row["ms"], ascii_=ascii_,

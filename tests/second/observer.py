@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from tests.second.frames import ascii_opened, opened
 
 RUN, JOG = ("RunForward", "RunReverse"), ("JogForward", "JogReverse")
-STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "Left")
+STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "SupplyOff", "Left")
 """Pins that stop while they are TRUE; `Left` is for a block that is not called. Enable stops while it is FALSE."""
 
 
@@ -95,7 +95,9 @@ class Observer:
         """A scan: the pins that a block was called with, whether it shows StopConfirmed, and the motor after it."""
         watch, figures = self.watches[unit], self.figures
         asked = tuple(name for name in RUN + JOG if pins.get(name))
-        stops = not asked or not pins.get("Enable", True) or any(pins.get(name) for name in STOPPING)
+        hz = pins.get("SpeedReferenceHz", 0.0)
+        spoilt = isinstance(hz, float) and hz < 0.0 and any(name in RUN for name in asked)
+        stops = spoilt or not asked or not pins.get("Enable", True) or any(pins.get(name) for name in STOPPING)
         watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz

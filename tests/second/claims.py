@@ -1,0 +1,312 @@
+"""What pins and line claim, against what truly is: a start shown as possible starts, a stop is sent in its time.
+
+Part of the judge: it looks at pins of blocks, true models and frames, in quiet times and at edges.
+"""
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from tests.second.observer import JOG, RUN
+
+if TYPE_CHECKING:
+    from tests.second.judge import Judge
+
+QUIET_US = 2_000_000
+"""A drive that has been stopped for so long is written to no more."""
+START_US = 3_000_000
+"""From the edge to the first turn: reference, run, and attempts."""
+SPEED_US = 6_000_000
+"""From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
+FOLLOW_US = 7_500_000
+"""FollowWithinMs is 5 s, from the answer to run."""
+LATE_US = 600_000
+"""A stop that meets a late reply is sent again."""
+RESTART_US = 2_500_000
+"""Stops of a restart wait out what may still be answered."""
+ATTEND_US = 1_000_000
+"""AttendMs."""
+CALM_US = 10_000_000
+FOREIGN_US = 45_000_000
+"""Doubled replies may pass for frames of others; it takes half a minute until they are forgotten."""
+PROBE_US = 12_000_000
+AGE_MS = 2600
+"""How old words may be on a line of three drives at most."""
+USUAL_MS, OFF = 1000, 65535
+"""RefreshMs that is not set, and switched off."""
+REFRESH_US = 1_500_000
+"""How much later a refresh may be sent."""
+LINE_ERRORS = (0, 61)
+"""None, and a stop that is overdue."""
+
+
+@dataclass
+class Claim:
+    """What is remembered of one drive."""
+
+    changed_us: int = 0
+    """When its pins last changed."""
+    pins: tuple[tuple[str, object], ...] = ()
+    ready: bool = False
+    """Ready of the last scan."""
+    edge_us: int | None = None
+    """When a start was asked for that the block has shown as possible."""
+    stop_us: int | None = None
+    still_us: int | None = None
+    """Since when the block shows that it stands, ready for a start."""
+    sent_us: int = 0
+    """When a frame was last sent to it."""
+    fault_us: int | None = None
+    driven_us: int | None = None
+    written_us: int = 0
+    writes: deque[int] = field(default_factory=lambda: deque([0] * 6, maxlen=6))
+    """When it was last written to."""
+    odd: int = 0
+    """Looks in a row with a wrong reason."""
+
+
+class Claims:
+    """Looks after every scan, for the judge."""
+
+    def __init__(self, judge: "Judge") -> None:
+        """Watch what the judge watches."""
+        self.judge, self.bench = judge, judge.bench
+        self.claims = [Claim() for _ in judge.units]
+        self.doubled_us = -FOREIGN_US
+        self.requests = 0
+
+    def sent(self, now_us: int, index: int, body: bytes) -> None:
+        """A frame to a drive, without checksum."""
+        claim, pins = self.claims[index], self.bench.pins[index]
+        writes = body[1] in (6, 16)
+        self._kept(index, body)
+        if writes:
+            self._refreshed(now_us, index, claim)
+            claim.written_us = now_us
+        claim.sent_us = now_us
+        idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > QUIET_US
+        asks = any(each.index == index for each in self.judge.asked)
+        same = tuple(sorted(pins.items())) == claim.pins
+        if (
+            writes
+            and idle
+            and same
+            and not asks
+            and self.willing(index)
+            and not any(pins.get(each) for each in RUN + JOG)
+        ):
+            self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
+
+    def scan(self, index: int, *, driven: bool, looks: bool) -> None:
+        """After a scan."""
+        bench, claim, now = self.bench, self.claims[index], self.bench.now
+        if bench.faults.twice:
+            self.doubled_us = now
+        before = dict(claim.pins)
+        pins = tuple(sorted(bench.pins[index].items()))
+        if pins != claim.pins:
+            claim.pins, claim.changed_us = pins, now
+        ready = bench.shows("Ready", index)
+        settled = ready and bench.shows("StopConfirmed", index) and not bench.pins[index].get("Left")
+        claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
+        self._start(index, claim, before, driven=driven)
+        self._stop(index, claim, driven=driven)
+        claim.ready = ready
+        claim.driven_us = (claim.driven_us or now) if driven else None
+        if looks:
+            self._look(index, claim, driven=driven)
+
+    def _kept(self, index: int, body: bytes) -> None:
+        """Bits that no command uses are as KeepWord has them in every run word of SN300G5."""
+        keep = self.bench.pins[index].get("KeepWord", 0)
+        if self.bench.types[index] == "SN300G5" and body[1:4] == b"\x10\0\0" and body[8] & 0xFC != keep:
+            self.judge.tell(index, "keep", body.hex())
+
+    def _period(self, index: int) -> int:
+        """How often the reference is to be sent again, in us; 0: never."""
+        refresh = int(self.bench.number("RefreshMs", index)) or USUAL_MS
+        watchdog = int(self.bench.number("WatchdogMs", index))
+        every = 0 if refresh == OFF else refresh
+        return 1000 * (watchdog // 3 if watchdog and (not every or every > watchdog // 3) else every)
+
+    def _steady(self, index: int, claim: Claim) -> bool:
+        """It has been running for long, with the same pins."""
+        now = self.bench.now
+        settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
+        return settled and self.attended(index) and self.willing(index) and self.well(index, SPEED_US)
+
+    def _refreshed(self, now_us: int, index: int, claim: Claim) -> None:
+        period = self._period(index)
+        claim.writes.append(now_us)
+        early = now_us - claim.writes[0] < 3 * period if period else now_us - claim.writes[-2] < SPEED_US
+        asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
+        if self._steady(index, claim) and early and not asks and not self.bench.models[index].o.late_per_1000:
+            self.judge.tell(index, "refresh", f"writes at {[each // 1000 for each in claim.writes]} ms")
+
+    # ------------------------------------------------------------ who can be judged
+
+    def attended(self, index: int) -> bool:
+        """One block serves the drive, in full control."""
+        pins = self.bench.pins[index]
+        return not any(pins.get(each) for each in ("Left", "Shared", "SpeedOnly", "MonitorOnly"))
+
+    def well(self, index: int, since_us: int) -> bool:
+        """It could be reached for so long, and nothing was lost."""
+        unit = self.judge.units[index]
+        return self.bench.now - unit.away_us > since_us and self.bench.now - unit.refuses_us > since_us
+
+    def willing(self, index: int) -> bool:
+        """The drive obeys the bus."""
+        one: Any = self.bench.models[index]
+        mine = one.run_source == "bus" and not one.local and not one.held and not one.inhibited
+        return bool(mine and not one.by.strip("bus") and one.fault is None and not one.o.ignores)
+
+    # ------------------------------------------------------------ edges
+
+    def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
+        bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
+        asked = [each for each in RUN + JOG if pins.get(each)]
+        stops = not pins["Enable"] or any(pins.get(each) for each in ("QuickStop", "CoastStop", "StopAll", "Restart"))
+        if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
+            claim.edge_us = None
+        elif claim.ready and not any(before.get(each) for each in RUN + JOG):
+            claim.edge_us = now
+        if claim.edge_us is not None:
+            ignores = bench.models[index].o.ignores
+            if not ignores and not self.willing(index):
+                claim.edge_us = None
+            elif not ignores and now - claim.edge_us > START_US:
+                self._once(index, "starts", bad=True)
+            elif ignores and now - claim.edge_us > FOLLOW_US:
+                told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
+                self._once(index, "follow", bad=not told)
+
+    def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
+        """The first stop is sent within WorstStopMs, and obeyed."""
+        bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
+        asked = any(pins.get(each) for each in RUN + JOG)
+        all_ = bool(pins.get("StopAll"))
+        pin = not asked or not pins["Enable"] or pins.get("QuickStop") or pins.get("CoastStop")
+        owed = all_ if pins.get("Left") else bool(pin or all_ or pins.get("Restart") or pins.get("MonitorOnly"))
+        late = LATE_US if bench.models[index].o.late_per_1000 else 0
+        hears = self.well(index, ATTEND_US) and not pins.get("Shared") and now >= bench.models[index].busy_us
+        good = driven and self.willing(index) and hears
+        if not good or pins.get("SpeedOnly"):
+            claim.stop_us = None
+        elif claim.stop_us is None and owed:
+            claim.stop_us = now + (RESTART_US if self.judge.units[index].unknown_us > now - CALM_US // 5 else 0)
+        if claim.stop_us is not None:
+            most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
+            self._once(index, "prompt", bad=now - claim.stop_us > most)
+
+    def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+        self.judge.once(index, rule, bad=bad, seen=seen)
+
+    # ------------------------------------------------------------ quiet times
+
+    def _look(self, index: int, claim: Claim, *, driven: bool) -> None:
+        bench, now = self.bench, self.bench.now
+        self._probe(index, claim)
+        if index == 0:
+            self._line()
+        if not self.attended(index) or bench.pins[index].get("Address") != index + 1:
+            return
+        if self.well(index, CALM_US // 5) and bench.shows("CommOk", index):
+            self._speed(index, claim, driven=driven)
+            self._reason(index, claim)
+            self._fault(index, claim)
+        period, steady = self._period(index), self._steady(index, claim)
+        missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
+        self._once(index, "refreshes", bad=bool(missed))
+        fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
+        age = bench.number("StatusAgeMs", index)
+        idle = now - self.judge.units[index].unknown_us > CALM_US
+        self._once(index, "age", bad=fast and idle and age > AGE_MS, seen=f"{age} ms")
+
+    def _speed(self, index: int, claim: Claim, *, driven: bool) -> None:
+        """As fast as it is asked to be, once it had the time; and said to be."""
+        bench, pins, now, one = self.bench, self.bench.pins[index], self.bench.now, self.bench.models[index]
+        hz, limit = pins["SpeedReferenceHz"], pins["MaximumHz"]
+        assert isinstance(hz, float)
+        assert isinstance(limit, float)
+        asked = min(hz, limit or hz, 50.0)
+        steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
+        runs = steady and any(pins.get(each) for each in RUN) and self.judge.observer.watches[index + 1].permitted
+        far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
+        self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
+        shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
+        quiet = runs and shown and bench.number("StatusAgeMs", index) < AGE_MS
+        self._once(
+            index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
+        )
+        wrong = bench.shows("AtSpeed", index) and self._was_far(index, asked)
+        self._once(index, "at speed already", bad=wrong and now - claim.changed_us > SPEED_US)
+        limited = bool(bench.out("ReferenceLimited", index))
+        self._once(index, "limited", bad=limited != (hz > min(limit or hz, 50.0)) and now - claim.changed_us > QUIET_US)
+
+    def _was_far(self, index: int, asked: float) -> bool:
+        """Whether the drive has shown no such speed for some time."""
+        shaft = self.judge.units[index].shaft
+        since = self.bench.now - 1000 * int(self.bench.number("StatusAgeMs", index)) - 1_000_000
+        return all(abs(hz - asked) > 1.0 for at, hz in shaft if at >= since)
+
+    def _reason(self, index: int, claim: Claim) -> None:
+        """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
+        bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
+        if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
+            return
+        reason, ready = bench.reason(index), bench.shows("Ready", index)
+        if bench.shows("Fault", index):
+            right = reason in ("FAULT", "NO_RESET") or bool(pins.get("SupplyOff"))
+        elif reason == "RESETTING":
+            right = True
+        else:
+            first = next((name for name, is_so in self._told(index) if is_so), None)
+            right = reason == first if first else reason != "READY" or ready
+        claim.odd = 0 if right else claim.odd + 1
+        self._once(index, "why", bad=claim.odd > 1, seen=reason)
+        running = bench.shows("Running", index)
+        self._once(index, "runs", bad=reason == "RUNS" and not running, seen=reason)
+        idle = bench.shows("StopConfirmed", index) or not ready
+        self._once(index, "ready", bad=not idle, seen="Ready without StopConfirmed")
+
+    def _told(self, index: int) -> list[tuple[str, bool]]:
+        pins = self.bench.pins[index]
+        both = (pins.get("RunForward") or pins.get("JogForward")) and (pins.get("RunReverse") or pins.get("JogReverse"))
+        return [
+            ("NO_SUPPLY", bool(pins.get("SupplyOff"))), ("STOP_ALL", bool(pins.get("StopAll"))),
+            ("DISABLED", not pins["Enable"]), ("STOP_PIN", bool(pins.get("QuickStop") or pins.get("CoastStop"))),
+            ("BOTH", bool(both)),
+        ]  # fmt: skip
+
+    def _fault(self, index: int, claim: Claim) -> None:
+        """The code of a fault that has been there for some time; without one there is none."""
+        bench, one, now = self.bench, self.bench.models[index], self.bench.now
+        claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
+        code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
+        number = getattr(one, "number", lambda fault: fault)(one.fault)
+        old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
+        self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
+
+    def _probe(self, index: int, claim: Claim) -> None:
+        """A drive that does not answer is asked again and again."""
+        pins, unit, now = self.bench.pins[index], self.judge.units[index], self.bench.now
+        forgotten = now - claim.sent_us > PROBE_US and now - unit.unknown_us > 0
+        free = pins.get("SupplyOff") or pins.get("Left") or pins.get("Shared") or pins.get("Address") != index + 1
+        self._once(index, "probe", bad=forgotten and not free)
+
+    def _line(self) -> None:
+        """What the line says of itself."""
+        bench, block, now = self.bench, self.bench.block, self.bench.now
+        units = range(len(self.judge.units))
+        plain = all(self.attended(i) and bench.pins[i].get("Address") == i + 1 for i in units)
+        good = plain and all(now - self.judge.units[i].unknown_us > CALM_US and self.well(i, CALM_US) for i in units)
+        good = good and now - self.doubled_us > FOREIGN_US
+        shown = (block["TheLine.AllOnline"], block["TheLine.OnlineCount"])
+        self._once(0, "all online", bad=good and shown != (True, len(units)), seen=f"{shown}")
+        error = block["TheLine.ErrorID"]
+        self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
+        strange = block["TheLine.ForeignFrames"]
+        self._once(0, "strange", bad=good and strange != 0, seen=f"{strange!r} foreign frames")
+        asked = block["TheLine.Requests"]
+        self._once(0, "counts", bad=asked != len(bench.frames), seen=f"{asked!r} of {len(bench.frames)} requests")
