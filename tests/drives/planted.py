@@ -203,7 +203,7 @@ PLANTED = (
     ),
     Planted(
         "an address is taken while the motor turns",
-        "  Moved := (Address <> Unit) AND (Control.StopConfirmed OR (Unit = 0) OR NOT (Heard OR Started)\n"
+        "  Moved := (Address <> Unit) AND (Control.StopConfirmed OR (Slot.UnitAddress = 0) OR NOT (Heard OR Started)\n"
         "    OR (SupplyOff AND NOT Slot.Online));",
         "  Moved := Address <> Unit;",
         test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
