@@ -19,12 +19,16 @@ KIND = {"CHF": "chf", "JSCC": "jscc", "SN300G5": "sn"}
 STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "SN300G5": sn300g5.stores}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
+STRANGER = bytes((77, 3, 0, 1, 0, 1))
+"""A request of another master to a unit of its own."""
 STOP_WITHIN_MS = {1: 7000, 3: 7000, 8: 14_000}
 """By drives on the line: 5 s for the motor, and twice what a round of reads takes."""
 STALE_MS = {1: 5000, 3: 5000, 8: 12_000}
 """The same; with 8 drives, 19.2 kbit/s and scans of 40 ms the page of Reason 29 asks for more than the usual value."""
 CONTACT = 1 << (16 + 8 * IN_SEEN + 16)
 """The bit of `seen` that is HardStopOk."""
+UNSEEN_US = {1: 500_000, 3: 1_200_000, 8: 3_000_000}
+"""From one look at the status of a drive to the next."""
 
 
 def figures(drives: int) -> Figures:
@@ -32,7 +36,7 @@ def figures(drives: int) -> Figures:
     return Figures(
         stop_us=1000 * STOP_WITHIN_MS[drives] + 1_800_000,
         seen_us=1000 * STALE_MS[drives] + 500_000,
-        unseen_us=500_000,
+        unseen_us=UNSEEN_US[drives],
     )
 
 
@@ -187,6 +191,9 @@ class Second(Bench):
             text, frame = self._garbled(text), None
         self.transmit(text, at, frame)
         self._later.append((at + CHAR_US * len(text), index, text))
+        if self.strange and self._happens(400):
+            other = ascii_frame(STRANGER) if self.ascii else rtu(STRANGER)
+            self.transmit(other, at + CHAR_US * (len(text) + 6), None)
         if self._happens(self.faults.twice):
             self.transmit(text, at + CHAR_US * (len(text) + 6), None)
 

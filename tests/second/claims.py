@@ -36,6 +36,14 @@ USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
+CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
+ABLE = {
+    "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
+    "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
+    "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
+}
+SHARED = 56
+"""ErrorID: two drive blocks use the slot."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
 
@@ -132,15 +140,26 @@ class Claims:
     def _steady(self, index: int, claim: Claim) -> bool:
         """It has been running for long, with the same pins."""
         now = self.bench.now
-        settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
-        return settled and self.attended(index) and self.willing(index) and self.well(index, SPEED_US)
+        settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > START_US
+        return settled and self.attended(index) and self.willing(index) and self.well(index, START_US)
+
+    def _supplies(self, index: int, claim: Claim) -> bool:
+        """It gives its reference to a drive that terminals run, and nothing has happened for long."""
+        pins, now = self.bench.pins[index], self.bench.now
+        alone = pins.get("SpeedOnly") and not any(pins.get(each) for each in ("Left", "Shared", "MonitorOnly"))
+        quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > CALM_US // 2
+        return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
     def _refreshed(self, now_us: int, index: int, claim: Claim) -> None:
         period = self._period(index)
         claim.writes.append(now_us)
-        early = now_us - claim.writes[0] < 3 * period if period else now_us - claim.writes[-2] < SPEED_US
+        late = self.bench.models[index].o.late_per_1000
         asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
-        if self._steady(index, claim) and early and not asks and not self.bench.models[index].o.late_per_1000:
+        if late or asks or not (self._steady(index, claim) or self._supplies(index, claim)):
+            return
+        first = claim.writes[0] if period else claim.writes[-2]
+        known = first > max(claim.changed_us, self.judge.units[index].unknown_us, claim.driven_us or 0) + START_US
+        if known and now_us - first < (3 * period if period else SPEED_US):
             self.judge.tell(index, "refresh", f"writes at {[each // 1000 for each in claim.writes]} ms")
 
     # ------------------------------------------------------------ who can be judged
@@ -207,6 +226,10 @@ class Claims:
     def _look(self, index: int, claim: Claim, *, driven: bool) -> None:
         bench, now = self.bench, self.bench.now
         self._probe(index, claim)
+        shared = bool(bench.pins[index].get("Shared")) and now - claim.changed_us > ATTEND_US
+        told = bench.reason(index) == "SHARED" and bench.out("ErrorID", index) == SHARED
+        told = told or bool(bench.pins[index].get("SupplyOff"))
+        self._once(index, "shared", bad=shared and not told, seen=bench.reason(index))
         if index == 0:
             self._line()
         if not self.attended(index) or bench.pins[index].get("Address") != index + 1:
@@ -215,6 +238,7 @@ class Claims:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
             self._fault(index, claim)
+            self._able(index)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
         self._once(index, "refreshes", bad=bool(missed))
@@ -287,6 +311,11 @@ class Claims:
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
+
+    def _able(self, index: int) -> None:
+        """The capabilities are those of the manual."""
+        shown = tuple(self.bench.out(each, index) for each in CAN)
+        self._once(index, "able", bad=shown != ABLE[self.bench.types[index]], seen=f"{shown}")
 
     def _probe(self, index: int, claim: Claim) -> None:
         """A drive that does not answer is asked again and again."""

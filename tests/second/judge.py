@@ -20,6 +20,8 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
+RESTARTED_US = 2_000_000
+"""After a restart nothing is written to a drive before it was read."""
 PIN_US = 3_500_000
 """In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
 BOOT_US = 10_000_000
@@ -184,7 +186,7 @@ class Judge:
         if now >= one.due:
             one.advance(now)
         unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
-        open_now = not bench.contact
+        open_now = not bench.contact or self._boots(index)  # silence is no alarm yet
         truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
         shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
@@ -234,8 +236,10 @@ class Judge:
         bench, pins = self.bench, self.bench.pins[index]
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
+        heard = heard and bench.now - unit.unknown_us > RESTARTED_US
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
-        late = unit.pin_us is not None and bench.now - unit.pin_us > PIN_US
+        most = PIN_US * (2 if len(bench.models) > 3 else 1)
+        late = unit.pin_us is not None and bench.now - unit.pin_us > most
         o = bench.models[index].o
         obeys = o.bus_stop_ends_others and o.not_in_command == "acknowledges"  # then the terminals' run is over, too
         self.once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
@@ -248,12 +252,16 @@ class Judge:
         elif bench.reachable(index):
             unit.answered_us += 1000 * bench.elapsed
         silent = index + 1 in bench.deaf or one.cut
-        boots = unit.answered_us < ANSWER_US and bench.now - unit.restarted_us < BOOT_US
-        silent = (silent and not boots) or bool(bench.pins[index].get("Shared"))
+        silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
         late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
         self.once(index, "cut", bad=late)
+
+    def _boots(self, index: int) -> bool:
+        """It has not answered since the restart, which nobody can expect yet."""
+        unit = self.units[index]
+        return unit.answered_us < ANSWER_US and self.bench.now - unit.restarted_us < BOOT_US
 
     def _excused(self, index: int) -> bool:
         """Whether the contact may open for this drive."""

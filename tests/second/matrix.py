@@ -29,15 +29,17 @@ OWN_SPEED = {"CHF": {"speed": 0}, "JSCC": {"F0_08": 1}, "SN300G5": {"b1_01": 0}}
 JOGS = ("CHF",)
 START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
+RESET_MS = 8000
+"""For a reset, which is given up after 10 s."""
 APART_MS = (0, 20, 100, 300, 700, 1500, 1950)
 """When the second event comes."""
 BOTH: tuple[Any, ...] = (False, True)
 OPTIONS: dict[str, tuple[Any, ...]] = {
     # the line
     "size": SIZES, "ascii": BOTH, "ms": (20, 10, 40), "others run": BOTH, "before": ("", "a jog", "a coast"),
-    "no scale": BOTH, "limit": BOTH, "refresh": (0, 300, 65535), "learns": BOTH,
+    "reverse": BOTH, "no scale": BOTH, "limit": BOTH, "refresh": (0, 300, 65535), "learns": BOTH,
     # all models
-    "start_us": (0, 200_000), "reply_us": ((10_000, 10_000), (10_000, 18_000)), "late_per_1000": (0, 10),
+    "start_us": (0, 200_000), "reply_us": ((10_000, 10_000), (10_000, 18_000)), "late_per_1000": (0, 30),
     "stop_key": BOTH, "start_key": BOTH, "stop_key_holds": BOTH, "terminals_act": (False,),
     "bus_stop_ends_others": BOTH, "not_in_command": ("acknowledges", "refuses"), "resumes_remote": BOTH,
     "coast_shows": ("zero", "shaft"), "running_in_ramp": BOTH, "code_after_reset": ("zero", "last"),
@@ -53,7 +55,7 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "SN300G5.key_cuts_line": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
 }  # fmt: skip
-LINE = ("size", "ascii", "ms", "others run", "before", "no scale", "limit", "refresh", "learns", "KeepWord")
+LINE = ("size", "ascii", "ms", "others run", "before", "reverse", "no scale", "limit", "refresh", "learns", "KeepWord")
 
 
 @cache
@@ -134,9 +136,11 @@ class Run:
             *types, options={each: self._options(each) for each in FAMILIES}, settings=settings, pins=pins,
             stations=stations, seed=seed, ms=row["ms"], ascii_=ascii_,
         )  # fmt: skip
+        for index in range(1, len(types)):
+            b.put(index, RefreshMs=row["refresh"])
         self.judge = b.judge
         b.mode = cell.mode
-        b.start_pin = "JogForward" if cell.mode == "jog" else "RunForward"
+        b.start_pin = ("Jog" if cell.mode == "jog" else "Run") + ("Reverse" if row["reverse"] else "Forward")
 
     def _options(self, family: str) -> dict[str, Any]:
         given = {k: v for k, v in self.row.items() if "." not in k and k not in LINE}
@@ -352,7 +356,8 @@ class Run:
         b = self.bench
         if one.fault is not None and b.out("CanResetFault", index):
             b.put(index, FaultReset=True).run(100)
-            b.put(index, FaultReset=False).run(3000)
+            b.put(index, FaultReset=False).run(1000)
+            b.wait(lambda: one.fault is None, RESET_MS)
             mine = (index or self.by_bus) and b.shows("CommOk", index) and not one.cut
             if one.fault is not None and one.fault != one.LOW_VOLTAGE and mine:
                 self.fail("reset", index)

@@ -107,12 +107,17 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="One-token changes of the blocks.")
     parser.add_argument("--seed", type=int, default=SEEDS[0])
     parser.add_argument("--only", type=int, nargs="*")
+    parser.add_argument("--from", type=int, default=0, dest="first")
+    parser.add_argument("--step", type=int, default=1)
     parser.add_argument("--cells", type=int, help="cells for each, all unless said")
     options = parser.parse_args()
     number = found = 0
     for one in drawn(options.seed):
-        if options.only and number not in options.only:
+        mine = number in options.only if options.only else number % options.step == options.first
+        if not mine:
             number += mutated(one) is not None
+            if number >= NUMBER:
+                break
             continue
         by = judged(one, number, options.cells)
         if by is not None:
