@@ -116,8 +116,8 @@ PLANTED = (
     ),
     Planted(
         "settings are not verified",
-        "    Good := (",
-        "    Good := TRUE OR (",
+        "SettingsGood := NOT ",
+        "SettingsGood := TRUE OR NOT ",
         test_start.test_what_gives_the_reference_its_meaning_is_read_first,
         SN,
     ),
@@ -148,8 +148,8 @@ PLANTED = (
     ),
     Planted(
         "old words are shown behind a lost connection",
-        "  CommOk := Link.Linked AND Slot.Online AND (Diagnosis.StatusAgeMs <= StaleMs) AND NOT Moved;",
-        "  CommOk := Link.Linked AND (Diagnosis.StatusAgeMs <= 65535) AND NOT Moved;",
+        "  CommOk := Link.Linked AND Slot.Online AND (Reads.StatusAgeMs <= Usual.StaleMs) AND NOT Unit.Moved;",
+        "  CommOk := Link.Linked AND (Reads.StatusAgeMs <= 65535) AND NOT Unit.Moved;",
         test_stop.test_nothing_stale_is_shown_as_good,
     ),
     Planted(
@@ -197,15 +197,14 @@ PLANTED = (
     ),
     Planted(
         "an address is taken while the motor turns",
-        "  Moved := (Address <> Unit) AND (Control.StopConfirmed OR (Unit = 0) OR NOT (Heard OR Started)\n"
-        "    OR (SupplyOff AND NOT Slot.Online));",
-        "  Moved := Address <> Unit;",
+        "\n    AND (StopConfirmed OR (Number = 0) OR NOT (Heard OR Started) OR (SupplyOff AND NOT Online));",
+        ";",
         test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
     ),
     Planted(
         "a poll starves",
-        "    IF (Link.Turn = 0) THEN\n      Entry := 1;",
-        "    IF (Link.Turn = 9) THEN\n      Entry := 1;",
+        "  IF Turn = 0 THEN\n    NextEntry := 1;",
+        "  IF Turn = 9 THEN\n    NextEntry := 1;",
         partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "CHF", "rtu"),
     ),
     Planted(
@@ -228,8 +227,8 @@ PLANTED = (
     ),
     Planted(
         "a parameter while the motor turns",
-        "AllowUnknown := ParAny, Stopped := StopConfirmed);",
-        "AllowUnknown := ParAny, Stopped := TRUE);",
+        "AllowUnknown := AllowUnknown, Stopped := StopConfirmed);",
+        "AllowUnknown := AllowUnknown, Stopped := TRUE);",
         test_modes.test_parameters_and_starts_exclude_each_other,
     ),
     Planted(
@@ -247,7 +246,7 @@ PLANTED = (
     ),
     Planted(
         "a pulse is cut short",
-        "StepHoldMs := HoldMs",
+        "StepHoldMs := Orders.HoldMs",
         "StepHoldMs := 0",
         test_start.test_a_pulse_is_as_long_as_the_map_says,
         PUL,
@@ -300,14 +299,14 @@ PLANTED = (
     ),
     Planted(
         "a word is taken from the wrong place",
-        "      DCBusVoltageWord := Slot.PollWords[2];",
-        "      DCBusVoltageWord := Slot.PollWords[3];",
+        "      DCBusVoltageWord := Words[2];",
+        "      DCBusVoltageWord := Words[3];",
         test_modes.test_each_drive_shows_its_own_words,
     ),
     Planted(
         "a stop pin sends the plain stop",
-        "    IF Control.StopKind = 3 THEN",
-        "    IF Control.StopKind = 33 THEN",
+        "  ELSIF Order = COAST_STOP THEN",
+        "  ELSIF Order > 99 THEN",
         partial(test_stop.test_each_stop_pin_sends_its_stop_or_the_one_there_is, "CHF", "CoastStop", "coast_stop"),
     ),
     Planted(
@@ -318,8 +317,8 @@ PLANTED = (
     ),
     Planted(
         "other bits of the command word are lost",
-        "Words[0] := Settings.KeepWord AND WORD#16#00FC;",
-        "Words[0] := WORD#16#0000;",
+        "  Value := KeepWord AND WORD#16#00FC;",
+        "  Value := WORD#16#0000;",
         test_stop.test_only_the_drives_own_bits_change_with_a_stop,
         SN,
     ),

@@ -24,7 +24,10 @@ LINE_TYPES = (
     "MB_Slot", "MB_Track",
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
-CONTROL_BLOCKS = ("VFD_HardStop", "VFD_Link", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
+CONTROL_BLOCKS = (
+    "VFD_HardStop", "VFD_Link", "VFD_Unit", "VFD_Usual", "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned",
+    "VFD_FaultLog", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+)  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
@@ -167,7 +170,9 @@ def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
         yield "Decoder", one
     for one in context.scales(drive):
         yield "Scale", one
-    yield "Drive", {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+    block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+    for part in ("Reads", "Orders", "ParameterGate", "Drive"):
+        yield part, block
     yield "Version", {**context.version(drive), "stem": stem}
 
 

@@ -96,7 +96,7 @@ def code(name: str) -> int:
     return _BY_NAME[name].code
 
 
-def fail(name: str) -> str:
+def fail(name: str, variable: str = "ErrorID") -> str:
     """The statement that reports a result, with its text beside the number. Raises KeyError."""
     result = _BY_NAME[name]
-    return f"ErrorID := {result.code};" + (f" (* {result.en} *)" if result.code else "")
+    return f"{variable} := {result.code};" + (f" (* {result.en} *)" if result.code else "")
