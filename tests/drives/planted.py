@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from unittest.mock import patch
 
-from tests.drives import test_modes, test_reset, test_start, test_stop
+from tests.drives import test_identity, test_modes, test_reset, test_start, test_stop
 from tests.drives.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
@@ -197,7 +197,7 @@ PLANTED = (
     ),
     Planted(
         "an address is taken while the motor turns",
-        "\n    AND (StopConfirmed OR (Number = 0) OR NOT (Heard OR Started) OR (SupplyOff AND NOT Online));",
+        "\n    AND (StopConfirmed OR (Number = 0) OR Wrong OR NOT (Heard OR Started) OR (SupplyOff AND NOT Online));",
         ";",
         test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
     ),
@@ -328,5 +328,40 @@ PLANTED = (
         " OR WORD#16#0003;",
         partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "SN300G5", "rtu"),
         SN,
+    ),
+    Planted(
+        "a stop is sent to whoever it is",
+        "  MayStop := Known OR (Unanswered AND NOT Wrong);",
+        "  MayStop := TRUE;",
+        partial(test_identity.test_not_one_write_reaches_another_drive, test_identity.begin),
+        CIA,
+    ),
+    Planted(
+        "a drive that was exchanged passes for the one before",
+        "(SilentMs >= SILENT_MS) OR ",
+        "",
+        partial(test_identity.test_not_one_write_reaches_another_drive, partial(test_identity.exchanged, off=False)),
+        CIA,
+    ),
+    Planted(
+        "a refusal is no other drive",
+        "  ELSIF (Shown AND NOT Matches) OR Refused THEN",
+        "  ELSIF Shown AND NOT Matches THEN",
+        test_identity.test_a_refusal_is_another_drive,
+        CIA,
+    ),
+    Planted(
+        "a drive that does not answer is never stopped",
+        "  MayStop := Known OR (Unanswered AND NOT Wrong);",
+        "  MayStop := Known;",
+        test_identity.test_an_unanswered_read_does_not_keep_the_stop_back,
+        CIA,
+    ),
+    Planted(
+        "its own maximum is not looked at",
+        "(ABS(Diagnosis.OwnMaximumHz - FullScaleHz) < SAME_HZ)",
+        "(SAME_HZ > 0.0)",
+        test_identity.test_its_own_maximum_must_be_full_scale,
+        CIA,
     ),
 )

@@ -77,7 +77,7 @@ def drive_block(drive: Drive) -> Context:
         "fast_reads": [index for index, read in enumerate(reads, 1) if read.fast],
         "state_reads": sorted({number[each.register] for each in operation.states}),
         "verify": [_condition(drive, each) for each in operation.reference.verify],
-        "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
+        "verify_reads": _verify_reads(drive, number),
         "measures": measures,
         "measure_reads": sorted({number[one.register] for one in operation.measures}),
         "pins": {shows: pin_of(shows) for shows in MEASURES},
@@ -104,7 +104,7 @@ def drive_block(drive: Drive) -> Context:
         "maximum": reference["maximum"],
         "identity": _identity(drive),
         "commanded_by": _commanded_by(drive, number),
-        "own_maximum": _own_maximum(drive, number),
+        "own_maximum": _own_maximum(drive),
         "feeds": drive.watchdog.feeds if drive.watchdog else None,
     }
 
@@ -188,8 +188,8 @@ def _commanded_by(drive: Drive, number: dict[int, int]) -> Context | None:
     }
 
 
-def _own_maximum(drive: Drive, number: dict[int, int]) -> Context | None:
-    """The word of the drive's own maximum frequency, its scale, and the read that brings it."""
+def _own_maximum(drive: Drive) -> Context | None:
+    """The word of the drive's own maximum frequency, and its scale."""
     maximum = drive.operation.own_maximum
     row = drive.register_at(maximum.register) if maximum else None
     if maximum is None or row is None:
@@ -197,7 +197,7 @@ def _own_maximum(drive: Drive, number: dict[int, int]) -> Context | None:
     return {
         "word": word_input(drive, maximum.register),
         "scale": row.scale,
-        "reads": [number[maximum.register]],
+        "function": names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"]),
         "source": context.source_of(drive, maximum.source),
     }
 
@@ -216,6 +216,14 @@ def _fault(drive: Drive) -> Context:
         return {"word": word_input(drive, drive.faults.present), "words": []}
     numbers = context.fault_number(drive)
     return {"word": None, "words": numbers["words"] if numbers else []}
+
+
+def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
+    """The reads that tell what the reference means."""
+    operation = drive.operation
+    registers = {each.register for each in operation.reference.verify}
+    registers |= {operation.own_maximum.register} if operation.own_maximum else set()
+    return sorted(number[each] for each in registers)
 
 
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:

@@ -17,6 +17,9 @@ from driveblocks.st.fingerprint import body, fingerprint, stream
 ABI = 2
 """Version of the shared types; blocks of one ABI number fit together."""
 
+WIDE = 80
+"""Characters of an expression that still stands on one line."""
+
 _SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)
 _INNER = re.compile(r"  (\w+) : ")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
@@ -61,6 +64,7 @@ def environment() -> jinja2.Environment:
         oldest=oldest,
         taken=taken,
         turns=turns,
+        either=either,
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
@@ -149,6 +153,14 @@ def oldest(ages: Iterable[str]) -> str:
 def turns(numbers: Sequence[int]) -> str:
     """Whether a drive block's polls have come to one of these turns of their round."""
     return " OR ".join(f"(Turn = {number})" for number in numbers) if len(numbers) > 1 else f"Turn = {numbers[0]}"
+
+
+def either(tests: Sequence[str]) -> str:
+    """An expression that is TRUE when one of some others is."""
+    if len(tests) == 1:
+        return tests[0]
+    apart = "\n      OR " if sum(map(len, tests)) > WIDE else " OR "
+    return f"({apart.join(tests)})"
 
 
 def condition(one: Condition) -> str:

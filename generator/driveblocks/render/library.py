@@ -26,7 +26,7 @@ LINE_TYPES = (
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Link", "VFD_Unit", "VFD_Usual", "VFD_IsScale", "VFD_Scaled", "VFD_ScaledSigned",
-    "VFD_FaultLog", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+    "VFD_FaultLog", "VFD_Identity", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis")
 LINE_SIZES = (8, 32)
@@ -171,7 +171,7 @@ def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
     for one in context.scales(drive):
         yield "Scale", one
     block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
-    for part in ("Reads", "Orders", "ParameterGate", "Drive"):
+    for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
     yield "Version", {**context.version(drive), "stem": stem}
 
