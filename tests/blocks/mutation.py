@@ -38,7 +38,7 @@ from driveblocks.render import library, text
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
-LEFT = re.compile(r"_(Drive|MayWrite|ParameterAddress)$")
+LEFT = re.compile(r"_(Drive|Reads|Orders|ParameterGate|Identity|MayWrite|ParameterAddress)$")
 """Blocks that are judged by tests of their own, with a line and a drive around them: facts have to notice a change."""
 
 

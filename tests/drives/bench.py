@@ -27,7 +27,8 @@ MEMBERS = {
     },
     "Diagnosis": {
         "State", "StopReason", "StopKind", "CommandNotFollowed", "ReferenceLimited", "StatusAgeMs", "MeasuresAgeMs",
-        "LongestReplyMs", "StopAloneMs", "WorstStopMs", "OutputVoltageV", "DcBusVoltageV", "OutputPowerKW",
+        "LongestReplyMs", "StopAloneMs", "WorstStopMs", "FirstStopMs", "IdentityRead", "IdentityWanted", "OwnMaximumHz",
+        "OutputVoltageV", "DcBusVoltageV", "OutputPowerKW",
         "CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault",
         *(f"{each}Valid" for each in (
             "OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from unittest.mock import patch
 
-from tests.drives import test_modes, test_reset, test_start, test_stop
+from tests.drives import test_identity, test_modes, test_reset, test_start, test_stop
 from tests.drives.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
@@ -122,8 +122,8 @@ PLANTED = (
     ),
     Planted(
         "settings are not verified",
-        "    Good := (",
-        "    Good := TRUE OR (",
+        "SettingsGood := NOT ",
+        "SettingsGood := TRUE OR NOT ",
         test_start.test_what_gives_the_reference_its_meaning_is_read_first,
         SN,
     ),
@@ -154,8 +154,8 @@ PLANTED = (
     ),
     Planted(
         "old words are shown behind a lost connection",
-        "  CommOk := Link.Linked AND Slot.Online AND (Diagnosis.StatusAgeMs <= StaleMs) AND NOT Moved;",
-        "  CommOk := Link.Linked AND (Diagnosis.StatusAgeMs <= 65535) AND NOT Moved;",
+        "  CommOk := Link.Linked AND Slot.Online AND (Reads.StatusAgeMs <= Usual.StaleMs) AND NOT Unit.Moved;",
+        "  CommOk := Link.Linked AND (Reads.StatusAgeMs <= 65535) AND NOT Unit.Moved;",
         test_stop.test_nothing_stale_is_shown_as_good,
     ),
     Planted(
@@ -203,15 +203,14 @@ PLANTED = (
     ),
     Planted(
         "an address is taken while the motor turns",
-        "  Moved := (Address <> Unit) AND (Control.StopConfirmed OR (Slot.UnitAddress = 0) OR NOT (Heard OR Started)\n"
-        "    OR (SupplyOff AND NOT Slot.Online));",
-        "  Moved := Address <> Unit;",
+        "\n    AND (StopConfirmed OR (Served = 0) OR Wrong OR NOT (Heard OR Started) OR (SupplyOff AND NOT Online));",
+        ";",
         test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
     ),
     Planted(
         "a poll starves",
-        "    IF (Link.Turn = 0) THEN\n      Entry := 1;",
-        "    IF (Link.Turn = 9) THEN\n      Entry := 1;",
+        "  IF Turn = 0 THEN\n    NextEntry := 1;",
+        "  IF Turn = 9 THEN\n    NextEntry := 1;",
         partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "CHF", "rtu"),
     ),
     Planted(
@@ -234,8 +233,8 @@ PLANTED = (
     ),
     Planted(
         "a parameter while the motor turns",
-        "AllowUnknown := ParAny, Stopped := StopConfirmed);",
-        "AllowUnknown := ParAny, Stopped := TRUE);",
+        "AllowUnknown := AllowUnknown, Stopped := StopConfirmed);",
+        "AllowUnknown := AllowUnknown, Stopped := TRUE);",
         test_modes.test_parameters_and_starts_exclude_each_other,
     ),
     Planted(
@@ -253,7 +252,7 @@ PLANTED = (
     ),
     Planted(
         "a pulse is cut short",
-        "StepHoldMs := HoldMs",
+        "StepHoldMs := Orders.HoldMs",
         "StepHoldMs := 0",
         test_start.test_a_pulse_is_as_long_as_the_map_says,
         PUL,
@@ -306,14 +305,14 @@ PLANTED = (
     ),
     Planted(
         "a word is taken from the wrong place",
-        "      DCBusVoltageWord := Slot.PollWords[2];",
-        "      DCBusVoltageWord := Slot.PollWords[3];",
+        "      DCBusVoltageWord := Words[2];",
+        "      DCBusVoltageWord := Words[3];",
         test_modes.test_each_drive_shows_its_own_words,
     ),
     Planted(
         "a stop pin sends the plain stop",
-        "    IF Control.StopKind = 3 THEN",
-        "    IF Control.StopKind = 33 THEN",
+        "  ELSIF Order = COAST_STOP THEN",
+        "  ELSIF Order > 99 THEN",
         partial(test_stop.test_each_stop_pin_sends_its_stop_or_the_one_there_is, "CHF", "CoastStop", "coast_stop"),
     ),
     Planted(
@@ -324,8 +323,8 @@ PLANTED = (
     ),
     Planted(
         "other bits of the command word are lost",
-        "Words[0] := Settings.KeepWord AND WORD#16#00FC;",
-        "Words[0] := WORD#16#0000;",
+        "  Value := KeepWord AND WORD#16#00FC;",
+        "  Value := WORD#16#0000;",
         test_stop.test_only_the_drives_own_bits_change_with_a_stop,
         SN,
     ),
@@ -335,5 +334,40 @@ PLANTED = (
         " OR WORD#16#0003;",
         partial(test_start.test_from_power_up_to_a_turning_motor_and_back, "SN300G5", "rtu"),
         SN,
+    ),
+    Planted(
+        "a stop is sent to whoever it is",
+        "  MayStop := Known OR (Unanswered AND NOT Wrong);",
+        "  MayStop := TRUE;",
+        partial(test_identity.test_not_one_write_reaches_another_drive, test_identity.begin),
+        CIA,
+    ),
+    Planted(
+        "a drive that was exchanged passes for the one before",
+        "(SilentMs >= SILENT_MS) OR ",
+        "",
+        partial(test_identity.test_not_one_write_reaches_another_drive, partial(test_identity.exchanged, off=False)),
+        CIA,
+    ),
+    Planted(
+        "a refusal is no other drive",
+        "  ELSIF (Shown AND NOT Matches) OR Refused THEN",
+        "  ELSIF Shown AND NOT Matches THEN",
+        test_identity.test_a_refusal_is_another_drive,
+        CIA,
+    ),
+    Planted(
+        "a drive that does not answer is never stopped",
+        "  MayStop := Known OR (Unanswered AND NOT Wrong);",
+        "  MayStop := Known;",
+        test_identity.test_an_unanswered_read_does_not_keep_the_stop_back,
+        CIA,
+    ),
+    Planted(
+        "its own maximum is not looked at",
+        "(ABS(Diagnosis.OwnMaximumHz - FullScaleHz) < SAME_HZ)",
+        "(SAME_HZ > 0.0)",
+        test_identity.test_its_own_maximum_must_be_full_scale,
+        CIA,
     ),
 )

@@ -22,7 +22,7 @@ PINS = ("CommOk", "Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed", "
 STATIONS = (*((each,) for each in (*FAMILIES, *MADE_UP)), ("CHF", "CHF"), FAMILIES)
 _WANTED = re.compile(
     r"types/.*(?<!32)\.st|modbus/MB_Hex.*|line/(?!MB_ByteLine|MB_Line32).*|vfd/VFD_(?!ReasonText).*"
-    r"|.*_(Drive|Reference|Standstill|FaultNumber|CanRead|CanWrite|MayWrite)\.st"
+    r"|(?!types|modbus|line|vfd)[^/]*/[^_]*_(?!\w+Text..\.|(Request|Reply|Command|Version|(Parameter|Number)Address)\.).*\.st"
 )
 
 

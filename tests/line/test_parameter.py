@@ -5,14 +5,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import shipped, sources
+from tests.blocks.library import sources
 from tests.line.vline import NAMES, PARAMETER, Bench, Config
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import Library, Source
-from driveblocks.maps.plan import plan
-from driveblocks.render.environment import environment, needed
-from driveblocks.render.parameter import passing
+from driveblocks.render.environment import environment
 from driveblocks.st.lint import lint_sources
 
 SCENE = """
@@ -27,10 +25,11 @@ VAR_IN_OUT
   Slot : MB_Slot; (* of the drive *)
 END_VAR
 VAR
-{% include "drive/drive/parameter_var.j2" %}
+  Gate : {{ prefix }}_ParameterGate; (* of the family *)
 END_VAR
 
 {% include "drive/drive/parameter.j2" %}
+  WriteWaits := Gate.Writes;
 END_FUNCTION_BLOCK
 
 FUNCTION_BLOCK T_Scene
@@ -88,12 +87,10 @@ ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 def library(prefix: str) -> Library:
     """The line, the blocks of parameters, and what a drive block of the family does for them."""
     wanted = re.compile(
-        rf"(?:types|vfd|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterAddress)\.st"
+        rf"(?:types|vfd|line)/.*|modbus/MB_Hex.*|\w+/{prefix}_(?:CanRead|CanWrite|MayWrite|ParameterGate|ParameterAddress)\.st"
     )
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
-    drive = shipped()[prefix]
-    parameter = passing(drive, plan(drive))
-    scene = needed(environment().from_string(SCENE).render(parameter=parameter))
+    scene = environment().from_string(SCENE).render(prefix=prefix, identity=None)
     return EmbeddedEngine().build([*texts, Source("scene.st", scene)])
 
 

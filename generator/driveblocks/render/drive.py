@@ -11,8 +11,15 @@ from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Context, word_input
-from driveblocks.render.expression import Test, times
+from driveblocks.render.decoded import Decoded
+from driveblocks.render.expression import Test
 
+CONSTANTS = {
+    "stop": "RAMP_STOP", "quick_stop": "QUICK_STOP", "coast_stop": "COAST_STOP", "jog_stop": "JOG_STOP",
+    "run_forward": "GO_FORWARD", "run_reverse": "GO_REVERSE", "jog_forward": "JOG_AHEAD", "jog_reverse": "JOG_BACK",
+    "fault_reset": "RESET_FAULT",
+}  # fmt: skip
+"""Command -> the constant of that number, as VFD_Control has it."""
 MEASURES = {
     "output_frequency": ("OutputFrequency", "Hz", "FrequencyScale"),
     "output_current": ("OutputCurrent", "A", "CurrentScale"),
@@ -25,7 +32,7 @@ PINNED = ("output_frequency", "output_current")
 """The measures that are outputs of the block; the rest are members of Diagnosis."""
 STATUS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
-    "ready": "ReadyShown", "warning": "Warning", "fault": "Fault",
+    "warning": "Warning", "fault": "Fault",
 }  # fmt: skip
 """What a drive can show -> the pin or variable."""
 
@@ -40,6 +47,11 @@ def drive_block(drive: Drive) -> Context:
     turns = [index + 1 for index in schedule(reads)]
     reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
+    told = Decoded(drive)
+    says = {one.shows: [told.holds(each) for each in one.any] for one in operation.status}
+    verified = [told.holds(each) for each in operation.reference.verify]
+    measures = {one.shows: _measure(drive, one, told) for one in operation.measures}
+    waits = list(_waits(drive, told))
     return {
         "source": context.source_of(drive, commands["stop"].source),
         "prefix": drive.prefix,
@@ -52,21 +64,28 @@ def drive_block(drive: Drive) -> Context:
         "places": {index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
         "shown": STATUS,
         "status": {one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
+        "says": says,
+        "verified": verified,
+        "decoders": told.used,
         "proof": [word_input(drive, each) for each in _proof(drive)],
         "proof_reads": sorted({number[each] for each in _proof(drive)}),
         "fault": _fault(drive),
         "fault_reads": _fault_reads(drive, number),
-        "stop_reads": sorted({*_fault_reads(drive, number), *(number[each] for each in _proof(drive))}),
+        "fast_reads": [index for index, read in enumerate(reads, 1) if read.fast],
+        "state_reads": sorted({number[each.register] for each in operation.states}),
         "verify": [_condition(drive, each) for each in operation.reference.verify],
-        "verify_reads": sorted({number[each.register] for each in operation.reference.verify}),
-        "measures": {one.shows: _measure(drive, one) for one in operation.measures},
+        "verify_reads": _verify_reads(drive, number),
+        "measures": measures,
         "measure_reads": sorted({number[one.register] for one in operation.measures}),
         "pins": {shows: pin_of(shows) for shows in MEASURES},
         "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         "orders": orders,
         "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
+        "order_constants": {ORDERS[does]: CONSTANTS[does] for does in ORDERS},
+        "stop_names": {STOPS[does]: does.replace("_", " ") for does in STOPS},
+        "stop_constants": {STOPS[does]: CONSTANTS[does] for does in STOPS},
         "longest": max(map(len, orders.values())),
-        "waits": list(_waits(drive)),
+        "waits": waits,
         "reference": operation.reference.register,
         "scaled": reference["scale"] is not None,
         "percent": reference["percent"],
@@ -82,7 +101,7 @@ def drive_block(drive: Drive) -> Context:
         "maximum": reference["maximum"],
         "identity": _identity(drive),
         "commanded_by": _commanded_by(drive, number),
-        "own_maximum": _own_maximum(drive, number),
+        "own_maximum": _own_maximum(drive),
         "feeds": drive.watchdog.feeds if drive.watchdog else None,
     }
 
@@ -94,29 +113,32 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
     """
     kept = context.kept(drive)
     image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
-    for write in one.writes:
+    holds = [*(step.for_ms or 0 for step in one.first), 0]
+    moves = one.does in ORDERS and one.does != "fault_reset"
+    for write, hold in zip(one.writes, holds, strict=True):
         if write.value is not None:
             image[write.register] = write.value
         else:
             before = image.get(write.register, 0) & ~context.bits_of(write.clear)
             image[write.register] = before | context.bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
-        yield {"register": write.register, "bits": image[write.register], "keep": keep}
+        yield {
+            "register": write.register,
+            "bits": image[write.register],
+            "keep": keep,
+            "hold": hold,
+            "moves": moves and write is one,
+        }
 
 
-def _waits(drive: Drive) -> Iterator[Context]:
-    """What each write but the last of a command waits for: a state, a time."""
+def _waits(drive: Drive, told: Decoded) -> Iterator[Context]:
+    """The state that a write but the last of a command waits for, where it waits for one."""
     states = {one.name: one for one in drive.operation.states}
     for command in drive.operation.commands:
         for number, step in enumerate(command.first):
-            state = states[step.until] if step.until else None
-            yield {
-                "key": ORDERS[command.does] * 16 + number,
-                "does": command.does,
-                "state": state,
-                "test": context.tested(word_input(drive, state.register)["name"], state) if state else None,
-                "hold": step.for_ms or 0,
-            }
+            if step.until is not None:
+                state = states[step.until]
+                yield {"order": ORDERS[command.does], "step": number, "state": state, "says": told.holds(state)}
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
@@ -163,8 +185,8 @@ def _commanded_by(drive: Drive, number: dict[int, int]) -> Context | None:
     }
 
 
-def _own_maximum(drive: Drive, number: dict[int, int]) -> Context | None:
-    """The word of the drive's own maximum frequency, its scale, and the read that brings it."""
+def _own_maximum(drive: Drive) -> Context | None:
+    """The word of the drive's own maximum frequency, and its scale."""
     maximum = drive.operation.own_maximum
     row = drive.register_at(maximum.register) if maximum else None
     if maximum is None or row is None:
@@ -172,7 +194,7 @@ def _own_maximum(drive: Drive, number: dict[int, int]) -> Context | None:
     return {
         "word": word_input(drive, maximum.register),
         "scale": row.scale,
-        "reads": [number[maximum.register]],
+        "function": names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"]),
         "source": context.source_of(drive, maximum.source),
     }
 
@@ -193,6 +215,14 @@ def _fault(drive: Drive) -> Context:
     return {"word": None, "words": numbers["words"] if numbers else []}
 
 
+def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
+    """The reads that tell what the reference means."""
+    operation = drive.operation
+    registers = {each.register for each in operation.reference.verify}
+    registers |= {operation.own_maximum.register} if operation.own_maximum else set()
+    return sorted(number[each] for each in registers)
+
+
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     """The reads that tell whether there is a fault, and which."""
     shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
@@ -208,18 +238,16 @@ def pin_of(shows: str) -> Context:
     return {"pin": f"{where}{name}{unit}", "valid": f"{name}Valid", "unit": unit, "setting": setting}
 
 
-def _measure(drive: Drive, one: Measured) -> Context:
+def _measure(drive: Drive, one: Measured, told: Decoded) -> Context:
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
-    constant = f"{one.shows.upper()}_FACTOR"
     return {
         **pin_of(one.shows),
         "word": word_input(drive, one.register),
         "scale": scale,
-        "times": times(scale.factor).replace("FACTOR", constant) if scale else "",
-        "constant": constant if scale and times(scale.factor).endswith("FACTOR") else "",
-        "when": _condition(drive, scale.when) if scale and scale.when else None,
+        "function": names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
+        "when": told.holds(scale.when) if scale and scale.when else None,
         "signed": row.signed,
     }
 

@@ -2,6 +2,7 @@
 
 import re
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from functools import cache
 
 import jinja2
@@ -15,6 +16,9 @@ from driveblocks.st.fingerprint import body, fingerprint, stream
 
 ABI = 2
 """Version of the shared types; blocks of one ABI number fit together."""
+
+WIDE = 80
+"""Characters of an expression that still stands on one line."""
 
 _SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)
 _INNER = re.compile(r"  (\w+) : ")
@@ -55,8 +59,11 @@ def environment() -> jinja2.Environment:
         assign=assign,
         passed=passed,
         since=since,
-        young=young,
-        turn=turn,
+        age=age,
+        oldest=oldest,
+        taken=taken,
+        turns=turns,
+        either=either,
         condition=condition,
         holds=expression.holds,
         statements=expression.statements,
@@ -121,19 +128,38 @@ def passed(name: str) -> str:
     return f"{name} := {name}"
 
 
+def taken(name: str) -> str:
+    """A formal parameter that gets the word of its own name from what a drive block has read."""
+    return f"{name} := Reads.{name}"
+
+
 def since(read: int) -> str:
-    """The flag of a drive block that a read has come since it was asked for."""
+    """The flag that a read has come since it was asked for."""
     return f"Since{read}"
 
 
-def turn(number: int) -> str:
-    """Whether a drive block's polls have come to a turn of their round."""
-    return f"(Link.Turn = {number})"
+def age(read: int) -> str:
+    """The age of the words of a read."""
+    return f"Age{read}"
 
 
-def young(read: int) -> str:
-    """Whether the words of a read of a drive block have come since the fault."""
-    return f"(Age{read} <= FaultMs)"
+def oldest(ages: Iterable[str]) -> str:
+    """The largest of some ages."""
+    first, *others = ages
+    return f"MAX({first}, {oldest(others)})" if others else first
+
+
+def turns(numbers: Sequence[int]) -> str:
+    """Whether a drive block's polls have come to one of these turns of their round."""
+    return " OR ".join(f"(Turn = {number})" for number in numbers) if len(numbers) > 1 else f"Turn = {numbers[0]}"
+
+
+def either(tests: Sequence[str]) -> str:
+    """An expression that is TRUE when one of some others is."""
+    if len(tests) == 1:
+        return tests[0]
+    apart = "\n      OR " if sum(map(len, tests)) > WIDE else " OR "
+    return f"({apart.join(tests)})"
 
 
 def condition(one: Condition) -> str:

@@ -25,7 +25,8 @@ LINE_TYPES = (
 )  # fmt: skip
 LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_StopRound",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_IsScale", "VFD_Scaled",
+    "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_StopRound",
     "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
@@ -170,7 +171,9 @@ def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
         yield "Decoder", one
     for one in context.scales(drive):
         yield "Scale", one
-    yield "Drive", {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+    block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+    for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
+        yield part, block
     yield "Version", {**context.version(drive), "stem": stem}
 
 

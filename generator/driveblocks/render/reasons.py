@@ -180,6 +180,20 @@ REASONS = (
         "变频器拒绝读取",
         "`RefusedAddress` and `RefusedReason` of the slot: another model, or a register that it does not have",
     ),
+    Reason(
+        50,
+        "OTHER_DRIVE",
+        "another kind of drive is at this address",
+        "此地址上是另一种变频器",
+        "see `Diagnosis.IdentityRead`: the right drive or the right block, then another `Address` or a restart",
+    ),
+    Reason(
+        51,
+        "OTHER_MAXIMUM",
+        "the drive's own maximum frequency is not FullScaleHz",
+        "变频器最高频率与FullScaleHz不一致",
+        "`Diagnosis.OwnMaximumHz`: set `FullScaleHz`, or the drive, to what is right for the motor",
+    ),
 )
 _BY_NAME = {reason.name: reason for reason in REASONS}
 

@@ -87,6 +87,8 @@ RESULTS = (
     Result(71, "TOO_SOON", "too soon behind the last store", "距上次保存时间太短"),
     # settings
     Result(72, "BAD_SETTING", "a setting is 65535, which switches off nothing there", "设定值65535在此处无效"),
+    # the drive itself
+    Result(73, "OTHER_DRIVE", "another kind of drive is at this address", "此地址上是另一种变频器"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 
@@ -101,7 +103,7 @@ def code(name: str) -> int:
     return _BY_NAME[name].code
 
 
-def fail(name: str) -> str:
+def fail(name: str, variable: str = "ErrorID") -> str:
     """The statement that reports a result, with its text beside the number. Raises KeyError."""
     result = _BY_NAME[name]
-    return f"ErrorID := {result.code};" + (f" (* {result.en} *)" if result.code else "")
+    return f"{variable} := {result.code};" + (f" (* {result.en} *)" if result.code else "")

@@ -9,6 +9,7 @@ from driveblocks.simulator.memory import Memory
 from driveblocks.simulator.motor import Motor
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import WORD
+from driveblocks.simulator.plate import plate
 from driveblocks.simulator.table import Gauge, table
 
 
@@ -24,11 +25,11 @@ class Machine:
         words: Mapping[int, int] | None = None,
         ascii_mode: bool = False,
     ) -> None:
-        """Begin with these words in registers, the rest 0."""
+        """Begin with these words in registers, and those by which the drive is known; the rest 0."""
         self.habits = habits or Habits()
         self.unit = unit
         self.table = table(drive, self.habits, ascii_mode=ascii_mode)
-        self.memory = Memory(self.table.storage, words or {})
+        self.memory = Memory(self.table.storage, {**plate(drive, self.habits), **(words or {})})
         self.motor = Motor()
         self.now = 0
         self.heard_at = 0

@@ -17,7 +17,9 @@ from driveblocks.testing.outcome import FAILED, PASSED, Outcome, Result
 
 _Key = TypeVar("_Key")
 
-_IN_TIME = re.compile(r"(?:.*/)?(?:line/\w+|vfd/VFD_(?!ReasonText|StateText)\w+|\w+/\w+_Drive)\.st")
+_IN_TIME = re.compile(
+    r"(?:.*/)?(?:line/\w+|vfd/VFD_(?!ReasonText|StateText)\w+|\w+/\w+_(Drive|Reads|Orders|ParameterGate|Identity))\.st"
+)
 """What only runs in time, against drives that answer: line, drive blocks, and what those share. The programs call each
 block by itself, so it is not counted here, which `Coverage.uncounted` says. The virtual line of the generator's own
 tests reaches it."""
