@@ -206,14 +206,17 @@ class Claims:
         asked = any(pins.get(each) for each in RUN + JOG)
         all_ = bool(pins.get("StopAll"))
         pin = not asked or not pins["Enable"] or pins.get("QuickStop") or pins.get("CoastStop")
-        owed = all_ if pins.get("Left") else bool(pin or all_ or pins.get("Restart") or pins.get("MonitorOnly"))
+        left = bool(pins.get("Left")) and not all_
+        owed = left or all_ or bool(pin or pins.get("Restart") or pins.get("MonitorOnly"))
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
-        hears = self.well(index, ATTEND_US) and not pins.get("Shared") and now >= bench.models[index].busy_us
+        lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
+        hears = bench.reachable(index) and not lossy and now >= bench.models[index].busy_us
         good = driven and self.willing(index) and hears
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = None
         elif claim.stop_us is None and owed:
-            claim.stop_us = now + (RESTART_US if self.judge.units[index].unknown_us > now - CALM_US // 5 else 0)
+            restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
+            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * left
         if claim.stop_us is not None:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
             self._once(index, "prompt", bad=now - claim.stop_us > most)
