@@ -42,6 +42,10 @@ ABLE = {
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 }
+CHAR_US = 521
+"""A character of 10 bits at 19,200 bit/s, rounded up."""
+MAX_SCAN_US = 60_000
+"""MaxScanMs of the bench."""
 SHARED = 56
 """ErrorID: two drive blocks use the slot."""
 LINE_ERRORS = (0, 61)
@@ -60,6 +64,8 @@ class Claim:
     edge_us: int | None = None
     """When a start was asked for that the block has shown as possible."""
     stop_us: int | None = None
+    armed_us: int | None = None
+    """When a pin has asked for a stop that is not sent yet."""
     still_us: int | None = None
     """Since when the block shows that it stands, ready for a start."""
     sent_us: int = 0
@@ -89,6 +95,7 @@ class Claims:
         writes = body[1] in (6, 16)
         self._kept(index, body)
         if writes:
+            self._first(now_us, index, claim, len(body))
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
         claim.sent_us = now_us
@@ -123,6 +130,18 @@ class Claims:
         claim.driven_us = (claim.driven_us or now) if driven else None
         if looks:
             self._look(index, claim, driven=driven)
+
+    def _first(self, now_us: int, index: int, claim: Claim, length: int) -> None:
+        """The first bit of a stop, from the call with the changed pin: within WorstStopMs, or alone StopAloneMs."""
+        if claim.armed_us is None:
+            return
+        took = now_us - CHAR_US * (2 * length + 5 if self.bench.ascii else length + 2) - claim.armed_us
+        others = [i for i in range(len(self.claims)) if i != index]
+        alone = all(self.claims[i].driven_us or self.bench.shows("StopConfirmed", i) for i in others)
+        most = 1000 * int(self.bench.number("StopAloneMs" if alone else "WorstStopMs", index))
+        claim.armed_us = None
+        if took > most and max(self.judge.late) <= MAX_SCAN_US:
+            self.judge.tell(index, "first stop", f"after {took // 1000} ms, promised in {most // 1000}")
 
     def _kept(self, index: int, body: bytes) -> None:
         """Bits that no command uses are as KeepWord has them in every run word of SN300G5."""
@@ -206,14 +225,19 @@ class Claims:
         asked = any(pins.get(each) for each in RUN + JOG)
         all_ = bool(pins.get("StopAll"))
         pin = not asked or not pins["Enable"] or pins.get("QuickStop") or pins.get("CoastStop")
-        owed = all_ if pins.get("Left") else bool(pin or all_ or pins.get("Restart") or pins.get("MonitorOnly"))
+        left = bool(pins.get("Left")) and not all_
+        owed = left or all_ or bool(pin or pins.get("Restart") or pins.get("MonitorOnly"))
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
-        hears = self.well(index, ATTEND_US) and not pins.get("Shared") and now >= bench.models[index].busy_us
+        lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
+        hears = bench.reachable(index) and not lossy and now >= bench.models[index].busy_us
         good = driven and self.willing(index) and hears
         if not good or pins.get("SpeedOnly"):
-            claim.stop_us = None
+            claim.stop_us = claim.armed_us = None
         elif claim.stop_us is None and owed:
-            claim.stop_us = now + (RESTART_US if self.judge.units[index].unknown_us > now - CALM_US // 5 else 0)
+            restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
+            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * left
+            plain = not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
+            claim.armed_us = now if plain and claim.written_us < now else None
         if claim.stop_us is not None:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
             self._once(index, "prompt", bad=now - claim.stop_us > most)
