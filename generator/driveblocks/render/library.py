@@ -21,9 +21,13 @@ BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_Track",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Open",
 )  # fmt: skip
-LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
+LINE_BLOCKS = (
+    "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
+    "MB_Reads", "MB_CheckBegin", "MB_CheckByte", "MB_FrameKind", "MB_ReplyFits", "MB_Rank", "MB_ProbeMs", "MB_Overdue",
+    "MB_Listen", "MB_Promise", "MB_Foreign", "MB_Stop", "MB_LineRequest",
+)  # fmt: skip
 CONTROL_BLOCKS = ("VFD_HardStop", "VFD_Link", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store")
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis")
 LINE_SIZES = (8, 32)
