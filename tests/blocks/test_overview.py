@@ -16,8 +16,9 @@ WIDTHS = {"BOOL": 1, "BYTE": 1, "USINT": 1, "WORD": 2, "UINT": 2, "INT": 2, "DIN
 TYPES = {
     "MB_Adu": 256, "MB_Chars": 513, "MB_Words": 250, "MB_Registers": 1026, "MB_Request": 12,
     "MB_LineFrame": 40, "MB_RxRing": 256, "MB_Port": 311, "MB_Words4": 8, "MB_Words16": 32, "MB_Ask": 14, "MB_Asks": 56,
-    "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 208, "MB_Slots8": 8 * 208, "MB_Slots32": 32 * 208, "MB_Track": 43,
-    "MB_Tracks8": 8 * 43, "MB_Tracks32": 32 * 43, "VFD_Settings": 40, "VFD_Diagnosis": 78,
+    "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 209, "MB_Slots8": 8 * 209, "MB_Slots32": 32 * 209,
+    "MB_StopTrack": 13, "MB_StopCopy": 12, "MB_Track": 49, "MB_Tracks8": 8 * 49, "MB_Tracks32": 32 * 49, "MB_Open": 25,
+    "VFD_Settings": 40, "VFD_Diagnosis": 78,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
 the line's; the drive blocks'."""
@@ -81,6 +82,8 @@ WORST: dict[str, dict[str, Value]] = {
     "MB_RtuOpen": {"AduLength": 256},
     "MB_AsciiEncode": {"Length": 254},
     "MB_AsciiDecode": {"CharCount": 513, "Chars": LONGEST},
+    "MB_Foreign": {"Acknowledge": True},
+    "MB_LineRequest": {"Ascii": True, "Open.FunctionCode": 16, "Open.Quantity": 4},
     "MB_BuildWriteMultiple": {**WRITE, "Quantity": 123},
     "MB_ParseReply": OPEN,
     "CHF_Reply": OPEN,

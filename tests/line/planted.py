@@ -18,16 +18,16 @@ class Planted:
 
 
 PLANTED = (
-    Planted("a new stop ranks as a command", "          Rank := RANK_STOP;\n", "          Rank := RANK_COMMAND;\n"),
+    Planted("a new stop ranks as a command", "    MB_Rank := RANK_STOP;\n", "    MB_Rank := RANK_COMMAND;\n"),
     Planted(
         "a new stop is sent after polls",
-        "OR ((Best > RANK_STOP) AND (DrainMs = 0) AND (Behind >= MAX(PollAfter, 1))",
-        "OR ((DrainMs = 0) AND (Behind >= MAX(PollAfter, 1))",
+        "OR ((Best > RANK_STOP) AND (DrainMs = 0) AND (After >= MAX(PollAfter, 1))",
+        "OR ((DrainMs = 0) AND (After >= MAX(PollAfter, 1))",
     ),
-    Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMost) + ", "OnTop := "),
+    Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMs) + ", "OnTop := "),
     Planted(
         "the port's delay is forgotten",
-        "UINT_TO_UDINT(SilenceMs) + UINT_TO_UDINT(Port.LateMs)\n        + UINT_TO_UDINT(Port.LateMs) + 2",
+        "UINT_TO_UDINT(SilenceMs) + UINT_TO_UDINT(PortLateMs)\n      + UINT_TO_UDINT(PortLateMs) + 2",
         "UINT_TO_UDINT(SilenceMs) + 2",
     ),
     Planted(
@@ -36,26 +36,36 @@ PLANTED = (
         "IF (Best < RANK_NONE) AND (DrainMs > 0) THEN",
     ),
     Planted(
-        "an echo is believed", "Mirrors AND (Echo <> 1) AND NOT OwnHeard", "Mirrors AND (Echo > 2) AND NOT OwnHeard"
+        "an echo is believed",
+        "Open.Mirrors AND (Echo <> ECHO_NONE) AND NOT OwnHeard",
+        "Open.Mirrors AND (Echo > ECHO_HEARD) AND NOT OwnHeard",
     ),
     Planted(
         "a stop is given up behind its retries",
-        "            Track[Slot].StopLost := TRUE;\n",
-        "            Slots[Slot].Answer[0].Number := Asked;\n",
+        "      IF NOT Stop.Accepted THEN\n",
+        "      IF Track[Slot].Stop.Lost THEN\n        Slots[Slot].Answer[0].Number := Asked;\n      END_IF;\n"
+        "      IF NOT Stop.Accepted THEN\n",
     ),
     Planted(
         "a stop is acknowledged when it leaves",
-        "  IF Box = BOX_POLL THEN\n      Track",
-        "  IF Box = BOX_STOP THEN\n      Slots[Slot].Answer[0].Number := Asked;\n    END_IF;\n"
-        "    IF Box = BOX_POLL THEN\n      Track",
+        "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
+        "      Slots[Chosen].Answer[0].Number := Asked;\n"
+        "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
     ),
-    Planted("the turn of stops never moves", "      TurnRest := Slot + 1;\n", "      TurnRest := 0;\n"),
-    Planted("the line keeps no silence", "(NOT LineKeeps OR (QuietMs > SilenceMs))", "(QuietMs < 65535)", "timing"),
-    Planted("silence is a millisecond short", "(QuietMs > SilenceMs))", "(QuietMs >= SilenceMs))", "timing"),
+    Planted("the turn of stops never moves", "      TurnRest := (Chosen + 1) MOD ", "      TurnRest := 0 MOD "),
+    Planted(
+        "the line keeps no silence",
+        "(NOT Promise.LineKeeps OR (QuietMs > Promise.SilenceMs))",
+        "(QuietMs < 65535)",
+        "timing",
+    ),
+    Planted(
+        "silence is a millisecond short", "(QuietMs > Promise.SilenceMs))", "(QuietMs >= Promise.SilenceMs))", "timing"
+    ),
     Planted(
         "the turn-round is forgotten",
-        "DueMs := MB_Plus(Number := PlainMs, More := Slots[Slot].TurnRoundMs);",
-        "DueMs := PlainMs;",
+        "Open.DueMs := MB_Plus(Number := Open.PlainMs, More := TurnRoundMs);",
+        "Open.DueMs := Open.PlainMs;",
         "timing",
     ),
     Planted(
@@ -75,7 +85,7 @@ PLANTED = (
     ),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
-        "    PlainMs := MB_Plus(Number := PlainMs, More := Port.LateMs);\n",
+        "  Open.PlainMs := MB_Plus(Number := Open.PlainMs, More := PortLateMs);\n",
         "",
         "timing",
     ),
@@ -86,18 +96,18 @@ PLANTED = (
     ),
     Planted(
         "the port's silence, rounded up, passes for the drive's",
-        ".SilenceMs) >= NextSilence THEN",
-        ".SilenceMs) > NextSilence THEN",
+        "(SlotSilence) >= NextSilence THEN",
+        "(SlotSilence) > NextSilence THEN",
         "timing",
     ),
     Planted(
         "a parameter leaves without its drive block",
-        "IF (Slots[Index].ParameterCleared = Asked) AND (Count < 256) THEN",
-        "IF Count < 256 THEN",
+        "Passes := ParameterCleared AND ",
+        "Passes := ",
     ),
     Planted(
         "a fault reset is repeated",
-        "        Most := 0;\n        Away := 0;\n",
-        "        Most := CommandMost;\n        Away := 0;\n",
+        "        More := 0;\n        BusyReason := 0;\n",
+        "        More := CommandMost;\n        BusyReason := 0;\n",
     ),
 )

@@ -65,7 +65,7 @@ def full_counts(bench: Bench) -> None:
     bench.ready().drives[0].alive = False
     bench.stop(0)
     bench.run(1500)
-    for count in ("Slots[0].Answer[0].Tries", "Track[0].StopTries", "LineTries"):
+    for count in ("Slots[0].Answer[0].Tries", "Track[0].Stop.Tries", "LineTries"):
         bench.block[count] = 255
     bench.run(3000)
     bench.port_takes = False
@@ -93,7 +93,7 @@ def own_stops(bench: Bench) -> None:
         bench.attended = {0}
         bench.drives[0].answer = None
         bench.run(1500)
-    bench.put(0, JogStop=0, StopRegister=0, StopWord=0)
+    bench.put(0, JogStop=0, HasStop=False)
     bench.run(100)
     bench.set(StopAll=True)
     bench.run(31_000)

@@ -286,7 +286,7 @@ static void begin(void) {
     slot->EXCEPTIONADD = kind->exception_add; slot->ERRORFUNCTION = kind->error_function; slot->ERRORADDRESS = kind->error_address;
     slot->OTHERQUANTITY = c.words + 1; slot->POLLEVERYMS = c.poll_ms; slot->SILENCEMS = c.silence_ms;
     ask(&slot->ASK.table[0], kind->stop_function, kind->stop_address, kind->stop_words, kind->stop_word);
-    slot->STOPREGISTER = kind->stop_address; slot->STOPWORD = kind->stop_word;
+    slot->STOPREGISTER = kind->stop_address; slot->STOPWORD = kind->stop_word; slot->HASSTOP = 1;
     ask(&slot->ASK.table[3], kind->read_function, kind->read_address, c.words, 0); slot->ASK.table[3].NUMBER = 1;
     drive[i].alive = 1; drive[i].last_reset = -1; drive[i].next_command = between(0, 1000) * 1000;
   }
@@ -312,7 +312,7 @@ static void call(void) {
 /* a stop of the line's own is a stop, too: no other that waits meanwhile is alone */
 static void own_stops(void) {
   for (int i = 0; i < c.drives; i++) {
-    if (line.TRACK.value.table[i].FORCED == 1 || slots[i].UNATTENDED > drive[i].unattended) for (int k = 0; k < c.drives; k++) if (k != i) drive[k].alone = 0;
+    if (line.TRACK.value.table[i].STOP.FORCED == 1 || slots[i].UNATTENDED > drive[i].unattended) for (int k = 0; k < c.drives; k++) if (k != i) drive[k].alone = 0;
     drive[i].unattended = slots[i].UNATTENDED; }
 }
 static void scan(us warm) {

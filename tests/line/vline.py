@@ -184,7 +184,7 @@ class Bench:
         """The stop and the poll of the drives' kind."""
         kind = self.kind
         self.fill(slot, STOP, kind.stop_function, kind.stop_address, quantity=kind.stop_words, word=kind.stop_word)
-        self.put(slot, StopRegister=kind.stop_address, StopWord=kind.stop_word)
+        self.put(slot, HasStop=True, StopRegister=kind.stop_address, StopWord=kind.stop_word)
         self.ask(slot, POLL, kind.read_function, kind.read_address, quantity=self.config.words)
 
     # ------------------------------------------------------------ what a user does

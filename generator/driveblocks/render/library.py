@@ -21,13 +21,18 @@ BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_Track",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Open",
 )  # fmt: skip
-LINE_BLOCKS = ("MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Characters", "MB_WireMs", "MB_Listen")
+LINE_BLOCKS = (
+    "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",
+    "MB_Reads", "MB_CheckBegin", "MB_CheckByte", "MB_FrameKind", "MB_ReplyFits", "MB_Rank", "MB_ProbeMs", "MB_Overdue",
+    "MB_PollMs", "MB_StopMs", "MB_CutMs",
+    "MB_Listen", "MB_Promise", "MB_Foreign", "MB_Stop", "MB_LineRequest",
+)  # fmt: skip
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_IsScale", "VFD_Scaled",
-    "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start", "VFD_StopRound",
-    "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+    "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start",
+    "VFD_StopRound", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = (8, 32)

@@ -26,11 +26,11 @@ _TYPES = _words("BOOL BYTE WORD DWORD SINT INT DINT USINT UINT UDINT REAL LREAL 
 _KEYWORDS = _words("IF THEN ELSIF ELSE END_IF CASE OF END_CASE WHILE DO END_WHILE AND OR XOR NOT MOD TRUE FALSE")
 _RESERVED = _KEYWORDS | _TYPES | _words("VERSION NAME TITLE TYPE BEGIN STRUCT ARRAY REGION RETURN EXIT FOR REPEAT")
 _OPERATORS = _words("OR XOR AND = <> < > <= >= + - * / MOD")
-_STANDARD = {"SHR": ["IN", "N"], "SHL": ["IN", "N"], "MAX": ["IN1", "IN2"]}
+_STANDARD = {"SHR": ["IN", "N"], "SHL": ["IN", "N"], "MAX": ["IN1", "IN2"], "MIN": ["IN1", "IN2"]}
 _ENDS = frozenset({"ELSIF", "ELSE", "END_IF", "END_CASE", "END_WHILE", "END_FUNCTION", "END_FUNCTION_BLOCK"})
 _SECTIONS = {
     "TYPE": ("STRUCT",),
-    "FUNCTION": ("VAR_INPUT", "VAR_TEMP"),
+    "FUNCTION": ("VAR_INPUT", "VAR_TEMP", "VAR CONSTANT"),
     "FUNCTION_BLOCK": ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR CONSTANT"),
 }
 _SYSTEM = {
@@ -222,7 +222,8 @@ class _Reader:
         initial = self.initial() if self.at(":=") else ()
         if section == "VAR CONSTANT" and (kind.startswith("ARRAY") or not initial):
             raise self.fail("a constant of an elementary type with a value")
-        if initial and (section in ("VAR_TEMP", "VAR_IN_OUT") or self.block.kind == "FUNCTION"):
+        plain = section != "VAR CONSTANT" and self.block.kind == "FUNCTION"
+        if initial and (section in ("VAR_TEMP", "VAR_IN_OUT") or plain):
             raise self.fail("no initial value, which nobody would set")
         line = self.next.line
         self.take(";")
