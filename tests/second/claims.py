@@ -7,7 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from tests.second.observer import JOG, RUN
+from tests.second.observer import JOG, RUN, STOPPING
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -59,6 +59,8 @@ class Claim:
     changed_us: int = 0
     """When its pins last changed."""
     pins: tuple[tuple[str, object], ...] = ()
+    permitted: bool = False
+    """It was permitted to run in the last scan."""
     ready: bool = False
     """Ready of the last scan."""
     edge_us: int | None = None
@@ -126,7 +128,7 @@ class Claims:
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
         self._start(index, claim, before, driven=driven)
         self._stop(index, claim, driven=driven)
-        claim.ready = ready
+        claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
         if looks:
             self._look(index, claim, driven=driven)
@@ -204,7 +206,7 @@ class Claims:
     def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
         asked = [each for each in RUN + JOG if pins.get(each)]
-        stops = not pins["Enable"] or any(pins.get(each) for each in ("QuickStop", "CoastStop", "StopAll", "Restart"))
+        stops = not pins["Enable"] or any(pins.get(each) for each in STOPPING)
         if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
             claim.edge_us = None
         elif claim.ready and not any(before.get(each) for each in RUN + JOG):
@@ -236,7 +238,9 @@ class Claims:
         elif claim.stop_us is None and owed:
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             claim.stop_us = now + RESTART_US * restarted + ATTEND_US * left
-            plain = not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
+            plain = (
+                claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
+            )
             claim.armed_us = now if plain and claim.written_us < now else None
         if claim.stop_us is not None:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
@@ -251,7 +255,7 @@ class Claims:
         bench, now = self.bench, self.bench.now
         self._probe(index, claim)
         shared = bool(bench.pins[index].get("Shared")) and now - claim.changed_us > ATTEND_US
-        told = bench.reason(index) == "SHARED" and bench.out("ErrorID", index) == SHARED
+        told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
         told = told or bool(bench.pins[index].get("SupplyOff"))
         self._once(index, "shared", bad=shared and not told, seen=bench.reason(index))
         if index == 0:
