@@ -365,8 +365,8 @@ PLANTED = (
     ),
     Planted(
         "its own maximum is not looked at",
-        "(ABS(Diagnosis.OwnMaximumHz - FullScaleHz) < SAME_HZ)",
-        "(SAME_HZ > 0.0)",
+        "SettingsGood := SameMaximum",
+        "SettingsGood := TRUE",
         test_identity.test_its_own_maximum_must_be_full_scale,
         CIA,
     ),

@@ -148,3 +148,12 @@ def test_a_stop_on_the_keypad_and_a_motion_make_a_stop_new() -> None:
     bench.drives[0].keypad_run(30.0)
     begun = bench.now // 1000
     bench.until(lambda: bool(stops(bench, [each for each in bench.frames if each.ms > begun])), 400)
+
+
+def test_a_drive_that_is_busy_is_asked_again() -> None:
+    """24H of SN300G5: the same request may simply be sent again."""
+    bench = Bench("SN300G5").stopped()
+    busy = bench.now + 700_000
+    bench.spoil = lambda frame, reply: bytes([1, 0x90, 0x24]) if not frame.read and bench.now < busy else reply
+    bench.running()
+    assert bench.now > busy

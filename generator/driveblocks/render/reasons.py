@@ -126,7 +126,13 @@ REASONS = (
     Reason(34, "UNREAD", "the drive's settings are not read yet", "参数尚未读取", "wait"),
     Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start anew"),
     # the drive
-    Reason(40, "FAULT", "fault: see FaultCode", "故障，见FaultCode", "remove the cause, then a rising `FaultReset`"),
+    Reason(
+        40,
+        "FAULT",
+        "fault: see FaultCode",
+        "故障，见FaultCode",
+        "remove the cause, then a rising `FaultReset`; at the drive itself where `Diagnosis.CanResetFault` is FALSE",
+    ),
     Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
     Reason(
         42,
@@ -171,7 +177,8 @@ REASONS = (
         "NO_RESET",
         "the reset was refused or has not helped",
         "复位被拒绝或无效",
-        "release the run pins, remove the cause, then a rising `FaultReset`",
+        "release the run pins, remove the cause, then a rising `FaultReset`; reset it at the drive itself where "
+        "`Diagnosis.CanResetFault` is FALSE",
     ),
     Reason(
         49,
