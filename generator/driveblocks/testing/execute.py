@@ -55,7 +55,7 @@ class _Run:
             if time.perf_counter() > self.deadline:
                 self.give_up(f"the program was not done after {self.seconds:g} s")
                 return
-            trouble = self._once(instance, stage)
+            trouble = self._stage(instance, stage)
             self._note(instance, checks, trouble)
             self._go_on(instance, stage + 1)
         self._once(instance, self.program.stages)
@@ -71,6 +71,15 @@ class _Run:
             instance["Stage"] = stage
         if instance["Report.Checks"] != len(self.outcomes):
             instance["Report.Checks"] = len(self.outcomes)
+
+    def _stage(self, instance: Instance, stage: int) -> str:
+        """Scan until a stage is over; what went wrong, or nothing."""
+        trouble = self._once(instance, stage)
+        for _ in range(1, self.program.scans[stage]):
+            if trouble or instance["Stage"] != stage:
+                break
+            trouble = self._once(instance, stage)
+        return trouble
 
     def _once(self, instance: Instance, stage: int) -> str:
         """Scan once; what went wrong, or nothing."""

@@ -20,6 +20,10 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
+from driveblocks.testing.scenes import drive as simulated
+from driveblocks.testing.scenes import line, motor
+from driveblocks.testing.scenes import parameter as parameters
+from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.script import Program, Script, Suite
 
 ROOT = "tests/iec61131/"
@@ -42,7 +46,10 @@ def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     for subject in (vector, access, parameter, request, reply, register, command, speed, proof, version):
         scripts += subject.scripts(drive, stem)
     scripts += text.scripts(drive, stem, languages)
-    return Suite(stem, tuple(_finished(scripts)), len(drive.frames))
+    for played in (motor, line, parameters):
+        scripts += played.scripts(drive, stem)
+    parts = harness.simulation() | {f"{stem}/{simulated.name(drive)}.st": simulated.text(drive, Ability(drive).codes)}
+    return Suite(stem, tuple(_finished(scripts)), len(drive.frames), parts)
 
 
 def _finished(scripts: Iterable[Script]) -> Iterator[Program]:
@@ -58,7 +65,9 @@ def suites(sources: Iterable[Source], languages: Sequence[text.Language]) -> lis
 def programs(sources: Iterable[Source], languages: Sequence[text.Language]) -> dict[str, str]:
     """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
     made = suites(sources, languages)
-    texts = harness.texts() | {program.path: program.text for suite in made for program in suite.programs}
+    texts = dict(harness.texts())
+    for suite in made:
+        texts |= dict(suite.parts) | {program.path: program.text for program in suite.programs}
     order = "".join(f"{path}\n" for path in texts)
     files = {ROOT + path: content for path, content in (texts | {"order.txt": order}).items()}
     return files | {PAGE: page.page(made)}
