@@ -138,8 +138,10 @@ def _port() -> Iterator[Step]:
 
 
 def _busy() -> Iterator[Step]:
-    yield Step("for a moment", {"Pins.TxBusy": True}, ms=200, shows={"Running": True})
-    yield Step("it takes characters again", {"Pins.TxBusy": False}, ms=500, shows=RUNNING | {"Seen.Starts": 1})
+    yield Step("for a moment", {"Pins.TxBusy": True, ".Mark": "Bus.Timeouts"}, ms=200, shows={"Running": True})
+    yield Step("it takes characters again, and nothing was lost", {"Pins.TxBusy": False}, ms=500, shows=RUNNING | {
+        "Seen.Starts": 1, "Bus.Timeouts = Mark": True,
+    })  # fmt: skip
 
 
 def _echo() -> Iterator[Step]:

@@ -68,7 +68,7 @@ def starts(can: Ability) -> Iterator[Scene]:
 
 
 def _power_up(can: Ability) -> Iterator[Step]:
-    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=200, shows={
+    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=500, shows={
         "CommOk": False, "Reason": "NO_REPLY", "Ready": False, "StopConfirmed": False, "StopOverdue": False,
         "HardStop.HardStopOk": False,
     })  # fmt: skip
@@ -117,6 +117,8 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         shows["Reverse"] = back
     if not jog:
         shows |= {"OutputFrequencyHz": hertz, "ABS(Seen.StartMilli) = 30000": True}
+    if can.measures("output_current"):
+        shows["OutputCurrentA"] = 5.0
     shows |= {f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()}
     yield Step("and stays there", ms=1500, shows={"Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1})
     yield Step("the pin falls", {pin: False}, TOLD, 300, {"StopConfirmed": False})

@@ -95,7 +95,7 @@ def _barred(can: Ability) -> Iterator[Step]:
     yield from _does("Reader", free, "Error", _error("Reader", "NOT_READABLE"))
     yield from _does("Reader", free, "Error", _error("Reader", "REFUSED") | {"StopConfirmed": True}, Unknown=True)
     yield from _does("Reader", 0xFFFF, "Error", _error("Reader", "WRAP"), Count=2)
-    yield Step("the motor has not moved", ms=50, shows=NOTHING_STARTED | {"StopConfirmed": True})
+    yield Step("the motor has not moved", ms=50, shows=NOTHING_STARTED | {"StopConfirmed": True, "Seen.Others": 0})
 
 
 def _there_and_back(place: int) -> Iterator[Step]:

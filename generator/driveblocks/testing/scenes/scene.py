@@ -168,6 +168,7 @@ def _variables(drive: Drive, *, other: bool) -> dict[str, tuple[str, str]]:
         "RxCount": ("UINT", "how many characters"),
         "Begins": ("BOOL", "a scene begins: everything restarts"),
         "WaitedMs": ("UINT", "time of this stage, ms"),
+        "Mark": ("UINT", "a count of before"),
         "Next": ("BOOL", "this stage is over"),
     }
     more = {
