@@ -39,7 +39,7 @@ class Probe:
 
 Item = str | Probe
 
-SCAN_MS = 10
+SCAN_MS = 20
 """Time of a scan, where time counts."""
 
 
@@ -99,6 +99,8 @@ class Program:
     checks: tuple[Check, ...]
     scans: tuple[int, ...]
     """Most scans of each stage."""
+    group: str = ""
+    """What it is about, in the words of a user, together with other programs."""
 
     @property
     def stages(self) -> int:

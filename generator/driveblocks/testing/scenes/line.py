@@ -6,7 +6,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, TOLD, run, stand
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
-from driveblocks.testing.script import Script
+from driveblocks.testing.script import SCAN_MS, Script
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
@@ -102,13 +102,13 @@ def _foreign() -> Iterator[Step]:
 
 
 def _late_scan() -> Iterator[Step]:
-    yield Step("longer than promised", {"Pins.ElapsedMs": 40}, ms=20)
-    yield Step("it says so", {"Pins.ElapsedMs": 10}, why("LATE_SCAN"), 500, {"Bus.LateScans >= 1": True})
+    yield Step("longer than promised", {"Pins.ElapsedMs": 80}, ms=40)
+    yield Step("it says so", {"Pins.ElapsedMs": SCAN_MS}, why("LATE_SCAN"), 500, {"Bus.LateScans >= 1": True})
     yield run()
 
 
 def _no_line() -> Iterator[Step]:
-    yield Step("nobody serves the slot", {"Pins.NoLine": True}, why("NO_LINE"), 2000, {
+    yield Step("nobody serves the slot", {"Pins.NoLine": True}, why("NO_LINE"), 3000, {
         "CommOk": False, "StopOverdue": True, "Running": False, "Seen.Driven": True,
     })  # fmt: skip
     yield Step("the line is back: the motor is stopped", {"Pins.NoLine": False}, "Motor.StopConfirmed", 4000, STANDS | {
@@ -152,7 +152,7 @@ def _echo() -> Iterator[Step]:
 
 def _time() -> Iterator[Step]:
     yield Step("ElapsedMs is 0", {"Pins.ElapsedMs": 0}, why("LINE"), 3000, {"Bus.ErrorID": 58})
-    yield Step("it moves again", {"Pins.ElapsedMs": 10}, "Motor.StopConfirmed", 5000, STANDS | {"Seen.Starts": 1})
+    yield Step("it moves again", {"Pins.ElapsedMs": SCAN_MS}, "Motor.StopConfirmed", 5000, STANDS | {"Seen.Starts": 1})
 
 
 def _refused_stop() -> Iterator[Step]:

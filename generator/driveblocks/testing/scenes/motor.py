@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
-from driveblocks.testing.script import Script
+from driveblocks.testing.script import SCAN_MS, Script
 
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just been told to stop."""
@@ -308,7 +308,7 @@ def _flicker() -> Iterator[Step]:
 
 def _restart() -> Iterator[Step]:
     yield Step(
-        "Restart", {"Pins.Restart": True}, ms=20, shows={"StopConfirmed": False, "Reason": "RESTARTED", "CommOk": False}
+        "Restart", {"Pins.Restart": True}, ms=40, shows={"StopConfirmed": False, "Reason": "RESTARTED", "CommOk": False}
     )
     yield Step("it is stopped, never adopted", {"Pins.Restart": False}, "Motor.StopConfirmed", 4000, STANDS | {
         "Seen.Starts": 1, "Reason": "HELD",
@@ -316,9 +316,9 @@ def _restart() -> Iterator[Step]:
     yield Step("a new edge", {"RunForward": False}, "Motor.Ready", 500)
     yield Step("runs it", {"RunForward": True}, "Motor.AtSpeed", 3000, {"Seen.Starts": 2})
     yield Step(
-        "a scan of two seconds acts like a restart", {"Pins.ElapsedMs": 2000}, ms=20, shows={"StopConfirmed": False}
+        "a scan of two seconds acts like a restart", {"Pins.ElapsedMs": 2000}, ms=40, shows={"StopConfirmed": False}
     )
-    yield Step("it is stopped", {"Pins.ElapsedMs": 10}, "Motor.StopConfirmed", 4000, STANDS)
+    yield Step("it is stopped", {"Pins.ElapsedMs": SCAN_MS}, "Motor.StopConfirmed", 4000, STANDS)
 
 
 # ---------------------------------------------------------------- faults

@@ -9,7 +9,7 @@ from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
-from driveblocks.testing.script import Script
+from driveblocks.testing.script import SCAN_MS, Script
 
 BLOCKS = {
     "Reader": ("VFD_ReadParameter", "under test: reads a parameter"),
@@ -71,7 +71,8 @@ def _idle() -> Step:
 def _does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Iterator[Step]:
     """An edge of Execute, what comes of it, and its release."""
     execute = {"Reader": ".Reading", "Writer": ".Writing", "Storer": ".Storing"}[block]
-    given: Shows = {execute: True, ".Place": word(place)} | {f".{key}": each for key, each in sets.items()}
+    given: Shows = {execute: True, ".Place": word(place)}
+    given |= {f".{key}": each for key, each in sets.items()}
     yield Step(f"{block}.Execute", given, f"{block}.{until}", 2500, {f"{block}.Busy": False} | shows)
     yield Step("released", {execute: False, ".Unknown": False, ".Count": 1}, ms=30, shows={
         f"{block}.Done": False, f"{block}.Error": False,
@@ -121,8 +122,9 @@ def _in_vain(place: int) -> Iterator[Step]:
 
 
 def _while_it_runs(can: Ability, place: int) -> Iterator[Step]:
+    nothing: Shows = {"Seen.Others": 0, "Running": True}
     if Judge(can.drive).result(Write(place, 3, stopped=False)) == "NOT_STOPPED":
-        refused: Shows = _error("Writer", "NOT_STOPPED") | {"Seen.Others": 0, "Running": True}
+        refused = _error("Writer", "NOT_STOPPED") | nothing
         yield from _does("Writer", place, "Error", refused, Given=word(3))
     yield from _does("Reader", place, "Done", {"Running": True, "Seen.Starts": 1})
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)
@@ -140,7 +142,7 @@ def _waits(place: int) -> Iterator[Step]:
 
 def _stored() -> Iterator[Step]:
     yield from _does("Storer", 0, "Error", _error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
-    yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=1300, shows=NOTHING_STARTED)
-    yield Step("at its usual pace", {"Pins.ElapsedMs": 10}, "Motor.Ready", 3000, {"Seen.Stores": 0})
+    yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600, shows=NOTHING_STARTED)
+    yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, "Motor.Ready", 3000, {"Seen.Stores": 0})
     yield from _does("Storer", 0, "Done", {"Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True})
     yield from _does("Storer", 0, "Error", _error("Storer", "TOO_SOON") | {"Seen.Stores": 1})
