@@ -63,15 +63,15 @@ def test_a_good_map_passes_and_nothing_is_written_but_the_xml(brief: str) -> Non
     assert "my_drive.EX100_TestFrames" in {case.attrib["classname"] for case in root.iter("testcase")}
 
 
-def test_the_table_has_a_row_per_program_and_a_column_per_engine_and_no_file_is_written(brief: str) -> None:
+def test_the_table_has_a_row_per_group_and_a_column_per_engine_and_no_file_is_written(brief: str) -> None:
     lines = invoke(brief).stdout.splitlines()
     assert [path.name for path in Path.cwd().iterdir()] == ["my_drive.yaml"]
     assert re.search(r": all passed in [\d.]+ s$", lines[-1])
     assert lines[0] == "engine embedded: runs, part of DriveBlocks"
     assert [line.split(":")[0] for line in lines[1:3]] == ["engine matiec-beremiz", "engine matiec-openplc"]
-    assert lines[3].split() == ["drive", "program", "checks", "embedded"]
-    row = next(line for line in lines if "EX100_TestScales" in line)
-    assert re.fullmatch(r"my_drive +EX100_TestScales +\d+ +[\d.]+ ms", row)
+    assert lines[3].split() == ["drive", "tested", "embedded"]
+    row = next(line for line in lines if "Registers" in line)
+    assert re.fullmatch(r"my_drive +Registers: [\d,]+ checks +[\d.]+ ms", row)
 
 
 def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
@@ -85,11 +85,36 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
     assert re.search(
         rf"^{place}\n  12: read_voltage_reply: .*: 548\.8 V\n  expected 548\.8, found 54\.88$", result.stdout, re.M
     )
-    assert re.search(r"^my_drive +EX100_TestScales +\d+ +\d+ failed$", result.stdout, re.MULTILINE)
+    assert re.search(r"^my_drive +Registers: \d+ checks +\d+ failed$", result.stdout, re.MULTILINE)
     assert re.search(r"checks of 1 drive on embedded: \d+ failed in", result.stdout.splitlines()[-1])
     assert "and " in result.stdout.splitlines()[-2]
     failures = list(ElementTree.parse("results.xml").iter("failure"))  # noqa: S314  (our own file)
     assert any(each.text and each.text.endswith("expected: 548.8\nactual: 54.88") for each in failures)
+
+
+def test_a_scene_that_fails_is_told_with_pins_and_frames_and_drawn(
+    my_drive: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A stop that never reaches the drive, seen from the pins alone."""
+    wrong = changed(whole(), "EX100_Drive", "END_FUNCTION_BLOCK", "  QuickStop := FALSE;\nEND_FUNCTION_BLOCK")
+    wrong = changed(wrong, "EX100_Drive", "END_VAR\n\n", "END_VAR\n\n  QuickStop := FALSE;\n")
+    give(monkeypatch, only(wrong, "MotorStop"))
+    result = invoke(my_drive, "--junit", "results.xml", "--picture", "pictures")
+    assert result.exit_code == 1
+    assert re.search(r"^my_drive +Motor: \d+ scenes, \d+ checks +\d+ failed$", result.stdout, re.MULTILINE)
+    assert re.search(r"^ +ms +set +shown +Reason +Hz +motor +frame$", result.stdout, re.MULTILINE)
+    last = re.findall(
+        r"^ +\d+ +Enable RunForward QuickStop +CommOk Running +RUNS .* 30\.0 +[<>] 01 [0-9A-F ]+$", result.stdout, re.M
+    )
+    assert last
+    cases = {case.attrib["name"]: case for case in ElementTree.parse("results.xml").iter("testcase")}  # noqa: S314
+    assert cases["Enable FALSE"].find("failure") is None
+    failure = cases["QuickStop"].find("failure")
+    assert failure is not None
+    assert "Enable RunForward QuickStop" in (failure.text or "")
+    drawn = ElementTree.parse("pictures/EX100_TestMotorStop-embedded.svg").getroot()  # noqa: S314  (our own file)
+    words = {each.text for each in drawn.iter("{http://www.w3.org/2000/svg}text")}
+    assert {"QuickStop", "RunForward", "Running", "sent", "heard"} <= words
 
 
 def test_a_bad_map_gives_status_2_and_is_told_with_its_place(my_drive: str) -> None:
@@ -152,8 +177,8 @@ def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.Monk
     monkeypatch.setattr(discovery, "survey", lambda: Both(found.embedded, None, found.cache))
     result = invoke(brief, "--engine", "all", "--junit", "junit.xml")
     assert result.exit_code == 0
-    assert "drive     program" in result.stdout
-    assert re.search(r"^drive +program +checks +embedded +openplc$", result.stdout, re.MULTILINE)
+    assert "drive     tested" in result.stdout
+    assert re.search(r"^drive +tested +embedded +openplc$", result.stdout, re.MULTILINE)
     assert "on embedded, matiec-openplc: all passed" in result.stdout
     suites = [each.attrib["name"] for each in ElementTree.parse("junit.xml").iter("testsuite")]  # noqa: S314
     assert {name.rpartition(" on ")[2] for name in suites} == {"embedded", "matiec-openplc"}
@@ -174,7 +199,7 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch
     result = invoke(brief, "--time-limit", "600")
     assert result.exit_code == 1
     assert "loop" in result.stdout
-    assert re.search(r"^my_drive +EX100_TestScales +\d+ +[\d.]+ ms$", result.stdout, re.MULTILINE)
+    assert re.search(r"^my_drive +Registers: \d+ checks +[\d.]+ ms$", result.stdout, re.MULTILINE)
 
 
 # ---------------------------------------------------------------- coverage

@@ -46,8 +46,9 @@ def only(unit: Unit, *programs: str) -> Unit:
     """The unit with some of its programs, by the beginning of what stands behind `_Test`, and the blocks they need."""
     chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
     assert chosen, programs
-    needed = _needed(unit, [one.text for one in chosen])
-    return replace(unit, blocks=needed, suite=replace(unit.suite, programs=tuple(chosen)))
+    parts = unit.suite.parts if any("_TestDrive;" in one.text for one in chosen) else {}
+    needed = _needed(unit, [*parts.values(), *(one.text for one in chosen)])
+    return replace(unit, blocks=needed, suite=replace(unit.suite, programs=tuple(chosen), parts=parts))
 
 
 def _needed(unit: Unit, texts: list[str]) -> tuple[Source, ...]:

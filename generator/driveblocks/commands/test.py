@@ -19,6 +19,10 @@ SHOWN, PER_PROGRAM = 20, 3
 
 EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
 Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
+Picture = Annotated[
+    Path | None,
+    typer.Option("--picture", metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram."),
+]
 Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
 Measure = Annotated[bool, typer.Option("--coverage", help="Say which lines and branches of the blocks have run.")]
 Least = Annotated[
@@ -38,6 +42,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     engine: EngineName = "embedded",
     junit: Junit = None,
     time_limit: Seconds = 120.0,
+    picture: Picture = None,
     coverage: Measure = False,
     require_coverage: Least = None,
 ) -> None:
@@ -68,8 +73,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     try:
         if junit is not None:
             xml.write(done, junit)
+        if picture is not None:
+            _draw(done, picture)
     except OSError as error:
-        refuse(f"{junit}: cannot be written: {error.strerror}")
+        refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
     _unproved(sources)
     _cover(measured)
@@ -112,11 +119,18 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         typer.echo(f"engine {each.name}: {state}, {each.note}")
     names = [each.name for each in chosen]
     heads = [name.removeprefix("matiec-") for name in names]
-    made = table("drive", "program", "checks", *heads, numbers=("checks", *heads))
-    for unit, program, results in _rows(run):
-        most = max(len(result.outcomes) for result in results)
-        made.add_row(unit, program, str(most), *(_cell(name, results) for name in names))
+    made = table("drive", "tested", *heads, numbers=heads)
+    for unit, group, results in _rows(run):
+        made.add_row(unit, f"{group}: {_amount(results)}", *(_cell(name, results) for name in names))
     console.write(made)
+
+
+def _amount(results: "list[Result]") -> str:
+    """`41 scenes, 6,204 checks`, on one engine."""
+    own = [result for result in results if result.engine == results[0].engine]
+    scenes = sum(len(result.scenes) for result in own)
+    checks = f"{sum(len(result.outcomes) for result in own):,} checks"
+    return f"{scenes} scenes, {checks}" if scenes else checks
 
 
 def _unproved(sources: "list[Source]") -> None:
@@ -126,6 +140,18 @@ def _unproved(sources: "list[Source]") -> None:
     for source in sources:
         if not source.drive.frames:
             typer.echo(f"{source.drive.prefix}: {UNPROVED}")
+
+
+def _draw(run: "Run", folder: Path) -> None:
+    """A picture per program and engine whose scene failed. Raises OSError."""
+    from driveblocks.testing import record
+
+    for result in run.results:
+        if result.record:
+            folder.mkdir(parents=True, exist_ok=True)
+            failed = next(outcome for outcome in result.bad if outcome.scene)
+            drawn = record.picture(f"{result.program} on {result.engine}: {failed.words}", result.record)
+            (folder / f"{result.program}-{result.engine}.svg").write_text(drawn, encoding="utf-8", newline="\n")
 
 
 def _cover(measured: "list[Coverage]") -> None:
@@ -143,24 +169,28 @@ def _cover(measured: "list[Coverage]") -> None:
 
 
 def _rows(run: "Run") -> "Iterator[tuple[str, str, list[Result]]]":
-    """Drive, program and its result on each engine, in the order of the first engine."""
+    """Drive, what is tested, and its results on all engines, in the order of the first engine."""
     rows: dict[tuple[str, str], list[Result]] = {}
     for result in run.results:
-        rows.setdefault((result.unit, result.program), []).append(result)
-    for (unit, program), results in rows.items():
-        yield unit, program, results
+        rows.setdefault((result.unit, result.group), []).append(result)
+    for (unit, group), results in rows.items():
+        yield unit, group, results
 
 
 def _cell(name: str, results: "list[Result]") -> str:
-    result = next((each for each in results if each.engine == name), None)
-    if result is None:
+    own = [each for each in results if each.engine == name]
+    if not own:
         return "-"
-    bad = len(result.bad)
-    return f"{bad} failed" if bad else f"{result.seconds * 1000:.1f} ms"
+    bad = sum(len(each.bad) for each in own)
+    return f"{bad} failed" if bad else f"{sum(each.seconds for each in own) * 1000:.1f} ms"
 
 
 def _say(run: "Run", drives: int, junit: Path | None) -> None:
-    """The failures, then the sum of it all."""
+    """The failures, each first scene that failed with its pins and frames, then the sum of it all."""
+    from textwrap import indent
+
+    from driveblocks.testing import record
+
     shown = 0
     for result in run.results:
         bad = result.bad
@@ -169,6 +199,8 @@ def _say(run: "Run", drives: int, junit: Path | None) -> None:
             typer.echo(f"{place}{result.unit}.{result.program} on {result.engine}")
             typer.echo(f"  {outcome.words}\n  {outcome.message}")
             shown += 1
+        if bad and result.record and shown <= SHOWN:
+            typer.echo(indent(record.table(result.record), "  "))
     failed = sum(len(result.bad) for result in run.results)
     if failed > shown:
         typer.echo(f"and {failed - shown} more, " + (f"see {junit}" if junit else "which --junit FILE writes down"))

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from driveblocks.host.engine import EngineError, Instance, Library, ScanError, Value
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result
+from driveblocks.testing.record import recorded
 from driveblocks.testing.script import Check, Program
 
 SCAN_NS = 10_000_000
@@ -31,14 +32,22 @@ def execute(library: Library, program: Program, setting: Setting) -> Result:
     except (EngineError, KeyError, ValueError) as error:
         run.give_up(f"cannot be run: {error.args[0] if error.args else error}")
     seconds = time.perf_counter() - start
-    return Result(setting.engine, setting.unit, program.name, tuple(run.outcomes), seconds)
+    record = recorded(library, program, _first_bad(run.outcomes))
+    return Result(
+        setting.engine, setting.unit, program.name, tuple(run.outcomes), seconds, group=program.group, record=record
+    )
+
+
+def _first_bad(outcomes: list[Outcome]) -> int | None:
+    """Place of the first check of a scene that failed."""
+    return next((at for at, one in enumerate(outcomes) if one.scene and one.status == FAILED), None)
 
 
 def lost(program: Program, setting: Setting, why: str) -> Result:
     """The result of a program that gave none, all its checks being lost."""
     run = _Run(program, setting, 0.0)
     run.give_up(why)
-    return Result(setting.engine, setting.unit, program.name, tuple(run.outcomes))
+    return Result(setting.engine, setting.unit, program.name, tuple(run.outcomes), group=program.group)
 
 
 class _Run:
@@ -55,7 +64,7 @@ class _Run:
             if time.perf_counter() > self.deadline:
                 self.give_up(f"the program was not done after {self.seconds:g} s")
                 return
-            trouble = self._once(instance, stage)
+            trouble = self._stage(instance, stage)
             self._note(instance, checks, trouble)
             self._go_on(instance, stage + 1)
         self._once(instance, self.program.stages)
@@ -71,6 +80,15 @@ class _Run:
             instance["Stage"] = stage
         if instance["Report.Checks"] != len(self.outcomes):
             instance["Report.Checks"] = len(self.outcomes)
+
+    def _stage(self, instance: Instance, stage: int) -> str:
+        """Scan until a stage is over; what went wrong, or nothing."""
+        trouble = self._once(instance, stage)
+        for _ in range(1, self.program.scans[stage]):
+            if trouble or instance["Stage"] != stage:
+                break
+            trouble = self._once(instance, stage)
+        return trouble
 
     def _once(self, instance: Instance, stage: int) -> str:
         """Scan once; what went wrong, or nothing."""
@@ -102,7 +120,7 @@ class _Run:
 
     def _add(self, check: Check, status: str, message: str = "", expected: str = "", actual: str = "") -> None:
         words = f"{len(self.outcomes) + 1}: {check.words}"
-        self.outcomes.append(Outcome(words, status, message, expected, actual, self.path, check.line))
+        self.outcomes.append(Outcome(words, status, message, expected, actual, self.path, check.line, check.scene))
 
 
 def _by_stage(program: Program) -> list[list[Check]]:

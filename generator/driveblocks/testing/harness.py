@@ -13,9 +13,25 @@ NAMES = (
 )  # fmt: skip
 """Types and blocks each behind what it uses."""
 
+SIMULATION = (
+    "VFD_TestTimes", "VFD_TestFlags", "VFD_TestFate", "VFD_TestSeen", "VFD_TestPins", "VFD_TestMotor", "VFD_TestHear",
+    "VFD_TestSay", "VFD_TestWatch",
+)  # fmt: skip
+"""The same, of what simulated drives have in common; these need the library."""
+
 
 @cache
 def texts() -> dict[str, str]:
     """Path below the folder of the tests -> text, in that order."""
+    return _read(NAMES)
+
+
+@cache
+def simulation() -> dict[str, str]:
+    """The same of what simulated drives have in common."""
+    return _read(SIMULATION)
+
+
+def _read(names: tuple[str, ...]) -> dict[str, str]:
     folder = files(__package__) / "st"
-    return {f"{FOLDER}/{name}.st": (folder / f"{name}.st").read_text(encoding="utf-8") for name in NAMES}
+    return {f"{FOLDER}/{name}.st": (folder / f"{name}.st").read_text(encoding="utf-8") for name in names}

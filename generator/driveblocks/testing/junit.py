@@ -1,10 +1,14 @@
-"""Results as JUnit XML, as continuous integration reads it: a suite per program and engine, a case per check."""
+"""Results as JUnit XML, as continuous integration reads it.
+
+A suite per program and engine; a case per scene, and per check of what is no scene.
+"""
 
 from pathlib import Path
 from xml.etree import ElementTree
 
 from driveblocks.console import visible
-from driveblocks.testing.outcome import ERROR, FAILED, Outcome, Result, Run
+from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
+from driveblocks.testing.record import table
 
 
 def write(run: Run, path: Path) -> None:
@@ -17,13 +21,12 @@ def text(run: Run) -> str:
     root = ElementTree.Element(
         "testsuites",
         name="driveblocks",
-        tests=str(run.count()),
-        failures=str(run.count(FAILED)),
-        errors=str(run.count(ERROR)),
         time=f"{run.seconds:.3f}",
     )
     for result in run.results:
         root.append(_suite(result))
+    for kind in ("tests", "failures", "errors"):
+        root.set(kind, str(sum(int(suite.attrib[kind]) for suite in root)))
     for each in root.iter():
         # XML 1.0 cannot hold control characters, not even as references.
         each.text = each.text and visible(each.text)
@@ -32,13 +35,28 @@ def text(run: Run) -> str:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
 
 
+def _cases(result: Result) -> list[list[Outcome]]:
+    """The checks of each case."""
+    cases: dict[str, list[Outcome]] = {}
+    for number, outcome in enumerate(result.outcomes):
+        cases.setdefault(outcome.scene or str(number), []).append(outcome)
+    return list(cases.values())
+
+
+def _worst(outcomes: list[Outcome]) -> str:
+    states = {outcome.status for outcome in outcomes}
+    return next((each for each in (ERROR, FAILED) if each in states), PASSED)
+
+
 def _suite(result: Result) -> ElementTree.Element:
+    cases = _cases(result)
+    states = [_worst(case) for case in cases]
     suite = ElementTree.Element(
         "testsuite",
         name=f"{result.unit}.{result.program} on {result.engine}",
-        tests=str(len(result.outcomes)),
-        failures=str(result.count(FAILED)),
-        errors=str(result.count(ERROR)),
+        tests=str(len(cases)),
+        failures=str(states.count(FAILED)),
+        errors=str(states.count(ERROR)),
         skipped="0",
         time=f"{result.seconds:.3f}",
     )
@@ -46,17 +64,24 @@ def _suite(result: Result) -> ElementTree.Element:
     for name, value in (("engine", result.engine), *result.properties):
         ElementTree.SubElement(properties, "property", name=name, value=value)
     each = result.seconds / max(len(result.outcomes), 1)
-    for outcome in result.outcomes:
-        suite.append(_case(f"{result.unit}.{result.program}", outcome, each))
+    for case in cases:
+        suite.append(_case(result, case, each * len(case)))
     return suite
 
 
-def _case(classname: str, outcome: Outcome, seconds: float) -> ElementTree.Element:
-    case = ElementTree.Element("testcase", classname=classname, name=outcome.words, time=f"{seconds:.6f}")
-    kinds = {FAILED: "failure", ERROR: "error"}
-    if outcome.status in kinds:
-        wrong = ElementTree.SubElement(case, kinds[outcome.status], message=outcome.message, type=outcome.status)
-        wrong.text = _detail(outcome)
+def _case(result: Result, outcomes: list[Outcome], seconds: float) -> ElementTree.Element:
+    first, worst = outcomes[0], _worst(outcomes)
+    name = first.scene or first.words
+    classname = f"{result.unit}.{result.program}"
+    case = ElementTree.Element("testcase", classname=classname, name=name, time=f"{seconds:.6f}")
+    bad = [outcome for outcome in outcomes if outcome.status != PASSED]
+    if bad:
+        kind = {FAILED: "failure", ERROR: "error"}[worst]
+        wrong = ElementTree.SubElement(case, kind, message=bad[0].message, type=worst)
+        details = [_detail(outcome) for outcome in bad]
+        if bad[0].scene and result.record and bad[0] is result.bad[0]:
+            details.append(table(result.record))
+        wrong.text = "\n\n".join(details)
     return case
 
 

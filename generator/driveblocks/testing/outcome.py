@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from driveblocks.testing.record import Moment
+
 PASSED, FAILED, ERROR = "passed", "failed", "error"
 
 
@@ -16,6 +18,7 @@ class Outcome:
     actual: str = ""
     path: str = ""
     line: int = 0
+    scene: str = ""
 
     @property
     def place(self) -> str:
@@ -33,6 +36,15 @@ class Result:
     outcomes: tuple[Outcome, ...]
     seconds: float = 0.0
     properties: tuple[tuple[str, str], ...] = ()
+    group: str = ""
+    """What the program is about, in the words of a user."""
+    record: tuple[Moment, ...] = ()
+    """Pins and frames of the first scene that failed, scan by scan."""
+
+    @property
+    def scenes(self) -> tuple[str, ...]:
+        """The scenes that it played."""
+        return tuple(dict.fromkeys(outcome.scene for outcome in self.outcomes if outcome.scene))
 
     def count(self, status: str) -> int:
         """How many checks ended like this."""

@@ -66,7 +66,7 @@ def _built(engine: Engine, unit: Unit) -> _Built:
 
 def _results(engine: Engine, unit: Unit, built: _Built, seconds: float) -> Iterator[Result]:
     name = unit.suite.name
-    yield Result(engine.name, name, "build", tuple(_preparations(engine, unit, built)))
+    yield Result(engine.name, name, "build", tuple(_preparations(engine, unit, built)), group="Build")
     if isinstance(built, EngineError):
         return
     setting = Setting(engine.name, name, ROOT, seconds)

@@ -1,6 +1,6 @@
 """A test program under construction: stages of statements and checks, and the text with the place of each check."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.st.writing import comment, flowing, paragraph, remarked
@@ -39,24 +39,53 @@ class Probe:
 
 Item = str | Probe
 
+SCAN_MS = 20
+"""Time of a scan, where time counts."""
+
+
+@dataclass(frozen=True)
+class Span:
+    """How long a stage goes on: until a condition holds, a time at most; without a condition just that time."""
+
+    until: str
+    ms: int
+    least_ms: int = SCAN_MS
+
+    @property
+    def over(self) -> str:
+        """The condition that it is over."""
+        late = f"WaitedMs > {self.ms}"
+        return f"((WaitedMs > {self.least_ms}) AND ({self.until})) OR ({late})" if self.until else late
+
+    @property
+    def scans(self) -> int:
+        """Most scans that it takes."""
+        return self.ms // SCAN_MS + 3
+
 
 @dataclass(frozen=True)
 class Stage:
-    """What is done in one scan: what it is about, where that stands in the manual, statements and checks."""
+    """What is done in one scan, or over a span of time: what it is about, where that stands in the manual.
+
+    Statements and checks; over a span the statements at its begin, the checks at its end. `scene` is where it belongs.
+    """
 
     words: str
     source: str
     items: Sequence[Item]
+    span: Span | None = None
+    scene: str = ""
 
 
 @dataclass(frozen=True)
 class Check:
-    """One check of a program as reports show it."""
+    """One check of a program as reports show it; `scene` where it is one of a scene's."""
 
     words: str
     probe: Probe
     stage: int
     line: int
+    scene: str = ""
 
 
 @dataclass(frozen=True)
@@ -68,7 +97,15 @@ class Program:
     title: str
     text: str
     checks: tuple[Check, ...]
-    stages: int
+    scans: tuple[int, ...]
+    """Most scans of each stage."""
+    group: str = ""
+    """What it is about, in the words of a user, together with other programs."""
+
+    @property
+    def stages(self) -> int:
+        """How many stages it has."""
+        return len(self.scans)
 
     @property
     def path(self) -> str:
@@ -78,11 +115,15 @@ class Program:
 
 @dataclass(frozen=True)
 class Suite:
-    """The programs of one drive, or of the shared blocks; `vectors` is how many example frames they are made from."""
+    """The programs of one drive, or of the shared blocks; `vectors` is how many example frames they are made from.
+
+    `parts` are blocks that the programs need beside the harness: path below the folder of the tests -> text.
+    """
 
     name: str
     programs: tuple[Program, ...]
     vectors: int
+    parts: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -101,6 +142,8 @@ class Script:
     defaults: list[str] = field(default_factory=list)
     tail: list[Item] = field(default_factory=list)
     stages: list[Stage] = field(default_factory=list)
+    plant: str = ""
+    """Lines that run in every scan, before the stages: what the stages of scenes wait for."""
 
     def stage(self, words: str, *items: Item, source: str = "") -> None:
         """Add a stage; one with more checks than a scan may have becomes several."""
@@ -139,6 +182,7 @@ class _Printer:
         self.lines += ["", "  Report.InScan := 0;"]
         if self.script.defaults:
             self.lines += ["  (* what every case starts from *)", *flowing(self.script.defaults, "  ")]
+        self.lines += self.script.plant.splitlines()
         self.lines.append("  CASE Stage OF")
         for index, stage in enumerate(self.stages):
             self._stage(index, stage)
@@ -146,10 +190,12 @@ class _Printer:
         self._tail()
         text = "\n".join([*self.lines, "END_PROGRAM", ""])
         script = self.script
-        return Program(script.folder, self.name, script.title, text, tuple(self.checks), len(self.stages))
+        scans = tuple(stage.span.scans if stage.span else 1 for stage in self.stages)
+        return Program(script.folder, self.name, script.title, text, tuple(self.checks), scans)
 
     def _head(self) -> None:
-        run = "In a cyclic task until Done; it has passed when Failures is 0 and Checks is not. One case per scan."
+        pace = "Stage by stage, each some scans long." if self.script.plant else "One case per scan."
+        run = f"In a cyclic task until Done; it has passed when Failures is 0 and Checks is not. {pace}"
         self.lines += [f"(* {self.name}: {comment(self.script.title)}", "   " + "-" * 97]
         for label, text in (("Source", self.script.source), ("Run", run)):
             self.lines += paragraph(f"   {label:<9}", text)
@@ -175,23 +221,35 @@ class _Printer:
         label = f"    {index}: "
         place = len(self.lines) + 1
         self.lines += paragraph(f"{label}(* ", words, " *)")
-        self._items(stage, index)
+        if stage.span:
+            self._span(stage, stage.span, index)
+        else:
+            self._items(stage, stage.items, index, "      ")
         for item in self.script.tail:
             if isinstance(item, Probe):
                 self.checks.append(Check(f"{stage.words}: {item.words}", item, index, place))
 
-    def _items(self, stage: Stage, index: int) -> None:
+    def _span(self, stage: Stage, span: Span, index: int) -> None:
+        """What begins it, then what ends it with its checks."""
+        begins = [item for item in stage.items if isinstance(item, str)]
+        if begins:
+            self.lines += [f"      IF WaitedMs = {SCAN_MS} THEN", *flowing(begins, "        "), "      END_IF;"]
+        self.lines += [*flowing([f"Next := {span.over};"], "      "), "      IF Next THEN"]
+        self._items(stage, [item for item in stage.items if isinstance(item, Probe)], index, "        ")
+        self.lines.append("      END_IF;")
+
+    def _items(self, stage: Stage, items: Sequence[Item], index: int, indent: str) -> None:
         run: list[str] = []
-        for item in stage.items:
+        for item in items:
             if isinstance(item, str):
                 run.append(item)
                 continue
-            self.lines += flowing(run, "      ")
+            self.lines += flowing(run, indent)
             run = []
             words = f"{stage.words}: {item.words}"
-            self.checks.append(Check(words, item, index, len(self.lines) + 1))
-            self.lines += remarked(item.call, f"{len(self.checks)}: {item.words}", "      ")
-        self.lines += flowing(run, "      ")
+            self.checks.append(Check(words, item, index, len(self.lines) + 1, stage.scene))
+            self.lines += remarked(item.call, f"{len(self.checks)}: {item.words}", indent)
+        self.lines += flowing(run, indent)
 
     def _tail(self) -> None:
         self.lines += ["  IF NOT Done THEN"]
@@ -200,7 +258,11 @@ class _Printer:
                 self.lines += remarked(item.call, item.words, "    ")
             else:
                 self.lines += flowing([item], "    ")
-        self.lines += ["    Stage := Stage + 1;", "  END_IF;"]
+        if self.script.plant:
+            self.lines += ["    IF Next THEN", "      Stage := Stage + 1;", "      WaitedMs := 0;", "    END_IF;"]
+            self.lines += ["    Next := FALSE;", "  END_IF;"]
+        else:
+            self.lines += ["    Stage := Stage + 1;", "  END_IF;"]
         names = [name for name, _, _ in _COUNTERS if name != "Done"]
         self.lines += flowing([f"{name} := Report.{name};" for name in names], "  ")
 

@@ -1,8 +1,10 @@
 """All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 
 from driveblocks.maps.collection import Source
+from driveblocks.maps.model import Drive
 from driveblocks.testing import (
     access,
     command,
@@ -20,10 +22,31 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
+from driveblocks.testing.scenes import drive as simulated
+from driveblocks.testing.scenes import line, motor
+from driveblocks.testing.scenes import parameter as parameters
+from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.script import Program, Script, Suite
 
 ROOT = "tests/iec61131/"
 """Where the programs are shipped, below the folder of all blocks."""
+
+GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
+    "Motor": motor.scripts,
+    "Line": line.scripts,
+    "Parameters": parameters.scripts,
+    "The manual's frames": vector.scripts,
+    "What may be read": access.scripts,
+    "What may be written": parameter.scripts,
+    "Requests": request.scripts,
+    "Replies": reply.scripts,
+    "Registers": register.scripts,
+    "Commands": command.scripts,
+    "Speed": speed.scripts,
+    "Standstill and faults": proof.scripts,
+    "Version": version.scripts,
+}
+"""What is tested of a drive, in the words of a user."""
 
 PAGE = "tests/README.md"
 """The page that lists them."""
@@ -31,23 +54,22 @@ PAGE = "tests/README.md"
 
 def shared_suite(languages: Sequence[text.Language]) -> Suite:
     """The programs of the blocks that every drive shares."""
-    made = tuple(_finished(shared.scripts(languages)))
+    made = tuple(_finished("Frames, requests, replies and texts", shared.scripts(languages)))
     return Suite(GENERIC, made, len(made))
 
 
 def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     """The programs of one drive."""
     drive, stem = source.drive, source.path.stem
-    scripts: list[Script] = []
-    for subject in (vector, access, parameter, request, reply, register, command, speed, proof, version):
-        scripts += subject.scripts(drive, stem)
-    scripts += text.scripts(drive, stem, languages)
-    return Suite(stem, tuple(_finished(scripts)), len(drive.frames))
+    made = [program for group, subject in GROUPS.items() for program in _finished(group, subject(drive, stem))]
+    made += _finished("Texts", text.scripts(drive, stem, languages))
+    parts = harness.simulation() | {f"{stem}/{simulated.name(drive)}.st": simulated.text(drive, Ability(drive).codes)}
+    return Suite(stem, tuple(made), len(drive.frames), parts)
 
 
-def _finished(scripts: Iterable[Script]) -> Iterator[Program]:
+def _finished(group: str, scripts: Iterable[Script]) -> Iterator[Program]:
     for script in scripts:
-        yield from script.programs()
+        yield from (replace(program, group=group) for program in script.programs())
 
 
 def suites(sources: Iterable[Source], languages: Sequence[text.Language]) -> list[Suite]:
@@ -58,7 +80,9 @@ def suites(sources: Iterable[Source], languages: Sequence[text.Language]) -> lis
 def programs(sources: Iterable[Source], languages: Sequence[text.Language]) -> dict[str, str]:
     """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
     made = suites(sources, languages)
-    texts = harness.texts() | {program.path: program.text for suite in made for program in suite.programs}
+    texts = dict(harness.texts())
+    for suite in made:
+        texts |= dict(suite.parts) | {program.path: program.text for program in suite.programs}
     order = "".join(f"{path}\n" for path in texts)
     files = {ROOT + path: content for path, content in (texts | {"order.txt": order}).items()}
     return files | {PAGE: page.page(made)}

@@ -19,5 +19,6 @@ class Unit:
     def sources(self) -> list[Source]:
         """All texts: library, harness, programs."""
         tests = [Source(ROOT + path, text) for path, text in harness.texts().items()]
+        tests += [Source(ROOT + path, text) for path, text in self.suite.parts.items()]
         tests += [Source(ROOT + program.path, program.text) for program in self.suite.programs]
         return [*self.blocks, *tests]

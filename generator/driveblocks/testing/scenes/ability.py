@@ -1,0 +1,60 @@
+"""What a family can do, as far as scenes ask for it."""
+
+from dataclasses import dataclass
+
+from driveblocks.maps.model import Drive
+from driveblocks.simulator.move import MOTIONS
+
+
+@dataclass(frozen=True)
+class Ability:
+    """A family: its commands, what it shows, a fault that it may have."""
+
+    drive: Drive
+
+    def can(self, does: str) -> bool:
+        """Whether it has a command."""
+        return any(one.does == does for one in self.drive.operation.commands)
+
+    def shows(self, what: str) -> bool:
+        """Whether its status shows something."""
+        return any(one.shows == what for one in self.drive.operation.status)
+
+    def measures(self, what: str) -> bool:
+        """Whether it measures something."""
+        return any(one.shows == what for one in self.drive.operation.measures)
+
+    def kind(self, wanted: str) -> int:
+        """Number of the stop that is sent where one is wanted: the drive's own, else its stop."""
+        kinds = {"stop": 1, "quick_stop": 2, "coast_stop": 3}
+        return kinds[wanted if self.can(wanted) else "stop"]
+
+    @property
+    def absent(self) -> frozenset[str]:
+        """Pins that say nothing, since the drive shows nothing of the kind."""
+        names = [] if self.measures("output_frequency") else ["OutputFrequencyHz", "AtSpeed"]
+        if names and not self.shows("zero_speed"):
+            names.append("ZeroSpeed")
+        return frozenset(names if self.shows("fault") else [*names, "Fault"])
+
+    @property
+    def motions(self) -> tuple[str, ...]:
+        """Its motions."""
+        return tuple(each for each in MOTIONS if self.can(each))
+
+    @property
+    def codes(self) -> tuple[int, int]:
+        """Two faults: numbers that it can show."""
+        faults = self.drive.faults
+        listed = [one.code for one in faults.codes if one.code]
+        if faults.bits:
+            last = 16 * (faults.bits.last - faults.bits.first + 1)
+            listed = [code for code in listed if code <= last]
+        found = [*listed, 5, 7]
+        return found[0], next(code for code in found if code != found[0])
+
+    @property
+    def code(self) -> int:
+        """The fault that scenes use; 0 where the drive does not say which it has."""
+        faults = self.drive.faults
+        return self.codes[1] if faults.present is not None or faults.bits else 0

@@ -1,0 +1,325 @@
+"""The simulated drive of a family in Structured Text, from what the simulator knows of its map."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from functools import cache
+from typing import Any
+
+import jinja2
+
+from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.model import Condition, Drive
+from driveblocks.reference.permission import readable, writable
+from driveblocks.simulator.habits import Habits
+from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
+from driveblocks.simulator.pattern import Pattern, of_condition
+from driveblocks.simulator.table import Gauge, Table, table
+from driveblocks.st.writing import byte, comment, word
+
+Context = dict[str, Any]
+
+KINDS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
+ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8}
+MAXIMUM_HZ = 50
+PLACES = 16
+"""Registers that it keeps; those that tests write find room behind those that its commands need."""
+
+
+@cache
+def environment() -> jinja2.Environment:
+    """The environment of the templates of test programs. An undefined name is an error."""
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader("driveblocks.testing.scenes"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # noqa: S701  (the output is Structured Text, not HTML)
+    )
+
+
+def name(drive: Drive) -> str:
+    """The block's name."""
+    return f"{drive.prefix}_TestDrive"
+
+
+def text(drive: Drive, codes: Iterable[int]) -> str:
+    """The block; `codes` are the faults that it may be told to have."""
+    made = table(drive, Habits(maximum_hz=MAXIMUM_HZ))
+    return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(codes)))
+
+
+def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
+    places = _places(drive, made)
+    at = {address: index for index, address in enumerate(places)}
+    moves = [_move(move, at, made) for move in sorted(made.moves, key=_weight)]
+    return {
+        "name": name(drive),
+        "family": comment(drive.family.en),
+        "source": comment(drive.manual.title.en),
+        "places": [{"address": word(each), "word": word(places[each]) if places[each] else ""} for each in places],
+        "reference": _reference(made, at),
+        "verify": bool(made.reference.verify),
+        "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
+        "codes": made.codes,
+        "most": made.most,
+        "readable": _within("Number", _runs(readable(drive))),
+        "writable": _within("Number", _runs(writable(drive))),
+        "limits": [_limit(one) for one in made.limits],
+        "parameters": _within("Number", _joined(made.storage.areas)) or "FALSE",
+        "home": _home(made),
+        "faces": [_face(made, register) for register in made.named],
+        "shown": _shown(drive, made, codes),
+        "stored": _stored(made),
+        "moves": moves,
+        "after": _after(made, at),
+        "commands": _commands(made, at),
+        "refusal": _refusal(made),
+    }
+
+
+# ---------------------------------------------------------------- registers
+
+
+def _places(drive: Drive, made: Table) -> dict[int, int]:
+    """Registers that it keeps from power-up on, with their words: those of commands first."""
+    words = {move.pattern.register: 0 for move in made.moves}
+    words |= {need.pattern.register: 0 for move in made.moves for need in move.needs}
+    words.setdefault(made.reference.register, 0)
+    for one in _settled(drive):
+        pattern = of_condition(one)
+        words[pattern.register] = words.get(pattern.register, 0) & ~pattern.mask | pattern.value
+    if drive.operation.own_maximum:
+        words[drive.operation.own_maximum.register] = _own_maximum(drive)
+    return words
+
+
+def _settled(drive: Drive) -> tuple[Condition, ...]:
+    """What registers of settings and identity hold where everything is as it should be."""
+    operation = drive.operation
+    who = drive.identity.all if drive.identity else ()
+    commanded = operation.commanded_by.all if operation.commanded_by else ()
+    return (*operation.reference.verify, *commanded, *who)
+
+
+def _own_maximum(drive: Drive) -> int:
+    own = drive.operation.own_maximum
+    row = drive.register_at(own.register) if own else None
+    return round(MAXIMUM_HZ / float(row.scale.factor)) if row and row.scale else 0
+
+
+def _reference(made: Table, at: dict[int, int]) -> Context:
+    given = made.reference
+    kept = f"Kept[{at[given.register]}]"
+    times, per = _reduced(given.times, given.per)
+    return {
+        "place": at[given.register],
+        "number": f"INT_TO_DINT(WORD_TO_INT({kept}))" if given.signed else f"UINT_TO_DINT(WORD_TO_UINT({kept}))",
+        "signed": given.signed,
+        "reverses": given.reverses,
+        "times": times,
+        "per": per,
+    }
+
+
+def _reduced(times: int, per: int) -> tuple[int, int]:
+    from math import gcd
+
+    common = gcd(times, per)
+    return times // common, per // common
+
+
+def _runs(addresses: frozenset[int]) -> list[Span]:
+    """Addresses as ranges."""
+    return _joined(Span(each, each) for each in sorted(addresses))
+
+
+def _joined(spans: Iterable[Span]) -> list[Span]:
+    """Ranges in order, those that touch as one."""
+    found: list[Span] = []
+    for span in sorted(spans, key=lambda each: each.first):
+        if found and span.first <= found[-1].last + 1:
+            found[-1] = Span(found[-1].first, max(span.last, found[-1].last))
+        else:
+            found.append(span)
+    return found
+
+
+def _within(variable: str, spans: Iterable[Span]) -> str:
+    """The test whether a number lies in one of some ranges."""
+    return " OR ".join(_between(variable, span) for span in spans)
+
+
+def _between(variable: str, span: Span) -> str:
+    if len(span) == 1:
+        return f"({variable} = {span.first})"
+    low = [f"({variable} >= {span.first})"] if span.first else []
+    return f"({' AND '.join([*low, f'({variable} <= {span.last})'])})"
+
+
+def _limit(one: Any) -> Context:
+    number = "WORD_TO_INT(Value)" if one.signed else "WORD_TO_UINT(Value)"
+    beyond = [f"({number} > {one.high})"]
+    if one.low > (-32768 if one.signed else 0):
+        beyond.insert(0, f"({number} < {one.low})")
+    return {"register": one.register, "beyond": " OR ".join(beyond)}
+
+
+def _home(made: Table) -> Context | None:
+    """Of a parameter that may be written with a bit added: where it is."""
+    storage = made.storage
+    if not storage.add:
+        return None
+    moved = [Span(span.first + storage.add, span.last + storage.add) for span in storage.areas]
+    return {"test": _within("Number", _joined(moved)), "add": storage.add}
+
+
+def _stored(made: Table) -> str:
+    """Whether a write is stored, or may be."""
+    storage = made.storage
+    if storage.method == "enter_register":
+        return f"(Number = {storage.register})" if storage.register >= 0 else "FALSE"
+    return _within("Number", _joined(storage.areas)) or "FALSE"
+
+
+def _refusal(made: Table) -> Context:
+    manners = made.manners
+    if manners.address is None or manners.function is None:
+        return {"address": False, "add": manners.added}
+    high, low = divmod(manners.address, 256)
+    return {"address": True, "function": byte(manners.function), "high": byte(high), "low": byte(low)}
+
+
+# ---------------------------------------------------------------- what it shows
+
+
+def _face(made: Table, register: int) -> Context:
+    """The words of a status register: situations by word, but for the most frequent word."""
+    words: dict[int, list[int]] = {}
+    for (situation, state), face in made.faces.items():
+        key = situation.key + 128 * (made.states.index(state) + 1 if state else 0)
+        words.setdefault(face.get(register, 0), []).append(key)
+    other = Counter({each: len(keys) for each, keys in words.items()}).most_common(1)[0][0]
+    groups = [
+        {"labels": ", ".join(map(str, sorted(keys))), "word": word(each)}
+        for each, keys in sorted(words.items())
+        if each != other
+    ]
+    names = {"name": f"Face{address_text(register)}", "comment": f"{address_text(register)}: status"}
+    return {**names, "groups": groups, "other": word(other), "register": register}
+
+
+def _shown(drive: Drive, made: Table, codes: tuple[int, ...]) -> list[Context]:
+    """Registers that show something: what is done with `Value`."""
+    found: dict[int, list[str]] = {}
+    for register, mask in made.named.items():
+        face = f"Face{address_text(register)}"
+        found.setdefault(register, []).append(f"Value := (Value AND {word(~mask)}) OR {face};")
+    for gauge in made.gauges:
+        found.setdefault(gauge.register, []).append(_gauge(gauge))
+    for register, statement in (*_faults(made, codes), *_mistaken(drive)):
+        found.setdefault(register, []).append(statement)
+    return [{"register": register, "statements": lines} for register, lines in sorted(found.items())]
+
+
+def _gauge(gauge: Gauge) -> str:
+    milli = {
+        "output_frequency": "Seen.Milli" if gauge.signed else "ABS(Seen.Milli)",
+        "output_current": "Live",
+        "output_voltage": "(Share MOD 101) * 4000",
+        "dc_bus_voltage": "540000",
+        "output_power": "(Share MOD 101) * 20",
+    }[gauge.shows]
+    counts = f"{milli} / {gauge.milli}"
+    if gauge.signed:
+        return f"Value := INT_TO_WORD(DINT_TO_INT({counts}));"
+    return f"Value := UDINT_TO_WORD(DINT_TO_UDINT({counts}));"
+
+
+def _faults(made: Table, codes: tuple[int, ...]) -> Iterator[tuple[int, str]]:
+    if made.present is not None:
+        yield made.present, "Value := UINT_TO_WORD(Motor.FaultCode);"
+    if made.fault_bits:
+        for code in codes:
+            place, bit = divmod(code - 1, 16)
+            statement = f"IF Motor.FaultCode = {code} THEN Value := Value OR {word(1 << bit)}; END_IF;"
+            yield made.fault_bits[0] + place, statement
+
+
+def _mistaken(drive: Drive) -> Iterator[tuple[int, str]]:
+    """What is otherwise than it should be, when the tests say so."""
+    for one in drive.operation.reference.verify:
+        pattern = of_condition(one)
+        bit = pattern.mask & -pattern.mask
+        yield pattern.register, f"IF Fate.WrongSetting THEN Value := Value XOR {word(bit)}; END_IF;"
+
+
+# ---------------------------------------------------------------- what a write does
+
+
+def _weight(move: Move) -> tuple[int, int]:
+    """Their order: of two stops the weaker first, of two motions that which names fewer bits; the last one counts."""
+    if move.effect in STOPS:
+        return (0, -STOPS.index(move.effect))
+    return (1 + (move.effect in MOTIONS), move.exact)
+
+
+def _move(move: Move, at: dict[int, int], made: Table) -> Context:
+    return {
+        "comment": comment(f"{move.effect.replace('_', ' ')}{f': {move.into}' if move.into else ''}"),
+        "test": _fires(move, at, made),
+        "statement": _does(move, made),
+    }
+
+
+def _does(move: Move, made: Table) -> str:
+    if move.effect in KINDS:
+        return f"Halt := {KINDS[move.effect]};"
+    if move.effect == STATE:
+        return f"Led := {made.states.index(move.into or '') + 1};"
+    return "Resets := TRUE;" if move.effect == "fault_reset" else f"Order := {ORDERS[move.effect]};"
+
+
+def _fires(move: Move, at: dict[int, int], made: Table) -> str:
+    registers = [move.pattern.register]
+    if not any(need.before for need in move.needs):
+        registers += [need.pattern.register for need in move.needs]
+    touched = " OR ".join(f"Touched[{at[each]}]" for each in dict.fromkeys(registers))
+    tests = [f"({touched})", _holds("Kept", move.pattern, at)]
+    if move.guard is not None:
+        state = f"(Motor.State = {made.states.index(move.guard) + 1})"
+        tests.append(f"({state} OR Seen.Driven)" if move.effect in MOTIONS else state)
+    tests += [_needed(need, at) for need in move.needs]
+    return " AND ".join(each for each in tests if each)
+
+
+def _needed(need: Need, at: dict[int, int]) -> str:
+    box, since = ("Earlier", "EarlierMs") if need.before else ("Kept", "Since")
+    stands = f" AND ({since}[{at[need.pattern.register]}] >= {need.for_ms})" if need.for_ms else ""
+    return f"{_holds(box, need.pattern, at)}{stands}"
+
+
+def _holds(box: str, pattern: Pattern, at: dict[int, int]) -> str:
+    kept = f"{box}[{at[pattern.register]}]"
+    if pattern.mask == 0xFFFF:
+        return f"({kept} = {word(pattern.value)})"
+    return f"(({kept} AND {word(pattern.mask)}) = {word(pattern.value)})"
+
+
+def _after(made: Table, at: dict[int, int]) -> list[Context]:
+    """States that the word of a stop may lead to, once the motor stands."""
+    led = [move for move in made.moves if move.effect == STATE]
+    return [
+        {
+            "test": f"Touched[{at[move.pattern.register]}] AND {_holds('Kept', move.pattern, at)}",
+            "state": made.states.index(move.into or "") + 1,
+        }
+        for move in led
+    ]
+
+
+def _commands(made: Table, at: dict[int, int]) -> str:
+    """Whether a register of commands was written."""
+    registers = {move.pattern.register: None for move in made.moves}
+    registers |= {need.pattern.register: None for move in made.moves for need in move.needs}
+    return " OR ".join(f"Touched[{at[each]}]" for each in registers)

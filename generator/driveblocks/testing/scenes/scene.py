@@ -1,0 +1,204 @@
+"""A scene: what a user does and what happens to the drive, step by step, and what the pins must show."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from driveblocks.maps.model import Drive
+from driveblocks.maps.revision import checked
+from driveblocks.st.writing import flag, real
+from driveblocks.testing import bench
+from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import environment, name
+from driveblocks.testing.scenes.reason import REASONS
+from driveblocks.testing.script import SCAN_MS, Item, Probe, Script, Span, Stage
+
+Value = bool | int | float | str | tuple[int, int]
+"""What a pin is given or must show: of a check, two numbers are the lowest and the highest; text is an expression."""
+
+Shows = dict[str, Value]
+"""Pins and their values."""
+
+RULES = (
+    "without CommOk nothing is shown", "no StopConfirmed while the motor turns", "no run without a pin",
+    "a motor that nobody asks for is stopped", "Error with ErrorID", "no faster than MaximumHz", "no broadcast",
+    "nothing stored unasked", "no register written unasked", "not Running and StopConfirmed", "the right way round",
+    "Reason 0 only while it runs", "FaultCode only with Fault", "no closed contact while a stop is overdue",
+)  # fmt: skip
+"""What VFD_TestWatch sees broken, by bit."""
+
+HERTZ = 0.2
+"""How near a speed must be."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """What is set, until when it goes on, and what must be so then.
+
+    Names without a dot are pins: `sets` of Pins, `shows` of the drive block. Without `until` it lasts `ms`; with it,
+    it must come true within them.
+    """
+
+    words: str
+    sets: Mapping[str, Value] = field(default_factory=dict)
+    until: str = ""
+    ms: int = 3000
+    shows: Mapping[str, Value] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Steps with a name; it begins with a restart of everything, and all rules must hold in every scan of it."""
+
+    words: str
+    steps: tuple[Step, ...]
+
+
+def scene(words: str, *steps: Step | Iterable[Step]) -> Scene:
+    """A scene of steps and of runs of steps."""
+    flat = [one for each in steps for one in ([each] if isinstance(each, Step) else each)]
+    return Scene(words, tuple(flat))
+
+
+@dataclass(frozen=True)
+class More:
+    """What a program has beside one motor: a second one; blocks, as name -> type and comment, and their calls."""
+
+    other: bool = False
+    blocks: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    calls: tuple[str, ...] = ()
+
+
+def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its scenes, and what more it has
+    drive: Drive,
+    stem: str,
+    subject: str,
+    title: str,
+    scenes: Iterable[Scene],
+    more: More = More(),
+) -> Script:
+    """The program of some scenes."""
+    program = bench.script(drive, stem, subject, title)
+    program.variables |= _variables(drive, other=more.other) | dict(more.blocks)
+    program.plant = _plant(drive, more)
+    can = Ability(drive)
+    for one in scenes:
+        for index, step in enumerate(one.steps, 1):
+            program.stages.append(_stage(can, one, index, step))
+    return program
+
+
+def _stage(can: Ability, one: Scene, index: int, step: Step) -> Stage:
+    first, last = index == 1, index == len(one.steps)
+    items: list[Item] = [*_BEGIN, f"Fate.Unit := {can.drive.serial.unit.min};"] if first else []
+    items += [f"{_path(key, 'Pins')} := {_literal(value)};" for key, value in step.sets.items()]
+    until = step.until if can.measures("output_frequency") else step.until.replace("Motor.AtSpeed", _FAST)
+    if step.until:
+        items.append(bench.is_flag(until, True, f"within {step.ms} ms: {step.until}"))
+    items += [_check(key, value) for key, value in step.shows.items() if key not in can.absent]
+    if last or not (step.until or step.shows):
+        pins = "Expected := DWORD#16#00000000, Actual := Watch.Broken"
+        items.append(Probe("Bytes", pins, "no rule broken", 4, RULES))
+    span = Span(until, step.ms, BEGIN_MS if first else SCAN_MS)
+    return Stage(f"{one.words}, {index}: {step.words}", "", items, span, one.words)
+
+
+_BEGIN = (
+    "Begins := TRUE;", "Pins := Usual;", "Fate := Calm;", "Seen := Blank;", "Fate.Anew := TRUE;", "TxCount := 0;",
+)  # fmt: skip
+"""What begins a scene: the drive is new, line and drive block restart."""
+BEGIN_MS = 3 * SCAN_MS
+"""After so long the pins show nothing of the scene before."""
+_FAST = "(Motor.Running AND (Seen.Milli = Seen.AskedMilli) AND (Seen.Milli <> 0))"
+"""AtSpeed of a drive that shows no frequency."""
+
+
+def _path(name_: str, where: str) -> str:
+    """A variable of the program: with a dot as it stands, one before it means the program's own."""
+    return name_.removeprefix(".") if "." in name_ else f"{where}.{name_}"
+
+
+def _literal(value: Value) -> str:
+    if isinstance(value, bool):
+        return flag(value)
+    return real(value) if isinstance(value, float) else str(value)
+
+
+def _check(key: str, value: Value) -> Probe:
+    actual = key if " " in key else _path(key, "Motor")
+    words = f"{key} {value}" if isinstance(value, str) else key
+    if key == "Reason":
+        value = REASONS[str(value)]
+    if isinstance(value, bool):
+        return bench.is_flag(actual, value, words)
+    if isinstance(value, tuple):
+        return bench.is_between(actual, str(value[0]), str(value[1]), words)
+    if isinstance(value, float):
+        pins = f"Expected := {real(value)}, Actual := {actual}, Tolerance := {real(HERTZ)}"
+        return Probe("Real", pins, words)
+    return bench.is_number(actual, value, words)
+
+
+def why(name_: str) -> str:
+    """The condition that Reason has a name."""
+    return f"Motor.Reason = {REASONS[name_]}"
+
+
+# ---------------------------------------------------------------- the program
+
+
+def _variables(drive: Drive, *, other: bool) -> dict[str, tuple[str, str]]:
+    block = f"{drive.prefix}_Drive"
+    found = {
+        "Motor": (block, "under test: one motor"),
+        "Bus": ("MB_ByteLine8", "under test: its line"),
+        "HardStop": ("VFD_HardStop", "under test: the contact of the hard stop"),
+        "Slots": ("MB_Slots8", "one per drive"),
+        "Drive": (name(drive), "the simulated drive"),
+        "Watch": ("VFD_TestWatch", "rules that hold in every scan"),
+        "Pins": ("VFD_TestPins", "what is wired"),
+        "Usual": ("VFD_TestPins", "... as every scene begins"),
+        "Prepared": ("BOOL", "Usual is filled in"),
+        "Fate": ("VFD_TestFate", "what happens to the drive"),
+        "Calm": ("VFD_TestFate", "nothing"),
+        "Seen": ("VFD_TestSeen", "what the drive was asked"),
+        "Blank": ("VFD_TestSeen", "nothing"),
+        "TxChars": ("MB_LineFrame", "what the port sends"),
+        "TxCount": ("UINT", "how many characters"),
+        "RxChars": ("MB_Adu", "what the port has received"),
+        "RxCount": ("UINT", "how many characters"),
+        "Begins": ("BOOL", "a scene begins: everything restarts"),
+        "WaitedMs": ("UINT", "time of this stage, ms"),
+        "Mark": ("UINT", "a count of before"),
+        "Next": ("BOOL", "this stage is over"),
+    }
+    more = {
+        "Other": (block, "a second drive block"),
+        "OtherDrive": (name(drive), "a second drive"),
+        "OtherFate": ("VFD_TestFate", "what happens to it"),
+        "OtherSeen": ("VFD_TestSeen", "what it was asked"),
+    }
+    return found | (more if other else {})
+
+
+SCALES = {
+    "ReferenceScale": 100.0, "FrequencyScale": 0.01, "CurrentScale": 0.01, "VoltageScale": 0.01,
+    "DcVoltageScale": 0.01, "PowerScale": 0.01,
+}  # fmt: skip
+"""Settings that stand in for scales that a manual does not give: those of the simulated drive."""
+
+
+def _plant(drive: Drive, more: More) -> str:
+    return (
+        environment()
+        .get_template("Plant.st.j2")
+        .render(
+            unit=drive.serial.unit.min,
+            other_unit=drive.serial.unit.min + 1,
+            checked=checked(drive),
+            ascii=flag("rtu" not in drive.serial.mode.modes),
+            scan=SCAN_MS,
+            scales=[(key, real(value)) for key, value in SCALES.items()],
+            other=more.other,
+            calls=more.calls,
+        )
+    )
