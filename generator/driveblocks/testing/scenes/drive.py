@@ -49,6 +49,12 @@ def text(drive: Drive, codes: Iterable[int]) -> str:
     return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(codes)))
 
 
+def counts_per_hertz(drive: Drive) -> float:
+    """What the simulated drive takes its reference for, as a setting says it where the manual does not."""
+    given = table(drive, Habits(maximum_hz=MAXIMUM_HZ)).reference
+    return 1000.0 * given.per / given.times
+
+
 def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
     places = _places(drive, made)
     at = {address: index for index, address in enumerate(places)}
