@@ -103,6 +103,13 @@ LINE = {
     "the port's own characters are not told": ("", "Echo := 1;", "MotorLine"),
     "other masters are not counted": ("", "ForeignFrames := 0;", "MotorLine"),
     "retries are not counted": ("", "Retries := 0;", "MotorStop"),
+    "a request is another": ("", "TxChars[3] := TxChars[3] XOR BYTE#16#01;", "MotorFrames"),
+    "a reply loses its last character": ("RxCount := RxCount - MIN(RxCount, 1);", "", "MotorFrames"),
+    "a checksum is always right": (
+        "IF RxCount = 9 THEN RxChars[7] := BYTE#16#FA; RxChars[8] := BYTE#16#33; END_IF;",
+        "",
+        "MotorFrames",
+    ),
 }
 """Mistakes before and after everything that a line with its mailbox does."""
 
@@ -204,6 +211,20 @@ def test_scenes_pass_for_every_shape_of_a_command(name: str) -> None:
 def test_scenes_pass_on_every_engine(example: Unit, engine: Engine) -> None:
     done = runner.run([only(example, *PROGRAMS)], [engine])
     assert [str(outcome) for result in done.results for outcome in result.bad] == []
+
+
+@pytest.mark.parametrize("stem", [path.stem for path in catalog.shipped()])
+def test_every_reason_is_reached_or_it_is_said_why_not(stem: str) -> None:
+    path = next(path for path in catalog.shipped() if path.stem == stem)
+    unit = only(units(collection.read([path]), languages(["en"], "utf-8"))[1], *PROGRAMS)
+    built, seen = EmbeddedEngine().build(unit.sources), set()
+    for program in unit.suite.programs:
+        instance = built.instance(program.name)
+        for _ in range(sum(program.scans)):
+            instance.scan()
+            seen.add(instance["Motor.Reason"])
+    names = {name for name, number in REASONS.items() if number in seen}
+    assert names == REASONS.keys() - unit.suite.unreached.keys()
 
 
 def test_every_pin_of_a_drive_block_is_wired_and_every_output_looked_at(chf: Unit) -> None:

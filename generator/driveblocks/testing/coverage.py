@@ -1,7 +1,7 @@
 """What of a library has run while its programs ran: lines, outcomes of decisions, and what was missed."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.resources import files
@@ -17,12 +17,8 @@ from driveblocks.testing.outcome import FAILED, PASSED, Outcome, Result
 
 _Key = TypeVar("_Key")
 
-_IN_TIME = re.compile(
-    r"(?:.*/)?(?:line/\w+|vfd/VFD_(?!ReasonText|StateText)\w+|\w+/\w+_(Drive|Reads|Orders|ParameterGate|Identity))\.st"
-)
-"""What only runs in time, against drives that answer: line, drive blocks, and what those share. The programs call each
-block by itself, so it is not counted here, which `Coverage.uncounted` says. The virtual line of the generator's own
-tests reaches it."""
+_TWIN = re.compile(r"(MB_\w+?)32\.st")
+"""The same statements for 32 drives instead of 8: where nothing but that number differs, the smaller one is counted."""
 
 
 @runtime_checkable
@@ -88,13 +84,15 @@ class Coverage:
     lines: Lines = field(default_factory=dict)
     branches: Branches = field(default_factory=dict)
     texts: dict[str, list[str]] = field(default_factory=dict)
-    uncounted: set[str] = field(default_factory=set)
+    twins: set[str] = field(default_factory=set)
+    """Blocks that are counted as another one, which has the same statements."""
 
     def add(self, blocks: Iterable[Source], library: Counted) -> None:
         """Count what has run of some blocks of a library. Raises EngineError."""
-        timed = {block.path for block in blocks if _IN_TIME.fullmatch(block.path)}
-        own = {block.path: block.text for block in blocks if block.path not in timed}
-        self.uncounted |= timed
+        texts = {block.path: block.text for block in blocks}
+        twins = {path for path in texts if _is_twin(path, texts)}
+        own = {path: text for path, text in texts.items() if path not in twins}
+        self.twins |= twins
         self.texts |= {path: text.split("\n") for path, text in own.items()}
         _sum(self.lines, library.coverage(), own)
         _sum(self.branches, library.branches(), own)
@@ -173,6 +171,18 @@ def _percent(total: int, missed: list[Miss]) -> float:
     """The share of what has run; what is explained is left out. Where there is nothing, nothing has run: 0."""
     reachable = total - sum(bool(each.why) for each in missed)
     return 100.0 * (1 - sum(not each.why for each in missed) / reachable) if reachable else 0.0
+
+
+def _is_twin(path: str, texts: Mapping[str, str]) -> bool:
+    """Whether a block for 32 drives has just the statements of that for 8."""
+    smaller = _TWIN.sub(r"\g<1>8.st", path)
+    return smaller != path and smaller in texts and _statements(texts[path]) == _statements(texts[smaller])
+
+
+def _statements(text: str) -> str:
+    """The body without comments, the number of drives left open."""
+    body = re.sub(r"\(\*.*?\*\)", "", text, flags=re.DOTALL).rpartition("END_VAR")[2]
+    return re.sub(r"\b(?:8|32)\b|(?<=[a-z])(?:8|32)\b", "N", body)
 
 
 def _sum(totals: dict[str, dict[_Key, int]], more: dict[str, dict[_Key, int]], paths: Iterable[str]) -> None:

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing.harness import PER_SCAN
-from driveblocks.testing.script import MOST_STAGES, Suite
+from driveblocks.testing.scenes.reason import REASONS
+from driveblocks.testing.script import MOST_STAGES, SCAN_MS, Suite
 
 _HEAD = f"""# The test programs
 
@@ -15,7 +16,9 @@ too: on the bench, without a drive, to see that its compiler makes of the blocks
 1. Import the library in the order of `../iec61131/order.txt`, then the files named in `iec61131/order.txt`: those of
    `harness`, those of `modbus`, and those of your drive. A controller short of memory takes one program at a time.
 2. Call a program from a cyclic task. Each scan does one case, at most {PER_SCAN} checks; a program has at most
-   {MOST_STAGES} cases.
+   {MOST_STAGES} cases. The programs of scenes (`TestMotor...`, `TestParameters`) wire the drive block and its line as a
+   user does, with a drive that is simulated in memory instead of a port; each of their cases takes some scans, and each
+   scan counts as {SCAN_MS} ms, however fast the task is.
 3. When `Done` is TRUE, `Failures` must be 0 and `Checks` the number in the table below.
 4. Otherwise `FirstFailed` is the number of the first check that failed. The comments of the program carry these
    numbers, with what is checked and where it stands in the manual; `Expected` and `Actual` are the two values.
@@ -40,4 +43,7 @@ def _table(suite: Suite) -> str:
     lines += ["| program | checks | what it checks |", "|---|---:|---|"]
     for program in suite.programs:
         lines.append(f"| [`{program.name}`](iec61131/{program.path}) | {len(program.checks)} | {program.title} |")
+    if suite.unreached:
+        lines.append("\nThe scenes of the motor and its line show every number of `Reason` but these:\n")
+        lines += [f"- {REASONS[name]} {name}: {why}" for name, why in suite.unreached.items()]
     return "\n".join(lines) + "\n"

@@ -124,6 +124,8 @@ class Suite:
     programs: tuple[Program, ...]
     vectors: int
     parts: Mapping[str, str] = field(default_factory=dict)
+    unreached: Mapping[str, str] = field(default_factory=dict)
+    """Reasons that no scene reaches, and why."""
 
 
 @dataclass

@@ -23,9 +23,10 @@ from driveblocks.testing import (
 )
 from driveblocks.testing.bench import GENERIC
 from driveblocks.testing.scenes import drive as simulated
-from driveblocks.testing.scenes import line, motor
+from driveblocks.testing.scenes import line, manual, motor
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.reason import unreached
 from driveblocks.testing.script import Program, Script, Suite
 
 ROOT = "tests/iec61131/"
@@ -35,6 +36,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Motor": motor.scripts,
     "Line": line.scripts,
     "Parameters": parameters.scripts,
+    "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,
     "What may be read": access.scripts,
     "What may be written": parameter.scripts,
@@ -64,7 +66,7 @@ def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     made = [program for group, subject in GROUPS.items() for program in _finished(group, subject(drive, stem))]
     made += _finished("Texts", text.scripts(drive, stem, languages))
     parts = harness.simulation() | {f"{stem}/{simulated.name(drive)}.st": simulated.text(drive, Ability(drive).codes)}
-    return Suite(stem, tuple(made), len(drive.frames), parts)
+    return Suite(stem, tuple(made), len(drive.frames), parts, unreached(Ability(drive)))
 
 
 def _finished(group: str, scripts: Iterable[Script]) -> Iterator[Program]:

@@ -38,6 +38,13 @@ class Ability:
         return frozenset(names if self.shows("fault") else [*names, "Fault"])
 
     @property
+    def runs_at_once(self) -> bool:
+        """Whether a run is one write, in a register of its own."""
+        operation = self.drive.operation
+        forward = next(one for one in operation.commands if one.does == "run_forward")
+        return not forward.first and forward.register != operation.reference.register
+
+    @property
     def motions(self) -> tuple[str, ...]:
         """Its motions."""
         return tuple(each for each in MOTIONS if self.can(each))

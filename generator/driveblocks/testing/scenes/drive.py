@@ -9,6 +9,7 @@ import jinja2
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Condition, Drive
+from driveblocks.modbus.layout import Manners
 from driveblocks.reference.permission import readable, writable
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
@@ -47,6 +48,17 @@ def text(drive: Drive, codes: Iterable[int]) -> str:
     """The block; `codes` are the faults that it may be told to have."""
     made = table(drive, Habits(maximum_hz=MAXIMUM_HZ))
     return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(codes)))
+
+
+def manners(drive: Drive) -> Manners:
+    """How it refuses."""
+    return table(drive, Habits()).manners
+
+
+def counts_per_hertz(drive: Drive) -> float:
+    """What the simulated drive takes its reference for, as a setting says it where the manual does not."""
+    given = table(drive, Habits(maximum_hz=MAXIMUM_HZ)).reference
+    return 1000.0 * given.per / given.times
 
 
 def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:

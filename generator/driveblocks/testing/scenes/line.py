@@ -29,6 +29,7 @@ def lines(can: Ability) -> Iterator[Scene]:
     yield scene("a drive block that is not called", POWER, run(), *_no_drive())
     yield scene("a port in trouble", POWER, run(), *_port())
     yield scene("a port that is busy", POWER, run(), *_busy())
+    yield scene("a port that is stuck", POWER, run(), *_stuck())
     yield scene("a port that hears itself", *_echo())
     yield scene("time that stands still", POWER, run(), *_time())
     yield scene("a stop that is refused", POWER, run(), *_refused_stop())
@@ -142,6 +143,15 @@ def _busy() -> Iterator[Step]:
     yield Step("it takes characters again, and nothing was lost", {"Pins.TxBusy": False}, ms=500, shows=RUNNING | {
         "Seen.Starts": 1, "Bus.Timeouts = Mark": True,
     })  # fmt: skip
+
+
+def _stuck() -> Iterator[Step]:
+    yield Step("the contact is closed", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
+    stuck: Shows = {"Pins.TxBusy": True, "RunForward": False, "Pins.HardReset": False}
+    yield Step("no stop leaves: it is overdue", stuck, "Motor.StopOverdue", 3000, {
+        "Seen.Driven": True, "HardStop.HardStopOk": False, "Bus.StopOverdue": True,
+    })  # fmt: skip
+    yield Step("it leaves", {"Pins.TxBusy": False}, "Motor.StopConfirmed", 5000, STANDS)
 
 
 def _echo() -> Iterator[Step]:

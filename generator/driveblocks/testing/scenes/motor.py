@@ -465,6 +465,8 @@ def silence(can: Ability) -> Iterator[Scene]:
     yield scene("a command that is not followed", POWER, *_not_followed())
     yield scene("a reference that is not acknowledged", POWER, *_unacknowledged(can, "reference", "NO_REFERENCE"))
     yield scene("a run that is not acknowledged", POWER, *_unacknowledged(can, "run", "NO_RUN"))
+    if can.runs_at_once:
+        yield scene("a run whose reply is lost", POWER, *_unsaid(can))
     yield scene("started on its keypad", POWER, *_keypad_run())
     yield scene("stopped on its keypad", POWER, run(), *_keypad_stop())
     if can.shows("ready"):
@@ -553,6 +555,15 @@ def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
     yield run()
 
 
+def _unsaid(can: Ability) -> Iterator[Step]:
+    """The status is read before a run is written again: it runs, so it is acknowledged."""
+    forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
+    register = forward.register
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
+    yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {"Seen.Starts": 1, "Running": True})
+    yield Step("it runs on", {"Fate.Unsaid": False}, ms=1000, shows={"Running": True, "Seen.Starts": 1})
+
+
 def _keypad_run() -> Iterator[Step]:
     yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {"StopConfirmed": False})
     yield stand(NOTHING_STARTED)
@@ -635,7 +646,9 @@ def _speed_only() -> Iterator[Step]:
     )
     yield Step("the terminals do", {"Fate.KeypadRun": True}, "Motor.Running", 1500, {"Reason": "SPEED_ONLY"})
     yield Step("nobody stops it", {"RunForward": False}, ms=1500, shows={"Seen.Driven": True, "Running": True})
-    yield Step("Enable FALSE does", {"Enable": False}, "Seen.Stopping", 500)
+    yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
+    yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
+    yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
     yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
 
 

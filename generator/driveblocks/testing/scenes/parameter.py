@@ -96,6 +96,8 @@ def _barred(can: Ability) -> Iterator[Step]:
     yield from _does("Reader", free, "Error", _error("Reader", "NOT_READABLE"))
     yield from _does("Reader", free, "Error", _error("Reader", "REFUSED") | {"StopConfirmed": True}, Unknown=True)
     yield from _does("Reader", 0xFFFF, "Error", _error("Reader", "WRAP"), Count=2)
+    yield from _does("Reader", free, "Error", _error("Reader", "QUANTITY"), Count=5)
+    yield from _does("Writer", free, "Error", _error("Writer", "QUANTITY"), Count=4)
     yield Step("the motor has not moved", ms=50, shows=NOTHING_STARTED | {"StopConfirmed": True, "Seen.Others": 0})
 
 

@@ -1,4 +1,7 @@
-"""The numbers of the reasons, as published, by the names that scenes give them."""
+"""The numbers of the reasons, as published, by the names that scenes give them, and those that no scene reaches."""
+
+from driveblocks.simulator.move import MOTIONS
+from driveblocks.testing.scenes.ability import Ability
 
 REASONS = {
     "RUNS": 0, "READY": 1, "RAMPING": 2, "STARTING": 3, "STOPPING": 4, "RESETTING": 5, "RELEASED": 6,
@@ -9,3 +12,22 @@ REASONS = {
     "NO_REFERENCE": 42, "NO_RUN": 43, "REFUSED": 44, "NOT_FOLLOWED": 45, "BY_ITSELF": 46, "NOT_STOPPED": 47,
     "NO_RESET": 48, "READ_REFUSED": 49,
 }  # fmt: skip
+
+
+def unreached(can: Ability) -> dict[str, str]:
+    """Reasons that no scene of a family shows, and why."""
+    found = {
+        "RELEASED": "it stands in Diagnosis.StopReason alone, where a scene looks for it",
+        "UNREAD": "the settings are read before the stop after power-up is confirmed",
+    }
+    if not can.drive.manual.second_hand:
+        found["UNCHECKED"] = "the map was read off the manual"
+    if not can.drive.operation.reference.verify:
+        found["SETTING"] = "no setting of the drive that can be read gives the reference another meaning"
+    if not can.shows("ready"):
+        found["NOT_READY"] = "the drive does not show whether it is ready"
+    if not can.can("fault_reset"):
+        found["RESETTING"] = "the drive has no fault reset by the bus"
+    if set(can.motions) == set(MOTIONS):
+        found["NOT_ABLE"] = "the drive has every command of motion"
+    return found

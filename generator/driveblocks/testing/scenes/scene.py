@@ -8,7 +8,7 @@ from driveblocks.maps.revision import checked
 from driveblocks.st.writing import flag, real
 from driveblocks.testing import bench
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import environment, name
+from driveblocks.testing.scenes.drive import counts_per_hertz, environment, name
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.script import SCAN_MS, Item, Probe, Script, Span, Stage
 
@@ -181,13 +181,14 @@ def _variables(drive: Drive, *, other: bool) -> dict[str, tuple[str, str]]:
 
 
 SCALES = {
-    "ReferenceScale": 100.0, "FrequencyScale": 0.01, "CurrentScale": 0.01, "VoltageScale": 0.01,
+    "FrequencyScale": 0.01, "CurrentScale": 0.01, "VoltageScale": 0.01,
     "DcVoltageScale": 0.01, "PowerScale": 0.01,
 }  # fmt: skip
 """Settings that stand in for scales that a manual does not give: those of the simulated drive."""
 
 
 def _plant(drive: Drive, more: More) -> str:
+    scales = {"ReferenceScale": counts_per_hertz(drive), **SCALES}
     return (
         environment()
         .get_template("Plant.st.j2")
@@ -197,7 +198,7 @@ def _plant(drive: Drive, more: More) -> str:
             checked=checked(drive),
             ascii=flag("rtu" not in drive.serial.mode.modes),
             scan=SCAN_MS,
-            scales=[(key, real(value)) for key, value in SCALES.items()],
+            scales=[(key, real(value)) for key, value in scales.items()],
             other=more.other,
             calls=more.calls,
         )
