@@ -119,7 +119,7 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         typer.echo(f"engine {each.name}: {state}, {each.note}")
     names = [each.name for each in chosen]
     heads = [name.removeprefix("matiec-") for name in names]
-    made = table("drive", "tested", *heads, numbers=heads)
+    made = table("drive", "tested", *heads, wide=("tested",), numbers=heads)
     for unit, group, results in _rows(run):
         made.add_row(unit, f"{group}: {_amount(results)}", *(_cell(name, results) for name in names))
     console.write(made)
