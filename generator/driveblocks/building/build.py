@@ -19,6 +19,9 @@ from driveblocks.render.text import Language, told
 from driveblocks.testing.suite import drive_suite, programs, shared_suite
 from driveblocks.testing.unit import Unit
 
+LARGE = ("/MB_Line32.st", "/MB_ByteLine32.st")
+"""Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
+
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
@@ -46,9 +49,10 @@ def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
     """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
     generic = tuple(_sources(library.generic(languages)))
     made = [Unit(shared_suite(languages), generic)]
+    needed = tuple(block for block in generic if not block.path.endswith(LARGE))
     for source in sources:
         own = _sources(library.drive(source.path.stem, source.drive, languages))
-        made.append(Unit(drive_suite(source, languages), (*generic, *own)))
+        made.append(Unit(drive_suite(source, languages), (*needed, *own)))
     return made
 
 

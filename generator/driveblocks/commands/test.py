@@ -49,10 +49,11 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     """Test the blocks of the drives on this computer.
 
     The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and
-    against a reference model. The exit status is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an
-    engine cannot be used. With --coverage it is said what no program has reached: lines, and outcomes of decisions (IF,
-    CASE, loops). That is a failure only below what --require-coverage asks for; what no input can reach is explained
-    and left out of the percentage.
+    against a reference model, and play scenes: a drive block on its line, with a drive that the program simulates. Of a
+    scene that fails, pins and frames before the failure are printed; --picture draws them. The exit status is 0 if all
+    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. With --coverage it is said what no
+    program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
+    --require-coverage asks for; what no input can reach is explained and left out of the percentage.
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """
@@ -119,7 +120,7 @@ def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]")
         typer.echo(f"engine {each.name}: {state}, {each.note}")
     names = [each.name for each in chosen]
     heads = [name.removeprefix("matiec-") for name in names]
-    made = table("drive", "tested", *heads, numbers=heads)
+    made = table("drive", "tested", *heads, wide=("tested",), numbers=heads)
     for unit, group, results in _rows(run):
         made.add_row(unit, f"{group}: {_amount(results)}", *(_cell(name, results) for name in names))
     console.write(made)

@@ -277,12 +277,13 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
 
 
 def _runs_on() -> Iterator[Step]:
-    yield Step("the contact is closed", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
-    yield Step("it acknowledges the stop and runs on", {"RunForward": False, "Fate.RunsOn": True}, ms=2000, shows={
+    closed: Shows = {"Pins.HardReset": True, "StopWithinMs": 2500}
+    yield Step("the contact is closed", closed, ms=50, shows={"HardStop.HardStopOk": True})
+    yield Step("it acknowledges the stop and runs on", {"RunForward": False, "Fate.RunsOn": True}, ms=1500, shows={
         "StopConfirmed": False, "StopOverdue": False, "Seen.Driven": True, "Running": True, "Reason": "STOPPING",
     })  # fmt: skip
     yield Step("after StopWithinMs it is overdue", {}, "Motor.StopOverdue", 4000, {
-        "HardStop.HardStopOk": False, "StopConfirmed": False, "Seen.Stops >= 5": True,
+        "HardStop.HardStopOk": False, "StopConfirmed": False, "Seen.Stops >= 4": True,
     })  # fmt: skip
     yield Step("now it obeys", {"Fate.RunsOn": False, "Pins.HardReset": False}, "Motor.StopConfirmed", 3000, STANDS)
     yield Step("no longer overdue; the contact waits for an edge", {}, "NOT Motor.StopOverdue", 500, {
@@ -383,10 +384,10 @@ def _gone(can: Ability) -> Iterator[Step]:
 
 
 def _trip_still(can: Ability) -> Iterator[Step]:
-    trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True}
+    trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True, "StopWithinMs": 1500}
     yield Step("it trips", trips, _code_known(can), 1500, _tripped(can) | NOTHING_STARTED)
     yield Step("an edge starts nothing", {"RunForward": True}, ms=500, shows=_tripped(can) | NOTHING_STARTED)
-    yield Step("a stop that is repeated is not overdue", ms=6000, shows={"StopOverdue": False, "Seen.Stops >= 3": True})
+    yield Step("a stop that is repeated is not overdue", ms=2500, shows={"StopOverdue": False, "Seen.Stops >= 3": True})
 
 
 def _vain(can: Ability) -> Iterator[Step]:
@@ -591,7 +592,7 @@ def _warning() -> Iterator[Step]:
 def _no_supply() -> Iterator[Step]:
     yield Step("SupplyOff stops it", {"SupplyOff": True}, TOLD, 500, {"Reason": "NO_SUPPLY"})
     yield Step("it stands", {}, "Motor.StopConfirmed", 3000, STANDS | {"Reason": "NO_SUPPLY"})
-    yield Step("its silence is no alarm", {"Fate.NoPower": True}, ms=4000, shows={
+    yield Step("its silence is no alarm", {"Fate.NoPower": True}, ms=2500, shows={
         "StopOverdue": False, "CommOk": False, "Reason": "NO_SUPPLY", "Bus.StopOverdue": False,
     })  # fmt: skip
     back: Shows = {"Fate.NoPower": False, "SupplyOff": False}
