@@ -239,8 +239,8 @@ PLANTED = (
     ),
     Planted(
         "a start while a parameter waits",
-        "\n    AND NOT Seen.WriteWaits AND",
-        "\n    AND",
+        " AND NOT Seen.WriteWaits AND",
+        " AND",
         partial(never_stored, "a parameter waits"),
     ),
     Planted(

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
 NAMES = ("one_motor", "three_makes")
 PARTS = ("types/", "modbus/MB_Hex", "line/", "vfd/VFD_", "invt_chf/", "jscc/", "shuen_sn300g5/")
-SPARE = re.compile(r"Text|_Request|_Reply|_Command\.|32")
+SPARE = re.compile(r"Text|_Request\.|_Reply\.|_Command\.|32")
 """Blocks that the examples do not use."""
 TEXTS = {name: (FOLDER / f"{name}.st").read_text(encoding="utf-8") for name in NAMES}
 FILES = [

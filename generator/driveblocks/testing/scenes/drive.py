@@ -158,8 +158,9 @@ def _joined(spans: Iterable[Span]) -> list[Span]:
 
 
 def _within(variable: str, spans: Iterable[Span]) -> str:
-    """The test whether a number lies in one of some ranges."""
-    return " OR ".join(_between(variable, span) for span in spans)
+    """The test whether a number lies in one of some ranges, some to a line."""
+    tests = [_between(variable, span) for span in spans]
+    return "\n          OR ".join(" OR ".join(tests[at : at + 2]) for at in range(0, len(tests), 2))
 
 
 def _between(variable: str, span: Span) -> str:
