@@ -49,7 +49,11 @@ def _two(unit: int) -> Step:
 def _stop_all(unit: int) -> Iterator[Step]:
     yield _two(unit)
     yield Step(
-        "both run", {"Pins.OtherRuns": True}, "OtherSeen.Milli = 20000", 3000, {"Bus.OnlineCount": 2, "Running": True}
+        "both run",
+        {"Pins.OtherRuns": True},
+        "ABS(OtherSeen.Milli - 20000) <= 200",
+        3000,
+        {"Bus.OnlineCount": 2, "Running": True},
     )
     yield Step("StopAll", {"Pins.StopAll": True}, "Motor.StopConfirmed AND Other.StopConfirmed", 4000, {
         "Seen.Driven": False, "OtherSeen.Driven": False, "Reason": "STOP_ALL", "Other.Reason = 22": True,
@@ -63,7 +67,7 @@ def _stop_all(unit: int) -> Iterator[Step]:
 
 def _one_dead(unit: int) -> Iterator[Step]:
     yield _two(unit)
-    yield Step("both run", {"Pins.OtherRuns": True}, "OtherSeen.Milli = 20000", 3000)
+    yield Step("both run", {"Pins.OtherRuns": True}, "ABS(OtherSeen.Milli - 20000) <= 200", 3000)
     yield Step("one is dead", {"Fate.Cut": True}, why("OFFLINE"), 4000, {"Bus.OnlineCount": 1, "Bus.AllOnline": False})
     yield Step("the other runs on", ms=2000, shows={
         "Other.Running": True, "Other.CommOk": True, "OtherSeen.Starts": 1, "OtherSeen.Driven": True,

@@ -102,21 +102,21 @@ def _held() -> Iterator[Step]:
 def _motion(can: Ability, does: str) -> Iterator[Step]:
     pin, jog, back = PINS[does], does.startswith("jog"), does.endswith("reverse")
     hertz = 5.0 if jog else 30.0
-    sign = "-" if back else ""
+    opposite = "+" if back else "-"
     pace = why("RAMPING" if can.measures("output_frequency") else "RUNS")
     yield Step("the start is sent", {pin: True}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {"Seen.Order": ORDERS[does]})
-    until = f"ABS(Seen.Milli) >= {round(1000 * hertz)}" if jog else "Motor.AtSpeed"
+    until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
         "Running": True, "Seen.Starts": 1, "Seen.Order": ORDERS[does], "Error": False, "ZeroSpeed": False,
-        f"Seen.Milli = {sign}{round(1000 * hertz)}": True,
+        f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
     }  # fmt: skip
     yield Step("it reaches its speed", {}, until, 3000, shows)
     shows = {} if jog else {"Reason": "RUNS"}
     if can.shows("reverse"):
         shows["Reverse"] = back
     if not jog:
-        shows |= {"OutputFrequencyHz": hertz, "ABS(Seen.StartMilli) = 30000": True}
+        shows |= {"OutputFrequencyHz": hertz, "ABS(ABS(Seen.StartMilli) - 30000) <= 200": True}
     if can.measures("output_current"):
         shows["OutputCurrentA"] = 5.0
     shows |= {f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()}
@@ -149,15 +149,16 @@ def _not_able(does: str) -> Iterator[Step]:
 
 
 def _speeds(can: Ability) -> Iterator[Step]:
-    for hertz in (45.0, 10.5, 0.0, 30.0):
-        milli = f"Seen.Milli = {round(1000 * hertz)}"
+    for hertz in (45.0, 10.0, 0.0, 30.0):
+        milli = f"ABS(Seen.Milli - {round(1000 * hertz)}) <= 200"
         yield Step(f"{hertz:g} Hz", {"SpeedReferenceHz": hertz}, milli, 2000, {"Running": True})
         if can.measures("output_frequency"):
             yield Step("it shows it", {}, f"ABS(Motor.OutputFrequencyHz - {hertz}) < 0.2", 1500, {"Seen.Starts": 1})
-    yield Step("beyond MaximumHz", {"SpeedReferenceHz": 45.0, "MaximumHz": 40.0}, "Seen.Milli = 40000", 2000, {
+    beyond: Shows = {"SpeedReferenceHz": 45.0, "MaximumHz": 40.0}
+    yield Step("beyond MaximumHz", beyond, "ABS(Seen.Milli - 40000) <= 200", 2000, {
         "Motor.Diagnosis.ReferenceLimited": True, "Running": True,
     })  # fmt: skip
-    yield Step("and below it again", {"SpeedReferenceHz": 35.0}, "Seen.Milli = 35000", 2000, {
+    yield Step("and below it again", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, {
         "Motor.Diagnosis.ReferenceLimited": False, "Seen.Starts": 1,
     })  # fmt: skip
 
@@ -193,7 +194,11 @@ def _turns_round() -> Iterator[Step]:
     yield Step("and waits for a new edge", ms=500, shows={"Seen.Starts": 1, "Reason": "HELD"})
     yield Step("released", {"RunReverse": False}, "Motor.Ready", 500)
     yield Step(
-        "a new edge", {"RunReverse": True}, "Motor.AtSpeed", 3000, {"Seen.Order": 6, "Seen.Milli = -30000": True}
+        "a new edge",
+        {"RunReverse": True},
+        "Motor.AtSpeed",
+        3000,
+        {"Seen.Order": 6, "ABS(Seen.Milli + 30000) <= 200": True},
     )
 
 
@@ -270,7 +275,7 @@ def _stronger(can: Ability) -> Iterator[Step]:
 
 
 def _jog_ends(can: Ability) -> Iterator[Step]:
-    yield Step("it jogs", {"JogForward": True}, "Seen.Milli = 5000", 1500, {"Seen.Order": 7})
+    yield Step("it jogs", {"JogForward": True}, "ABS(Seen.Milli - 5000) <= 200", 1500, {"Seen.Order": 7})
     ends = f"(Seen.StopKind = {4 if can.can('jog_stop') else 1}) AND ({TOLD})"
     yield Step("it ends", {"JogForward": False}, ends, 800)
     yield stand()
