@@ -32,7 +32,7 @@ def test_polls_feed_it_where_the_map_says_so(kind: str) -> None:
 @pytest.mark.parametrize("kind", ["PUL", "CIA"])
 def test_a_line_that_does_not_feed_it_says_so(kind: str) -> None:
     bench = fed(kind)
-    bench.spoil = lambda _, reply: None
+    bench.spoil = lambda *_: None
     bench.until(lambda: bench.reason() == "HEARTBEAT", 2 * TIME_MS)
 
 
