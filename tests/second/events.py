@@ -15,8 +15,10 @@ PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "SN300G5": 0x0200}
 WRITES = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
-ABSENT = 77
-"""A unit address that no drive has."""
+ABSENT = 29
+"""A unit address that no drive here has, and each could have."""
+FOREIGN = 54
+"""ErrorID: another master is on the line."""
 
 
 def nothing(_: Second, __: Random) -> None:
@@ -130,6 +132,28 @@ def _right(b: Second, _: Random) -> None:
 
 def _dead(b: Second, _: Random) -> None:
     b.deaf.add(1)
+
+
+def _dead_and_restart(b: Second, _: Random) -> None:
+    b.deaf.add(1)
+    b.restart()
+
+
+def _short_start(b: Second, _: Random) -> None:
+    _ready_again(b)
+    b.put(0, **{b.start_pin: True})
+
+
+def _no_line(b: Second, _: Random) -> None:
+    b.leave("SkipLine")
+
+
+def _line_again(b: Second, _: Random) -> None:
+    b.leave("SkipLine", on=False)
+
+
+def _turns_round(b: Second, _: Random) -> None:
+    b.models[0].turn_round(b.now)
 
 
 def _back(b: Second, _: Random) -> None:
@@ -267,10 +291,24 @@ def _strangers(b: Second, _: Random) -> None:
     b.strange = True
 
 
+def _rarely(ms: int) -> Does:
+    def does(b: Second, _: Random) -> None:
+        b.strange, b.strange_ms, b.strange_us = True, ms, b.now
+
+    return does
+
+
+def _few_gone(b: Second, _: Random) -> None:
+    """Four or fewer in ten seconds are none."""
+    if b.block["TheLine.ErrorID"] == FOREIGN:
+        b.judge.tell(0, "strangers", "a few of their frames, and ErrorID is theirs")
+    b.strange, b.strange_ms = False, 0
+
+
 def _strangers_gone(b: Second, _: Random) -> None:
-    if b.block["TheLine.ErrorID"] != 54 or b.shows("Ready"):
-        b.judge.tell(0, "strangers", f"5 s of their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
-    b.strange = False
+    if b.block["TheLine.ErrorID"] != FOREIGN or b.shows("Ready"):
+        b.judge.tell(0, "strangers", f"their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
+    b.strange, b.strange_ms = False, 0
     b.line(Acknowledge=True).run(100)
     b.line(Acknowledge=False)
 
@@ -287,6 +325,17 @@ def _too_fast(b: Second, _: Random) -> None:
     b.put(0, SpeedReferenceHz=70.0)
 
 
+AIMED = {
+    "frames of another master now and then": Event(_rarely(1100), 11_000, _strangers_gone, stops_all=True),
+    "few frames of another master": Event(_rarely(2900), 11_000, _few_gone, stops=False),
+    "a restart while it is dead": Event(_dead_and_restart, 12_000, _back, stops_all=True),
+    "a start of 60 ms": Event(_short_start, 60, _again),
+    "a start of 300 ms": Event(_short_start, 300, _again),
+    "the line is not called": Event(_no_line, 6000, _line_again, stops_all=True),
+    "the pin falls": Event(_again, 5000),
+    "the motor turns round": Event(_turns_round, 8000),
+}
+"""Events that look at one rule each."""
 LONG = ("nothing", "two stores")
 """Events that are no second ones: they take a minute of the bus, or none."""
 EVENTS: dict[str, Event] = {
