@@ -141,7 +141,8 @@ class Second(Bench):
         """A rising edge of a parameter block: where, and what."""
         if name.startswith("Reader"):
             self.models[index].ram[address] = value
-        pins = {"Address": address, "Value": value, "AllowUnknown": True}
+        listed = name.startswith("Reader")  # those rows are in every manual, which needs no permission
+        pins = {"Address": address, "Value": value, "AllowUnknown": not listed}
         for pin, given in pins.items() if not name.startswith("Storer") else ():
             if not (pin == "Value" and name.startswith("Reader")):
                 self.block[f"{name}.{pin}"] = given

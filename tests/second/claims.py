@@ -93,6 +93,8 @@ class Claim:
     """When it could last hear."""
     idle_us: int | None = None
     """Since when it stands, and nobody runs it."""
+    early: int = 0
+    """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
     """Looks in a row with a wrong reason."""
 
@@ -371,6 +373,8 @@ class Claims:
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
+        claim.early = claim.early + 1 if bench.reason(index) == "READY" and not bench.shows("Ready", index) else 0
+        self._once(index, "says ready", bad=claim.early > 1 and not bench.flicker)
         if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
             return
         reason, ready = bench.reason(index), bench.shows("Ready", index)

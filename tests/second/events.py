@@ -164,6 +164,15 @@ def _trip(b: Second, chance: Random) -> None:
     b.models[0].trip(FAULT[b.types[0]], b.now, cause=chance.random() < 0.3)
 
 
+def _trip_and_reset(b: Second, _: Random) -> None:
+    """... before it stands."""
+    b.release()
+    b.models[0].trip(FAULT[b.types[0]], b.now)
+    b.wait(lambda: b.shows("Fault"), 3000)
+    b.put(0, FaultReset=True).run(100)
+    b.put(0, FaultReset=False)
+
+
 def _power(on: bool) -> Does:
     return lambda b, _: b.models[0].power(on, b.now)
 
@@ -293,9 +302,18 @@ def _strangers(b: Second, _: Random) -> None:
 
 def _rarely(ms: int) -> Does:
     def does(b: Second, _: Random) -> None:
+        b.run(11_000)  # a round of what the line remembers
         b.strange, b.strange_ms, b.strange_us = True, ms, b.now
 
     return does
+
+
+def _acknowledged(b: Second, chance: Random) -> None:
+    """What a person has acknowledged, and goes on, is found again."""
+    _rarely(1100)(b, chance)
+    b.run(11_000)
+    b.line(Acknowledge=True).run(100)
+    b.line(Acknowledge=False)
 
 
 def _few_gone(b: Second, _: Random) -> None:
@@ -327,12 +345,17 @@ def _too_fast(b: Second, _: Random) -> None:
 
 AIMED = {
     "frames of another master now and then": Event(_rarely(1100), 11_000, _strangers_gone, stops_all=True),
+    "frames of another master go on": Event(_acknowledged, 9000, _strangers_gone, stops_all=True),
     "few frames of another master": Event(_rarely(2900), 11_000, _few_gone, stops=False),
     "a restart while it is dead": Event(_dead_and_restart, 12_000, _back, stops_all=True),
     "a start of 60 ms": Event(_short_start, 60, _again),
     "a start of 300 ms": Event(_short_start, 300, _again),
     "the line is not called": Event(_no_line, 6000, _line_again, stops_all=True),
     "the pin falls": Event(_again, 5000),
+    "a stall of 2 s, and time": Event(lambda b, _: b.stall(2000), 7000, stops_all=True),
+    "Enable is FALSE for long": pin("Enable", False, 11_000),
+    "a stop pin for long": pin("QuickStop", True, 11_000),
+    "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
 }
 """Events that look at one rule each."""

@@ -16,7 +16,7 @@ from random import Random
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
 from tests.second.matrix import Cell, Run, run
-from tests.second.sample import sample
+from tests.second.sample import aimed, sample
 from tests.second.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
@@ -96,13 +96,13 @@ def mutated(one: Mutant) -> Library | None:
 
 
 def ordered(one: Mutant, number: int) -> list[tuple[Cell, int]]:
-    """Cells of the sample: those of the drive that is changed, then those of few drives and long scans."""
+    """Cells that look at one rule, and of the sample: the changed drive's first, of few drives and long scans."""
 
     def dear(each: tuple[Cell, int]) -> tuple[bool, float]:
         row = Run(*each).row
         return not one.block.startswith((f"{each[0].family}_", "VFD_", "MB_")), row["size"] / row["ms"]
 
-    found = sample()
+    found = [*aimed(), *sample()]
     Random(number).shuffle(found)
     return sorted(found, key=dear)
 
