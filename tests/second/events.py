@@ -352,7 +352,7 @@ AIMED = {
     "a start of 300 ms": Event(_short_start, 300, _again),
     "the line is not called": Event(_no_line, 6000, _line_again, stops_all=True),
     "the pin falls": Event(_again, 5000),
-    "a stall of 2 s, and time": Event(lambda b, _: b.stall(2000), 7000, stops_all=True),
+    "a stall of 2 s and time after it": Event(lambda b, _: b.stall(2000), 7000, stops_all=True),
     "Enable is FALSE for long": pin("Enable", False, 11_000),
     "a stop pin for long": pin("QuickStop", True, 11_000),
     "a trip and its reset": Event(_trip_and_reset, 3000),

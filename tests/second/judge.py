@@ -118,7 +118,7 @@ class Asked:
             and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
         ):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
-        reads = error and self.name.startswith(READ)
+        reads = error and self.name.startswith(READ) and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
         if reads and judge.claims.well(self.index, bench.now - self.since_us + QUIET_US) and not mine:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
