@@ -61,6 +61,12 @@ class Second(Bench):
         self.models: list[Drive] = []
         self.strange = False
         """Another master speaks."""
+        self.strange_ms = 0
+        """How often; 0: by chance."""
+        self.strange_us = 0
+        """When it spoke last."""
+        self.lineless = False
+        """The line is not called."""
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
         self.restarts_contact = False
@@ -109,7 +115,9 @@ class Second(Bench):
     def leave(self, what: str, *, on: bool = True) -> "Second":
         """As there."""
         super().leave(what, on=on)
-        if what != "SkipLine":
+        if what == "SkipLine":
+            self.lineless = on
+        else:
             self.pins[int(what.removeprefix("Skip"))]["Left"] = on
         return self
 
@@ -133,7 +141,8 @@ class Second(Bench):
         """A rising edge of a parameter block: where, and what."""
         if name.startswith("Reader"):
             self.models[index].ram[address] = value
-        pins = {"Address": address, "Value": value, "AllowUnknown": True}
+        listed = name.startswith("Reader")  # those rows are in every manual, which needs no permission
+        pins = {"Address": address, "Value": value, "AllowUnknown": not listed}
         for pin, given in pins.items() if not name.startswith("Storer") else ():
             if not (pin == "Value" and name.startswith("Reader")):
                 self.block[f"{name}.{pin}"] = given
@@ -147,6 +156,13 @@ class Second(Bench):
     def contact(self) -> bool:
         """Whether the contact of the hard stop is closed."""
         return bool(self.seen & CONTACT)
+
+    @property
+    def promised_cut(self) -> int:
+        """CutToContactMs."""
+        value = self.block["TheLine.CutToContactMs"]
+        assert isinstance(value, int)
+        return value
 
     def reachable(self, drive: int) -> bool:
         """Whether the drive hears what is sent to the address of its pins."""
@@ -191,7 +207,9 @@ class Second(Bench):
             text, frame = self._garbled(text), None
         self.transmit(text, at, frame)
         self._later.append((at + CHAR_US * len(text), index, text))
-        if self.strange and self._happens(400):
+        often = self.now - self.strange_us >= 1000 * self.strange_ms if self.strange_ms else self._happens(400)
+        if self.strange and often:
+            self.strange_us = self.now
             other = ascii_frame(STRANGER) if self.ascii else rtu(STRANGER)
             self.transmit(other, at + CHAR_US * (len(text) + 6), None)
         if self._happens(self.faults.twice):

@@ -48,6 +48,16 @@ MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
 SHARED = 56
 """ErrorID: two drive blocks use the slot."""
+STANDS_US = 5_000_000
+"""From standstill, or a pin that stops, to StopConfirmed."""
+SILENT_US = 6_000_000
+"""A drive that does not answer is stopped again within this time: each second, in turn with others and its identity."""
+UNLINKED_CALLS = 100
+"""Calls of a drive block without one of the line, after which it says that there is none."""
+SAME_US = 400_000
+"""An acknowledged stop is sent again 500 ms after its acknowledgement."""
+JOG_ENDS = b"\x06\x10\x00\x00\x08"
+"""CHF: 1000H, 8 ends a jog, line 326 of its manual."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
 
@@ -77,6 +87,14 @@ class Claim:
     written_us: int = 0
     writes: deque[int] = field(default_factory=lambda: deque([0] * 6, maxlen=6))
     """When it was last written to."""
+    words: deque[tuple[int, bytes]] = field(default_factory=lambda: deque([(0, b"")] * 4, maxlen=4))
+    """The last writes."""
+    heard_us: int = 0
+    """When it could last hear."""
+    idle_us: int | None = None
+    """Since when it stands, and nobody runs it."""
+    early: int = 0
+    """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
     """Looks in a row with a wrong reason."""
 
@@ -89,14 +107,20 @@ class Claims:
         self.judge, self.bench = judge, judge.bench
         self.claims = [Claim() for _ in judge.units]
         self.doubled_us = -FOREIGN_US
-        self.requests = 0
+        self.retries: object = 0
+        self.unlinked = 0
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
         """A frame to a drive, without checksum."""
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (6, 16)
         self._kept(index, body)
+        shared = pins.get("Shared") and now_us - claim.changed_us > ATTEND_US
+        if shared and not writes and index + 1 not in self.bench.deaf:
+            self._once(index, "barred", bad=True, seen=body.hex())
         if writes:
+            self._again(now_us, index, claim, body)
+            self._jog(index, claim, body)
             self._first(now_us, index, claim, len(body))
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
@@ -130,6 +154,10 @@ class Claims:
         self._stop(index, claim, driven=driven)
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
+        turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
+        claim.idle_us = None if turns else (claim.idle_us or now)
+        if index == 0:
+            self.unlinked = self.unlinked + 1 if bench.lineless else 0
         if looks:
             self._look(index, claim, driven=driven)
 
@@ -144,6 +172,22 @@ class Claims:
         claim.armed_us = None
         if took > most and max(self.judge.late) <= MAX_SCAN_US:
             self.judge.tell(index, "first stop", f"after {took // 1000} ms, promised in {most // 1000}")
+
+    def _again(self, now_us: int, index: int, claim: Claim, body: bytes) -> None:
+        """The same word is not sent again and again to a drive that answers, and that nothing has happened to."""
+        claim.words.append((now_us, body))
+        one: Any = self.bench.models[index]
+        same = all(each == body for _, each in claim.words) and now_us - claim.words[0][0] < SAME_US
+        calm = now_us - claim.changed_us > QUIET_US and self.well(index, QUIET_US) and not self.bench.flicker
+        answers = one.o.not_in_command == "acknowledges" and now_us >= one.busy_us and not one.o.late_per_1000
+        self._once(index, "floods", bad=same and calm and answers, seen=body.hex())
+
+    def _jog(self, index: int, claim: Claim, body: bytes) -> None:
+        """The stop of the last order is sent first: after a jog its own, unless it is to coast."""
+        armed = claim.armed_us is not None and self.bench.models[index].jogging
+        coasts = self.bench.pins[index].get("CoastStop")
+        if armed and self.bench.types[index] == "CHF" and not coasts:
+            self._once(index, "jog stop", bad=body[1:6] != JOG_ENDS, seen=body.hex())
 
     def _kept(self, index: int, body: bytes) -> None:
         """Bits that no command uses are as KeepWord has them in every run word of SN300G5."""
@@ -254,6 +298,10 @@ class Claims:
     def _look(self, index: int, claim: Claim, *, driven: bool) -> None:
         bench, now = self.bench, self.bench.now
         self._probe(index, claim)
+        self._silent(index, claim)
+        alone = self.unlinked > UNLINKED_CALLS + 2 and not bench.pins[index].get("Left")
+        told = bench.shows("StopOverdue", index) and not bench.shows("CommOk", index)
+        self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
         shared = bool(bench.pins[index].get("Shared")) and now - claim.changed_us > ATTEND_US
         told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
         told = told or bool(bench.pins[index].get("SupplyOff"))
@@ -267,6 +315,7 @@ class Claims:
             self._reason(index, claim)
             self._fault(index, claim)
             self._able(index)
+            self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
         self._once(index, "refreshes", bad=bool(missed))
@@ -274,6 +323,24 @@ class Claims:
         age = bench.number("StatusAgeMs", index)
         idle = now - self.judge.units[index].unknown_us > CALM_US
         self._once(index, "age", bad=fast and idle and age > AGE_MS, seen=f"{age} ms")
+
+    def _stands(self, index: int, claim: Claim) -> None:
+        """A drive that has been standing for long, and that nobody starts, is shown so."""
+        bench, now = self.bench, self.bench.now
+        pins = bench.pins[index]
+        since = max(claim.idle_us or now, claim.changed_us, self.judge.units[index].unknown_us)
+        calm = now - since > STANDS_US and self.willing(index) and not bench.flicker and len(bench.models) < 8
+        held = any(pins.get(each) for each in RUN + JOG) and pins["Enable"]
+        quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
+        self._once(index, "stands", bad=bool(quiet and not bench.shows("StopConfirmed", index)))
+
+    def _silent(self, index: int, claim: Claim) -> None:
+        """The stop of a drive that does not answer is sent again and again."""
+        bench, now = self.bench, self.bench.now
+        if bench.hears(index) or not self.attended(index) or bench.pins[index].get("SupplyOff") or bench.lineless:
+            claim.heard_us = now
+        silent = now - max(claim.heard_us, claim.written_us) > SILENT_US and len(bench.models) < 8
+        self._once(index, "silent", bad=silent)
 
     def _speed(self, index: int, claim: Claim, *, driven: bool) -> None:
         """As fast as it is asked to be, once it had the time; and said to be."""
@@ -283,7 +350,8 @@ class Claims:
         assert isinstance(limit, float)
         asked = min(hz, limit or hz, 50.0)
         steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
-        runs = steady and any(pins.get(each) for each in RUN) and self.judge.observer.watches[index + 1].permitted
+        permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
+        runs = steady and any(pins.get(each) for each in RUN) and permitted
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
         self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
         shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
@@ -305,6 +373,8 @@ class Claims:
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
+        claim.early = claim.early + 1 if bench.reason(index) == "READY" and not bench.shows("Ready", index) else 0
+        self._once(index, "says ready", bad=claim.early > 1 and not bench.flicker)
         if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
             return
         reason, ready = bench.reason(index), bench.shows("Ready", index)
@@ -314,7 +384,8 @@ class Claims:
             right = True
         else:
             first = next((name for name, is_so in self._told(index) if is_so), None)
-            right = reason == first if first else reason != "READY" or ready
+            held = any(pins.get(each) for each in RUN + JOG)  # then nothing starts until it is released
+            right = reason == first if first else reason != "READY" or (ready and not held)
         claim.odd = 0 if right else claim.odd + 1
         self._once(index, "why", bad=claim.odd > 1, seen=reason)
         running = bench.shows("Running", index)
@@ -365,5 +436,9 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]
         self._once(0, "strange", bad=good and strange != 0, seen=f"{strange!r} foreign frames")
+        retries, steady = block["TheLine.Retries"], good and all(self.willing(i) for i in units)
+        plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)
+        self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
+        self.retries = retries
         asked = block["TheLine.Requests"]
         self._once(0, "counts", bad=asked != len(bench.frames), seen=f"{asked!r} of {len(bench.frames)} requests")

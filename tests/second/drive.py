@@ -126,6 +126,8 @@ class Drive:
         self.stopping, self.direction, self.jogging = "", 1, False
         self.itself = False
         """It runs by a command of the bus that it has taken up again: after a dip, a retry, an interlock, or LOCAL."""
+        self.turned = False
+        """Somebody has turned its direction round while the bus ran it."""
         self.reference_hz = 0.0
         self.commanded: str | None = None
         """The run or jog of the bus that stands, carried out or not."""
@@ -353,6 +355,7 @@ class Drive:
         if not self.output and self.o.start_us:
             self.hold_us = now_us + self.o.start_us
         self.output, self.by, self.stopping, self.direction, self.jogging = True, by, "", direction, jogging
+        self.turned = False
         self._aim(now_us)
 
     def _stop(self, how: str, now_us: int) -> None:
@@ -423,6 +426,13 @@ class Drive:
             self._run(1, False, "terminals", now_us)
         elif acts and self.by == "terminals":
             self._stop("ramp", now_us)
+
+    def turn_round(self, now_us: int) -> None:
+        """Somebody turns the direction of what the bus runs."""
+        self.advance(now_us)
+        if self.output and not self.stopping and self.by == "bus":
+            self.direction, self.turned = -self.direction, True
+            self._aim(now_us)
 
     def set(self, name: str, word: int, now_us: int) -> None:
         """Somebody sets a parameter at the keypad, which stores it: SN300G5 line 826."""

@@ -15,8 +15,10 @@ PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "SN300G5": 0x0200}
 WRITES = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
-ABSENT = 77
-"""A unit address that no drive has."""
+ABSENT = 29
+"""A unit address that no drive here has, and each could have."""
+FOREIGN = 54
+"""ErrorID: another master is on the line."""
 
 
 def nothing(_: Second, __: Random) -> None:
@@ -132,12 +134,43 @@ def _dead(b: Second, _: Random) -> None:
     b.deaf.add(1)
 
 
+def _dead_and_restart(b: Second, _: Random) -> None:
+    b.deaf.add(1)
+    b.restart()
+
+
+def _short_start(b: Second, _: Random) -> None:
+    _ready_again(b)
+    b.put(0, **{b.start_pin: True})
+
+
+def _no_line(b: Second, _: Random) -> None:
+    b.leave("SkipLine")
+
+
+def _line_again(b: Second, _: Random) -> None:
+    b.leave("SkipLine", on=False)
+
+
+def _turns_round(b: Second, _: Random) -> None:
+    b.models[0].turn_round(b.now)
+
+
 def _back(b: Second, _: Random) -> None:
     b.deaf.discard(1)
 
 
 def _trip(b: Second, chance: Random) -> None:
     b.models[0].trip(FAULT[b.types[0]], b.now, cause=chance.random() < 0.3)
+
+
+def _trip_and_reset(b: Second, _: Random) -> None:
+    """... before it stands."""
+    b.release()
+    b.models[0].trip(FAULT[b.types[0]], b.now)
+    b.wait(lambda: b.shows("Fault"), 3000)
+    b.put(0, FaultReset=True).run(100)
+    b.put(0, FaultReset=False)
 
 
 def _power(on: bool) -> Does:
@@ -267,10 +300,33 @@ def _strangers(b: Second, _: Random) -> None:
     b.strange = True
 
 
+def _rarely(ms: int) -> Does:
+    def does(b: Second, _: Random) -> None:
+        b.run(11_000)  # a round of what the line remembers
+        b.strange, b.strange_ms, b.strange_us = True, ms, b.now
+
+    return does
+
+
+def _acknowledged(b: Second, chance: Random) -> None:
+    """What a person has acknowledged, and goes on, is found again."""
+    _rarely(1100)(b, chance)
+    b.run(11_000)
+    b.line(Acknowledge=True).run(100)
+    b.line(Acknowledge=False)
+
+
+def _few_gone(b: Second, _: Random) -> None:
+    """Four or fewer in ten seconds are none."""
+    if b.block["TheLine.ErrorID"] == FOREIGN:
+        b.judge.tell(0, "strangers", "a few of their frames, and ErrorID is theirs")
+    b.strange, b.strange_ms = False, 0
+
+
 def _strangers_gone(b: Second, _: Random) -> None:
-    if b.block["TheLine.ErrorID"] != 54 or b.shows("Ready"):
-        b.judge.tell(0, "strangers", f"5 s of their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
-    b.strange = False
+    if b.block["TheLine.ErrorID"] != FOREIGN or b.shows("Ready"):
+        b.judge.tell(0, "strangers", f"their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
+    b.strange, b.strange_ms = False, 0
     b.line(Acknowledge=True).run(100)
     b.line(Acknowledge=False)
 
@@ -287,6 +343,22 @@ def _too_fast(b: Second, _: Random) -> None:
     b.put(0, SpeedReferenceHz=70.0)
 
 
+AIMED = {
+    "frames of another master now and then": Event(_rarely(1100), 11_000, _strangers_gone, stops_all=True),
+    "frames of another master go on": Event(_acknowledged, 9000, _strangers_gone, stops_all=True),
+    "few frames of another master": Event(_rarely(2900), 11_000, _few_gone, stops=False),
+    "a restart while it is dead": Event(_dead_and_restart, 12_000, _back, stops_all=True),
+    "a start of 60 ms": Event(_short_start, 60, _again),
+    "a start of 300 ms": Event(_short_start, 300, _again),
+    "the line is not called": Event(_no_line, 6000, _line_again, stops_all=True),
+    "the pin falls": Event(_again, 5000),
+    "a stall of 2 s and time after it": Event(lambda b, _: b.stall(2000), 7000, stops_all=True),
+    "Enable is FALSE for long": pin("Enable", False, 11_000),
+    "a stop pin for long": pin("QuickStop", True, 11_000),
+    "a trip and its reset": Event(_trip_and_reset, 3000),
+    "the motor turns round": Event(_turns_round, 8000),
+}
+"""Events that look at one rule each."""
 LONG = ("nothing", "two stores")
 """Events that are no second ones: they take a minute of the bus, or none."""
 EVENTS: dict[str, Event] = {

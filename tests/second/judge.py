@@ -30,6 +30,9 @@ STORE_US = 60_000_000
 """At most one store of a drive in that time, by the page of VFD_Store."""
 ANSWER_US = 2_000_000
 """Within this time a drive that can be reached has answered something."""
+ASKED_US = 20_000_000
+"""A parameter block has ended by then."""
+QUIET_US = 2_000_000
 CALM_US = 8_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
 GRACE_US = 3_000_000
@@ -99,7 +102,10 @@ class Asked:
         bench, one = judge.bench, judge.bench.models[self.index]
         done, error = bench.block[f"{self.name}.Done"], bench.block[f"{self.name}.Error"]
         if not (done or error):
-            return False
+            if bench.now - self.since_us <= ASKED_US:
+                return False
+            judge.tell(self.index, "parameter", f"{self.name} does not end")
+            return True
         bench.block[f"{self.name}.Execute"] = False
         mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
         if self.name.startswith(READ):
@@ -112,6 +118,11 @@ class Asked:
             and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
         ):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
+        reads = error and self.name.startswith(READ) and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
+        if reads and judge.claims.well(self.index, bench.now - self.since_us + QUIET_US) and not mine:
+            judge.tell(
+                self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
+            )
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
             judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
         return True
@@ -187,7 +198,9 @@ class Judge:
             one.advance(now)
         unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
         open_now = not bench.contact or self._boots(index)  # silence is no alarm yet
-        truth = Truth(hz, one.by, stopping=bool(one.stopping), contact_open=open_now, itself=one.itself)
+        truth = Truth(
+            hz, one.by, stopping=bool(one.stopping), contact_open=open_now, turned=one.turned, itself=one.itself
+        )
         shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
         self._reach(index, unit)
@@ -221,7 +234,8 @@ class Judge:
             unit.away_us = self.bench.now
         else:
             unit.reached_us = self.bench.now
-        lossy = self.bench.faults.lost or self.bench.faults.unanswered or self.bench.strange
+        faults = self.bench.faults
+        lossy = faults.lost or faults.unanswered or self.bench.strange or self.bench.lineless
         if lossy:  # a stop and its retries may be lost, and the connection with them
             unit.away_us = self.bench.now
         if unit.away_us == self.bench.now and not self.bench.pins[index].get("SupplyOff"):
@@ -255,8 +269,13 @@ class Judge:
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
-        late = unit.silent_since is not None and bench.now - unit.silent_since > CUT_US
+        most = min(CUT_US, 1000 * bench.promised_cut + 3 * max(self.late)) if self._all_dead(index) else CUT_US
+        late = unit.silent_since is not None and bench.now - unit.silent_since > most
         self.once(index, "cut", bad=late)
+
+    def _all_dead(self, index: int) -> bool:
+        """It is alone on the line, for which the line says how long it takes."""
+        return len(self.units) == 1 and not self.bench.pins[index].get("Shared")
 
     def _boots(self, index: int) -> bool:
         """It has not answered since the restart, which nobody can expect yet."""
@@ -284,7 +303,7 @@ class Judge:
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
         self.once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
-        if not good:
+        if not good or bench.lineless:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
         lag = LAG_US + max(self.late)

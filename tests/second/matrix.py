@@ -17,7 +17,7 @@ from tests.drives.station import FAMILIES
 from tests.second import pairs
 from tests.second.bench import Second
 from tests.second.drive import Drive
-from tests.second.events import EVENTS, FAULT, LONG, Event
+from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.station import SIZES, types_of
 
 from driveblocks.host.engine import Library
@@ -89,7 +89,8 @@ def named(name: str) -> Cell:
 
 def cells() -> list[Cell]:
     """All of them; CHF alone jogs, as the library knows the drives."""
-    return [Cell(*each) for each in product(FAMILIES, MODES, EVENTS, STATES) if each[1] != "jog" or each[0] in JOGS]
+    events = (*EVENTS, *AIMED)
+    return [Cell(*each) for each in product(FAMILIES, MODES, events, STATES) if each[1] != "jog" or each[0] in JOGS]
 
 
 @dataclass
@@ -273,7 +274,7 @@ class Run:
 
     def happen(self) -> None:
         """Both events, until both are over."""
-        b, first = self.bench, EVENTS[self.cell.event]
+        b, first = self.bench, (EVENTS | AIMED)[self.cell.event]
         due: list[tuple[int, Event, bool]] = [(b.now, first, True)]
         if self.second:
             due.append((b.now + 1000 * self.chance.choice(APART_MS), EVENTS[self.second], True))

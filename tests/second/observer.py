@@ -12,6 +12,9 @@ RUN, JOG = ("RunForward", "RunReverse"), ("JogForward", "JogReverse")
 STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "SupplyOff", "Left")
 """Pins that stop while they are TRUE; `Left` is for a block that is not called. Enable stops while it is FALSE."""
 
+TURNED_US = 1_000_000
+"""From the status that shows the other direction to the stop."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Figures:
@@ -42,6 +45,8 @@ class Truth:
     """The drive ramps it down to a stop, whoever has asked."""
     contact_open: bool = False
     """The hard stop has cut its supply."""
+    turned: bool = False
+    """Somebody else has turned its direction round, which the block must see and stop."""
     itself: bool = False
     """The drive has taken up a command by itself: no start of the block, which must stop it."""
 
@@ -60,6 +65,7 @@ class Watch:
     others_since: int | None = None
     most_hz: float = 0.0
     lowered_at: int = 0
+    turned_since: int | None = None
     interrupted: bool = False
     ended_us: int = 0
     """When it was last driven no longer, and whether it was permitted to be until then."""
@@ -143,7 +149,7 @@ class Observer:
 
     def _speed(self, now_us: int, unit: int, pins: Mapping[str, object], truth: Truth) -> None:
         """Not faster than asked, and not the other way round; a jog has a speed of its own."""
-        watch = self.watches[unit]
+        watch, figures = self.watches[unit], self.figures
         if not watch.driven or not any(pins.get(name) for name in RUN):
             watch.most_hz = 0.0
             return
@@ -160,4 +166,6 @@ class Observer:
         far = abs(truth.hz) > watch.most_hz + 0.01 * watch.most_hz + self.figures.still_hz
         wrong_way = truth.hz * (-1 if pins.get("RunReverse") else 1) < -self.figures.still_hz
         self._judge(now_us, unit, "speed", bad=far, seen=truth)
-        self._judge(now_us, unit, "direction", bad=wrong_way, seen=truth)
+        watch.turned_since = (watch.turned_since or now_us) if wrong_way and truth.turned else None
+        young = watch.turned_since is not None and now_us - watch.turned_since <= figures.unseen_us + TURNED_US
+        self._judge(now_us, unit, "direction", bad=wrong_way and not young, seen=truth)

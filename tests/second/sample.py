@@ -2,11 +2,22 @@
 
 from tests.drives.station import FAMILIES
 from tests.second import pairs
-from tests.second.events import EVENTS
+from tests.second.events import AIMED, EVENTS
 from tests.second.matrix import JOGS, MODES, STATES, Cell
 
 SIZE = 120
 """Cells of the sample."""
+
+
+def aimed() -> list[tuple[Cell, int]]:
+    """Cells of events that look at one rule each, for every family; seeds without a second event."""
+    found = [
+        (Cell(family, "full control", event, state), seed)
+        for event in AIMED
+        for family in FAMILIES
+        for state, seed in (("standing", 0), ("at speed", 2))
+    ]
+    return [each for each in found if each[0].event != "the motor turns round" or each[0].state == "at speed"]
 
 
 def sample() -> list[tuple[Cell, int]]:

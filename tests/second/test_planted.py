@@ -6,16 +6,20 @@ from tests.second.station import built
 
 from driveblocks.host.embedded.engine import EmbeddedEngine
 
-ENDS = "EndsByAnswer := NOT MayMove AND (Proved OR MonitorOnly OR SpeedOnly);"
+ENDS = "EndsByAnswer := NOT Send.MayMove AND (Send.Proved OR Asked.MonitorOnly OR Asked.SpeedOnly);"
+TWO_STOPS = """  Orders(Order := RAMP_STOP, StepNumber := 0);
+  Slot.StopRegister := Orders.Register;
+  Slot.StopWord := Orders.Value;
+  Orders(Order := JOG_STOP"""
 PLANTED = (
     # the end of a jog is what the line sends for a block that is not called
-    ("Slot.StopWord := WORD#16#0005;", "Slot.StopWord := WORD#16#0008;",
+    (TWO_STOPS, TWO_STOPS.replace("RAMP_STOP", "JOG_STOP"),
      "CHF, full control, block not called for 12 s, at speed", {"stop", "prompt"}),
     # a stop in a mode that only reads, or only gives the reference, ends by proof alone, which there is none of
-    (ENDS, ENDS.replace("MonitorOnly OR ", ""), "JSCC, MonitorOnly, nothing, at speed", {"contact", "close"}),
-    (ENDS, ENDS.replace(" OR SpeedOnly", ""), "JSCC, SpeedOnly, StopAll pulse, at speed", {"contact", "close"}),
+    (ENDS, ENDS.replace("Asked.MonitorOnly OR ", ""), "JSCC, MonitorOnly, nothing, at speed", {"contact", "close"}),
+    (ENDS, ENDS.replace(" OR Asked.SpeedOnly", ""), "JSCC, SpeedOnly, StopAll pulse, at speed", {"contact", "close"}),
     # the mode is taken in the call of the restart, and no stop is sent
-    ("PostStop := MustStop OR Follows OR Repeats;", "PostStop := (MustStop OR Follows OR Repeats) AND NOT SpeedOnly;",
+    ("PostStop := Round.Posts;", "PostStop := Round.Posts AND NOT Asked.SpeedOnly;",
      "CHF, full control, Restart into SpeedOnly, at speed", {"stop", "prompt"}),
 )  # fmt: skip
 SEEDS = 6

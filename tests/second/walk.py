@@ -6,7 +6,7 @@
 import sys
 from random import Random
 
-from tests.second.events import EVENTS, LONG
+from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import Outcome, Run, cells
 
 from driveblocks.host.engine import Library
@@ -45,7 +45,7 @@ class Walk(Run):
 def walk(seed: int, stations: Library | None = None) -> Outcome:
     """Walk a seed."""
     chance = Random(f"second {seed}")
-    cell = chance.choice([each for each in cells() if each.event not in LONG])
+    cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED)])
     return Walk(cell, seed, stations).go()
 
 
