@@ -15,6 +15,7 @@ from driveblocks.st.tree import (
     For,
     FunctionBlock,
     If,
+    Literal,
     Member,
     Name,
     Qualified,
@@ -24,7 +25,7 @@ from driveblocks.st.tree import (
     VarKind,
     While,
 )
-from driveblocks.st.walk import expressions
+from driveblocks.st.walk import expressions, statements
 
 RULE = "taken-back"
 
@@ -51,6 +52,7 @@ def pou(scope: Scope) -> None:
         if block.kind in (VarKind.LOCAL, VarKind.OUTPUT)
         for variable in block.variables
     }
+    own -= _counters(scope.pou.body)
     kept = _kept(scope.pou.body, own)
     _Walk(scope, own, kept).walk(scope.pou.body, {})
 
@@ -117,6 +119,24 @@ class _Walk:
                 if each != but:
                     made[each] = Stage.GIVEN if made.get(each, Stage.OLD) >= Stage.DECIDED else Stage.USED
         return made
+
+
+def _counters(body: list[Statement]) -> set[str]:
+    """What loops end by and move on, and what is nowhere given another value than a literal or its own, moved on."""
+    counters: set[str] = set()
+    others: set[str | None] = set()
+    for statement in statements(body):
+        if isinstance(statement, While | RepeatUntil):
+            counters |= set(_paths([statement.condition])) & _moved(statement.body)
+        elif isinstance(statement, Assign) and not (isinstance(statement.value, Literal) or _moved([statement])):
+            others.add(path(statement.target))
+    return counters - others
+
+
+def _moved(body: list[Statement]) -> set[str | None]:
+    """What the statements assign from itself."""
+    assigns = [each for each in statements(body) if isinstance(each, Assign)]
+    return {path(each.target) for each in assigns if path(each.target) in set(_paths([each.value]))}
 
 
 def _written(value: Expression) -> str:
