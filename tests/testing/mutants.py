@@ -121,7 +121,8 @@ def _parts(plain: str, begins: int) -> Iterator[tuple[str, int, int, str]]:
 
 def drawn(seed: int) -> Iterator[Mutant]:
     """All changes in the order of a seed, kinds in turn, so that none is rare."""
-    random, by_kind = Random(seed), {}
+    random = Random(seed)
+    by_kind: dict[str, list[Mutant]] = {}
     for one in every():
         by_kind.setdefault(one.kind, []).append(one)
     for kind in sorted(by_kind):

@@ -73,7 +73,8 @@ def _asked(drive: Drive, frame: Frame, means: Means) -> Iterator[Step]:
         "Slots[0].ExceptionAdd": 0 if form.address is not None else form.added,
         "Slots[0].ErrorFunction": form.function or 0, "Slots[0].ErrorAddress": word(form.address or 0),
         "Slots[0].Ask[3].FunctionCode": 3, "Slots[0].Ask[3].Address": word(min(readable(drive))),
-        "Slots[0].Ask[3].Quantity": 1, "Slots[0].Ask[3].Number": 16, "Slots[0].Ask[0].Number": "Slots[0].Answer[0].Number",
+        "Slots[0].Ask[3].Quantity": 1, "Slots[0].Ask[3].Number": 16,
+        "Slots[0].Ask[0].Number": "Slots[0].Answer[0].Number",
     }  # fmt: skip
     yield Step("the port is learned by reads", slot, "Bus.Echo = 1", 3000, {"Bus.Error": False})
     yield Step("the line is quiet", {"Slots[0].Ask[3].Number": 0}, ms=200, shows={"TxCount = 0": True})
