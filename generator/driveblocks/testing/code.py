@@ -78,5 +78,6 @@ WORDS = {
     "LOST": "the answer is lost",
     "TOO_SOON": "too soon",
     "BAD_SETTING": "a setting is 65535 where nothing can be off",
+    "OTHER_DRIVE": "another kind of drive is at the address",
 }
 """What a result means, in the comments of the test programs."""
