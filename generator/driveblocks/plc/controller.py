@@ -89,7 +89,7 @@ class Controller:
 
     def unit(self, block: DriveBlock) -> int:
         """The unit address that a drive block uses; 0 before its first call, or where it has none."""
-        return self.number(f"{block.path}.Unit")
+        return self.number(f"{block.path}.Unit.Served")
 
     def drive(self, block: DriveBlock) -> Drive:
         """The map of a drive block."""

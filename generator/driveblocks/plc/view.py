@@ -50,7 +50,7 @@ def _seen(controller: Controller, path: str) -> Seen:
     reason = known(pin["Reason"], int)
     return Seen(
         name=path,
-        unit=controller.number(f"{path}.Unit"),
+        unit=controller.number(f"{path}.Unit.Served"),
         state=_state(pin),
         asked_hz=asked,
         hertz=hertz if pin["Diagnosis.OutputFrequencyValid"] else None,
