@@ -22,7 +22,7 @@ def ask(program: Controller, keyboard: Keyboard) -> frozenset[tuple[int, str]]:
 def _let_run(program: Controller, keyboard: Keyboard, unit: int, path: str) -> bool:
     if _typed(f"REAL PORT. To let {path} run, type its name and its unit address: ", keyboard) != f"{path} {unit}":
         return False
-    if program.number(f"{path}.WatchdogMs"):
+    if program.number(f"{path}.Usual.WatchdogMs"):
         return True
     lone = f"{path} has no watchdog (its WatchdogMs is 0): it runs on when this computer fails."
     return _typed(f"{lone}\nIf a hard stop is wired, type {WIRED}: ", keyboard) == WIRED
