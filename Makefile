@@ -57,7 +57,7 @@ exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^
 ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
 	$(PY) -m tests.commands.ci_jobs
 
-line:                 ## the line at length on a virtual RS-485 line: 10^6 random stop scenarios, planted mistakes; writes docs/line.md
+line:                 ## the line at length on a virtual RS-485 line: 10^6 random stop scenarios, planted mistakes; writes docs/measured/line.md
 	$(PY) -m tests.line.long --page
 
 drives:               ## drive blocks at length: planted mistakes, the matrix, 10^5 random walks, 24 hours of bus per family (matiec: faster)
@@ -72,7 +72,7 @@ linux-line:           ## an hour of a soft PLC by matiec against the simulator, 
 desk-line:            ## an hour of `driveblocks run` at pymodbus's server over pseudo-terminals, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.deskplc $(or $(SECONDS),3600)
 
-bench:                ## every figure, side by side in one run; writes docs/performance.md
+bench:                ## every figure, side by side in one run; writes docs/measured/performance.md
 	$(PY) -m tests.bench.run
 
 release:              ## one archive per platform from blocks/ into dist/, the same bytes each time

@@ -236,7 +236,7 @@ def test_links_and_pictures_are_there_and_pictures_are_whole() -> None:
 
 
 def test_figures_of_the_line_follow_its_formula() -> None:
-    """JSCC at 9600, worked out by hand from docs/line.md."""
+    """JSCC at 9600, worked out by hand from the formula of docs/line.md."""
     rows = re.findall(
         r"^\| 9600 8N1, (the \w+) keeps the silence \| (\d+) ms \| (\d+) ms \| (\d+) ms \|", page("JSCC"), re.M
     )
