@@ -303,7 +303,7 @@ class Story:
 
 def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
     """Columns without what only the picture has."""
-    return [replace(each, speed=(0.0, 0.0), event="") for each in columns]
+    return [replace(each, speed=(0.0, 0.0), shaft=None, event="") for each in columns]
 
 
 @every_family
