@@ -9,8 +9,8 @@ from itertools import groupby, pairwise
 from operator import itemgetter
 
 from driveblocks.docs.canvas import Canvas
-from driveblocks.docs.states import STATES
 from driveblocks.maps.model import Drive
+from driveblocks.render.reasons import STATES
 from driveblocks.simulator.pattern import of_condition
 
 Speed = tuple[float, float]
