@@ -9,16 +9,18 @@ from typing import Any
 from driveblocks.host.embedded import standard_blocks
 from driveblocks.host.embedded.calls import function_name
 from driveblocks.host.embedded.certainty import present
+from driveblocks.host.embedded.expressions import TERMS
 from driveblocks.host.embedded.faults import Accesses
 from driveblocks.host.embedded.invocation import body_name
 from driveblocks.host.embedded.operands import c_moment
+from driveblocks.host.embedded.parts import body_of, stored
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.runtime import namespace
 from driveblocks.host.embedded.scope import GLOBALS, SELF, Options, Scope, UnsupportedError
 from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar, record_class
 from driveblocks.host.embedded.standard_blocks import Run
-from driveblocks.host.embedded.statements import Statements
+from driveblocks.host.embedded.statements import STATEMENTS, returned_value
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import is_integral
 from driveblocks.host.embedded.usage import callees, has_loop, touched
@@ -98,7 +100,7 @@ class Compiler:
         if isinstance(expression, tree.Name | tree.Qualified) and isinstance(expression.symbol, EnumValue):
             return expression.symbol.number
         scope = self._scope(None, Pen(tree.Unit("", "", [], [], [0], [])))
-        node = Statements(scope).stored(expression, kind).node
+        node = stored(scope, expression, kind).node
         code = compile(ast.Expression(node), "<initial value>", "eval")
         return eval(code, self.objects, {})  # noqa: S307 - our own compiled code
 
@@ -119,7 +121,7 @@ class Compiler:
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
         ranges = Ranges(trusted=self.options.model != "c")
-        return Scope(pou, self.options, pen, self.shapes, self.accesses, ranges, self.objects)
+        return Scope(pou, self.options, pen, self.shapes, self.accesses, ranges, self.objects, TERMS, STATEMENTS)
 
     def _note_loops(self, pou: tree.Pou, key: tree.Function | Block) -> None:
         if has_loop(pou.body) or callees(pou.body) & self.looping:
@@ -134,15 +136,14 @@ class Compiler:
         self._note_loops(function, function)
         pen = Pen(present(function.unit))
         scope = self._scope(function, pen)
-        statements = Statements(scope)
         written = touched(function.body)
         body: list[ast.stmt] = []
         for each in function.symbols.values():
             pen.move(each.at)
             body += self._prepared(scope, each, each in written)
-        body += statements.body(function.body)
+        body += body_of(scope, function.body)
         pen.move(function.at)
-        body.append(pen.leave(statements.returned_value()))
+        body.append(pen.leave(returned_value(scope)))
         inputs = (VarKind.INPUT, VarKind.IN_OUT)
         parameters = [each.name.upper() for each in function.symbols.values() if each.kind in inputs]
         self._define(pen, function_name(function), parameters, body)
@@ -191,7 +192,7 @@ class Compiler:
             pen.move(each.at)
             if each.kind is VarKind.TEMP:
                 body += self._prepared(scope, each, False)
-        body += Statements(scope).body(pou.body)
+        body += body_of(scope, pou.body)
         pen.move(pou.at)
         self._define(pen, body_name(block), [SELF], body)
 

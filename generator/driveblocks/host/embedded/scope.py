@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from driveblocks.host.coverage import Outcome
 from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.faults import Access, Accesses
+from driveblocks.host.embedded.floats import Floats
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.shapes import Shapes
 from driveblocks.host.embedded.syntax import Pen
+from driveblocks.host.embedded.terms import Term
+from driveblocks.host.embedded.widths import Widths
 from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
 from driveblocks.st.tree import VarKind
@@ -40,6 +44,20 @@ class Options:
 
 
 @dataclass(slots=True)
+class OpenLoop:
+    """A loop that is being compiled: what CONTINUE has to do first, and what is known at every EXIT and CONTINUE."""
+
+    before_continue: Callable[[], list[ast.stmt]]
+    exits: list[Ranges] = field(default_factory=list)
+    continues: list[Ranges] = field(default_factory=list)
+
+
+# How each kind of expression and of statement is compiled; the functions compile the parts by `parts`.
+Terms = Mapping[type[tree.Expression], Callable[["Scope", Any], Term]]
+Statements = Mapping[type[tree.Statement], Callable[["Scope", Any], list[ast.stmt]]]
+
+
+@dataclass(slots=True)
 class Scope:
     """The state of compiling one POU."""
 
@@ -50,8 +68,18 @@ class Scope:
     accesses: Accesses
     ranges: Ranges
     objects: dict[str, Any]
+    terms: Terms
+    statements: Statements
     hoisted: set[tree.VarDecl] = field(default_factory=set)
+    loops: list[OpenLoop] = field(default_factory=list)
     temporaries: int = 0
+    widths: Widths = field(init=False)
+    floats: Floats = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Bring terms to values as the model has it."""
+        self.widths = Widths(self.model, self.pen, self.fresh)
+        self.floats = Floats(self.model, self.pen)
 
     @property
     def model(self) -> Overflow:

@@ -23,9 +23,11 @@ class TooManyProblemsError(Exception):
 
 
 class Cursor:
-    """Walks over tokens. `i` is the index of the next one."""
+    """Walks over tokens: all that the functions of the grammar share. `i` is the index of the next token."""
 
-    __slots__ = ("ats", "before", "depth", "i", "kinds", "notes", "operators", "problems", "texts", "tokens")
+    __slots__ = (
+        "ats", "before", "depth", "i", "kinds", "notes", "operators", "problems", "texts", "tokens", "type_blocks",
+    )  # fmt: skip
 
     def __init__(self, tokens: Tokens) -> None:
         """Stand before the first token."""
@@ -36,6 +38,7 @@ class Cursor:
         self.i = 0
         self.depth = 0
         self.operators = 0
+        self.type_blocks = 0
 
     def problem(self, index: int, text: str, rule: str = "syntax") -> None:
         """Note a problem at a token; a second one at the same place is an echo of the first. TooManyProblemsError."""
