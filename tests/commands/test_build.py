@@ -132,6 +132,14 @@ def test_an_older_output_with_the_same_files_is_taken_over() -> None:
     assert Path("out/iec61131/one").is_dir(), "a folder that was there before is not the generator's"
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_pipe_is_no_manifest() -> None:
+    Path("out").mkdir()
+    os.mkfifo(Path("out", manifest.NAME))
+    result = run("one.yaml", "-o", "out")
+    assert (result.exit_code, "not the list that this version" in result.stderr) == (2, True)
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -139,6 +147,9 @@ def test_an_older_output_with_the_same_files_is_taken_over() -> None:
         '{"format": 1, "maps": [], "files": {"../one.yaml": "0"}, "folders": []}',
         '{"format": 1, "maps": [], "files": {}, "folders": ["/"]}',
         '{"format": 1, "maps": [1], "files": {}, "folders": []}',
+        '{"format": 1, "maps": ["/a\\u0000.yaml"], "files": {}, "folders": []}',
+        '{"format": 1, "maps": [], "files": {}, "folders": ["a\\u0000b"]}',
+        '{"format": 1, "maps": [], "files": {}, "folders": "iec61131"}', "[" * 100_000,
     ],
 )  # fmt: skip
 def test_a_manifest_that_is_none_is_refused(text: str) -> None:
