@@ -1,6 +1,7 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
+import os
 import re
 import subprocess
 import sys
@@ -109,6 +110,11 @@ REFUSED = [
     ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC leaves open: ReferenceScale"),
     ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
     ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
+    ("my.st --trace my.st", "my.st: there is a file that no run has written; name a new one, or move it away"),
+    ("my.st --picture my.st", "my.st: there is a file that no run has written"),
+    ("my.st --trace x --picture x", "--trace and --picture both name x; name two files"),
+    (".", ".:1:1: cannot be read: it is no file"),
+    ("my.st --script .", ".:1:1: cannot be read: it is no file"),
     ("my.st --port no-such-port", "no-such-port: "),
     ("my.st --port x --format 9X9", "--format 9X9 is none; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
 ]  # fmt: skip
@@ -135,7 +141,9 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
 def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
     Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
     files = ("--trace", "t.csv", "--picture", "t.svg")
-    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf:60,jscc@7")
+    words = (program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf:60,jscc@7")
+    assert run(*words).exit_code == 0
+    result = run(*words)  # over what the first one wrote
     assert (result.exit_code, result.output[-1:]) == (0, "\n")
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
@@ -194,6 +202,23 @@ def test_what_could_not_be_confirmed_is_told_before_a_file_that_cannot_be_writte
     result = run(program, "--fast", "--for", "1s", "--picture", "folder")
     assert result.exit_code == 2
     assert "SIMULATED  stopped, and standstill read: Motor\n" in result.output
+
+
+def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path) -> None:
+    Path("mine.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg">\n</svg>\n', encoding="utf-8")
+    before = {path: path.read_bytes() for path in Path().iterdir()}
+    for option in ("--trace", "--picture"):
+        for name in ("mine.svg", "my.st"):
+            assert run(program, "--fast", "--for", "1s", option, name).exit_code == 2
+    assert {path: path.read_bytes() for path in Path().iterdir()} == before
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_pipe_is_no_program_and_no_script(program: Path) -> None:
+    os.mkfifo("pipe")
+    for words in (("pipe",), (program, "--script", "pipe")):
+        result = run(*words)
+        assert (result.exit_code, result.stderr) == (2, "pipe:1:1: cannot be read: it is no file\n")
 
 
 def test_a_first_scan_that_does_not_end_is_refused(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -69,6 +69,8 @@ def wrong(options: Options) -> Iterator[str]:
         )
     if options.allow_run and not options.real:
         yield "--allow-run is for a real port; simulated drives may always run"
+    if options.trace is not None and options.trace == options.picture:
+        yield f"--trace and --picture both name {options.trace}; name two files"
     if options.fast and (options.tcp or options.port):
         yield "--fast is for simulated drives; a port has its own time"
     if options.fast and not options.demo and options.length is None:

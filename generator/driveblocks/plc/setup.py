@@ -82,12 +82,7 @@ class Setup:
     def _load(self) -> source.Loaded:
         name = console.name(catalog.shown(self._path))
         try:
-            text = self._path.read_text(encoding="utf-8-sig")
-        except (OSError, UnicodeDecodeError) as error:
-            why = (error.strerror or str(error)) if isinstance(error, OSError) else "it is not UTF-8; save it as such"
-            raise Refused(f"{name}:1:1: cannot be read: {why}") from None
-        try:
-            return source.load(name, text, self._maps, self._options.name)
+            return source.load(name, _text(self._path, name), self._maps, self._options.name)
         except BuildError as error:
             raise Refused(str(error)) from None
 
@@ -235,10 +230,9 @@ class Setup:
         path = self._options.script
         if path is None:
             return []
+        name = console.name(path)
         try:
-            return script.read(console.name(path), path.read_text(encoding="utf-8"), controller.instance)
-        except (OSError, UnicodeDecodeError) as error:
-            raise Refused(f"{console.name(path)}:1:1: cannot be read: {error}") from None
+            return script.read(name, _text(path, name), controller.instance)
         except script.ScriptError as error:
             raise Refused(str(error)) from None
 
@@ -327,6 +321,18 @@ class Setup:
         _print("".join(f"{line}\n" for line in (*lines, *filter(None, files))))
         failed = any(each.failed for each in self._session.recorders)
         return self._status(result) or (2 if failed else 0)
+
+
+def _text(path: Path, name: str) -> str:
+    """The text of a plain file: a pipe would be waited for. Raises Refused."""
+    try:
+        if path.exists() and not path.is_file():
+            raise Refused(f"{name}:1:1: cannot be read: it is no file")
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise Refused(f"{name}:1:1: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise Refused(f"{name}:1:1: cannot be read: it is not UTF-8; save it as such") from None
 
 
 def _print(text: str) -> None:
