@@ -23,6 +23,7 @@ from driveblocks.plc import demo, departure, setup, source
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
+from driveblocks.plc.screen import Lines
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.bus import Bus
@@ -211,6 +212,19 @@ def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path
         for name in ("mine.svg", "my.st"):
             assert run(program, "--fast", "--for", "1s", option, name).exit_code == 2
     assert {path: path.read_bytes() for path in Path().iterdir()} == before
+
+
+def test_a_lost_output_is_no_failure_of_the_program(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = Lines.say
+
+    def lost(screen: Lines, text: str) -> None:
+        if "stands" in text:
+            raise BrokenPipeError(32, "Broken pipe")
+        said(screen, text)
+
+    monkeypatch.setattr(Lines, "say", lost)
+    result = run(program, "--fast", "--for", "1s")
+    assert (result.exit_code, result.output.splitlines()[-1]) == (0, "SIMULATED  stopped, and standstill read: Motor")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")

@@ -286,13 +286,17 @@ class Setup:
 
         def also(at_us: int) -> None:
             step(at_us)
-            live.tell(session, screen)
-            if session.view is not None:
-                screen.show(session.view)
+            try:
+                live.tell(session, screen)
+                if session.view is not None:
+                    screen.show(session.view)
+            except (OSError, ValueError) as error:
+                session.ending.ask(f"the screen has failed: {error}")
 
         session.step = also
         result = session.run(self._for_us)
-        live.tell(session, screen)
+        with suppress(OSError, ValueError):
+            live.tell(session, screen)
         return result
 
     def _settled(self, result: Result) -> None:
