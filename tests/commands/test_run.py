@@ -20,13 +20,13 @@ from typer.testing import CliRunner, Result
 from driveblocks.commands import run as command
 from driveblocks.maps import collection
 from driveblocks.plc import demo, departure, setup, source
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
 from driveblocks.plc.screen import Lines
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import TcpLink
 
 app = typer.Typer()
@@ -114,6 +114,8 @@ REFUSED = [
     ("my.st --trace my.st", "my.st: there is a file that no run has written; name a new one, or move it away"),
     ("my.st --picture my.st", "my.st: there is a file that no run has written"),
     ("my.st --trace x --picture x", "--trace and --picture both name x; name two files"),
+    ("my.st --scenario no.yaml", "no.yaml:1:1: this file cannot be read"),
+    ("my.st --tcp :1 --simulated --scenario x", "--scenario is for drives that this run simulates"),
     (".", ".:1:1: cannot be read: it is no file"),
     ("my.st --script .", ".:1:1: cannot be read: it is no file"),
     ("my.st --port no-such-port", "no-such-port: "),
@@ -203,6 +205,17 @@ def test_what_could_not_be_confirmed_is_told_before_a_file_that_cannot_be_writte
     result = run(program, "--fast", "--for", "1s", "--picture", "folder")
     assert result.exit_code == 2
     assert "SIMULATED  stopped, and standstill read: Motor\n" in result.output
+
+
+def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
+    Path("day.yaml").write_text("- at 3 s: trip 4 7\n- at 5 s: clear\n- at 7 s: reset\n", encoding="utf-8")
+    Path("run.txt").write_text("at 1s: Start := TRUE\n", encoding="utf-8")
+    result = run(program, *FAST, "--scenario", "day.yaml", "--show", "Motor.FaultCode")
+    assert result.exit_code == 0
+    lines = result.output.splitlines()
+    assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
+        place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
+    )
 
 
 def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path) -> None:

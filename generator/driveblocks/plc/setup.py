@@ -13,20 +13,21 @@ from driveblocks.host.engine import BuildError, ScanError
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, permission, port, recorder, script, source, wiring
+from driveblocks.plc import demo, live, permission, port, recorder, scenario, script, source, wiring
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import Clock, RealClock, VirtualClock
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
+from driveblocks.plc.play import Play
 from driveblocks.plc.port import Port, WirePort
 from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
@@ -61,6 +62,8 @@ class Setup:
         self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
+        if console.terminal().is_terminal:
+            console.write(f"{self.label}  compiling {console.name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
         self._probe = self._probed()
@@ -68,6 +71,7 @@ class Setup:
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
+        self._session.play = self._play()
         self._records()
         self._free = self._allowed()
 
@@ -166,13 +170,30 @@ class Setup:
         if isinstance(self._clock, VirtualClock) or self._options.demo:
             drives = [one.made(ascii_mode=ascii_mode) for one in wanted]
             if self._options.demo:
-                self._play(drives)
-            return WirePort(Wire(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock))
+                self._show(drives)
+            bus, clock = Bus(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock)
+            self._acts(lambda happening: bus.happen(happening.act, clock.now_us()))
+            return WirePort(bus, clock)
         process = Simulation(wanted, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
+        self._acts(process.happen)
         return port.tcp(LOOPBACK[1], process.port, self._clock)
 
-    def _play(self, drives: list[SimulatedDrive]) -> None:
+    def _play(self) -> Play | None:
+        """What happens to simulated drives; None where nobody can know what they are. Raises Refused."""
+        path, drives = self._options.scenario, {one.unit: one.drive for one in self._wanted}
+        if self._options.tcp or self._options.port or self._options.demo:
+            return None
+        try:
+            return Play(drives, scenario.read(path, drives) if path else ())
+        except MapError as error:
+            raise Refused(str(error)) from None
+
+    def _acts(self, act: Callable[[scenario.Happening], None]) -> None:
+        if self._session.play is not None:
+            self._session.play.act = act
+
+    def _show(self, drives: list[SimulatedDrive]) -> None:
         for drive in drives:
             drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
         self._demo = demo.Demo(self._session, drives[-1])
