@@ -375,3 +375,10 @@ def test_after_a_killed_build_check_tells_and_the_next_build_goes_on() -> None:
     assert result.exit_code == 0
     assert result.stderr == "out: took back a build that was interrupted\n"
     assert files("out") == FILES | {"iec61131/one/EX100.st"}
+
+
+def test_a_named_map_takes_the_place_of_the_shipped_one_that_a_folder_was_built_from() -> None:
+    good("chf", "-o", "out")
+    put("invt_chf.yaml", (ROOT / "vendor_maps/invt_chf.yaml").read_text(encoding="utf-8"))
+    good("invt_chf.yaml", "one.yaml", "-o", "out")
+    assert manifest.read(Path("out")).maps == ("../invt_chf.yaml", "../one.yaml")

@@ -18,7 +18,7 @@ from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
 
 from driveblocks.commands import run as command
-from driveblocks.maps import collection
+from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
 from driveblocks.plc.bus import Bus
 from driveblocks.plc.controller import Controller
@@ -216,6 +216,18 @@ def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
     assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
         place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
     )
+
+
+@pytest.mark.parametrize("name", ["invt_chf.yaml", "mine.yaml"])
+def test_a_named_map_takes_the_place_of_the_shipped_one(program: Path, name: str) -> None:
+    shipped = catalog.resolve("chf")
+    Path(name).write_text(shipped.read_text(encoding="utf-8"), encoding="utf-8")
+    program.write_text(ONE.replace("JSCC", "CHF"), encoding="utf-8")
+    for simulate in ((), ("chf@7",), (f"{name}@7",)):
+        maps = () if simulate == (f"{name}@7",) else (name,)
+        made = Setup(Options(program=program, maps=maps, simulate=simulate, fast=True, length="1s"), Keyboard(0))
+        assert [one.path for one in made._wanted] == [Path(name)]
+        assert shipped not in [each.path for each in made._maps]
 
 
 def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path) -> None:

@@ -131,10 +131,12 @@ def _refusal(folder: Path, plan: Plan, names: list[str]) -> str:
 def _others(folder: Path, old: Manifest, named: list[Path]) -> list[Path]:
     """Maps that the folder was built from and that are not named. Raises Refused for those that are gone.
 
-    A named map takes the place of one of the same file name that is gone: it has been moved.
+    A named map takes the place of one of the same file name that is gone: it has been moved. It takes that of a
+    shipped one with its file name or prefix, too.
     """
     known, stems = {path.resolve() for path in named}, {path.stem for path in named}
-    paths = [path for path in (_path(word, folder) for word in old.maps) if path.resolve() not in known]
+    built = [path for path in (_path(word, folder) for word in old.maps) if path.resolve() not in known]
+    paths = [path for path in built if catalog.displacing(path, named) == path]
     if gone := [path for path in paths if not path.exists() and path.stem not in stems]:
         lines = [f"{path}: not there; {folder} was built from it as well" for path in gone]
         raise Refused("\n".join([*lines, "name the map where it is now, or build without it by --only"]))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from driveblocks import console
 from driveblocks.host.engine import BuildError, ScanError
-from driveblocks.maps import catalog, collection
+from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
 from driveblocks.plc import demo, live, permission, port, recorder, scenario, script, source, wiring
@@ -159,8 +159,15 @@ class Setup:
         known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
         if not self._options.simulate:
             return list(of_program(self._probe, tuple(known.values())))
-        drives = words(self._options.simulate)
-        return named(drives, lambda name: known[catalog.resolve(name).resolve()], "--simulate ")
+        paths = [path for path, _ in known.values()]
+        try:
+            return named(
+                words(self._options.simulate),
+                lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
+                "--simulate ",
+            )
+        except catalog.UnknownDrive as error:
+            raise Refused(str(error)) from None
 
     def _simulated(self) -> Port:
         wanted = self._wanted
@@ -380,11 +387,9 @@ def _stands(result: Result) -> Iterator[str]:
 
 def _maps(options: Options) -> list[Map]:
     """The shipped maps, and those that are named. Raises Refused."""
-    named = [*options.maps, *(one.name for one in words(options.simulate))]
+    named = [*options.maps, *(one.name for one in words(options.simulate) if catalog.is_path(one.name))]
     try:
-        paths = [*catalog.shipped(), *(catalog.resolve(name) for name in named)]
-        known = {path.resolve(): path for path in reversed(paths)}
-        return collection.read(sorted(known.values(), key=lambda path: path.stem))
+        return source.known([catalog.resolve(name) for name in named])
     except (catalog.UnknownDrive, MapError) as error:
         raise Refused(str(error)) from None
 
