@@ -35,7 +35,8 @@ def files(sources: list[Source], languages: list[Language], targets: Collection[
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
-    texts = documents(made, [source.drive for source in sources], linked=CANONICAL in targets)
+    own = {source.drive.prefix: source.path.name for source in sources if not catalog.is_shipped(source.path)}
+    texts = documents(made, [source.drive for source in sources], own, linked=CANONICAL in targets)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
@@ -146,7 +147,7 @@ def _others(folder: Path, old: Manifest, named: list[Path]) -> list[Path]:
 def _word(path: Path, folder: Path) -> str:
     """How a manifest names a map: one that is shipped by its name, another by its path from the folder."""
     whole = path.resolve()
-    if whole in {shipped.resolve() for shipped in catalog.shipped()}:
+    if catalog.is_shipped(path):
         return whole.stem
     try:
         relative = Path(os.path.relpath(whole, folder.resolve())).as_posix()
