@@ -121,6 +121,14 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
     assert not any("ManualChecked :=" in page(family) for family in FAMILIES)
 
 
+def test_the_page_of_a_users_map_names_it_in_commands_by_its_file() -> None:
+    drive = shipped()["JSCC"]
+    files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
+    text = documents(files, [drive], {"JSCC": "mine.yaml"})["docs/JSCC_Drive.md"]
+    assert "`driveblocks show mine.yaml absent`" in text
+    assert "`driveblocks show jscc absent`" in page("JSCC")
+
+
 def by_itself(drive: Drive) -> dict[str, str]:
     """What the generated page of a drive says that it does by itself, by what happens."""
     files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]

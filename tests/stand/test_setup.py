@@ -12,10 +12,10 @@ from typer.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.modbus.frame import Mode, seal
+from driveblocks.plc.bus import Bus, Frame
 from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Bus, Frame
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours
 from driveblocks.stand.trace import Tracer

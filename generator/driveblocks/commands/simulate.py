@@ -51,8 +51,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --trace
     """
+    from driveblocks.plc import scenario as scenarios
     from driveblocks.plc.options import Refused
-    from driveblocks.stand import scenario as scenarios
     from driveblocks.stand.setup import Setup, Words
 
     if schema:

@@ -43,16 +43,21 @@ CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 
 
-def documents(files: list[File], drives: list[Drive], *, linked: bool = True) -> dict[str, str]:
-    """The overview, every page and every picture, path below the output folder -> text; `linked` see `overview`."""
+def documents(
+    files: list[File], drives: list[Drive], named: Mapping[str, str] | None = None, *, linked: bool = True
+) -> dict[str, str]:
+    """The overview, every page and every picture, path below the output folder -> text.
+
+    `named`: prefix -> what a map is called in a command, where that is not its prefix; `linked` see `overview`.
+    """
     checked = check([parse("\n".join(file.text for file in files), "library")])
     return {
         "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
-        **pages(drives, checked),
+        **pages(drives, checked, named or {}),
     }
 
 
-def pages(drives: list[Drive], checked: Checked) -> dict[str, str]:
+def pages(drives: list[Drive], checked: Checked, named: Mapping[str, str]) -> dict[str, str]:
     """Every page and picture, path below the output folder -> text."""
     found = _shared(drives, checked.blocks) if drives else {}
     for drive in drives:
@@ -60,7 +65,7 @@ def pages(drives: list[Drive], checked: Checked) -> dict[str, str]:
         block = checked.blocks[name.upper()]
         inputs, in_outs, outputs = _pins(drive, block)
         values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
-        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values)
+        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, named)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
         found[f"{FOLDER}/{name}_ladder.svg"] = _network(drive, checked.blocks)
@@ -99,12 +104,13 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
+def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: Mapping[str, str]) -> str:
     block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
+        word=named.get(drive.prefix, drive.prefix.lower()),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=drive.settings,

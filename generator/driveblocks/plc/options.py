@@ -30,6 +30,7 @@ class Options:
     length: str | None = None
     show: tuple[str, ...] = ()
     script: Path | None = None
+    scenario: Path | None = None
     trace: Path | None = None
     picture: Path | None = None
     allow_run: bool = False
@@ -69,10 +70,18 @@ def wrong(options: Options) -> Iterator[str]:
         )
     if options.allow_run and not options.real:
         yield "--allow-run is for a real port; simulated drives may always run"
+    yield from _wrong_files(options)
     if options.fast and (options.tcp or options.port):
         yield "--fast is for simulated drives; a port has its own time"
     if options.fast and not options.demo and options.length is None:
         yield "--fast needs --for: it would never end"
+
+
+def _wrong_files(options: Options) -> Iterator[str]:
+    if options.trace is not None and options.trace == options.picture:
+        yield f"--trace and --picture both name {options.trace}; name two files"
+    if options.scenario is not None and (options.tcp or options.port or options.demo):
+        yield "--scenario is for drives that this run simulates; driveblocks simulate has its own, and so has --demo"
 
 
 def time(word: str, text: str, least: int, most: int) -> int:

@@ -150,11 +150,11 @@ def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """The blocks of one drive. Raises ValueError when a name makes no identifier."""
     shared = {"drive": context.identity(drive), **_texts_of(languages)}
-    for template, values in (*_blocks(stem, drive), *_texts(drive, languages)):
+    for template, values in (*_blocks(drive), *_texts(drive, languages)):
         yield _file(stem, template, {"name": f"{drive.prefix}_{template}", **shared, **values})
 
 
-def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
+def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
     yield "CanAccess", context.access(drive, "r", allowed.readable)
@@ -179,7 +179,7 @@ def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
     block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
     for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
-    yield "Version", {**context.version(drive), "stem": stem}
+    yield "Version", context.version(drive)
 
 
 def _texts_of(languages: list[Language]) -> context.Context:

@@ -11,15 +11,14 @@ from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live, port
+from driveblocks.plc import live, port, scenario
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, Refused, time
 from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.plc.wanted import named
 from driveblocks.plc.wanted import words as drives_of
-from driveblocks.stand import scenario
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
 from driveblocks.stand.neighbour import Neighbours
 from driveblocks.stand.stand import Stand, view

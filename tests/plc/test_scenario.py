@@ -10,9 +10,9 @@ import yaml
 from tests.simulator.talk import MAPS
 
 from driveblocks.maps.problem import MapError
+from driveblocks.plc import scenario
+from driveblocks.plc.bus import Loss
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand import scenario
-from driveblocks.stand.bus import Loss
 
 DRIVES = {1: MAPS["JSCC"], 2: MAPS["SN300G5"]}
 SCHEMA = Path(__file__).parents[2] / "docs" / "scenario.schema.json"

@@ -2,7 +2,7 @@
 
 import random
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.modbus.frame import seal
@@ -85,6 +85,11 @@ class Bus(Wire):
         """One more drive on the line."""
         self.counts.setdefault(drive.unit, Counts())
         self.drives = [*self.drives, drive]
+
+    def happen(self, act: Callable[[Sequence[SimulatedDrive], Loss], None], now_us: int) -> None:
+        """Let something happen to the drives or the line at a time."""
+        self._pass(now_us)
+        act(self.drives, self.loss)
 
     def given_up(self, data: bytes) -> None:
         """Characters that are no request."""

@@ -11,9 +11,10 @@ from driveblocks.maps import nodes, source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import MapError, Problem, Report
+from driveblocks.plc.bus import Loss
 from driveblocks.plc.script import duration_us
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Loss
+from driveblocks.simulator.habits import Habits
 
 TIME = r"[0-9]+(\.[0-9]+)? ?(ms|s|min)"
 UNIT = r"( (?P<unit>[1-9][0-9]{0,2}))?"
@@ -97,6 +98,12 @@ def loads(text: str, name: str, drives: Mapping[int, Drive]) -> list[Happening]:
     return sorted(found, key=lambda each: each.at_us)
 
 
+def said(text: str, drives: Mapping[int, Drive]) -> list[Happening]:
+    """What happens now, and what of it ends later, by one sentence. Raises MapError."""
+    quoted = text.replace("'", "''")
+    return loads(f"- at 0 s: '{quoted}'\n", "keyboard", drives)
+
+
 def _steps(root: Node, report: Report, drives: Mapping[int, Drive]) -> Iterator[Happening]:
     if not isinstance(root, Items):
         report.add(root.at, "a scenario is a list", f"write {_EXAMPLE}")
@@ -161,7 +168,8 @@ class _Step:
         elif verb.word == "late":
             yield Happening(self._at_us, value.text, _each(units, _turn(duration_us(words["late"] or ""))))
             if lasts:
-                yield Happening(ends, "late no more", _each(units, _turn(None)))
+                usual = f"late {Habits.turn_us / 1000:g} ms" + (f" {words['unit']}" if words["unit"] else "")
+                yield Happening(ends, usual, _each(units, _turn(Habits.turn_us)))
         elif verb.does is None:
             codes = self._codes(value, words["fault"] or "", units)
             yield Happening(self._at_us, value.text, _each(units, lambda drive: drive.trip(codes[drive.unit])))
@@ -215,8 +223,8 @@ def _each(units: tuple[int, ...], does: Callable[[SimulatedDrive], object]) -> A
     return act
 
 
-def _turn(us: int | None) -> Callable[[SimulatedDrive], None]:
-    return lambda drive: setattr(drive, "turn_us", drive.habits.turn_us if us is None else us)
+def _turn(us: int) -> Callable[[SimulatedDrive], None]:
+    return lambda drive: setattr(drive, "turn_us", us)
 
 
 def _loses(name: str, share: float) -> Act:
