@@ -16,7 +16,7 @@ LINUX = "LX_Line8"
 
 
 def files(shelf: Shelf) -> dict[str, str]:
-    """Every file of the target: `CHF.st` is whole, `LX_Line8.st` and `CHF_Motor.st` go after it, or `CHF_MotorBytes.st`."""
+    """Every file: `CHF.st` is whole, `LX_Line8.st` and `CHF_Motor.st` go after it, or `CHF_MotorBytes.st`."""
     made = {f"{one.name}.st": "\n".join([_head(one), *(part.text for part in one.parts)]) for one in shelf.libraries()}
     port, line, *_ = (file.text for file in library.adapter("linux", list(shelf.languages)))
     for drive in shelf.drives.values():

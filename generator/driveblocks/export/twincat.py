@@ -1,6 +1,6 @@
 """TwinCAT 3: a file per type, block and program, as "Add existing item" takes it, and projects of them.
 
-What an update replaces lies in `library`; what is the user's lies in `motor`, in projects that link the library's files.
+What an update replaces lies in `library`; what is the user's lies in `motor`, with projects that link the files.
 
 The form is that of files in public projects: TcPlcObject 1.1.0.1, which the oldest builds of them have, UTF-8 with a
 byte order mark, CRLF. Ids are made of names, so that a rebuild is no diff.
@@ -174,7 +174,8 @@ def _linked(item: Item) -> str:
     """A file of the library, which stays where it is."""
     path = item.path.replace("/", "\\")
     where = quoteattr(f"..\\{LIBRARY}\\{path}")
-    return f"    <Compile Include={where}>\n      <SubType>Code</SubType>\n      <Link>{escape(path)}</Link>\n    </Compile>"
+    inner = f"      <SubType>Code</SubType>\n      <Link>{escape(path)}</Link>\n"
+    return f"    <Compile Include={where}>\n{inner}    </Compile>"
 
 
 def _reference(name: str) -> str:
