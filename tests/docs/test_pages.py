@@ -258,21 +258,36 @@ def test_figures_of_the_line_follow_its_formula() -> None:
 
 @cache
 def library() -> dict[str, Instance]:
-    """The programs of all pages, each in an instance."""
+    """The programs of all pages, each in an instance, as they are and with RunForward on a switch."""
     examples = {family: example(family) for family in FAMILIES}
     files = [*sources(), *examples.values()]
     assert [each for each in lint_sources((f.path, f.text) for f in files) if each.path.count("/") == 0] == []
-    blocks = built(EmbeddedEngine(), "pages", files).library
-    return {family: blocks.instance(f"{family}_Motor") for family in FAMILIES}
+    bare = [Source(f"{one.path}bare", bared(one.text)) for one in examples.values()]
+    blocks = built(EmbeddedEngine(), "pages", [*files, *bare]).library
+    names = [name for family in FAMILIES for name in (f"{family}_Motor", f"{family}_Bare")]
+    return {name: blocks.instance(name) for name in names}
+
+
+def bared(text: str) -> str:
+    """A first motor whose RunForward is a switch, as the picture has it."""
+    for old, new in (
+        ("_Motor\n", "_Bare\n"),
+        ("RunForward := Run,", "RunForward := Switch,"),
+        ("\nVAR\n", "\nVAR\n  Switch : BOOL;\n"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text
 
 
 class Story:
     """A program with its drive, and the columns of what it does."""
 
-    def __init__(self, family: str) -> None:
+    def __init__(self, family: str, form: str) -> None:
         """A drive at the address and rate of the page."""
         rate, bits = re.findall(r"BitRate := (\d+), CharacterBits := (\d+)", page(family))[0]
-        self.program = library()[family]
+        self.program = library()[f"{family}_{form}"]
+        self.program["HardStopClosed"] = self.program["NotStop"] = True
         self.drive = SimulatedDrive(shipped()[family], shipped()[family].serial.unit.min)
         self.port = Port(self.program, [self.drive], 1000 * int(bits) / int(rate))
         self.program["Hertz"] = 20.0
@@ -315,18 +330,18 @@ def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
 
 
 @every_family
-def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
-    story, drive = Story(family), shipped()[family]
+def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> None:
+    story, drive = Story(family, "Bare"), shipped()[family]
     story.run(3500)
-    story.run(6000, StartSwitch=True)
-    story.run(4000, StartSwitch=False)
+    story.run(6000, Switch=True)
+    story.run(4000, Switch=False)
     # status and frequency may come by different reads; a drive that has just left off running is then not proved yet
     assert [each for each in story.columns if each != timing.Column(0)] == drawn(timing.start_and_stop())
-    story.run(6000, StartSwitch=True)
+    story.run(6000, Switch=True)
     del story.columns[:-1]
     story.drive.trip(2)
     story.run(3000)
-    story.run(6000, StartSwitch=False)
+    story.run(6000, Switch=False)
     story.drive.clear_cause()
     if "FaultReset := ResetButton" in example(family).text:
         story.run(2000, ResetButton=True)
@@ -335,6 +350,25 @@ def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
         story.run(2000)
     assert story.columns == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
+
+
+@every_family
+def test_the_example_starts_by_one_press_and_stops_by_its_button(family: str) -> None:
+    story = Story(family, "Motor")
+    story.run(3500)
+    story.run(100, StartButton=True)
+    story.run(6000, StartButton=False)
+    assert story.drive.hertz == 20
+    story.run(6000, NotStop=False)
+    assert (story.drive.hertz, story.program["Motor.StopConfirmed"]) == (0, True)
+    story.run(3000, NotStop=True)
+    story.run(5000, StartButton=True)
+    story.drive.trip(2)
+    story.run(3000)
+    story.drive.clear_cause()
+    story.drive.reset()
+    story.run(6000)
+    assert (story.drive.hertz, story.program["Run"]) == (0, False), "a stuck button starts nothing"
 
 
 HARD_STOP = (

@@ -65,12 +65,12 @@ def test_one_motor(engine: Engine) -> None:
     # reference and run once each and turns up to speed
     # (a jog is not known to be none, so that its end is sent, too)
     assert set(plant.run(3500, NotStop=True, Hertz=30.0)) == {STOP, JOG_STOP}
-    assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, False]
-    # the contact closes by a press of the reset button, which sends nothing
-    assert plant.run(100, Reset=True) == []
-    assert plant.run(500, Reset=False) == []
+    assert plant.says("Standing", "Why", "HardStopOk") == [True, 20, False]
+    # the contact closes by a press of the reset button, and with it the hard stop; nothing is sent
+    assert plant.run(100, ResetButton=True) == []
+    assert plant.run(500, ResetButton=False, HardStopClosed=True) == []
     assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, True]
-    started = [*plant.run(100, Start=True), *plant.run(900, Start=False)]
+    started = [*plant.run(100, StartButton=True), *plant.run(900, StartButton=False)]
     assert started[:2] == [bytes.fromhex(each) for each in ("010620001770", "010610000001")]
     assert plant.says("Standing", "Why") == [False, 0]
     assert 0 < drive.hertz < 30
@@ -78,24 +78,48 @@ def test_one_motor(engine: Engine) -> None:
     assert drive.hertz == 30
     # stop: at once, repeated, confirmed when it stands, and the button that returns starts nothing
     assert plant.run(1000, NotStop=False)[0] == STOP
-    assert plant.says("Standing", "Why") == [False, 20]
+    assert plant.says("Standing", "Why") == [False, 4]
     plant.run(4000)
-    assert plant.says("Standing", "Why") == [True, 20]
+    assert plant.says("Standing", "Why") == [True, 1]
     assert plant.run(2000, NotStop=True) == []
     # a trip stops it, with the start button stuck; the reset moves nothing; a new edge does
-    plant.run(3000, Start=True)
+    plant.run(3000, StartButton=True)
     drive.trip(3)
     plant.run(500)
     assert plant.says("Why", "Motor.FaultCode", "Standing") == [40, 3, False]
     drive.clear_cause()
     plant.run(10000)
-    plant.run(3000, Reset=True)
+    plant.run(3000, ResetButton=True)
     assert plant.says("Why", "Motor.Fault", "Standing") == [1, False, True]
     assert (drive.hertz, drive.fault) == (0, 0)
-    plant.run(3000, Reset=False, Start=False)
+    plant.run(3000, ResetButton=False, StartButton=False)
     assert drive.hertz == 0
-    plant.run(100, Start=True)
-    plant.run(4000, Start=False)
+    plant.run(100, StartButton=True)
+    plant.run(4000, StartButton=False)
+    assert drive.hertz == 30
+    # the hard stop opens, and closes again: nothing starts
+    assert plant.run(1000, HardStopClosed=False)[0] == STOP
+    plant.run(5000)
+    plant.run(3000, HardStopClosed=True)
+    assert (drive.hertz, plant.says("Run")) == (0, [False])
+
+
+def test_one_press_is_enough_after_a_stop_at_the_keypad(engine: Engine) -> None:
+    """The seal-in drops when the block lets go; a button that is held or stuck starts nothing again."""
+    plant = Plant(engine, "OneMotor", ["CHF"], 10)
+    (drive,) = plant.drives
+    plant.run(4000, NotStop=True, HardStopClosed=True, Hertz=30.0)
+    for held in (False, True):
+        plant.run(100, StartButton=True)
+        plant.run(5000, StartButton=held)
+        assert (drive.hertz, plant.says("Run")) == (30, [True])
+        drive.reply(STOP)  # somebody else stops it, as the keypad would
+        plant.run(8000)
+        assert (drive.hertz, plant.says("Standing")) == (0, [True])
+        plant.run(100, StartButton=False)
+        assert plant.says("Run") == [False]
+    plant.run(100, StartButton=True)
+    plant.run(5000, StartButton=False)
     assert drive.hertz == 30
 
 

@@ -97,6 +97,11 @@ class Shelf:
         """The first program of a user: one motor at the platform's serial port. Parsed, not typed."""
         return next(_read([library.first_motor(platform, drive)]))
 
+    def motors(self, platform: str, drive: Drive) -> tuple[Part, Part]:
+        """The first motor, and the same under the name of what is to become its ladder."""
+        motor, name, other = self.motor(platform, drive), f"{drive.prefix}_Motor", f"{drive.prefix}_Ladder"
+        return motor, Part(motor.folder, parse(motor.text.replace(name, other), motor.unit.path.replace(name, other)))
+
     def programs(self, platform: str, drive: Drive) -> tuple[Part, ...]:
         """The first motor, and what else a platform has for a drive that is a program of a user. Parsed, not typed."""
         return (self.motor(platform, drive), *_read(library.programs(platform, drive, list(self.languages))))
