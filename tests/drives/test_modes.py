@@ -82,6 +82,61 @@ def test_a_plc_that_starts_warm_in_a_mode_sends_each_stop_once(kind: str, mode: 
     assert not bench.shows("StopOverdue")
 
 
+STATUS = 0x2000
+"""Its bit 9 says that the bus is in command, on a made-up drive."""
+
+
+def elsewhere(mode: str) -> Bench:
+    """A motor that somebody else has started, before the PLC starts in a mode; the bus is not in command."""
+    bench = watched("CIA", start=False)
+    bench.drives[0].set(STATUS, 0)
+    bench.drives[0].keypad_run(20.0)
+    return bench.put(**{mode: True})
+
+
+@pytest.mark.parametrize("mode", ["SpeedOnly", "MonitorOnly"])
+def test_a_motor_in_other_hands_gets_no_stop_after_a_restart(mode: str) -> None:
+    bench = elsewhere(mode).restart()
+    assert not stops(bench, bench.run(3000))
+    assert bench.out("State") == (6 if mode == "SpeedOnly" else 5)
+    assert bench.drives[0].mode == "running"
+    assert not bench.shows("StopConfirmed")
+    assert not bench.shows("StopOverdue")
+    assert not stops(bench, bench.restart().run(3000))
+    bench.put(**{mode: False})
+    assert stops(bench, bench.run(300))
+
+
+@pytest.mark.parametrize("mode", ["SpeedOnly", "MonitorOnly"])
+def test_where_the_bus_is_in_command_a_restart_sends_its_stop(mode: str) -> None:
+    bench = elsewhere(mode)
+    bench.drives[0].set(STATUS, 0x0200)
+    bench.restart()
+    assert stops(bench, bench.run(500))
+    assert bench.drives[0].mode != "running"
+
+
+@pytest.mark.parametrize("spoilt", ["the mode", "a stop pin", "full control"])
+def test_a_restart_does_not_wait_for_the_bus_where_a_stop_is_asked_for(spoilt: str) -> None:
+    bench = elsewhere("SpeedOnly")
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    if spoilt == "full control":
+        bench.put(SpeedOnly=False)
+    bench.restart()
+    if spoilt != "full control":
+        assert not stops(bench, bench.run(2000))
+        bench.put(**({"SpeedOnly": False} if spoilt == "the mode" else {"Enable": False}))
+    assert stops(bench, bench.run(500))
+
+
+def test_a_restart_does_not_wait_for_the_bus_for_good() -> None:
+    bench = elsewhere("SpeedOnly").put(BootMs=3000)
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    bench.restart()
+    assert not stops(bench, bench.run(2900))
+    assert stops(bench, bench.run(1500))
+
+
 def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
     bench = watched("CHF", "CHF").running()
     bench.put(Address=9)
