@@ -3,13 +3,14 @@
 from contextlib import suppress
 
 import pytest
-from tests.drives.bench import SETTINGS, Bench
+from tests.drives.bench import SETTINGS, Bench, Frame
 from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, maps
 from tests.drives.test_start import edge, meet, motions
 from tests.drives.test_stop import stops
 
 from driveblocks.host.engine import Value
+from driveblocks.simulator.drive import SimulatedDrive
 
 
 def writes(bench: Bench, ms: int) -> list[int]:
@@ -184,6 +185,35 @@ def test_a_foreign_master_keeps_one_from_starting_until_somebody_says_so() -> No
     assert not motions(bench, bench.run(2000))
     bench.line(Acknowledge=True).put(RunForward=False).run(1000)
     bench.running()
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_with_a_foreign_master_one_reading_proves_no_standstill(kind: str) -> None:
+    """Replies that somebody else may have asked for show standstill once; the motor runs on."""
+    bench = Bench(kind).running()
+    bench.drives[0].keeps_running = True
+    meet(bench)
+    standing = SimulatedDrive(maps()[kind], 1)
+    shown: set[tuple[int, int]] = set()
+    bench.put(RunForward=False)
+    bench.until(lambda: bench.out("Control.Acknowledged"))
+
+    def once(frame: Frame, reply: bytes | None) -> bytes | None:
+        read = frame.address, frame.word
+        if not frame.read or read in shown:
+            return reply
+        shown.add(read)
+        return standing.reply(bytes([1, frame.function, *divmod(frame.address, 256), *divmod(frame.word, 256)]))
+
+    bench.spoil = once
+    confirmed = []
+    bench.watch.append(lambda one: confirmed.append(one.shows("StopConfirmed")))
+    bench.run(600)
+    assert len(shown) > 1
+    assert not any(confirmed)
+    bench.drives[0].keeps_running = False
+    bench.until(lambda: bench.shows("StopConfirmed"), 9000)
+    assert bench.drives[0].mode == "standing"
 
 
 def test_a_late_scan_is_flagged_and_starts_all_the_same() -> None:
