@@ -238,3 +238,14 @@ def test_a_reset_that_is_refused_is_not_shown_as_one_on_its_way(kind: str) -> No
     bench.put(FaultReset=True).run(500)
     assert "RESETTING" not in shown
     assert "NO_RESET" in shown
+
+
+@pytest.mark.parametrize("code", [0x33, 0x44])
+def test_a_fault_of_the_control_circuit_has_a_code_of_its_own(code: int) -> None:
+    """Bits of 0017H and 0018H, CPF02 to CPF23, which the manual's table of fault numbers does not list."""
+    bench = watched("SN300G5").stopped()
+    bench.drives[0].trip(code)
+    bench.run(1000)
+    assert bench.shows("Fault")
+    assert bench.out("FaultCode") == code
+    assert bench.drives[0].word(0x17 if code < 0x40 else 0x18) == (0x0004 if code < 0x40 else 0x0008)
