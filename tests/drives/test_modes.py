@@ -188,6 +188,20 @@ def test_a_foreign_master_keeps_one_from_starting_until_somebody_says_so() -> No
 
 
 @pytest.mark.parametrize("kind", FAMILIES)
+def test_running_motors_go_on_beside_a_foreign_master(kind: str) -> None:
+    """Their reference is refreshed, and changes."""
+    bench = watched(kind).running()
+    meet(bench)
+    before = len(bench.frames)
+    bench.put(SpeedReferenceHz=10.0).run(5000)
+    words = {each.word for each in sent(bench, bench.frames[before:], "reference")}
+    assert len(words) == 1
+    assert len(sent(bench, bench.run(3000), "reference")) >= 2
+    assert bench.drives[0].hertz == pytest.approx(10.0, abs=0.1)
+    assert bench.reason() == "RUNS"
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
 def test_with_a_foreign_master_one_reading_proves_no_standstill(kind: str) -> None:
     """Replies that somebody else may have asked for show standstill once; the motor runs on."""
     bench = Bench(kind).running()
