@@ -230,6 +230,26 @@ def test_a_time_that_is_off_lets_nothing_pass_that_was_never_read() -> None:
     assert not any(ok)
 
 
+@pytest.mark.parametrize("ms", [59_000, 60_000, 61_000, 120_000])
+def test_what_was_read_before_minutes_without_a_call_is_old(ms: int) -> None:
+    """The clock of the line goes round in 60 s."""
+    bench = watched("CHF").stopped()
+    assert bench.shows("CommOk")
+    bench.leave("Skip0").run(ms - bench.ms)
+    bench.leave("Skip0", on=False).scan()
+    assert bench.number("StatusAgeMs") == OFF
+    assert not bench.shows("CommOk")
+    assert not bench.shows("StopConfirmed")
+
+
+def test_a_changed_keep_word_is_sent_with_the_next_command_and_not_before() -> None:
+    """So no bit of it resets a fault: a fault stops, and bars the next command."""
+    bench = watched("SN300G5").stopped().put(KeepWord=0x0010)
+    assert not [each for each in bench.run(3000) if not each.read]
+    bench.put(RunForward=True).run(500)
+    assert 0x0011 in [each.word for each in bench.frames if each.address == 0 and not each.read]
+
+
 @pytest.mark.parametrize("kind", ["CHF", "SN300G5"])
 def test_a_reset_that_is_refused_is_not_shown_as_one_on_its_way(kind: str) -> None:
     bench = watched(kind).stopped()
