@@ -395,3 +395,9 @@ def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) ->
         block["Overdue"], block["Restart"], block["Reset"] = overdue, restart, reset
         block.scan()
         assert block["HardStopOk"] == closed, why
+
+
+def test_a_page_without_a_reset_by_the_bus_sends_nobody_to_a_bit() -> None:
+    """`KeepWord` changes with the next command, which a fault bars; the drive is reset by a wired button."""
+    assert "they reset no fault" in page("SN300G5")
+    assert "wire a button to that terminal" in page("SN300G5")

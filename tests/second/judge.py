@@ -205,7 +205,8 @@ class Judge:
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
         self._reach(index, unit)
         driven = one.by == "bus" and not one.stopping
-        if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
+        stands = abs(hz) <= self.figures.still_hz and not driven  # at 0 Hz by the bus it still has not stopped
+        if stands or (driven and self.observer.watches[index + 1].permitted):
             unit.turned_us = now
         watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
         foreign = one.by in ("keypad", "terminals")

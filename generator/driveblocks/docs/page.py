@@ -134,6 +134,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: M
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
         conduct=_conduct(drive),
+        feeds=drive.watchdog.feeds if drive.watchdog else None,
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=TURN_ROUND_MS,

@@ -32,7 +32,8 @@ LINE_BLOCKS = (
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_IsScale", "VFD_Scaled",
     "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start",
-    "VFD_StopRound", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+    "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter",
+    "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = (8, 32)
