@@ -33,7 +33,7 @@ def told(proof: Proof) -> str:
     words = f"{about or CALLS}: {answer.verdict.value}"
     if answer.verdict is Verdict.BROKEN:
         return f"{words}, {REPLAYED if proof.replayed else NOT_REPLAYED}"
-    return words if proof.good else f"{words}, but the embedded engine does something else"
+    return words if proof.good or proof.call is None else f"{words}, but the embedded engine does something else"
 
 
 def table(proved: Proved, proof: Proof) -> list[str]:
