@@ -33,6 +33,7 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
         refuse("the solver is missing: pip install 'driveblocks[prove]'")
     from driveblocks.prove import prover, report
     from driveblocks.prove.sorts import UnsupportedError
+    from driveblocks.st.problems import SourceError
     from driveblocks.testing import junit as xml
 
     done: list[Proved] = []
@@ -40,7 +41,7 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
         for each in prover.run(_read(maps)):
             _print(each, rules=rules)
             done.append(each)
-    except UnsupportedError as error:
+    except (UnsupportedError, SourceError) as error:
         refuse(f"cannot be proved: {error}")
     if junit is not None:
         try:

@@ -32,6 +32,13 @@ def facts(drive: Drive) -> dict[str, str]:
         "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
+    shown = {one.shows for one in drive.operation.status}
+    measured = {one.shows for one in drive.operation.measures}
+    for pin in ("reverse", "fault", "warning", "at_speed", "zero_speed"):
+        computed = pin.endswith("speed") and "output_frequency" in measured
+        found[f"shows_{pin}"] = str(pin in shown or computed).upper()
+    for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
+        found[name] = f"Identity.{member}" if drive.identity else str(name != "wrong").upper()
     running = next(one for one in drive.operation.status if one.shows == "running")
     found["running"] = _any(_holds(drive, each) for each in running.any)
     found["says_running"] = _any(Decoded(drive).holds(each) for each in running.any)

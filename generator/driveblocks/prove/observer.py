@@ -4,7 +4,7 @@ A condition names what the block itself names. `Was.X` is X as the call found it
 it). Constants of all blocks may be used where all blocks that have one of that name mean the same number.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from driveblocks.st.tree import Block, Checked, Function, Literal, Pou, VarDecl, VarKind
 from driveblocks.st.types import Type
@@ -25,7 +25,7 @@ def text(pou: Pou, checked: Checked, conditions: Mapping[str, str]) -> str:
     lines += [*_memory_of(pou, pou.name, pou), f"FUNCTION_BLOCK {name(pou)}", "VAR"]
     lines += [f"  {_name(each, pou)} : {_type(each.type, pou)};" for each in kept(pou)]
     lines += [f"  Was : {pou.name}_in_{pou.name};", *(f"  {each} : BOOL;" for each in conditions)]
-    lines += ["END_VAR", "VAR CONSTANT", *_constants(pou, checked), "END_VAR"]
+    lines += ["END_VAR", "VAR CONSTANT", *_constants(pou, checked, conditions), "END_VAR"]
     lines += [f"  {each} := {condition};" for each, condition in conditions.items()]
     return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
 
@@ -64,14 +64,14 @@ def _type(each: Type, outer: Pou) -> str:
     return f"{each.name}_in_{outer.name}" if isinstance(each, Block) else str(each)
 
 
-def _constants(pou: Pou, checked: Checked) -> Iterator[str]:
+def _constants(pou: Pou, checked: Checked, conditions: Iterable[str]) -> Iterator[str]:
     """The block's own constants, and those of others that all mean the same number, in the narrowest of their types."""
     found: dict[str, list[VarDecl]] = {}
     for other in checked.blocks.values():
         for each in _numbers(other):
             found.setdefault(each.name.upper(), []).append(each)
     own = {each.name.upper(): [each] for each in _numbers(pou)}
-    taken = {each.name.upper() for each in kept(pou)}
+    taken = {each.name.upper() for each in kept(pou)} | {each.upper() for each in conditions}
     for name, those in (found | own).items():
         if name not in taken and len({_value(each) for each in those}) == 1:
             least = min(those, key=lambda each: each.type.size)

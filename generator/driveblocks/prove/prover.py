@@ -85,7 +85,8 @@ def proved(unit: str, sources: Sequence[Text], subjects: Sequence[Subject]) -> I
     by_name = {each.pou.name: each for each in made}
     for model in made[len(parts) :]:
         begin = time.perf_counter()
-        inside = {name: by_name[block] for name, block in model.subject.inside.items()}
+        known = model.pou.symbols
+        inside = {name: by_name[block] for name, block in model.subject.inside.items() if name.upper() in known}
         asked = answers(questions(model, inside), exact=model.subject.exact)
         proofs = tuple(_replayed(replay, model, each) for each in asked)
         yield Proved(unit, model, proofs, time.perf_counter() - begin)
