@@ -303,9 +303,7 @@ class Judge:
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
-        held = any(
-            bench.pins[index].get(each) for each in RUN + JOG
-        )  # then the reason is that of an edge that was lost
+        held = any(bench.pins[index].get(each) for each in RUN + JOG)  # so the reason is that of a lost edge
         silent = calm and reason in SILENT and not held
         self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
         if not good or bench.lineless:  # its clock is that of the line
