@@ -47,11 +47,11 @@ def only(unit: Unit, *programs: str) -> Unit:
     chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
     assert chosen, programs
     parts = unit.suite.parts if any("_TestDrive;" in one.text for one in chosen) else {}
-    needed = _needed(unit, [*parts.values(), *(one.text for one in chosen)])
-    return replace(unit, blocks=needed, suite=replace(unit.suite, programs=tuple(chosen), parts=parts))
+    blocks = needed(unit, [*parts.values(), *(one.text for one in chosen)])
+    return replace(unit, blocks=blocks, suite=replace(unit.suite, programs=tuple(chosen), parts=parts))
 
 
-def _needed(unit: Unit, texts: list[str]) -> tuple[Source, ...]:
+def needed(unit: Unit, texts: list[str]) -> tuple[Source, ...]:
     """The blocks and types that are named in the texts and the harness, or in what is named there."""
     rest = {Path(source.path).stem: source for source in unit.blocks}
     texts = [*texts, *harness.texts().values()]

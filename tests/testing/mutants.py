@@ -13,25 +13,41 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from random import Random
 
+import yaml
+from tests.shapes import shapes
+
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
+from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
+from driveblocks.host.embedded.compiler import Compiler
+from driveblocks.host.embedded.scope import Options
 from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
-from driveblocks.testing.execute import Setting, execute
+from driveblocks.st.checker import check
+from driveblocks.st.collector import paused
+from driveblocks.st.parser import parse
+from driveblocks.st.problems import SourceError
+from driveblocks.st.tree import Checked, Pou
+from driveblocks.testing.script import Program
 from driveblocks.testing.unit import Unit
+
+from .conftest import needed, only
 
 SEEDS, NUMBER = (611, 612), 300
 """Drawn before the scenes were judged by them."""
 FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")
+MORE = "cia402"
+"""A made-up family that reaches what those do not."""
 BLOCKS = re.compile(r".*/(?:line/MB_(?!\w*32)\w+|vfd/VFD_(?!\w*Text)\w+|\w+_(?:Drive|Reads|Orders|ParameterGate))\.st")
-FIRST = ("Motor", "Line", "Parameters", "The manual's frames")
-"""Groups that look at these blocks, which are run before the rest."""
+FIRST = ("Motor", "Line", "Parameters")
+"""Groups of programs that look at these blocks, which are run before the rest."""
+TURNS = 50_000
+"""Turns of loops in a scan; no block takes a tenth of them."""
 SWAPS = {
     "AND": ("OR",), "OR": ("AND",), "TRUE": ("FALSE",), "FALSE": ("TRUE",), "NOT": ("",), "<": ("<=", ">"),
     "<=": ("<", ">"), ">": (">=", "<"), ">=": (">", "<"), "=": ("<>",), "<>": ("=",), "+": ("-",), "-": ("+",),
@@ -55,10 +71,37 @@ class Mutant:
     kind: str
     new: str
     old: str
+    before: str
+    """Of its first line."""
+    after: str
+    """Of its last line."""
 
     def __str__(self) -> str:
         """By its place and text."""
         return f"{Path(self.path).stem}:{self.line}: {self.kind}: {_short(self.old)} -> {_short(self.new)}"
+
+    @property
+    def was(self) -> str:
+        """The lines that it is in."""
+        return self._lines(self.old)
+
+    @property
+    def now(self) -> str:
+        """... with the change."""
+        return self._lines(self.new)
+
+    @property
+    def why(self) -> str:
+        """Why nothing finds it, where that is known."""
+        return reasons().get((Path(self.path).stem, self.was, self.now), "")
+
+    @property
+    def survives(self) -> str:
+        """What a person needs to judge it."""
+        return f"SURVIVES\n  was: {self.was}\n  is: {self.now}"
+
+    def _lines(self, part: str) -> str:
+        return " ".join((self.before + part + self.after).split())
 
     def edit(self, source: Source) -> Source:
         """The source with the change, where it is that file."""
@@ -74,8 +117,9 @@ def _short(text: str) -> str:
 
 @cache
 def made() -> dict[str, Unit]:
-    """The units of the shipped families by name."""
+    """The units of the families by name."""
     sources = collection.read([catalog.folder() / f"{name}.yaml" for name in FAMILIES])
+    sources.append(collection.Source(Path(f"{MORE}.yaml"), shapes()[MORE]))
     return {unit.suite.name: unit for unit in units(sources, languages(["en", "zh"], "utf-8"))}
 
 
@@ -93,7 +137,9 @@ def _changes(path: str, text: str) -> Iterator[Mutant]:
     begins = plain.rindex("END_VAR") + len("END_VAR")
     constants = dict(_CONSTANT.findall(plain[:begins]))
     for kind, start, end, new in (*_tokens(plain, begins, constants), *_parts(plain, begins)):
-        yield Mutant(path, start, end, plain.count("\n", 0, start) + 1, kind, new, text[start:end])
+        before = text[text.rfind("\n", 0, start) + 1 : start]
+        after = text[end : text.find("\n", end)]
+        yield Mutant(path, start, end, plain.count("\n", 0, start) + 1, kind, new, text[start:end], before, after)
 
 
 def _tokens(plain: str, begins: int, constants: dict[str, str]) -> Iterator[tuple[str, int, int, str]]:
@@ -134,32 +180,109 @@ def drawn(seed: int) -> Iterator[Mutant]:
 
 
 def judged(one: Mutant) -> str | None:
-    """The first check that fails; empty: none does. None: it does not build, or is in no family."""
-    found = [family for family in FAMILIES if any(source.path == one.path for source in made()[family].blocks)]
-    for family in found:
-        by = _found(one, made()[family], family)
+    """The first check that fails; empty: none does. None: it does not build, or no program reaches it."""
+    families = [family for family in FAMILIES if _programs(family, one.path)]
+    if not families and _programs(MORE, one.path):
+        families = [MORE]
+    by: str | None = None
+    for family in families:
+        by = _found(one, family)
         if by != "":
-            return by
-    return "" if found else None
+            break
+    return by
 
 
-def _found(one: Mutant, unit: Unit, family: str) -> str | None:
+def _programs(family: str, path: str) -> list[Program]:
+    """The programs of a family that reach a block, those that look at motors first."""
+    unit = made()[family]
+    found = [program for program in unit.suite.programs if path in _reach(family)[program.name]]
+    return sorted(found, key=lambda program: program.group not in FIRST)
+
+
+@cache
+def _reach(family: str) -> dict[str, set[str]]:
+    """Of each program the files of the blocks that it needs."""
+    unit = made()[family]
+    names = {program.name: program.name.partition("_Test")[2] for program in unit.suite.programs}
+    return {name: {source.path for source in only(unit, end).blocks} for name, end in names.items()}
+
+
+def _found(one: Mutant, family: str) -> str | None:
     """The same of a family."""
-    changed = replace(unit, blocks=tuple(one.edit(source) for source in unit.blocks))
-    try:
-        library = EmbeddedEngine().build(changed.sources)
-    except EngineError:
+    library = _library(family)
+    objects = library.compiler.objects
+    with paused():
+        changed = _compiled(one, family)
+    if changed is None:
         return None
-    programs = sorted(unit.suite.programs, key=lambda program: program.group not in FIRST)
-    for program in programs:
-        result = execute(library, program, Setting("embedded", family, "", 60.0))
-        if result.bad:
-            return f"{program.name}: {result.bad[0].words}"
-    return ""
+    for key, value in objects.items():
+        changed.objects.setdefault(key, value)
+    changed.objects["run"] = library.compiler.run
+    before = {key: objects[key] for key in objects if key.partition("_")[2] == Path(one.path).stem.upper()}
+    objects.update({key: changed.objects[key] for key in before})
+    try:
+        failed = (_failed(library, program) for program in _programs(family, one.path))
+        return next((words for words in failed if words), "")
+    finally:
+        objects.update(before)
+
+
+@cache
+def _library(family: str) -> EmbeddedLibrary:
+    """What a family is built to, without a change; for each change one function of it is another."""
+    with paused():
+        return EmbeddedEngine(loop_limit=TURNS).build(made()[family].sources)
+
+
+def _compiled(one: Mutant, family: str) -> "_Single | None":
+    """The changed block alone; None: it does not build."""
+    unit = made()[family]
+    sources = needed(unit, [source.text for source in unit.blocks if source.path == one.path])
+    try:
+        single = _Single(check([parse(each.text, each.path) for each in map(one.edit, sources)]), one.path)
+    except SourceError:
+        return None
+    return None if single.messages else single
+
+
+class _Single(Compiler):
+    """Compiles one file and leaves out the others."""
+
+    def __init__(self, checked: Checked, path: str) -> None:
+        self.path = path
+        super().__init__(checked, Options())
+
+    def _attempt(self, pou: Pou) -> None:
+        if pou.unit is not None and pou.unit.path == self.path:
+            super()._attempt(pou)
+
+
+def _failed(library: EmbeddedLibrary, program: Program) -> str:
+    """The first check that fails; empty: none does."""
+    instance = library.instance(program.name)
+    for _ in range(sum(program.scans) + 1):
+        try:
+            instance.scan()
+        except EngineError as error:
+            return f"{program.name}: {error}"
+        if instance["Failures"]:
+            first = instance["FirstFailed"]
+            assert isinstance(first, int)  # a UINT
+            return f"{program.name}: {program.checks[first - 1].words}"
+        if instance["Done"]:
+            return ""
+    return f"{program.name}: it does not end"
+
+
+@cache
+def reasons() -> dict[tuple[str, str, str], str]:
+    """Why a change may survive: by block, text before and after."""
+    rows = yaml.safe_load((Path(__file__).parent / "survivors.yaml").read_text(encoding="utf-8")) or []
+    return {(row["block"], row["was"], row["is"]): row["why"] for row in rows}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Judge a part of the draw."""
+    """Judge a part of the draw. 1: one survives without a reason."""
     parser = argparse.ArgumentParser(description="Single changes of the blocks that run a motor.")
     parser.add_argument("--seed", type=int, default=SEEDS[0])
     parser.add_argument("--number", type=int, default=NUMBER)
@@ -172,13 +295,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         if (options.only is not None and number not in options.only) or number % of != which - 1:
             continue
         by = judged(one)
-        tally["found" if by else "none" if by is None else "survived"] += 1
+        verdict = "found" if by else "no change" if by is None else "explained" if one.why else "survived"
+        tally[verdict] += 1
         if by is not None:
-            print(f"{number}: {one}: {by or 'SURVIVES'}", flush=True)
-        if tally["found"] + tally["survived"] >= options.number / of:
+            print(f"{number}: {one}: {by or one.why or one.survives}", flush=True)
+        if tally.total() - tally["no change"] >= options.number / of:
             break
-    print(f"{tally['found']} found, {tally['survived']} survived, {tally['none']} were no change")
-    return 0
+    print(", ".join(f"{count} {verdict}" for verdict, count in sorted(tally.items())))
+    return 1 if tally["survived"] else 0
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ from driveblocks.host.embedded.standard_blocks import Run
 from driveblocks.host.embedded.statements import STATEMENTS, returned_value
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import is_integral
-from driveblocks.host.embedded.usage import callees, has_loop, touched
+from driveblocks.host.embedded.usage import loops, touched
 from driveblocks.host.engine import Message
 from driveblocks.st import tree
 from driveblocks.st.tree import Block, Checked, EnumValue, VarKind
@@ -124,7 +124,7 @@ class Compiler:
         return Scope(pou, self.options, pen, self.shapes, self.accesses, ranges, self.objects, TERMS, STATEMENTS)
 
     def _note_loops(self, pou: tree.Pou, key: tree.Function | Block) -> None:
-        if has_loop(pou.body) or callees(pou.body) & self.looping:
+        if loops(pou.body, self.looping):
             self.looping.add(key)
 
     def _define(self, pen: Pen, name: str, parameters: list[str], body: list[ast.stmt]) -> None:

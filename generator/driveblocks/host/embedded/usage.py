@@ -26,12 +26,17 @@ def _slots(kind: type[tree.Node]) -> tuple[str, ...]:
 
 def walk(node: tree.Node) -> Iterator[tree.Node]:
     """A node and all nodes in it, in source order; declarations that it refers to are left out."""
-    yield node
-    for slot in _slots(type(node)):
-        value = getattr(node, slot)
-        for child in value if isinstance(value, list) else (value,):
-            if isinstance(child, tree.Node) and not isinstance(child, _FOREIGN):
-                yield from walk(child)
+    stack = [node]
+    while stack:
+        node = stack.pop()
+        yield node
+        parts: list[tree.Node] = []
+        for slot in _slots(type(node)):
+            value = getattr(node, slot)
+            for child in value if isinstance(value, list) else (value,):
+                if isinstance(child, tree.Node) and not isinstance(child, _FOREIGN):
+                    parts.append(child)
+        stack += reversed(parts)
 
 
 def reads(nodes: list[tree.Statement]) -> list[tree.VarDecl]:
@@ -87,16 +92,16 @@ def touched(nodes: list[tree.Statement]) -> set[tree.VarDecl]:
     return found
 
 
-def has_loop(nodes: list[tree.Statement]) -> bool:
-    """Whether there is a loop anywhere."""
-    return any(isinstance(each, tree.For | tree.While | tree.RepeatUntil) for node in nodes for each in walk(node))
-
-
-def callees(nodes: list[tree.Statement]) -> set[tree.Function | Block]:
-    """Every function in ST and every block that is called."""
-    found: set[tree.Function | Block] = set()
+def loops(nodes: list[tree.Statement], looping: set[tree.Function | Block]) -> bool:
+    """Whether there is a loop anywhere, or a call of what loops."""
     for node in nodes:
         for each in walk(node):
-            if isinstance(each, tree.Call) and isinstance(each.target, tree.Function | Block):
-                found.add(each.target)
-    return found
+            if isinstance(each, tree.For | tree.While | tree.RepeatUntil):
+                return True
+            if (
+                isinstance(each, tree.Call)
+                and isinstance(each.target, tree.Function | Block)
+                and each.target in looping
+            ):
+                return True
+    return False
