@@ -395,7 +395,7 @@ class _Reader:
                 self.take(formal)
                 self.take(":=")
                 self.expression()
-        elif name == "RUNTIME" or re.fullmatch(r"(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+", name):
+        elif name in ("RUNTIME", "ABS") or re.fullmatch(r"(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+", name):
             self.expression()
         else:
             raise self.fail(f"a function of SCL instead of {name}")
