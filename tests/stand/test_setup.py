@@ -169,7 +169,7 @@ def judged(units: tuple[int, ...], master: bytes = b"", *, echo: bool = False) -
 
 
 POLL = seal("rtu", bytes.fromhex("02 03 20 00 00 01"))
-WRITE = seal("rtu", bytes.fromhex("02 06 10 00 00 04"))
+WRITE = seal("rtu", bytes.fromhex("02 06 10 00 00 03"))
 OTHER = seal("rtu", bytes.fromhex("09 03 20 00 00 01"))
 
 
