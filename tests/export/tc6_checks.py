@@ -14,6 +14,7 @@ from tests.export.tc6_reader import File, Node
 
 from driveblocks.export.part import Shelf
 from driveblocks.export.target import Writer
+from driveblocks.export.wide import wide
 from driveblocks.st.fingerprint import fingerprint, stream
 
 DIALECTS = {
@@ -63,8 +64,9 @@ _Meant = tuple[str, tuple[str, ...], tuple[str, ...]]
 
 def _libraries(shelf: Shelf, target: str) -> Iterator[_Meant]:
     port = tuple(part.text for part in shelf.adapter(target))
+    texts = wide(shelf) if target == "codesys" else ()
     for library in shelf.libraries():
-        yield library.name, (*(part.text for part in library.parts), *port), ()
+        yield library.name, (*(part.text for part in (*library.parts, *library.own(texts))), *port), ()
 
 
 def _own(shelf: Shelf, target: str) -> Iterator[_Meant]:

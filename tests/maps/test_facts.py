@@ -440,12 +440,16 @@ def test_sn300g5_watchdog_is_h5_04_and_h5_05() -> None:
 
 def test_sn300g5_settings_that_may_stop_another_way_or_act_later_say_so() -> None:
     settings = {one.id: one for one in SN.settings}
-    for one in SN.settings:
+    for one in (each for each in SN.settings if each.source == "table of communication parameters"):
         assert "acts only after the supply was switched off and on" in (one.note or ""), one.id
     for value, other in ((1, "coast"), (2, "decelerate")):
         note = settings["H5-04"].values[value].note or ""
         assert "another drive" in note, value
         assert other in note, value
+    for id_, words in (("B1-03", "by a ramp or by coasting"), ("O2-01", "the keypad is in control")):
+        needed = settings[id_].needed
+        assert needed is not None
+        assert words in needed.why
     for id_ in ("H5-01", "H5-02", "H5-03"):
         assert "taken over at power-up" in (settings[id_].note or ""), id_
 

@@ -69,7 +69,7 @@ def test_a_drive_without_fault_bits_has_no_numbers(drives: dict[str, Drive]) -> 
 
 
 def test_texts(drives: dict[str, Drive]) -> None:
-    assert text.fault(drives["SN300G5"], 0x18) == Texts("Overspeed", "超速")
+    assert text.fault(drives["SN300G5"], 0x18) == Texts("OS Overspeed", "OS 超速")
     assert text.fault(drives["SN300G5"], 0x1D) is None
     assert text.error(drives["CHF"], 8) == Texts("Drive busy storing to EEPROM", "变频器忙（EEPROM 正在存储中）")
     assert text.error(drives["JSCC"], 2) == Texts("Illegal data address", "不合法数据地址")

@@ -14,6 +14,7 @@ from driveblocks.export.part import WHOLE, Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.rungs import diagram
 from driveblocks.export.tc6 import CODESYS, project, types, vendor, written
+from driveblocks.export.wide import wide
 from driveblocks.st.problems import Problem
 from driveblocks.st.tree import FunctionBlock, Program, TypeDecl
 
@@ -33,17 +34,17 @@ def write(shelf: Shelf) -> dict[str, str]:
     drives = tuple(shelf.drives.values())
     drawn = {drive.prefix: shelf.motors(_PLATFORM, drive)[1] for drive in drives}
     programs = [one for drive in drives for one in (*shelf.programs(_PLATFORM, drive), drawn[drive.prefix])]
-    files = {library.name: (*library.parts, *port) for library in shelf.libraries()} | {
-        one.name: (one,) for one in programs
-    }
-    made = {part.name: _written(part, problems) for part in (*shelf.parts, *port, *programs)}
+    texts = wide(shelf)
+    files = {library.name: (*library.parts, *library.own(texts), *port) for library in shelf.libraries()}
+    files |= {one.name: (one,) for one in programs}
+    made = {part.name: _written(part, problems) for part in (*shelf.parts, *texts, *port, *programs)}
     blocks = {part.name: part.element for part in (*shelf.parts, *port) if isinstance(part.element, FunctionBlock)}
     for one in drawn.values():
         made[one.name] = ladder(made[one.name], diagram(one, blocks))
     if problems:
         raise ExportError(problems)
-    texts = {f"codesys/{name}.xml": _file(name, parts, made) for name, parts in files.items()}
-    return texts | page(_PLATFORM, shelf, files)
+    whole = {f"codesys/{name}.xml": _file(name, parts, made) for name, parts in files.items()}
+    return whole | page(_PLATFORM, shelf, files)
 
 
 def _file(name: str, parts: Iterable[Part], made: dict[str, Element]) -> str:

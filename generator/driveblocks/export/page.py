@@ -26,6 +26,7 @@ def page(target: str, shelf: Shelf, files: Mapping[str, Sequence[Part]]) -> dict
         "scan": SCAN_MS,
         "master": any(name == f"{first.prefix}_Master" for name in programs),
         "motor": shelf.motor(target, first).text,
+        "wide": any(part.name.endswith("ZhW") for parts in files.values() for part in parts),
     }
     return {f"{target}/README.md": render(f"{target}/README.md.j2", **values)}
 

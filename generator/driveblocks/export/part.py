@@ -73,6 +73,11 @@ class Library:
     parts: tuple[Part, ...]
     drives: tuple[Drive, ...]
 
+    def own(self, parts: Iterable[Part]) -> tuple[Part, ...]:
+        """Of parts that a target adds, those beside parts of this library."""
+        folders = {part.folder for part in self.parts}
+        return tuple(part for part in parts if part.folder in folders)
+
 
 @dataclass(frozen=True)
 class Shelf:

@@ -15,6 +15,7 @@ from xml.sax.saxutils import escape, quoteattr
 from driveblocks import __version__
 from driveblocks.export.part import WHOLE, Library, Part, Shelf
 from driveblocks.export.problem import ExportError
+from driveblocks.export.wide import wide
 from driveblocks.render.environment import render
 from driveblocks.render.library import PLATFORMS
 from driveblocks.render.motor import SCAN_MS
@@ -58,14 +59,16 @@ def files(shelf: Shelf) -> dict[str, str]:
     """Every file of the target. Raises ExportError for texts that the format cannot hold."""
     port, fast = shelf.adapter(TARGET), _fast()
     motors = {drive.prefix: shelf.motor(TARGET, drive) for drive in shelf.drives.values()}
-    _refuse((*shelf.parts, *port, fast, *motors.values()))
-    blocks = {part.name: _item(part, part.folder) for part in shelf.parts}
+    texts = wide(shelf)
+    _refuse((*shelf.parts, *texts, *port, fast, *motors.values()))
+    blocks = {part.name: _item(part, part.folder) for part in (*shelf.parts, *texts)}
     adapter = [_item(part, PORT) for part in port]
     shared = [_item(fast, ""), _globals(), _task("TC_FastTask", FAST, FAST_US, 10)]
     made = {f"{LIBRARY}/{item.path}": item.text for item in (*blocks.values(), *adapter)}
     made |= {f"{MOTOR}/{item.path}": item.text for item in shared} if motors else {}
     for library in shelf.libraries():
-        items = [*(blocks[part.name] for part in library.parts), *adapter]
+        parts = (*library.parts, *library.own(texts))
+        items = [*(blocks[part.name] for part in parts), *adapter]
         made[f"{LIBRARY}/{library.name}.plcproj"] = _project(library.name, items)
         for drive in library.drives if library.name != WHOLE else ():
             name = f"{drive.prefix}_Motor"
@@ -205,15 +208,16 @@ def _why(found: str) -> str:
 
 
 def _page(shelf: Shelf, adapter: list[Item], own: int) -> str:
-    libraries = list(map(_counted, shelf.libraries()))
-    return render("twincat/README.md.j2", libraries=libraries, adapter=len(adapter), own=own)
+    texts = wide(shelf)
+    libraries = [_counted(library, library.own(texts)) for library in shelf.libraries()]
+    return render("twincat/README.md.j2", libraries=libraries, adapter=len(adapter), own=own, wide=bool(texts))
 
 
-def _counted(library: Library) -> dict[str, object]:
+def _counted(library: Library, texts: Sequence[Part]) -> dict[str, object]:
     types = sum(isinstance(part.element, TypeDecl) for part in library.parts)
     return {
         "name": library.name,
         "types": types,
-        "blocks": len(library.parts) - types,
+        "blocks": len(library.parts) - types + len(texts),
         "drives": [drive.prefix for drive in library.drives],
     }
