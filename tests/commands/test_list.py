@@ -43,7 +43,7 @@ def test_maps_that_are_named_are_listed_alone(shelf: Path) -> None:
     result = CliRunner().invoke(app, ["show", str(own)])
     assert f"driveblocksshow{own}TOPIC" in "".join(
         result.stdout.split()
-    )  # however long the path, and where it is folded
+    )  # however it is folded
 
 
 def test_a_map_without_example_frames_is_shown_as_such(shelf: Path) -> None:

@@ -134,7 +134,7 @@ REASONS = (
         "fault: see FaultCode",
         "故障，见FaultCode",
         "remove the cause, then a rising `FaultReset`",
-        "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of a reset is listed "
+        "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of it is listed "
         "under [gaps](#what-the-manual-leaves-open)",
     ),
     Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
