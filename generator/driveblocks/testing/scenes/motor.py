@@ -103,7 +103,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     pin, jog, back = PINS[does], does.startswith("jog"), does.endswith("reverse")
     hertz = 5.0 if jog else 30.0
     opposite = "+" if back else "-"
-    pace = why("RAMPING" if can.measures("output_frequency") else "RUNS")
+    pace = why("RAMPING" if can.measures("output_frequency") and not jog else "RUNS")
     yield Step("the start is sent", {pin: True}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {"Seen.Order": ORDERS[does]})
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
@@ -112,7 +112,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
     }  # fmt: skip
     yield Step("it reaches its speed", {}, until, 3000, shows)
-    shows = {} if jog else {"Reason": "RUNS"}
+    shows = {"Reason": "RUNS"}
     if can.shows("reverse"):
         shows["Reverse"] = back
     if not jog:
@@ -120,7 +120,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     if can.measures("output_current"):
         shows["OutputCurrentA"] = 5.0
     shows |= {f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()}
-    yield Step("and stays there", ms=1500, shows={"Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1})
+    yield Step("and stays there", ms=1500, shows={"Reason": "RUNS", "Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1})
     yield Step("the pin falls", {pin: False}, TOLD, 300, {"StopConfirmed": False})
     yield stand({"Reason": "READY"})
 
