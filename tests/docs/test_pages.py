@@ -401,3 +401,11 @@ def test_a_page_without_a_reset_by_the_bus_sends_nobody_to_a_bit() -> None:
     """`KeepWord` changes with the next command, which a fault bars; the drive is reset by a wired button."""
     assert "they reset no fault" in page("SN300G5")
     assert "wire a button to that terminal" in page("SN300G5")
+
+
+def test_a_page_says_what_the_block_does_not_try_by_itself() -> None:
+    """Whether another setting makes the reference the run command: the manual does not bear an automatic trial."""
+    assert (
+        "The drive block does not try this by itself"
+        in page("SN300G5").partition("\n## What the manual leaves open")[2]
+    )

@@ -624,7 +624,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     yield scene("a setting that is missing", POWER, *_missing())
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
-    yield scene("the drive's watchdog", POWER, run(), *_heartbeat())
+    yield scene("the drive's watchdog", POWER, run(), *_heartbeat(can))
     if can.drive.manual.second_hand:
         yield scene("a map that nobody has checked", *_unchecked())
     if can.drive.operation.reference.verify:
@@ -685,10 +685,17 @@ def _address(can: Ability) -> Iterator[Step]:
     )
 
 
-def _heartbeat() -> Iterator[Step]:
+def _heartbeat(can: Ability) -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.WatchdogMs": 1000, "Pins.Settings.RefreshMs": 65535}
-    yield Step("the reference is refreshed for it", sets, ms=3000, shows=RUNNING | {"Seen.References >= 4": True})
-    yield Step("too short for the line", {"Pins.Settings.WatchdogMs": 30}, why("HEARTBEAT"), 1500, {"Running": True})
+    fed: dict[str, tuple[str, Shows]] = {
+        "reference": ("the reference is refreshed for it", {"Seen.References >= 4": True}),
+        "read": ("the reads feed it", {"Seen.References < 4": True}),
+        "run": ("run is sent again for it, and starts nothing", {"Seen.Starts": 1}),
+    }
+    name, shows = fed[can.feeds]
+    yield Step(name, sets, ms=3000, shows=RUNNING | shows)
+    rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
+    yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 
 
 def _unchecked() -> Iterator[Step]:
