@@ -23,7 +23,7 @@ from driveblocks.testing import (
 )
 from driveblocks.testing.bench import GENERIC
 from driveblocks.testing.scenes import drive as simulated
-from driveblocks.testing.scenes import line, manual, motor
+from driveblocks.testing.scenes import count, line, manual, motor, told
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.reason import unreached
@@ -34,7 +34,9 @@ ROOT = "tests/iec61131/"
 
 GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Motor": motor.scripts,
+    "Slot": told.scripts,
     "Line": line.scripts,
+    "Figures": count.scripts,
     "Parameters": parameters.scripts,
     "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,

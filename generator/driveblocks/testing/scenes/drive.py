@@ -55,6 +55,12 @@ def manners(drive: Drive) -> Manners:
     return table(drive, Habits()).manners
 
 
+def busy(drive: Drive) -> int:
+    """Its code for: busy, try again later; 0: it has none."""
+    codes = (each for each in drive.errors.codes if each.busy)
+    return next((code.code or next((one.value or 0 for one in code.corroborated), 0) for code in codes), 0)
+
+
 def counts_per_hertz(drive: Drive) -> float:
     """What the simulated drive takes its reference for, as a setting says it where the manual does not."""
     given = table(drive, Habits(maximum_hz=MAXIMUM_HZ)).reference
@@ -74,6 +80,7 @@ def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
         "verify": bool(made.reference.verify),
         "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
         "codes": made.codes,
+        "busy": busy(drive),
         "most": made.most,
         "readable": _within("Number", _runs(readable(drive))),
         "writable": _within("Number", _runs(writable(drive))),
