@@ -22,8 +22,8 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
+from driveblocks.testing.scenes import count, line, manual, motor, several, told
 from driveblocks.testing.scenes import drive as simulated
-from driveblocks.testing.scenes import count, line, manual, motor, told
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.reason import unreached
@@ -38,6 +38,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Line": line.scripts,
     "Figures": count.scripts,
     "Parameters": parameters.scripts,
+    "Several parameters": several.scripts,
     "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,
     "What may be read": access.scripts,

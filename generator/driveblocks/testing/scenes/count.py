@@ -109,7 +109,8 @@ def _counts() -> Iterator[Step]:
         })  # fmt: skip
         yield Step("it is well again", {}, "Motor.CommOk", 3000)
     yield Step("late replies", BEGIN | {"Fate.HoldMs": 100, "Pins.Settings.LongestMs": 200}, ms=800, shows=same | {
-        "Bus.LateReplies >= 1": True, "Bus.LateReplies = Slots[0].Late + Slots[1].Late": True, "Bus.LateReplies <= Heard + 1": True,
+        "Bus.LateReplies >= 1": True, "Bus.LateReplies = Slots[0].Late + Slots[1].Late": True,
+        "Bus.LateReplies <= Heard + 1": True,
         "Slots[0].LongestReplyMs": (60, 140), "Bus.ForeignFrames": 0,
     })  # fmt: skip
     end: Shows = {"Fate.HoldMs": 0, "RunForward": False}

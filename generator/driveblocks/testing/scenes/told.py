@@ -117,8 +117,9 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     yield Step("it runs as ever", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(run.register): True,
     } | _slot(known(drive) | {
-        "Once": run.register != reference, "ResetAsked": False, "Ask[1].FunctionCode": _write(drive), "Ask[1].Quantity": 1,
-        "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False, "EndsByAnswer": False,
+        "Once": run.register != reference, "ResetAsked": False, "Ask[1].FunctionCode": _write(drive),
+        "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
+        "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
     stop = _command(drive, "stop")
     yield Step("and stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | {
