@@ -22,7 +22,7 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.scenes import count, line, manual, motor, pace, several, told
+from driveblocks.testing.scenes import again, count, line, manual, motor, pace, several, told
 from driveblocks.testing.scenes import drive as simulated
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
@@ -38,6 +38,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Line": line.scripts,
     "Figures": count.scripts,
     "Pace": pace.scripts,
+    "Restart": again.scripts,
     "Parameters": parameters.scripts,
     "Several parameters": several.scripts,
     "The manual's frames on the line": manual.scripts,
