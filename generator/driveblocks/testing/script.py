@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 
 from driveblocks.st.writing import comment, flowing, paragraph, remarked
 from driveblocks.testing.harness import PER_SCAN
@@ -160,10 +161,26 @@ class Script:
 
     def programs(self) -> Iterator[Program]:
         """The finished programs: one, or several with a number behind the name; none without stages."""
-        chunks = [self.stages[at : at + MOST_STAGES] for at in range(0, len(self.stages), MOST_STAGES)]
+        chunks = list(_chunks(self.stages))
         for number, chunk in enumerate(chunks, 1):
             name = f"{self.name}{number}" if len(chunks) > 1 else self.name
             yield _Printer(self, name, chunk).program()
+
+
+def _chunks(stages: Sequence[Stage]) -> Iterator[list[Stage]]:
+    """The stages of each program; a scene is never cut."""
+    chunk: list[Stage] = []
+    for scene, run in groupby(stages, key=lambda stage: stage.scene):
+        whole = list(run)
+        if scene and chunk and len(chunk) + len(whole) > MOST_STAGES:
+            yield chunk
+            chunk = []
+        chunk += whole
+        while not scene and len(chunk) > MOST_STAGES:
+            yield chunk[:MOST_STAGES]
+            chunk = chunk[MOST_STAGES:]
+    if chunk:
+        yield chunk
 
 
 def _count(items: Sequence[Item]) -> int:

@@ -22,8 +22,8 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
+from driveblocks.testing.scenes import again, count, line, manual, motor, pace, several, told
 from driveblocks.testing.scenes import drive as simulated
-from driveblocks.testing.scenes import line, manual, motor
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.reason import unreached
@@ -34,8 +34,13 @@ ROOT = "tests/iec61131/"
 
 GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Motor": motor.scripts,
+    "Slot": told.scripts,
     "Line": line.scripts,
+    "Figures": count.scripts,
+    "Pace": pace.scripts,
+    "Restart": again.scripts,
     "Parameters": parameters.scripts,
+    "Several parameters": several.scripts,
     "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,
     "What may be read": access.scripts,

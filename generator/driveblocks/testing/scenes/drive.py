@@ -44,15 +44,26 @@ def name(drive: Drive) -> str:
     return f"{drive.prefix}_TestDrive"
 
 
-def text(drive: Drive, codes: Iterable[int]) -> str:
-    """The block; `codes` are the faults that it may be told to have."""
+def text(drive: Drive, faults: Iterable[int]) -> str:
+    """The block; `faults` are those that it may be told to have."""
     made = table(drive, Habits(maximum_hz=MAXIMUM_HZ))
-    return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(codes)))
+    return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(faults)))
 
 
 def manners(drive: Drive) -> Manners:
     """How it refuses."""
     return table(drive, Habits()).manners
+
+
+def codes(drive: Drive) -> dict[str, int | None]:
+    """Why it refuses -> its code."""
+    return table(drive, Habits()).codes
+
+
+def busy(drive: Drive) -> int:
+    """Its code for: busy, try again later; 0: it has none."""
+    found = (each for each in drive.errors.codes if each.busy)
+    return next((code.code or next((one.value or 0 for one in code.corroborated), 0) for code in found), 0)
 
 
 def counts_per_hertz(drive: Drive) -> float:
@@ -61,7 +72,7 @@ def counts_per_hertz(drive: Drive) -> float:
     return 1000.0 * given.per / given.times
 
 
-def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
+def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
     places = _places(drive, made)
     at = {address: index for index, address in enumerate(places)}
     moves = [_move(move, at, made) for move in sorted(made.moves, key=_weight)]
@@ -74,6 +85,7 @@ def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
         "verify": bool(made.reference.verify),
         "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
         "codes": made.codes,
+        "busy": busy(drive),
         "most": made.most,
         "readable": _within("Number", _runs(readable(drive))),
         "writable": _within("Number", _runs(writable(drive))),
@@ -81,7 +93,7 @@ def _context(drive: Drive, made: Table, codes: tuple[int, ...]) -> Context:
         "parameters": _within("Number", _joined(made.storage.areas)) or "FALSE",
         "home": _home(made),
         "faces": [_face(made, register) for register in made.named],
-        "shown": _shown(drive, made, codes),
+        "shown": _shown(drive, made, numbers),
         "stored": _stored(made),
         "moves": moves,
         "after": _after(made, at),
@@ -222,7 +234,7 @@ def _face(made: Table, register: int) -> Context:
     return {**names, "groups": groups, "other": word(other), "register": register}
 
 
-def _shown(drive: Drive, made: Table, codes: tuple[int, ...]) -> list[Context]:
+def _shown(drive: Drive, made: Table, numbers: tuple[int, ...]) -> list[Context]:
     """Registers that show something: what is done with `Value`."""
     found: dict[int, list[str]] = {}
     for register, mask in made.named.items():
@@ -230,7 +242,7 @@ def _shown(drive: Drive, made: Table, codes: tuple[int, ...]) -> list[Context]:
         found.setdefault(register, []).append(f"Value := (Value AND {word(~mask)}) OR {face};")
     for gauge in made.gauges:
         found.setdefault(gauge.register, []).append(_gauge(gauge))
-    for register, statement in (*_faults(made, codes), *_mistaken(drive)):
+    for register, statement in (*_faults(made, numbers), *_mistaken(drive)):
         found.setdefault(register, []).append(statement)
     return [{"register": register, "statements": lines} for register, lines in sorted(found.items())]
 
@@ -249,11 +261,11 @@ def _gauge(gauge: Gauge) -> str:
     return f"Value := UDINT_TO_WORD(DINT_TO_UDINT({counts}));"
 
 
-def _faults(made: Table, codes: tuple[int, ...]) -> Iterator[tuple[int, str]]:
+def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
     if made.present is not None:
         yield made.present, "Value := UINT_TO_WORD(Motor.FaultCode);"
     if made.fault_bits:
-        for code in codes:
+        for code in numbers:
             place, bit = divmod(code - 1, 16)
             statement = f"IF Motor.FaultCode = {code} THEN Value := Value OR {word(1 << bit)}; END_IF;"
             yield made.fault_bits[0] + place, statement

@@ -7,6 +7,7 @@ from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import codes
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -15,71 +16,97 @@ BLOCKS = {
     "Reader": ("VFD_ReadParameter", "under test: reads a parameter"),
     "Writer": ("VFD_WriteParameter", "under test: writes one"),
     "Storer": ("VFD_Store", "under test: stores them"),
+    "Rival": ("VFD_ReadParameter", "reads one again and again, so is the next"),
+    "Rival2": ("VFD_ReadParameter", "..."),
     "Reading": ("BOOL", "its pin Execute"),
     "Writing": ("BOOL", "its pin Execute"),
     "Storing": ("BOOL", "its pin Execute"),
+    "Rivals": ("BOOL", "both are at it"),
+    "Rests": ("BOOL", "Reader is not called"),
     "Place": ("WORD", "register"),
     "Count": ("UINT", "how many"),
     "Given": ("WORD", "what is written there"),
+    "Given2": ("WORD", "... behind it"),
+    "Given3": ("WORD", "... behind that"),
     "Unknown": ("BOOL", "its pin AllowUnknown"),
+    "Within": ("UINT", "its pin WithinMs"),
+    "Minimum": ("UINT", "its pin MinimumS"),
     "Stores": ("UDINT", "times that the drive was told to store"),
+    "Clash": ("BOOL", "Busy, Done and Error of a block have not excluded each other"),
 }
+_RIVAL = "(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Place, WithinMs := 5000, Slot := Slots[0]);"
 CALLS = (
-    "Reader(Execute := Reading, Address := Place, Quantity := Count, AllowUnknown := Unknown, WithinMs := 1500,",
-    "  Slot := Slots[0]);",
-    "Writer(Execute := Writing, Address := Place, Quantity := Count, Value := Given, Value2 := Given,",
-    "  AllowUnknown := Unknown, WithinMs := 1500, Slot := Slots[0]);",
-    "Storer(Execute := Storing, WithinMs := 1500, Slot := Slots[0], Stores := Stores);",
+    f"Rival{_RIVAL.format('Rival')}",
+    f"Rival2{_RIVAL.format('Rival2')}",
+    "IF NOT Rests THEN",
+    "  Reader(Execute := Reading, Address := Place, Quantity := Count, AllowUnknown := Unknown, WithinMs := Within,",
+    "    Slot := Slots[0]);",
+    "END_IF;",
+    "Writer(Execute := Writing, Address := Place, Quantity := Count, Value := Given, Value2 := Given2,",
+    "  Value3 := Given3, AllowUnknown := Unknown, WithinMs := Within, Slot := Slots[0]);",
+    "Storer(Execute := Storing, MinimumS := Minimum, WithinMs := Within, Slot := Slots[0], Stores := Stores);",
+    "Clash := Clash OR (Reader.Busy AND (Reader.Done OR Reader.Error)) OR (Reader.Done AND Reader.Error)",
+    "  OR (Writer.Busy AND (Writer.Done OR Writer.Error)) OR (Writer.Done AND Writer.Error)",
+    "  OR (Storer.Busy AND (Storer.Done OR Storer.Error)) OR (Storer.Done AND Storer.Error)",
+    "  OR (Reader.Error <> (Reader.ErrorID > 0)) OR (Writer.Error <> (Writer.ErrorID > 0))",
+    "  OR (Storer.Error <> (Storer.ErrorID > 0));",
 )
+WITHIN_MS = 1500
 IDLE: Shows = {
     ".Reading": False, ".Writing": False, ".Storing": False, ".Count": 1, ".Unknown": False, "Pins.Others": 100,
-    "Pins.Stores": 100,
+    "Pins.Stores": 100, ".Within": WITHIN_MS, ".Rivals": False, ".Rests": False, ".Minimum": 0, ".Clash": False,
 }  # fmt: skip
+
+
+EXECUTE = {"Reader": ".Reading", "Writer": ".Writing", "Storer": ".Storing"}
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program."""
     more = More(blocks=BLOCKS, calls=CALLS)
-    yield script(drive, stem, "Parameters", "parameters beside a motor", scenes(Ability(drive)), more)
+    can = Ability(drive)
+    yield script(drive, stem, "Parameters", "parameters beside a motor", scenes(can), more)
 
 
 def scenes(can: Ability) -> Iterator[Scene]:
     """All scenes of parameters, as far as the map has any."""
-    yield scene("what may not be read or written", _idle(), *_barred(can))
-    place = _place(can.drive)
+    yield scene("what may not be read or written", idle(), *_barred(can))
+    place = place_of(can.drive)
     if place is None:
         return
-    yield scene("a parameter is written and read", _idle(), *_there_and_back(place))
-    yield scene("a drive that refuses or is silent", _idle(), *_in_vain(place))
-    yield scene("a parameter while the motor runs", _idle(), run(), *_while_it_runs(can, place))
-    yield scene("a start while a parameter is written", _idle(), *_waits(place))
+    yield scene("a parameter is written and read", idle(), *_there_and_back(place))
+    yield scene("a drive that refuses or is silent", idle(), *_in_vain(can.drive, place))
+    yield scene("a parameter while the motor runs", idle(), run(), *_while_it_runs(can, place))
+    yield scene("a start while a parameter is written", idle(), *_waits(place))
     if can.drive.storage.method == "enter_register":
-        yield scene("parameters are stored", _idle(), *_stored())
+        yield scene("parameters are stored", idle(), *_stored())
 
 
-def _place(drive: Drive) -> int | None:
+def place_of(drive: Drive) -> int | None:
     """A register that may be written with a small word at standstill, and read."""
     judge = Judge(drive)
     both = sorted(readable(drive) & writable(drive))
     return next((each for each in both if judge.result(Write(each, 3)) == "OK"), None)
 
 
-def _idle() -> Step:
+def idle() -> Step:
+    """Power-up, and nothing asked."""
     return Step("power-up", IDLE, "Motor.Ready", 2000, {"Reason": "READY"})
 
 
-def _does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Iterator[Step]:
+def does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Iterator[Step]:
     """An edge of Execute, what comes of it, and its release."""
-    execute = {"Reader": ".Reading", "Writer": ".Writing", "Storer": ".Storing"}[block]
+    execute = EXECUTE[block]
     given: Shows = {execute: True, ".Place": word(place)}
     given |= {f".{key}": each for key, each in sets.items()}
     yield Step(f"{block}.Execute", given, f"{block}.{until}", 2500, {f"{block}.Busy": False} | shows)
     yield Step("released", {execute: False, ".Unknown": False, ".Count": 1}, ms=30, shows={
-        f"{block}.Done": False, f"{block}.Error": False,
+        f"{block}.Done": False, f"{block}.Error": False, f"{block}.RefusedReason": 0, "Clash = FALSE": True,
     })  # fmt: skip
 
 
-def _error(block: str, name: str) -> Shows:
+def error(block: str, name: str) -> Shows:
+    """A result that is none."""
     return {f"{block}.ErrorID": NUMBERS[name], f"{block}.Done": False}
 
 
@@ -90,45 +117,47 @@ def _barred(can: Ability) -> Iterator[Step]:
     command = next(one.register for one in operation.commands if one.does == "stop")
     untouched: Shows = {"Seen.Others": 0, "Seen.Starts": 0}
     for place in dict.fromkeys((command, operation.reference.register)):
-        owned = _error("Writer", "OWNED") | untouched
-        yield from _does("Writer", place, "Error", owned, Given=word(1), Unknown=True)
-    yield from _does("Writer", free, "Error", _error("Writer", "UNKNOWN_ADDRESS") | untouched, Given=word(1))
-    yield from _does("Reader", free, "Error", _error("Reader", "NOT_READABLE"))
-    yield from _does("Reader", free, "Error", _error("Reader", "REFUSED") | {"StopConfirmed": True}, Unknown=True)
-    yield from _does("Reader", 0xFFFF, "Error", _error("Reader", "WRAP"), Count=2)
-    yield from _does("Reader", free, "Error", _error("Reader", "QUANTITY"), Count=5)
-    yield from _does("Writer", free, "Error", _error("Writer", "QUANTITY"), Count=4)
+        owned = error("Writer", "OWNED") | untouched
+        yield from does("Writer", place, "Error", owned, Given=word(1), Unknown=True)
+    yield from does("Writer", free, "Error", error("Writer", "UNKNOWN_ADDRESS") | untouched, Given=word(1))
+    yield from does("Reader", free, "Error", error("Reader", "NOT_READABLE"))
+    yield from does("Reader", free, "Error", error("Reader", "REFUSED") | {"StopConfirmed": True}, Unknown=True)
+    yield from does("Reader", 0xFFFF, "Error", error("Reader", "WRAP"), Count=2)
+    yield from does("Reader", free, "Error", error("Reader", "QUANTITY"), Count=5)
+    yield from does("Writer", free, "Error", error("Writer", "QUANTITY"), Count=4)
     yield Step("the motor has not moved", ms=50, shows=NOTHING_STARTED | {"StopConfirmed": True, "Seen.Others": 0})
 
 
 def _there_and_back(place: int) -> Iterator[Step]:
     written: Shows = {"Seen.Others": 1, f"Seen.LastWord = {word(3)}": True}
-    yield from _does("Writer", place, "Done", written, Given=word(3))
-    yield from _does("Reader", place, "Done", {f"Reader.Value = {word(3)}": True})
-    yield from _does("Writer", place, "Done", {"Seen.Others": 2}, Given=word(2))
-    yield from _does("Reader", place, "Done", {f"Reader.Value = {word(2)}": True})
+    yield from does("Writer", place, "Done", written, Given=word(3))
+    yield from does("Reader", place, "Done", {f"Reader.Value = {word(3)}": True})
+    yield from does("Writer", place, "Done", {"Seen.Others": 2}, Given=word(2))
+    yield from does("Reader", place, "Done", {f"Reader.Value = {word(2)}": True})
     both: Shows = {".Reading": True, ".Writing": True, ".Given": word(4)}
     yield Step("both at once", both, "Reader.Done AND Writer.Done", 2000, {"Seen.Others": 3})
     yield Step("released", {".Reading": False, ".Writing": False}, "Motor.Ready", 500, NOTHING_STARTED)
 
 
-def _in_vain(place: int) -> Iterator[Step]:
+def _in_vain(drive: Drive, place: int) -> Iterator[Step]:
     nothing: Shows = {"Seen.Others": 0}
     yield Step("it refuses writes", {"Fate.RefusesWrites": True}, ms=50, shows=nothing)
-    yield from _does("Writer", place, "Error", _error("Writer", "REFUSED") | nothing, Given=word(3))
+    code = codes(drive)["address"] or 0
+    refused = error("Writer", "REFUSED") | nothing | {"Writer.RefusedReason": code, "Slots[0].RefusedReason": code}
+    yield from does("Writer", place, "Error", refused, Given=word(3))
     lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(place)}
     yield Step("its answer stays away", lost, ms=50, shows=nothing)
-    yield from _does("Writer", place, "Error", _error("Writer", "SILENCE") | nothing, Given=word(3))
+    yield from does("Writer", place, "Error", error("Writer", "SILENCE") | nothing, Given=word(3))
     yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000, nothing)
-    yield from _does("Reader", place, "Error", _error("Reader", "OFFLINE"))
+    yield from does("Reader", place, "Error", error("Reader", "OFFLINE"))
 
 
 def _while_it_runs(can: Ability, place: int) -> Iterator[Step]:
     nothing: Shows = {"Seen.Others": 0, "Running": True}
     if Judge(can.drive).result(Write(place, 3, stopped=False)) == "NOT_STOPPED":
-        refused = _error("Writer", "NOT_STOPPED") | nothing
-        yield from _does("Writer", place, "Error", refused, Given=word(3))
-    yield from _does("Reader", place, "Done", {"Running": True, "Seen.Starts": 1})
+        refused = error("Writer", "NOT_STOPPED") | nothing
+        yield from does("Writer", place, "Error", refused, Given=word(3))
+    yield from does("Reader", place, "Done", {"Running": True, "Seen.Starts": 1})
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)
 
 
@@ -143,8 +172,8 @@ def _waits(place: int) -> Iterator[Step]:
 
 
 def _stored() -> Iterator[Step]:
-    yield from _does("Storer", 0, "Error", _error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
     yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600, shows=NOTHING_STARTED)
     yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, "Motor.Ready", 3000, {"Seen.Stores": 0})
-    yield from _does("Storer", 0, "Done", {"Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True})
-    yield from _does("Storer", 0, "Error", _error("Storer", "TOO_SOON") | {"Seen.Stores": 1})
+    yield from does("Storer", 0, "Done", {"Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True})
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 1})

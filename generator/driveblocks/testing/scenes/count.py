@@ -1,0 +1,128 @@
+"""Scenes of what a line says of itself: how late its stops can be, what it counts, how fast it goes round."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from driveblocks.maps.model import Drive
+from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.motor import POWER, RUNNING, STANDS, run
+from driveblocks.testing.scenes.promise import Promise
+from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
+from driveblocks.testing.script import SCAN_MS, Script
+
+MARKS = {
+    "Marks": ("MB_Words16", "counts of before"),
+    "Sent": ("UINT", "requests that the line has counted since"),
+    "Heard": ("UINT", "requests that the drive has heard since"),
+    "Before": ("UINT", "what the drive had heard"),
+}
+CALLS = (
+    "Heard := Seen.Reads + Seen.Writes - Before;",
+    "Sent := UDINT_TO_UINT(Slots[0].Requests MOD 65536) - Mark;",
+)
+BEGIN: Shows = {".Mark": "UDINT_TO_UINT(Bus.Requests MOD 65536)", ".Before": "Seen.Reads + Seen.Writes"}
+COUNTERS = ("Timeouts", "Bad", "Refusals", "Retries")
+"""Of the line and of a slot."""
+
+
+def scripts(drive: Drive, stem: str) -> Iterator[Script]:
+    """One program."""
+    more = More(other=True, blocks=MARKS, calls=CALLS)
+    yield script(drive, stem, "MotorCount", "what a line counts and promises", scenes(Ability(drive)), more)
+
+
+def scenes(can: Ability) -> Iterator[Scene]:
+    """All scenes of the line's own figures; the first needs a line that was never late."""
+    yield scene("a scan that is later than promised is counted", POWER, *_late_scans())
+    yield scene("what the line counts", POWER, run(), *_counts())
+    yield scene("how late a stop can be", POWER, *_promises(can))
+    yield scene("how busy the line is", POWER, *_load())
+
+
+def _late_scans() -> Iterator[Step]:
+    yield Step("none yet", ms=100, shows={"Bus.LateScans": 0, "Bus.LongestScanMs": SCAN_MS, "Slots[0].ScanLate": False})
+    yield Step("as long as promised", {"Pins.ElapsedMs": 40}, ms=40, shows={"Bus.LateScans": 0})
+    yield Step("longer", {"Pins.ElapsedMs": 41}, "Bus.LateScans > 0", 100, {"Bus.LongestScanMs": 41})
+    yield Step("each counts", ms=40, shows={"Bus.LateScans": (3, 4), "Slots[0].ScanLate": True})
+    yield Step("for ten seconds", {"Pins.ElapsedMs": 40}, "NOT Slots[0].ScanLate", 10000, {
+        ".WaitedMs": (4900, 5100), "Bus.LongestScanMs": 41,
+    })  # fmt: skip
+
+
+def _promises(can: Ability) -> Iterator[Step]:
+    drive = can.drive
+    silence = drive.serial.silence
+    usual = Promise(
+        ascii="rtu" not in drive.serial.mode.modes,
+        silence=int(silence.milliseconds or 0) if silence else 0,
+        by_one=any(function.code == 6 for function in drive.functions),
+    )
+    for words, sets, one in _lines(can, usual):
+        yield Step(words, sets, ms=18 * SCAN_MS, shows={
+            "Bus.StopAloneMs": one.alone, "Bus.WorstStopMs": one.worst, "Bus.CutToContactMs": one.cut,
+        })  # fmt: skip
+
+
+def _lines(can: Ability, usual: Promise) -> Iterator[tuple[str, Shows, Promise]]:
+    """Lines one after the other, each an edit of the one before."""
+    yield "as scenes have it", {}, usual
+    slow = replace(usual, rate=9600, keeps=False, retries=0, scan=20)
+    pins: Shows = {"Pins.BitRate": 0, "Pins.CharacterBits": 0, "Pins.KeepsSilence": False, "Pins.MaxScanMs": 0}
+    yield "slow, and nothing wired", pins | {"Pins.CommandRetries": 255}, slow
+    at = replace(slow, rate=19200, bits=11, port=7, retries=5)
+    pins = {"Pins.BitRate": 19200, "Pins.CharacterBits": 11, "Pins.PortLateMs": 7, "Pins.CommandRetries": 5}
+    yield "8E1, and a port that keeps frames back", pins, at
+    at = replace(at, rate=38400, keeps=True, scan=50, offline=3000, turn_round=80, longest=400)
+    pins = {"Pins.BitRate": 38400, "Pins.KeepsSilence": True, "Pins.MaxScanMs": 50, "Pins.OfflineMs": 3000}
+    pins |= {"Pins.Settings.TurnRoundMs": 80, "Pins.Settings.LongestMs": 400}
+    yield "a slow drive", pins, at
+    if len(can.drive.serial.mode.modes) > 1:
+        at = replace(at, ascii=True, offline=1000)
+        yield "in ASCII", {"Pins.Ascii": True, "Pins.OfflineMs": 0}, at
+        at = replace(at, ascii=False)
+        yield "in RTU", {"Pins.Ascii": False}, at
+    unit = can.drive.serial.unit.min
+    if can.drive.serial.unit.max > unit:
+        pins = {"Pins.OtherOn": True, "Pins.OtherUnit": unit + 1, "Pins.OfflineMs": 1000}
+        pins |= {"Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
+        yield "two drives", pins, replace(at, drives=2, offline=1000, turn_round=30, longest=60)
+
+
+def _counts() -> Iterator[Step]:
+    same: Shows = {f"Bus.{name} = Slots[0].{name} + Slots[1].{name}": True for name in ("Requests", "Good", *COUNTERS)}
+    yield Step("from here", BEGIN | {".Marks[0]": "UINT_TO_WORD(Bus.Retries)"}, ms=20)
+    yield Step("each request reaches the drive", ms=1000, shows=RUNNING | same | {
+        "Sent > 20": True, "(Sent + 1 >= Heard) AND (Sent <= Heard + 1)": True,
+        "(Bus.Requests >= Bus.Good) AND (Bus.Requests <= Bus.Good + 6)": True, "Bus.Timeouts": 0, "Bus.Bad": 0,
+        "Bus.Refusals": 0, "Bus.LateReplies": 0, "Bus.LastErrorID": 0,
+    })  # fmt: skip
+    for words, what, counter, error in (
+        ("its replies are lost", "Dumb", "Timeouts", 20),
+        ("its replies are damaged", "Damaged", "Bad", 23),
+        ("it refuses reads", "RefusesReads", "Refusals", 40),
+    ):
+        yield Step(words, BEGIN | {f"Fate.{what}": True, ".Marks[1]": f"UINT_TO_WORD(Bus.{counter})"}, ms=600)
+        more = f"Bus.{counter} - WORD_TO_UINT(Marks[1])"
+        yield Step("each is counted", {f"Fate.{what}": False}, ms=60, shows=same | {
+            f"({more} <= Heard) AND ({more} + 4 >= Heard) AND ({more} > 2)": True, "Bus.LastErrorID": error,
+            f"Slots[0].LastErrorID = {error}": True,
+        })  # fmt: skip
+        yield Step("it is well again", {}, "Motor.CommOk", 3000)
+    yield Step("late replies", BEGIN | {"Fate.HoldMs": 100, "Pins.Settings.LongestMs": 200}, ms=800, shows=same | {
+        "Bus.LateReplies >= 1": True, "Bus.LateReplies = Slots[0].Late + Slots[1].Late": True,
+        "Bus.LateReplies <= Heard + 1": True,
+        "Slots[0].LongestReplyMs": (60, 140), "Bus.ForeignFrames": 0,
+    })  # fmt: skip
+    end: Shows = {"Fate.HoldMs": 0, "RunForward": False}
+    yield Step("it stops", end, "Motor.StopConfirmed", 4000, STANDS | same | {"Bus.ForeignFrames": 0})
+
+
+def _load() -> Iterator[Step]:
+    """One drive that answers at once keeps the line busy; a dead one leaves it free."""
+    yield Step("from here", BEGIN, ms=2000, shows={
+        "Bus.LoadPercent": (40, 100), "Bus.CycleMs": (20, 100), "Bus.WorstCycleMs >= Bus.CycleMs": True,
+        "UINT_TO_UDINT(Sent) * UINT_TO_UDINT(Bus.CycleMs) > 1700": True,
+        "UINT_TO_UDINT(Sent) * UINT_TO_UDINT(Bus.CycleMs) < 2300": True,
+    })  # fmt: skip
+    yield Step("it is dead", {"Fate.Cut": True}, "NOT Slots[0].Online", 4000, {"Bus.OnlineCount": 0})
+    yield Step("it is probed now and then", ms=6000, shows={"Bus.LoadPercent": (0, 12)})

@@ -1,0 +1,170 @@
+"""Scenes of the slot: what a drive block tells its line, and memory that is not blank when the PLC begins."""
+
+from collections.abc import Iterator
+
+from driveblocks.maps.model import Command, Drive
+from driveblocks.reference.command import Commands
+from driveblocks.st.writing import word
+from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import busy, manners
+from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
+from driveblocks.testing.scenes.scene import Scene, Shows, Step, Value, scene, script
+from driveblocks.testing.script import Script
+
+KEPT = 0x5A5A
+"""What stands in a command register beside the commands' own bits."""
+SETTINGS: dict[str, int] = {
+    "TurnRoundMs": 35, "LongestMs": 70, "BootMs": 7000, "FollowWithinMs": 2000, "StaleMs": 3000, "RefreshMs": 700,
+}  # fmt: skip
+USUAL: dict[str, int] = {"LongestMs": 500, "BootMs": 10000}
+"""What stands in for settings that are 0, where neither map nor drive says it."""
+
+
+def scripts(drive: Drive, stem: str) -> Iterator[Script]:
+    """One program."""
+    yield script(drive, stem, "MotorSlot", "what the line gets to know, and memory that is not blank", scenes(drive))
+
+
+def scenes(drive: Drive) -> Iterator[Scene]:
+    """All scenes of the slot."""
+    can = Ability(drive)
+    yield scene("memory that is not blank", *_not_blank(drive))
+    yield scene("settings in use", *_settings(can))
+    yield scene("settings left to the block", *_unset(can))
+
+
+def known(drive: Drive) -> Shows:
+    """What a slot holds of a family, whatever its motor does."""
+    form, silence = manners(drive), drive.serial.silence
+    stop, jog = _command(drive, "stop"), _command(drive, "jog_stop")
+    found: Shows = {
+        "UnitAddress": drive.serial.unit.min, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,
+        "SilenceMs": int(silence.milliseconds or 0) if silence else 0, "PollEveryMs": 0,
+        "ExceptionAdd": 0 if form.address is not None else form.added, "ErrorFunction": form.function or 0,
+        "ErrorAddress": word(form.address or 0), "BusyReason": busy(drive), "TwoByteCount": form.two_byte_count,
+        "Ask[0].FunctionCode": _write(drive), "Ask[0].Quantity": 1, "Ask[0].Address": word(stop.register),
+        "StopRegister": word(stop.register), "StopWord": word(_word(drive, stop)),
+    }  # fmt: skip
+    if jog is not stop:
+        found |= {"JogStopRegister": word(jog.register), "JogStopWord": word(_word(drive, jog))}
+    return found
+
+
+def _command(drive: Drive, does: str) -> Command:
+    commands = {one.does: one for one in drive.operation.commands}
+    return commands.get(does, commands["stop"])
+
+
+def _write(drive: Drive) -> int:
+    return 6 if any(function.code == 6 for function in drive.functions) else 16
+
+
+def _word(drive: Drive, command: Command) -> int:
+    """The word of a command, beside what is kept."""
+    if not drive.operation.in_one_word:
+        return command.value or sum(1 << bit for span in command.set for bit in span)
+    return Commands(drive).word(command, {command.register: KEPT})
+
+
+def _slot(shows: Shows) -> Shows:
+    """What must be so in the slot; words and numbers of a byte are compared as they are."""
+    return dict(_seen(f"Slots[0].{key}", value) for key, value in shows.items())
+
+
+def _seen(key: str, value: Value) -> tuple[str, Value]:
+    return (key, value) if isinstance(value, bool | tuple) else (f"{key} = {value}", True)
+
+
+def _junk(shows: Shows) -> Shows:
+    """Something else in each of these fields."""
+    return {f"Slots[0].{key}": _other(value) for key, value in shows.items()}
+
+
+def _other(value: Value) -> Value:
+    if isinstance(value, bool):
+        return not value
+    return word(0x1234) if isinstance(value, str) else 77
+
+
+LEFT: Shows = {
+    "Online": True, "Varied": True, "Unattended": True, "StopOverdue": True, "StopAll": True, "ScanLate": True,
+    "Shared": True, "Ascii": True, "StopConfirmed": True, "EndsByAnswer": True, "ProvedStill": True, "Tripped": True,
+    "StopAgain": True, "ResetAsked": True, "Once": True, "JogStop": 2, "ParameterCleared": 9, "OtherQuantity": 3,
+    "LineErrorID": 55, "PollCount": 7, "LongestReplyMs": 900, "Replies": 200, "SinceStoreMs": 65535, "Alive": 33,
+    "Ask[1].Number": 9, "Ask[1].FunctionCode": 6, "Ask[1].Quantity": 9, "Ask[2].Number": 9, "Ask[2].FunctionCode": 6,
+    "Ask[2].Quantity": 9, "Ask[3].Number": 35, "Answer[0].Tried": 12, "Answer[1].Tries": 3, "Answer[3].Tries": 3,
+}  # fmt: skip
+"""What may stand in a slot that nobody has cleared: a drive online, a command and a parameter that wait."""
+
+
+def _not_blank(drive: Drive) -> Iterator[Step]:
+    left = {f"Slots[0].{key}": value for key, value in LEFT.items()}
+    at_once = known(drive)
+    if drive.identity:
+        del at_once["Ask[0].FunctionCode"]  # no stop may be sent before the drive has said what it is
+    held: Shows = left | _junk(known(drive)) | {"Pins.Settings.KeepWord": word(KEPT)}
+    yield Step("memory holds what was there before", held, ms=60, shows=_slot(at_once) | NOTHING_STARTED | {
+        "StopConfirmed": False, "Seen.Others": 0,
+    })  # fmt: skip
+    yield Step("nothing of it counts", {}, "Motor.Ready", 2000, STANDS | NOTHING_STARTED | _slot({
+        "Varied": False, "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
+        "Shared": False, "Ascii": "rtu" not in drive.serial.mode.modes, "StopConfirmed": True, "ProvedStill": True,
+        "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
+        "SinceStoreMs < 2000": True, "ResetAsked": False,
+    } | _nothing_waits()))  # fmt: skip
+    run = _command(drive, "run_forward")
+    reference = drive.operation.reference.register
+    yield Step("it runs as ever", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
+        "Seen.Starts": 1, "Seen.LastRegister = " + word(run.register): True,
+    } | _slot(known(drive) | {
+        "Once": run.register != reference, "ResetAsked": False, "Ask[1].FunctionCode": _write(drive),
+        "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
+        "EndsByAnswer": False,
+    } | _nothing_waits()))  # fmt: skip
+    stop = _command(drive, "stop")
+    yield Step("and stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | {
+        f"Seen.LastWord = {word(_word(drive, stop))}": True, "Seen.Others": 0,
+    } | _slot(_nothing_waits()))  # fmt: skip
+
+
+def _nothing_waits() -> Shows:
+    return {f"Ask[{box}].Number": f"Slots[0].Answer[{box}].Number" for box in (1, 2)}
+
+
+def _settings(can: Ability) -> Iterator[Step]:
+    sets: Shows = {f"Pins.Settings.{key}": value for key, value in SETTINGS.items()}
+    yield Step("all are set", sets | {"StopWithinMs": 4000}, "Motor.Ready", 3000, _slot({
+        key: SETTINGS[key] for key in ("TurnRoundMs", "LongestMs", "BootMs")
+    } | {"StopWithinMs": 4000}))  # fmt: skip
+    yield Step("the diagnosis says it", ms=100, shows=_diagnosis(can) | {
+        "Motor.Diagnosis.TurnRoundMs": SETTINGS["TurnRoundMs"],
+    })  # fmt: skip
+    yield Step("LongestMs is at least TurnRoundMs", {"Pins.Settings.TurnRoundMs": 90}, ms=60, shows=_slot({
+        "TurnRoundMs": 90, "LongestMs": 90,
+    }))  # fmt: skip
+
+
+def _diagnosis(can: Ability) -> Shows:
+    """What the line knows and the drive block shows."""
+    found: Shows = {
+        f"Motor.Diagnosis.{name} = Slots[0].{name}": True
+        for name in ("TurnRoundMs", "LongestReplyMs", "StopAloneMs", "WorstStopMs")
+    }
+    found |= {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
+    found |= {"Motor.Diagnosis.StatusAgeMs": (0, 400), "Motor.Diagnosis.State": 1}
+    found["(Motor.Diagnosis.StopKind = 1) OR (Motor.Diagnosis.StopKind = 4)"] = True
+    if can.drive.operation.measures:
+        found["Motor.Diagnosis.MeasuresAgeMs"] = (0, 600)
+    return found
+
+
+def _unset(can: Ability) -> Iterator[Step]:
+    sets: Shows = {f"Pins.Settings.{key}": 0 for key in SETTINGS}
+    learned = "Slots[0].TurnRoundMs = MAX(50, 2 * Slots[0].LongestReplyMs + 20)"
+    yield Step("none is set", sets, ms=100, shows=_slot(USUAL | {"TurnRoundMs": 500}))
+    yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
+    yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL) | _diagnosis(can))
+    yield Step("replies come later", {"Fate.HoldMs": 40}, ms=600, shows={learned: True, "CommOk": True})
+    yield Step("so late that nobody can learn it", {"Slots[0].LongestReplyMs": 241}, ms=60, shows=_slot({
+        "TurnRoundMs": 500,
+    }))  # fmt: skip
