@@ -1,6 +1,7 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
+import io
 import os
 import re
 import subprocess
@@ -11,12 +12,14 @@ from pathlib import Path
 
 import pytest
 import typer
+from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
 
+from driveblocks import console
 from driveblocks.commands import run as command
 from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
@@ -220,6 +223,13 @@ def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
     assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
         place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
     )
+
+
+def test_a_terminal_is_told_while_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = io.StringIO()
+    monkeypatch.setattr(console, "terminal", lambda: Console(file=drawn, force_terminal=True, color_system=None))
+    Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
+    assert drawn.getvalue() == "SIMULATED  compiling my.st\n"
 
 
 def test_an_empty_name_is_no_port(program: Path) -> None:
