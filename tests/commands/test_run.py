@@ -1,6 +1,7 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
+import io
 import os
 import re
 import subprocess
@@ -11,12 +12,14 @@ from pathlib import Path
 
 import pytest
 import typer
+from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
 
+from driveblocks import console
 from driveblocks.commands import run as command
 from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
@@ -89,7 +92,11 @@ REFUSED = [
     ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or real"),
     ("my.st --simulate jscc --tcp 10.0.0.1:1", "--simulate and --tcp exclude each other"),
     ("--demo --port COM3", "--demo and --port exclude each other"),
-    ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT"),
+    ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT, with a port of 1 to 65535"),
+    ("my.st --tcp 127.0.0.1:²", "--tcp 127.0.0.1:² is no address"),
+    ("my.st --tcp 127.0.0.1:70000", "--tcp 127.0.0.1:70000 is no address"),
+    ("my.st --for " + 400 * "9" + "s", "is no time; write 10ms, 2.5s or 1min"),
+    ("my.st --scan " + 400 * "9" + "ms", "is no time; write 10ms, 2.5s or 1min"),
     ("my.st --allow-run", "--allow-run is for a real port; simulated drives may always run"),
     ("my.st --tcp :502 --simulated --allow-run", "--allow-run is for a real port"),
     ("my.st --tcp 10.0.0.1:502 --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:"),
@@ -151,7 +158,7 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     assert lines[1] == "SIMULATED  CHF at unit 1: maximum 60 Hz (100 %), FrequencyScale=0.01,"
-    assert lines[4] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
+    assert lines[5] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
     assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
     rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
     assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]
@@ -216,6 +223,18 @@ def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
     assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
         place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
     )
+
+
+def test_a_terminal_is_told_while_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = io.StringIO()
+    monkeypatch.setattr(console, "terminal", lambda: Console(file=drawn, force_terminal=True, color_system=None))
+    Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
+    assert drawn.getvalue() == "SIMULATED  compiling my.st\n"
+
+
+def test_an_empty_name_is_no_port(program: Path) -> None:
+    result = run(program, "--port", "")
+    assert (result.exit_code, result.stderr) == (2, "--port names no port; write one such as /dev/ttyUSB0 or COM3\n")
 
 
 @pytest.mark.parametrize("name", ["invt_chf.yaml", "mine.yaml"])

@@ -161,6 +161,8 @@ def _files(path: Path, bad: list[str]) -> list[Path]:
 
 def _text(path: Path) -> str:
     """The text of one file. Raises OSError, or ValueError saying why it is no source."""
+    if path.exists() and not path.is_file():
+        raise ValueError("expected a file, found a pipe or device")
     with path.open("rb") as stream:
         data = stream.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:

@@ -1,11 +1,13 @@
 """The words of the command line: what they are, and what does not go together."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.plc import script
 
+NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
 
 
@@ -48,6 +50,11 @@ class Options:
         return self.port is not None or (self.tcp is not None and not self.simulated)
 
 
+def is_port(number: str) -> bool:
+    """Whether digits are the number of a TCP port that one can connect to."""
+    return bool(re.fullmatch("[0-9]{1,5}", number)) and 0 < int(number) <= 0xFFFF
+
+
 def wrong(options: Options) -> Iterator[str]:
     """What does not go together."""
     if (options.program is None) != options.demo:
@@ -61,8 +68,10 @@ def wrong(options: Options) -> Iterator[str]:
         ways.insert(0, "--demo")
     if len(ways) > 1:
         yield f"{' and '.join(ways)} exclude each other: drives are simulated, or real"
-    if options.tcp is not None and not options.tcp.rpartition(":")[2].isdigit():
-        yield f"--tcp {options.tcp} is no address; write HOST:PORT"
+    if options.tcp is not None and not is_port(options.tcp.rpartition(":")[2]):
+        yield f"--tcp {options.tcp} is no address; write HOST:PORT, with a port of 1 to 65535"
+    if options.port == "":
+        yield NO_PORT
     if options.simulated and not options.loopback:
         yield (
             f"--simulated is for a simulator of this computer; write --tcp {LOOPBACK[1]}:5020 --simulated, "

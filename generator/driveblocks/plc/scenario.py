@@ -16,7 +16,7 @@ from driveblocks.plc.script import duration_us
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
-TIME = r"[0-9]+(\.[0-9]+)? ?(ms|s|min)"
+TIME = r"[0-9]{1,12}(\.[0-9]{1,12})? ?(ms|s|min)"
 UNIT = r"( (?P<unit>[1-9][0-9]{0,2}))?"
 PERCENT = r" (?P<percent>[0-9]{1,3}(\.[0-9]+)?) ?%"
 LASTS = rf"( for (?P<lasts>{TIME}))?"
