@@ -16,7 +16,8 @@ PAGES = [
     for name in (
         "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/drives.md", "docs/line.md", "docs/linux.md",
         "docs/other-plcs.md", "docs/run.md", "docs/simulate.md", "docs/testing.md", "vendor_maps/README.md",
-        "blocks/openplc/README.md", "blocks/twincat/README.md",
+        "blocks/openplc/README.md", "blocks/twincat/README.md", "blocks/codesys/README.md", "blocks/plcopen/README.md",
+        "blocks/siemens/README.md",
     )
 ]  # fmt: skip
 EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

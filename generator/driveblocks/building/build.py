@@ -35,7 +35,7 @@ def files(sources: list[Source], languages: list[Language], targets: Collection[
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
-    texts = documents(made, [source.drive for source in sources], linked=CANONICAL in targets)
+    texts = documents(made, [source.drive for source in sources], linked=CANONICAL in targets, targets=targets)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)

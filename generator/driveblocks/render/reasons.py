@@ -134,8 +134,8 @@ REASONS = (
         "fault: see FaultCode",
         "故障，见FaultCode",
         "remove the cause, then a rising `FaultReset`",
-        "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of a reset stands under "
-        "[gaps](#what-the-manual-leaves-open)",
+        "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of a "
+        "reset stands under [gaps](#what-the-manual-leaves-open)",
     ),
     Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
     Reason(
