@@ -92,5 +92,5 @@ def project(text: str) -> Project:
     assert id_
     links = tuple(one.findtext(f"{BUILD}Link") or "" for one in top.iter(f"{BUILD}Compile"))
     title = tuple(properties.findtext(f"{BUILD}{tag}") or "" for tag in ("Company", "Title", "ProjectVersion"))
-    lists = (included(tag) for tag in ("Compile", "Folder", "PlaceholderReference"))
-    return Project(name, id_, *lists, links, title)
+    compiled, folders, libraries = (included(tag) for tag in ("Compile", "Folder", "PlaceholderReference"))
+    return Project(name, id_, compiled, folders, libraries, links, title)

@@ -92,8 +92,8 @@ def test_files_are_utf_8_with_a_mark_at_the_start_and_crlf() -> None:
 
 
 def test_ids_are_unique_and_always_the_same() -> None:
-    found = (*objects().values(), *projects().values(), *tasks().values())
-    ids = [one.id for one in found]
+    ids = [one.id for one in objects().values()] + [one.id for one in projects().values()]
+    ids += [one.id for one in tasks().values()]
     assert all(ID.fullmatch(each) for each in ids)
     assert max(Counter(ids).values()) == 1
     assert {name: fixed(name) for name in FIXED} == FIXED

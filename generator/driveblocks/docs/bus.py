@@ -40,4 +40,4 @@ def _termination(canvas: Canvas, x: float) -> None:
     """A resistor between the two wires, at their end."""
     canvas.path([(x, ROWS[0][1]), (x, ROWS[1][1])])
     canvas.box(x - 4, ROWS[0][1] + 4, 8, 16)
-    canvas.text(x, ROWS[0][1] - 10, "120 Ω", "small", "middle")
+    canvas.text(x, ROWS[0][1] - 10, "120 ohm", "small", "middle")

@@ -160,7 +160,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], platform
         edition=drive.manual.edition,
         platforms=[(one, PLATFORMS[one], DRAWN.get(one)) for one in platforms],
         first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
-        errata=[each for each in drive.errata if _bears(drive, each)],
+        errata=list(_errata(drive)),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=drive.settings,
@@ -260,6 +260,15 @@ def _open(drive: Drive, one: Absence) -> bool:
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
+
+
+def _errata(drive: Drive) -> Iterator[dict[str, str]]:
+    """The misprints that bear on a block: where, what is printed and used, why; those of words only with the words."""
+    plain = not drive.manual.title.own
+    for one in (each for each in drive.errata if _bears(drive, each)):
+        if not plain or (one.where + one.used + one.why).isascii():
+            printed = one.printed if one.printed.isascii() or not plain else "(not in English)"
+            yield {"where": one.where, "printed": printed, "used": one.used, "why": one.why}
 
 
 def _bears(drive: Drive, one: Erratum) -> bool:
