@@ -93,3 +93,10 @@ def test_the_way_of_a_bit_is_as_it_is_told() -> None:
     way = [(path, word) for path, word in rows if "/" in path]
     assert 1 < len(way) <= 6
     assert [path for path, word in way if word not in (ROOT / path).read_text("utf-8")] == []
+
+
+def test_the_page_of_other_plcs_names_those_that_import_xml_and_says_that_none_was_tried() -> None:
+    text = " ".join((ROOT / "docs/other-plcs.md").read_text("utf-8").split())
+    for name in ("GX Works3", "Sysmac Studio", "KV STUDIO", "PLCnext Engineer", "3.5.21"):
+        assert name in text
+    assert "none of these systems has been tried" in text

@@ -186,7 +186,7 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
     pages = [root / "docs/line.md", root / "blocks/README.md", *FOLDER.glob("*.md"), *platforms]
     motors = [root / "examples/one_motor.st", root / "examples/three_makes.st"]
     texts = {"README.md": screen, **heads, **{str(path): path.read_text("utf-8") for path in [*pages, *motors]}}
-    assert len(pages) == 2 + len(blocks) + len(platforms)
+    assert len(pages) == 2 + len(blocks) + len(("Wiring", "Swapping")) + len(platforms)
     lost = [name for name, text in texts.items() if BRAKE not in " ".join(text.replace("> ", "").split())]
     assert lost == []
     for family in FAMILIES:
@@ -204,6 +204,65 @@ def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its
         said = " ".join((FOLDER.parent / name / "README.md").read_text(encoding="utf-8").split())
         assert "(../docs/VFD_HardStop.md)" in said
         assert "put a retriggered relay between" in said.lower()
+
+
+PLATFORM_PAGES = ("codesys", "openplc", "plcopen", "siemens", "twincat")
+
+
+@every_family
+def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wiring(family: str) -> None:
+    for name in PLATFORM_PAGES:
+        assert f"(../{name}/README.md)" in page(family)
+        platform = (FOLDER.parent / name / "README.md").read_text("utf-8")
+        assert f"(../docs/{family}_Drive.md" in platform
+        assert "(../docs/Wiring.md#what-hardstopok-drives)" in platform
+        assert "pin `SupplyOff`" in platform
+    assert "(Wiring.md)" in page(family)
+    assert "(Swapping.md)" in page(family)
+
+
+@every_family
+def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
+    drive, text = shipped()[family], page(family)
+    top = text.partition("\n## What your manual must still tell you\n")[2].partition("\n## ")[0]
+    rows_ = text.partition("\n## What the manual leaves open\n")[2].partition("\n## ")[0]
+    count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
+    assert f"**{count} things**" in top
+    assert text.index("must still tell you") < text.index("## In this order")
+    assert "terminals" in top
+    assert all(f"- {each.what}" in top for each in drive.absent if "serial" in each.about)
+    keypad = text.partition("\n## Keypad and wiring\n")[2].partition("\n## ")[0]
+    assert "(#what-your-manual-must-still-tell-you)" in keypad
+    assert (drive.manual.edition or "") in text.partition("\n>")[0]
+
+
+def test_a_reset_over_the_bus_is_advised_where_there_is_one() -> None:
+    for family in FAMILIES:
+        (advice,) = re.findall(r"^\| 40 \|.*", page(family), re.MULTILINE)
+        can = any(one.does == "fault_reset" for one in shipped()[family].operation.commands)
+        assert ("rising `FaultReset`" in advice) == can
+        assert ("the bus cannot reset it" in advice) != can
+        assert "at the drive itself" not in page(family)
+        assert "by hand" not in advice
+
+
+def test_a_misprint_in_what_the_block_reads_is_on_the_page() -> None:
+    section = page("SN300G5").partition("\n## Where the print was not followed\n")[2]
+    assert "| section (II), row U1-08 | U1-08 输出频率 | 输出功率 (output power) |" in section
+
+
+def test_a_system_whose_text_has_no_ladder_has_a_picture_of_it_in_three_steps() -> None:
+    for family in FAMILIES:
+        for platform in ("siemens", "twincat"):
+            drawn = [each.text for each in picture(f"{family}_Drive_ladder_{platform}.svg").iter()]
+            assert {"HardStopClosed", "StartButton", "WasPressed", "NotStop", f"{family}_Drive"} <= set(drawn)
+            assert f"{family}_Drive_ladder_{platform}.svg), from top to bottom, 3. " in page(family)
+
+
+def test_no_text_of_a_block_has_an_apostrophe() -> None:
+    """`$'` is right, and two readers of SCL and one compiler stop at it."""
+    assert [each.path for each in sources() if "$'" in each.text] == []
+    assert [each.code for each in REASONS if "急停" in each.zh] == []
 
 
 def test_a_first_motor_wires_nine_inputs_at_most() -> None:

@@ -36,7 +36,8 @@ def files(sources: list[Source], languages: list[Language], targets: Collection[
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     own = {source.drive.prefix: source.path.name for source in sources if not catalog.is_shipped(source.path)}
-    texts = documents(made, [source.drive for source in sources], own, linked=CANONICAL in targets)
+    linked = CANONICAL in targets
+    texts = documents(made, [source.drive for source in sources], own, linked=linked, targets=targets)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)

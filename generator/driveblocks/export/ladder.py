@@ -90,7 +90,8 @@ class _Drawing:
         """Whether a variable, or an output of a block, is a BOOL."""
         if isinstance(value, tree.Name):
             return is_bool(self.declared(value.name))
-        if not isinstance(value, tree.Member):
+        own = {v.name for block in self.program.blocks for v in block.variables}
+        if not isinstance(value, tree.Member) or said(value.base) not in own:  # what is global is a word or a buffer
             return False
         return any(is_bool(pin) for pin in self.pins(said(value.base))[1] if pin.name == value.name)
 
