@@ -30,7 +30,7 @@ class Loaded:
 def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> Loaded:
     """Compile a program; `name` says which, where there are several. Raises BuildError."""
     used = [each for each in maps if re.search(rf"\b{each.drive.prefix}_", text, re.IGNORECASE)]
-    built = EmbeddedEngine("fail").build([*_needed(path, text, used), Source(path, text)])
+    built = EmbeddedEngine().build([*_needed(path, text, used), Source(path, text)])
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
 
