@@ -41,9 +41,7 @@ def test_maps_that_are_named_are_listed_alone(shelf: Path) -> None:
     result = CliRunner().invoke(app, ["list", "nobody"])
     assert (result.exit_code, "there is no drive `nobody`" in result.stderr) == (2, True)
     result = CliRunner().invoke(app, ["show", str(own)])
-    assert f"driveblocksshow{own}TOPIC" in "".join(
-        result.stdout.split()
-    )  # however it is folded
+    assert f"driveblocksshow{own}TOPIC" in "".join(result.stdout.split())  # however it is folded
 
 
 def test_a_map_without_example_frames_is_shown_as_such(shelf: Path) -> None:

@@ -4,7 +4,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 import pytest
-from tests.blocks.compare.comparison import with_double
+from tests.blocks.compare.comparison import beside
 from tests.drives.bench import OFF, Bench
 from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, built, library, maps, name_of, texts
@@ -83,7 +83,7 @@ def test_memory_of_zeros_behaves_like_declared_memory(kind: str) -> None:
 
 
 def test_memory_of_zeros_on_matiec(matiec: Engine) -> None:
-    for engine in with_double(matiec).values():
+    for engine in beside(matiec).values():
         stations = built(engine, kinds=FAMILIES)
         for kind in FAMILIES:
             alike(kind, stations)

@@ -9,6 +9,7 @@ import pytest
 from tests.blocks.toolchains import FOUND, translate
 from tests.examples.port import Port
 from tests.export.stock import canon, made
+from tests.host.configuration import start
 
 from driveblocks.export import openplc
 from driveblocks.host.discovery import EMBEDDED
@@ -132,7 +133,7 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
 
 
 def test_its_task_calls_it(engine: Engine) -> None:
-    configuration = built(engine).configuration()
+    configuration = start(built(engine))
     assert configuration.tick_ns == 10_000_000
     assert configuration["Res0.First.FirstScan"] is True
     configuration.run()

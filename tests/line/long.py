@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.blocks.compare.comparison import with_double
+from tests.blocks.compare.comparison import beside
 from tests.blocks.toolchains import FOUND
 from tests.drives import test_engines
 from tests.drives.walk import walk as drive_walk
@@ -257,7 +257,7 @@ def sanitized(job: Job) -> Iterator[Row]:
 def engines(_: Job) -> Iterator[Row]:
     """10^5 scans of walks, the full state of both lines of matiec and of the embedded engine after each."""
     found = {each.name: each.engine for each in survey().candidates() if each.name in MATIEC_NAMES and each.engine}
-    every = {**with_double(next(iter(found.values()))), **found}
+    every = {**beside(next(iter(found.values()))), **found}
     for seed in range(WALKS):
         walk(seed, SCANS, twins(every))
     yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")

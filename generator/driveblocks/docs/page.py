@@ -156,9 +156,7 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(
-    drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: str | None, platforms: list[str]
-) -> str:
+def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: str | None, platforms: list[str]) -> str:
     block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     open_ = [each for each in drive.absent if _open(drive, each)]

@@ -35,7 +35,7 @@ def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> 
         files = needed([parse(text, path)], maps)
     except ParseError as error:
         raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
-    built = EmbeddedEngine("fail").build([*files, Source(path, text)])
+    built = EmbeddedEngine().build([*files, Source(path, text)])
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
 

@@ -53,7 +53,7 @@ def _user_call(scope: Scope, call: tree.Call, function: tree.Function) -> Term:
         node = _unpacked(scope, call, function, node)
     term = result_of(node, function.type)
     changes = any(each.direction is not Direction.INPUT for each in function.parameters.values())
-    if isinstance(term, Floating) and changes and scope.model == "fail":
+    if isinstance(term, Floating) and changes:
         name = scope.fresh()
         term.node, term.other = pen.keep(name, node), pen.name(name)
     return term

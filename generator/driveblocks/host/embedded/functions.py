@@ -1,6 +1,6 @@
 """Calls of the standard functions (IEC 61131-3 clause 2.5.1.5), as Python expressions.
 
-Arguments are cut and rounded to the types of their parameters first, in every model: C casts them.
+Arguments are cut and rounded to the types of their parameters first: C casts them.
 """
 
 from __future__ import annotations
@@ -70,31 +70,13 @@ def _step(scope: Scope, target: Builtin, left: Term, right: Term) -> Term:
     operator, kind = _OPERATORS[target.family], target.result
     if kind.kind is Kind.BOOL:
         return Plain(_strict_logic(scope, left.node, operator, right.node), kind)
-    if target.family in ("DIV", "MOD") and scope.model == "c" and isinstance(right, Whole | Floating):
-        return _or_zero(scope, left, operator, right, kind)
     if isinstance(left, Whole) and not left.type.signed and left.type.width < C_UNSIGNED.width:
         left = Whole(left.node, left.low, left.high, left.type, C_UNSIGNED)
     return fitted(scope, operation(scope, left, operator, right, kind), kind)
 
 
-def _or_zero(scope: Scope, left: Term, operator: str, right: Whole | Floating, kind: Type) -> Term:
-    """matiec's DIV(x, 0) is 0, unlike its x / 0."""
-    pen = scope.pen
-    name = scope.fresh()
-    kept = pen.keep(name, right.node)
-    right.node = pen.name(name)
-    value = fitted(scope, operation(scope, left, operator, right, kind), kind)
-    zero = pen.constant(0.0 if isinstance(right, Floating) else 0)
-    return _like(value, pen.choice(pen.compare(kept, (ast.NotEq(), zero)), value.node, zero))
-
-
-def _like(term: Term, node: ast.expr) -> Term:
-    """Another node with what is known of a term; of an integer only its type."""
-    return result_of(node, term.type)
-
-
 def _strict_logic(scope: Scope, left: ast.expr, operator: str, right: ast.expr) -> ast.expr:
-    """A function has all of its arguments before it runs: no short circuit in any model."""
+    """A function has all of its arguments before it runs: no short circuit."""
     if operator == "XOR":
         return scope.pen.compare(left, (ast.NotEq(), right))
     return scope.pen.binary(left, ast.BitAnd() if operator == "AND" else ast.BitOr(), right)
@@ -123,8 +105,7 @@ def _abs(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
     term = arguments[0]
     node = scope.pen.call("abs", term.node)
     if isinstance(term, Floating):
-        function = "c_abs" if scope.model == "c" else "abs"
-        return Floating(scope.pen.call(function, term.node), term.type, term.c)
+        return Floating(node, term.type, term.c)
     term = known(term, Whole)
     if term.low >= 0:
         return term
@@ -188,8 +169,7 @@ def _bcd(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
     source, result = elementary(arguments[0].type), elementary(target.result)
     width = source.width if target.family == "BCD_TO" else result.width
     name = "from_bcd" if target.family == "BCD_TO" else "to_bcd"
-    strict = pen.constant(scope.model != "c")
-    node = pen.call(name, arguments[0].node, pen.constant(width), strict)
+    node = pen.call(name, arguments[0].node, pen.constant(width))
     return scope.widths.stored(Whole(node, 0, (1 << width) - 1, result, promoted(result)), result)
 
 
@@ -219,7 +199,7 @@ def _mux(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
 
 
 def _limit(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
-    node = scope.pen.call(_ordered(scope, "limit", target), *(each.node for each in arguments))
+    node = scope.pen.call("limit", *(each.node for each in arguments))
     low, value, high = arguments
     if isinstance(low, Whole) and isinstance(value, Whole) and isinstance(high, Whole):
         least = min(max(value.low, low.low), high.low)
@@ -229,16 +209,8 @@ def _limit(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
 
 
 def _extreme(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
-    node = scope.pen.call(_ordered(scope, target.family.lower(), target), *(each.node for each in arguments))
+    node = scope.pen.call(target.family.lower(), *(each.node for each in arguments))
     return _between(node, target.result, arguments)
-
-
-def _ordered(scope: Scope, function: str, target: Builtin) -> str:
-    """The variant of a function for pairs of seconds and nanoseconds, or for strings where a line has its own."""
-    if scope.model == "c" and target.result.kind in TEMPORAL:
-        return f"time_{function}"
-    own = target.result.kind is Kind.STRING and scope.options.line == "openplc"
-    return f"string_{function}" if own else function
 
 
 def _length(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
@@ -303,7 +275,7 @@ def _trunc(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
 
 
 def _to_whole(scope: Scope, function: str, node: ast.expr, result: Elementary) -> Whole:
-    """A REAL as an integer: the function of the model gets the type that it must fit."""
+    """A REAL as an integer: the function gets the type that it must fit."""
     pen = scope.pen
     signed = result.signed and result.kind is Kind.INTEGER
     facts = (pen.constant(result.name), pen.constant(result.width), pen.constant(signed))

@@ -1,8 +1,7 @@
 """Calls of function block instances.
 
-Inputs are copied into the instance. In-outs of arrays and structures are handed over by reference (in C's model they
-are copied in and out, as matiec does, so that the instance keeps its copy); in-outs of scalars are copied in and out
-in every model, which is the same as long as nothing is bound twice.
+Inputs are copied into the instance. In-outs of arrays and structures are handed over by reference, those of scalars are
+copied in and out: the same, and the same as on matiec, which copies all, as long as nothing is bound twice.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from driveblocks.host.embedded.stores import copy_statement, forget
 from driveblocks.host.embedded.syntax import place_of
 from driveblocks.st import tree
 from driveblocks.st.tree import Binding, Block, Direction
-from driveblocks.st.types import plain
 
 
 def body_name(block: Block) -> str:
@@ -126,26 +124,18 @@ def _settled(scope: Scope, place: ast.expr, before: list[ast.stmt]) -> ast.expr:
 
 
 def _hand_over(scope: Scope, in_out: _InOut) -> ast.stmt:
-    if in_out.by_value or scope.model != "c":
-        return scope.pen.assign(in_out.theirs, in_out.mine)
-    return copy_statement(scope, in_out.binding.parameter.type, in_out.theirs, in_out.mine)
+    return scope.pen.assign(in_out.theirs, in_out.mine)
 
 
 def _hand_back(scope: Scope, in_out: _InOut) -> list[ast.stmt]:
-    value = in_out.binding.value
-    value = present(value)
-    if in_out.by_value:
-        forget(scope, value)
-        return [scope.pen.assign(in_out.mine, in_out.theirs)]
-    if scope.model == "c":
-        return [copy_statement(scope, plain(value.type), in_out.mine, in_out.theirs)]
-    return []
+    if not in_out.by_value:
+        return []
+    forget(scope, present(in_out.binding.value))
+    return [scope.pen.assign(in_out.mine, in_out.theirs)]
 
 
 def _no_aliases(scope: Scope, in_outs: list[_InOut]) -> list[ast.stmt]:
     """Fail where one variable is bound twice."""
-    if scope.model != "fail":
-        return []
     targets = [each.binding.value for each in in_outs if each.binding.value is not None]
     return [_alias_check(scope, each) for each in overlaps(targets)]
 

@@ -25,7 +25,6 @@ from driveblocks.host.embedded.parts import (
 )
 from driveblocks.host.embedded.scope import OpenLoop, Scope, UnsupportedError
 from driveblocks.host.embedded.shapes import is_scalar
-from driveblocks.host.embedded.stores import forget
 from driveblocks.host.embedded.terms import Whole, is_integral
 from driveblocks.host.embedded.usage import reads, writes
 from driveblocks.st import tree
@@ -45,7 +44,7 @@ class LoopCount:
     def __init__(self, scope: Scope, at: int, keyword: str) -> None:
         """Count at the decision at `at`."""
         self.scope, self.at, self.keyword = scope, at, keyword
-        self.fresh = scope.fresh() if scope.options.coverage else ""
+        self.fresh = scope.fresh() if scope.coverage else ""
 
     def begin(self) -> list[ast.stmt]:
         """Before the loop: no turn so far."""
@@ -103,14 +102,11 @@ def repeat_loop(scope: Scope, statement: tree.RepeatUntil) -> list[ast.stmt]:
 
 
 def for_loop(scope: Scope, statement: tree.For) -> list[ast.stmt]:
-    """FOR: limits are taken once, except in C's model, which looks at them before each turn."""
+    """FOR: limits are taken once."""
     head, stop, step = _limits(scope, statement)
-    if scope.model == "fail":
-        head += _not_once(scope, statement, stop(), step())
+    head += _not_once(scope, statement, stop(), step())
     count = LoopCount(scope, statement.at, "FOR")
     head += count.begin()
-    if scope.options.line == "beremiz":
-        return [*head, *_beremiz_loop(scope, statement, stop, step, count)]
 
     def advance() -> list[ast.stmt]:
         scope.pen.move(statement.at)
@@ -147,7 +143,7 @@ def _limit_reader(
 ) -> tuple[list[ast.stmt], Callable[[], Whole]]:
     pen = scope.pen
     term = exact_of(scope, limit)
-    if scope.model == "c" or isinstance(term.node, ast.Constant):
+    if isinstance(term.node, ast.Constant):
         return [], lambda: exact_of(scope, limit)
     pen.move(statement.at)
     name = scope.fresh()
@@ -185,29 +181,6 @@ def _not_once(scope: Scope, statement: tree.For, stop: Whole, step: Whole) -> li
     pen.move(statement.at)
     now = whole_of(scope, statement.variable).node
     return [pen.statement(pen.call("not_once", now, stop.node, step.node))]
-
-
-def _beremiz_loop(
-    scope: Scope, statement: tree.For, stop: Callable[[], Whole], step: Callable[[], Whole], count: LoopCount
-) -> list[ast.stmt]:
-    """FOR as Beremiz' compiler has it: it looks one step ahead, and so leaves out a single turn."""
-    pen = scope.pen
-    started = scope.fresh()
-
-    def turn() -> list[ast.stmt]:
-        pen.move(statement.at)
-        by = step()
-        now = whole_of(scope, statement.variable)
-        ahead = operation(scope, now, "+", by, now.type)
-        ahead = known(ahead, Whole)
-        test = _leave_unless(scope, _goes_on(scope, ahead, stop(), by), count)
-        scope.loops[-1].exits.append(scope.ranges.copy())
-        advance = _set(scope, statement.variable, _sum(scope, statement.variable, by))
-        forget(scope, statement.variable)
-        first = pen.assign(pen.name(started), pen.constant(True))
-        return [*test, pen.branch(pen.name(started), advance, [first]), *body_of(scope, statement.body)]
-
-    return [pen.assign(pen.name(started), pen.constant(False)), *_loop(scope, statement, turn, list)]
 
 
 def leave_loop(scope: Scope, _: tree.Exit) -> list[ast.stmt]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 
-from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.parts import exact_of, read_as, term_of, variable_interval
 from driveblocks.host.embedded.ranges import declared
@@ -29,20 +28,12 @@ def literal(scope: Scope, value: tree.Literal) -> Term:
         c = untyped if value.prefix is None else promoted(elementary(kind))
         return Whole(pen.constant(number), number, number, elementary(kind), c)
     if kind.kind in TEMPORAL:
-        return Plain(_moment(scope, value), kind)
+        return Plain(pen.constant(int(value.value)), kind)
     if isinstance(value.value, str):
         raise UnsupportedError(value.at, "the embedded engine has no WSTRING")
     if kind.kind is Kind.BOOL:
         return Plain(pen.constant(bool(value.value)), kind)
     return Plain(pen.constant(value.value), kind)
-
-
-def _moment(scope: Scope, literal: tree.Literal) -> ast.expr:
-    """A duration or date; in C's model the pair that a C compiler makes of it."""
-    value = int(literal.value)
-    if scope.model != "c":
-        return scope.pen.constant(value)
-    return scope.pen.constant(tuple(c_moment(literal, value)))
 
 
 def name(scope: Scope, value: tree.Name) -> Term:
@@ -79,7 +70,7 @@ def member(scope: Scope, value: tree.Member) -> Term:
     kind = value.type
     interval = None
     if isinstance(value.symbol, tree.VarDecl) and is_integral(kind):
-        interval = declared(value.symbol, scope.model != "c")
+        interval = declared(value.symbol)
     return read_as(scope.pen.attribute(base, value.name.upper()), kind, interval)
 
 
@@ -115,15 +106,6 @@ def _offset(scope: Scope, index: tree.Expression, array: str, low: int, high: in
     test = pen.compare(pen.keep(name, node), (ast.GtE(), pen.constant(0)))
     facts = (pen.constant(array), pen.constant(low), pen.constant(high))
     return pen.choice(test, pen.name(name), pen.call("below_bounds", pen.name(name), *facts))
-
-
-def c_moment(literal: tree.Literal, value: int) -> times.Span:
-    """The pair that matiec's C has for a literal of a duration or date."""
-    if literal.kind is LiteralKind.TIME:
-        return times.c_literal(literal.text, value)
-    if literal.kind is LiteralKind.TIME_OF_DAY:
-        return times.c_time_of_day_literal(value)
-    return times.c_moment_literal(value)
 
 
 def written(expression: tree.Expression) -> str:

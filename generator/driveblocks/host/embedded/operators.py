@@ -44,11 +44,7 @@ def unary(scope: Scope, value: tree.Unary) -> Term:
         else:
             node = pen.unary(ast.USub(), term.node)
         return Whole(node, -term.high, -term.low, term.type, term.c)
-    return Plain(pen.call("time_subtract", pen.constant(_no_time(scope)), term.node), term.type)
-
-
-def _no_time(scope: Scope) -> int | tuple[int, int]:
-    return (0, 0) if scope.model == "c" else 0
+    return Plain(pen.call("time_subtract", pen.constant(0), term.node), term.type)
 
 
 def inverse(scope: Scope, term: Term) -> Term:
@@ -86,11 +82,11 @@ def _floating(scope: Scope, term: Term, kind: Type) -> Floating:
 
 
 def _logic(scope: Scope, left: ast.expr, operator: str, right: ast.expr) -> ast.expr:
-    """BOOL: both sides are evaluated, except in C; Python's short circuit is taken where nobody can tell."""
+    """BOOL: both sides are evaluated; Python's short circuit is taken where nobody can tell."""
     pen = scope.pen
     if operator == "XOR":
         return pen.compare(left, (ast.NotEq(), right))
-    if scope.model == "c" or is_quiet(right):
+    if is_quiet(right):
         return pen.junction(ast.And() if operator == "AND" else ast.Or(), left, right)
     return pen.binary(left, _BITS[operator](), right)
 
@@ -102,21 +98,11 @@ def comparison(scope: Scope, left: Term, operator: str, right: Term) -> ast.expr
         kind = left.type if isinstance(left, Floating) else right.type
         return scope.floats.compare(_floating(scope, left, kind), order, _floating(scope, right, kind))
     if isinstance(left, Whole) and isinstance(right, Whole):
-        c = common(left.c, right.c)
-        one, two = scope.widths.converted(left, c), scope.widths.converted(right, c)
+        one, two = scope.widths.exact(left), scope.widths.exact(right)
         return scope.pen.compare(one.node, (order, two.node))
-    if left.type.kind in TEMPORAL:
-        return _moments(scope, left, order, right)
-    if left.type.kind is Kind.STRING and scope.model != "standard":
+    if left.type.kind is Kind.STRING:
         return _texts(scope, left, order, right)
     return scope.pen.compare(left.node, (order, right.node))
-
-
-def _moments(scope: Scope, left: Term, order: ast.cmpop, right: Term) -> ast.expr:
-    pen = scope.pen
-    if scope.model != "c":
-        return pen.compare(left.node, (order, right.node))
-    return pen.compare(pen.call("time_order", left.node, right.node), (order, pen.constant(0)))
 
 
 def _texts(scope: Scope, left: Term, order: ast.cmpop, right: Term) -> ast.expr:
@@ -127,7 +113,7 @@ def _texts(scope: Scope, left: Term, order: ast.cmpop, right: Term) -> ast.expr:
 def _whole_operation(scope: Scope, left: Whole, operator: str, right: Whole, kind: Elementary) -> Whole:
     c = common(left.c, right.c)
     if operator in ("/", "MOD"):
-        one, two = scope.widths.converted(left, c), scope.widths.converted(right, c)
+        one, two = scope.widths.exact(left), scope.widths.exact(right)
         return _quotient(scope, one, two, kind, c) if operator == "/" else _remainder(scope, one, two, kind, c)
     if left.c != c and left.c.width < c.width:
         left = scope.widths.exact(left)
@@ -180,28 +166,19 @@ def _quotient(scope: Scope, left: Whole, right: Whole, kind: Elementary, c: CInt
     pen = scope.pen
     most = max(abs(left.low), abs(left.high))
     if left.low >= 0 and right.low >= 0:
-        node: ast.expr = pen.binary(left.node, ast.FloorDiv(), right.node)
+        node = pen.binary(left.node, ast.FloorDiv(), right.node)
         return Whole(node, 0, left.high // max(right.low, 1), kind, c)
-    if scope.model == "c":
-        node = pen.call("c_divide", left.node, right.node, pen.constant(c.low))
-    else:
-        node = pen.call("divide", left.node, right.node)
-    return Whole(node, -most, most, kind, c)
+    return Whole(pen.call("divide", left.node, right.node), -most, most, kind, c)
 
 
 def _remainder(scope: Scope, left: Whole, right: Whole, kind: Elementary, c: CInteger) -> Whole:
-    """MOD; for a divisor of zero 0, but ZeroDivisionError in the model that fails."""
+    """MOD; ZeroDivisionError at run time, although table 24 gives 0: compilers differ."""
     pen = scope.pen
     most = min(max(abs(left.low), abs(left.high)), max(abs(right.low), abs(right.high), 1) - 1)
     low = 0 if left.low >= 0 else -most
-    strict = scope.model == "fail" or right.low > 0 or right.high < 0
-    if left.low >= 0 and right.low >= 0 and strict:
+    if left.low >= 0 and right.low >= 0:
         return Whole(pen.binary(left.node, ast.Mod(), right.node), low, most, kind, c)
-    if scope.model == "c":
-        node = pen.call("c_remainder", left.node, right.node, pen.constant(c.low))
-    else:
-        node = pen.call("remainder" if strict else "remainder_or_zero", left.node, right.node)
-    return Whole(node, low, most, kind, c)
+    return Whole(pen.call("remainder", left.node, right.node), low, most, kind, c)
 
 
 def _power(scope: Scope, left: Term, right: Term, kind: Elementary) -> Floating:

@@ -113,7 +113,7 @@ def result_of(node: ast.expr, kind: Type, low: int | None = None, high: int | No
 
 def counted(scope: Scope, at: int, text: str) -> list[ast.stmt]:
     """A statement that counts an outcome of the decision at `at`; nothing unless coverage is asked for."""
-    if not scope.options.coverage:
+    if not scope.coverage:
         return []
     pen = scope.pen
     outcome = Outcome(*pen.unit.place(at), text)
@@ -140,7 +140,7 @@ def body_of(scope: Scope, statements: list[tree.Statement]) -> list[ast.stmt]:
     written: list[ast.stmt] = []
     for each in statements:
         scope.pen.move(each.at)
-        if scope.options.coverage and not isinstance(each, tree.Empty):
+        if scope.coverage and not isinstance(each, tree.Empty):
             written.append(_count(scope))
         written += scope.statements[type(each)](scope, each)
     return written or [scope.pen.nothing()]

@@ -16,7 +16,6 @@ from driveblocks.host.embedded.shapes import Shapes
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import Term
 from driveblocks.host.embedded.widths import Widths
-from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
 from driveblocks.st.tree import VarKind
 
@@ -32,15 +31,6 @@ class UnsupportedError(Exception):
         """Keep the place."""
         self.at = at
         super().__init__(text)
-
-
-@dataclass(slots=True)
-class Options:
-    """What the compiler is asked for."""
-
-    model: Overflow = "fail"
-    line: str = ""
-    coverage: bool = False
 
 
 @dataclass(slots=True)
@@ -62,7 +52,7 @@ class Scope:
     """The state of compiling one POU."""
 
     pou: tree.Pou | None
-    options: Options
+    coverage: bool
     pen: Pen
     shapes: Shapes
     accesses: Accesses
@@ -77,14 +67,9 @@ class Scope:
     floats: Floats = field(init=False)
 
     def __post_init__(self) -> None:
-        """Bring terms to values as the model has it."""
-        self.widths = Widths(self.model, self.pen, self.fresh)
-        self.floats = Floats(self.model, self.pen)
-
-    @property
-    def model(self) -> Overflow:
-        """The model of overflow."""
-        return self.options.model
+        """Prepare to bring terms to values."""
+        self.widths = Widths(self.pen, self.fresh)
+        self.floats = Floats(self.pen)
 
     def fresh(self) -> str:
         """A name for a temporary variable."""

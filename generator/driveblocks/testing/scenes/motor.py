@@ -120,7 +120,9 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     if can.measures("output_current"):
         shows["OutputCurrentA"] = 5.0
     shows |= {f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()}
-    yield Step("and stays there", ms=1500, shows={"Reason": "RUNS", "Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1})
+    yield Step(
+        "and stays there", ms=1500, shows={"Reason": "RUNS", "Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1}
+    )
     yield Step("the pin falls", {pin: False}, TOLD, 300, {"StopConfirmed": False})
     yield stand({"Reason": "READY"})
 

@@ -8,58 +8,14 @@ from itertools import repeat
 from math import gcd
 from typing import Any
 
-from driveblocks.host.embedded import times
+from driveblocks.host.embedded import EmbeddedLibrary
 from driveblocks.host.embedded.certainty import known, present
-from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.faults import FAULTS, scan_error
-from driveblocks.host.embedded.paths import Paths
-from driveblocks.host.embedded.shapes import record_class
-from driveblocks.host.embedded.values import Values
+from driveblocks.host.embedded.global_variables import GlobalsView, globals_in, globals_of
 from driveblocks.host.engine import Value
 from driveblocks.st import tree
 from driveblocks.st.tree import Block, Direction, Parameter, VarKind
 from driveblocks.st.types import BOOL, INT, TIME, Kind
-
-PathsOf = Callable[[Block], Paths]
-
-
-def global_variables(compiler: Compiler) -> list[tuple[str, tree.VarDecl]]:
-    """Every global of the sources with the name of the resource that holds it (empty: the configuration)."""
-    found: list[tuple[str, tree.VarDecl]] = []
-    for unit in compiler.checked.units:
-        for each in unit.elements:
-            if isinstance(each, tree.VarBlock):
-                found += [("", variable) for variable in each.variables]
-    for configuration in compiler.checked.configurations.values():
-        found += _globals(configuration)
-    return found
-
-
-def _globals(configuration: tree.Configuration) -> Iterator[tuple[str, tree.VarDecl]]:
-    owners = [("", configuration.blocks)] + [(each.name, each.blocks) for each in configuration.resources]
-    for owner, blocks in owners:
-        for block in blocks:
-            if block.kind is VarKind.GLOBAL:
-                yield from ((owner, variable) for variable in block.variables)
-
-
-def globals_of(compiler: Compiler) -> Any:
-    """A fresh set of all globals with their initial values; instances refer to it."""
-    variables = [each for _, each in global_variables(compiler)]
-    slots = [compiler.shapes.global_slot(each) for each in variables]
-    made = record_class("Globals", tuple(slots))()
-    for slot, each in zip(slots, variables, strict=True):
-        setattr(made, slot, compiler.shapes.maker(each.type, each.start)(made))
-    return made
-
-
-def globals_block(compiler: Compiler) -> tuple[Block, dict[str, str]]:
-    """All globals as variables of one block, whoever owns them, and the slot behind each name."""
-    block, slots = Block("", Kind.BLOCK), dict[str, str]()
-    for _, each in global_variables(compiler):
-        slot = slots.setdefault(each.name.upper(), compiler.shapes.global_slot(each))
-        block.parameters.setdefault(each.name.upper(), Parameter(slot, each.type, Direction.INPUT))
-    return block, slots
 
 
 @dataclass(slots=True)
@@ -100,17 +56,17 @@ class _Program:
 
 class EmbeddedConfiguration:
     """A running configuration. In one tick the programs that are due run by the priority of their task (0 first),
-    then in the order of declaration; C's model keeps to the order of declaration, as matiec does.
+    then in the order of declaration; without `by_priority` in the order of declaration alone, as on matiec.
     """
 
-    def __init__(self, compiler: Compiler, configuration: tree.Configuration, paths: PathsOf, loop_limit: int) -> None:
+    def __init__(self, library: EmbeddedLibrary, configuration: tree.Configuration, by_priority: bool = True) -> None:
         """Make the globals and the programs."""
-        self._compiler = compiler
+        self._compiler = library.compiler
         self._configuration = configuration
-        self._paths_of = paths
-        self._limit = loop_limit
-        self._globals = globals_of(compiler)
-        self._values = Values(compiler.options.model)
+        self._paths_of = library.paths
+        self._limit = library.loop_limit
+        self._by_priority = by_priority
+        self._globals = globals_of(library.compiler)
         self._roots: dict[str, tuple[Block, Any]] = {}
         self._tick = 0
         self._interval = self._common_interval()
@@ -173,16 +129,13 @@ class EmbeddedConfiguration:
         return gcd(*(self._duration(each) for each in tasks))
 
     def _duration(self, task: tree.Task) -> int:
-        """The interval in nanoseconds, exact in every model; 0 if there is none."""
-        if isinstance(task.interval, tree.Literal):
-            return int(task.interval.value)
-        value = 0 if task.interval is None else self._compiler.evaluate(task.interval, TIME)
-        return value if isinstance(value, int) else times.nanoseconds(value)
+        """The interval in nanoseconds; 0 if there is none."""
+        return 0 if task.interval is None else int(self._compiler.evaluate(task.interval, TIME))
 
     def _enter_globals(self) -> None:
         """Make globals readable by path: those of the configuration by name, those of a resource behind its name."""
         owners: dict[str, Block] = {}
-        for owner, variable in _globals(self._configuration):
+        for owner, variable in globals_in(self._configuration):
             block = owners.setdefault(owner.upper(), Block(owner, Kind.BLOCK))
             slot = self._compiler.shapes.global_slot(variable)
             block.parameters[variable.name.upper()] = Parameter(slot, variable.type, Direction.INPUT)
@@ -195,7 +148,7 @@ class EmbeddedConfiguration:
     def _resource(self, resource: tree.Resource) -> list[_Program]:
         tasks = {id(each): self._task(each) for each in resource.tasks}
         programs = [self._program(resource, each, tasks) for each in resource.programs]
-        if self._compiler.options.model != "c":
+        if self._by_priority:
             last = max((each.priority for each in tasks.values()), default=0) + 1
             programs.sort(key=lambda each: each.task.priority if each.task else last)
         return programs
@@ -255,23 +208,18 @@ class EmbeddedConfiguration:
         raise KeyError(path)
 
 
-class GlobalsView:
-    """Globals under their own names, for paths."""
-
-    __slots__ = ("names", "target")
-
-    def __init__(self, target: Any, names: dict[str, str]) -> None:
-        object.__setattr__(self, "target", target)
-        object.__setattr__(self, "names", names)
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.target, self.names[name])
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        setattr(self.target, self.names[name], value)
-
-
 def _names(block: Block) -> set[str]:
     if block.declaration is None:
         return set(block.parameters)
     return set(block.declaration.symbols)
+
+
+def start(library: EmbeddedLibrary, name: str | None = None, by_priority: bool = True) -> EmbeddedConfiguration:
+    """Start the CONFIGURATION of that name, or the only one. KeyError."""
+    known = library.compiler.checked.configurations
+    if name is None and len(known) != 1:
+        raise KeyError(f"there are {len(known)} configurations: say which")
+    found = next(iter(known.values())) if name is None else known.get(name.upper())
+    if found is None:
+        raise KeyError(f"there is no configuration {name}")
+    return EmbeddedConfiguration(library, found, by_priority)

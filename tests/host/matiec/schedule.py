@@ -10,6 +10,7 @@ from driveblocks.host.engine import EngineError, Message, ScanError, Value
 from driveblocks.host.matiec.binary import Binary, Built, cause
 from driveblocks.host.matiec.header import ConfigurationC
 from driveblocks.host.matiec.layout import Memory
+from driveblocks.host.matiec.library import MatiecLibrary
 from driveblocks.host.matiec.paths import Paths
 from driveblocks.host.matiec.plan import Plan
 
@@ -87,3 +88,13 @@ def _private(binary: Binary) -> Binary:
         shutil.rmtree(folder, ignore_errors=True)
     copy.attach(binary.guard)
     return copy
+
+
+def start(library: MatiecLibrary, name: str | None = None) -> MatiecConfiguration:
+    """Start the CONFIGURATION with variables of its own. KeyError."""
+    found = library.built.configuration
+    if found is None or (name is not None and name.upper() != found.name):
+        raise KeyError(f"there is no configuration {name}" if name else "there is no configuration")
+    made = MatiecConfiguration(library.built, found)
+    library.counting.append(made.binary)
+    return made
