@@ -54,8 +54,7 @@ class Replay:
             Source(f"the rules of {each.pou.name}", observer.text(each.pou, each.checked, each.subject.conditions()))
             for each in models
         ]
-        self.library: EmbeddedLibrary = EmbeddedEngine("standard").build([*sources, *texts])
-        self.strict: EmbeddedLibrary = EmbeddedEngine("fail").build(sources)
+        self.library: EmbeddedLibrary = EmbeddedEngine().build([*sources, *texts])
         self.models = {each.pou.name: each for each in models}
 
     def call(self, model: Model, question: Question, values: Values) -> Call | None:
@@ -67,21 +66,19 @@ class Replay:
         inputs = {name: value for name, value in known.items() if not name.startswith(BEFORE)}
         if not question.condition:
             return self._strict(model, before, inputs)
-        after = self._run(self.library, model, before, inputs)
+        after = self._run(model, before, inputs)
         when, then = self._judged(model, question.condition, before, after)
         return Call(before, inputs, after, when, then)
 
     def _strict(self, model: Model, before: dict[str, Value], inputs: dict[str, Value]) -> Call:
         """Whether a call stays within what all compilers agree on: the engine says so itself."""
         try:
-            return Call(before, inputs, self._run(self.strict, model, before, inputs), when=True, then=True)
+            return Call(before, inputs, self._run(model, before, inputs), when=True, then=True)
         except ScanError:
             return Call(before, inputs, before | inputs, when=True, then=False)
 
-    def _run(
-        self, library: EmbeddedLibrary, model: Model, before: Mapping[str, Value], inputs: Mapping[str, Value]
-    ) -> dict[str, Value]:
-        instance = library.instance(model.pou.name)
+    def _run(self, model: Model, before: Mapping[str, Value], inputs: Mapping[str, Value]) -> dict[str, Value]:
+        instance = self.library.instance(model.pou.name)
         for path, value in (dict(before) | dict(inputs)).items():
             instance[path] = value
         instance.scan()

@@ -1,6 +1,6 @@
 """Scenes of the slot: what a drive block tells its line, and memory that is not blank when the PLC begins."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.model import Command, Drive
 from driveblocks.reference.command import Commands
@@ -51,8 +51,8 @@ def known(drive: Drive) -> Shows:
 
 
 def _command(drive: Drive, does: str) -> Command:
-    commands = {one.does: one for one in drive.operation.commands}
-    return commands.get(does, commands["stop"])
+    commands = {str(one.does): one for one in drive.operation.commands}
+    return commands.get(does) or commands["stop"]
 
 
 def _write(drive: Drive) -> int:
@@ -66,7 +66,7 @@ def _word(drive: Drive, command: Command) -> int:
     return Commands(drive).word(command, {command.register: KEPT})
 
 
-def _slot(shows: Shows) -> Shows:
+def _slot(shows: Mapping[str, Value]) -> Shows:
     """What must be so in the slot; words and numbers of a byte are compared as they are."""
     return dict(_seen(f"Slots[0].{key}", value) for key, value in shows.items())
 
