@@ -119,7 +119,7 @@ PLANTED = (
     Planted(
         "a project lists the blocks of other families",
         twincat,
-        "for part in library.parts), *adapter",
+        "for part in parts), *adapter",
         "for part in shelf.parts), *adapter",
         _family,
     ),
