@@ -22,7 +22,7 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.scenes import again, count, line, manual, motor, pace, several, told
+from driveblocks.testing.scenes import again, count, line, manual, motor, others, pace, several, told
 from driveblocks.testing.scenes import drive as simulated
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
@@ -37,6 +37,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Slot": told.scripts,
     "Line": line.scripts,
     "Figures": count.scripts,
+    "What else is heard": others.scripts,
     "Pace": pace.scripts,
     "Restart": again.scripts,
     "Parameters": parameters.scripts,

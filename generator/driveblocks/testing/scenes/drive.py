@@ -86,6 +86,7 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
         "codes": made.codes,
         "busy": busy(drive),
+        "two_byte_count": made.manners.two_byte_count,
         "most": made.most,
         "readable": _within("Number", _runs(readable(drive))),
         "writable": _within("Number", _runs(writable(drive))),
