@@ -1,13 +1,13 @@
 """Which modules of the generator the commands execute: `python -m tests.executed FOLDER` prints what none does.
 
 The commands run in this process, one after the other, as somebody would type them who brings in a drive, runs a program
-and reads frames; every call of a function of the generator is noted with its module. Files go into the folder. What
-needs a tool or a port that is not there stays out, and so do its modules.
+and reads frames; every call of a function of the generator is noted with its module. Files go into the folder.
 """
 
 import ast
 import os
 import pty
+import socket
 import subprocess
 import sys
 import threading
@@ -60,11 +60,10 @@ VAR said : STRING; n, total, scans : INT; span : TIME := T#1s; adds : Adds; i : 
   rows[scans / 20] := n;
 END_PROGRAM
 """
-PORT = "127.0.0.1:50217"
 
 
-def commands(folder: Path) -> Iterator[tuple[Sequence[str], str]]:
-    """Words of the command line, and what is typed."""
+def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
+    """Words of the command line, and what is typed; drives are simulated at the port."""
     drive, blocks, example = str(folder / "acme.yaml"), str(folder / "blocks"), str(ROOT.parents[1] / "examples")
     motor = f"{example}/one_motor.st"
     yield ("new", "ACME", "-o", drive), ""
@@ -88,7 +87,7 @@ def commands(folder: Path) -> Iterator[tuple[Sequence[str], str]]:
     yield ("run", "--demo", "--fast", "--for", "3s"), ""
     yield ("run", str(folder / "fails.st"), "--simulate", "chf@1", "--for", "2s", "--show", "n", *picture), ""
     yield ("run", str(folder / "bad.st")), ""
-    yield ("run", motor, "--tcp", PORT, "--allow-run", "--for", "1s"), "Motor 1\nWIRED\n"
+    yield ("run", motor, "--tcp", port, "--allow-run", "--for", "1s"), "Motor 1\nWIRED\n"
     _, slave = pty.openpty()
     yield ("simulate", "chf@1", "--port", os.ttyname(slave), "--for", "4s"), ""
     yield ("simulate", "chf@1", "--pty", "--for", "1s"), ""
@@ -109,9 +108,11 @@ def executed(folder: Path) -> set[str]:
     def note(frame: FrameType, event: str, _: object) -> None:
         _note(seen, frame, event, _)
 
-    arguments = [sys.executable, "-m", "driveblocks", "simulate", "chf@1", "--tcp", PORT]
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = f"127.0.0.1:{free.getsockname()[1]}"
+    arguments = [sys.executable, "-m", "driveblocks", "simulate", "chf@1", "--tcp", port]
     with subprocess.Popen(arguments, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as drives:
-        for words, typed in commands(folder):
+        for words, typed in commands(folder, port):
             threading.settrace(note)
             sys.settrace(note)
             try:
@@ -134,15 +135,12 @@ def has_functions(path: Path) -> bool:
 
 
 def idle(folder: Path) -> list[str]:
-    """The modules of which no command executes a function."""
+    """The modules of which no command executes a function; `test --engine matiec` would take a C compiler minutes."""
     found = executed(folder)
-    from driveblocks.host.discovery import survey
-
-    matiec = any(each.engine is not None and each.name != "embedded" for each in survey().candidates())
     return [
         name
         for name, path in modules().items()
-        if str(path) not in found and has_functions(path) and (matiec or ".host.matiec" not in name)
+        if str(path) not in found and has_functions(path) and ".host.matiec" not in name
     ]
 
 
