@@ -7,11 +7,17 @@ from collections.abc import Iterable, Iterator
 
 from driveblocks.maps.model import Bits, Command, Condition, Drive, Step
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import polls
-from driveblocks.render.context import word_input
+from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
+from driveblocks.maps.view import error_number
+from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
 from driveblocks.st.writing import word
 
+PINS = {
+    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
+    "fault": "Fault",
+}  # fmt: skip
+"""What a drive can show -> the pin."""
 MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 ALL = 0xFFFF
@@ -29,6 +35,8 @@ def facts(drive: Drive) -> dict[str, str]:
         "reference": word(drive.operation.reference.register),
         "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
         "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
+        **_read(drive),
+        **_shown(drive),
         "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
@@ -91,6 +99,70 @@ def _holds(drive: Drive, one: Condition) -> str:
         return f"{name} = {word(one.equals)}"
     bits = list(one.bit)
     return f"({name} AND {word(_mask([one.bit]))}) = {word(one.equals << min(bits))}"
+
+
+def _read(drive: Drive) -> dict[str, str]:
+    """What the block that reads owes: which word of a poll is which, whose turn it is, what ages, and what is proof."""
+    reads = polls(drive)
+    taken: list[str] = []
+    for number, poll in enumerate(reads, 1):
+        come = f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
+        words = range(poll.address, poll.address + poll.words)
+        for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
+            name = word_input(drive, address)["name"]
+            taken.append(
+                f"({come}) AND ({name} = Words[{address - poll.address}]) OR NOT ({come}) AND ({name} = Was.{name})"
+            )
+    turns = [
+        f"(Turn <> {turn}) OR (NextEntry = {index + 1}) AND (Register = {word(reads[index].address)}) "
+        f"AND (Quantity = {reads[index].words})"
+        for turn, index in enumerate(schedule(reads))
+    ]
+    fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
+    return {
+        "words_taken": _every(taken),
+        "turns": _every(turns),
+        "oldest": _every(f"StatusAgeMs >= Age{number}" for number in fast),
+        "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
+        "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
+        + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
+        "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
+        "ages": _every(
+            f"(Age{number} = 65535) OR (Age{number} = Was.Age{number} + PassedMs) "
+            f"OR Fresh AND (Entry = {number}) AND (Age{number} = 0)"
+            for number in range(1, len(reads) + 1)
+        ),
+        "since": _every(
+            f"NOT Since{number} OR Was.Since{number} OR Fresh AND (Entry = {number})"
+            for number in range(1, len(reads) + 1)
+        ),
+        "none_since": _every(
+            f"NOT Since{number} OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
+        ),
+        "all_old": _every(
+            f"(Age{number} = 65535) OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
+        ),
+    }
+
+
+def _shown(drive: Drive) -> dict[str, str]:
+    """That the pins show what the map says of the words that were read, and what the line is told of the drive."""
+    said, pins = [], []
+    manners, silence = reply(drive)["form"], drive.serial.silence
+    busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
+    for one in drive.operation.status:
+        holds = _any(_holds(drive, each) for each in one.any)
+        said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
+        if one.shows in PINS:
+            pins.append(f"{PINS[one.shows]} = ({holds})")
+    told = [
+        f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
+        f"Slot.ExceptionAdd = {manners['add']}",
+        f"Slot.ErrorFunction = {manners['function']}",
+        f"Slot.ErrorAddress = {word(manners['address'])}",
+        f"Slot.BusyReason = {busy}",
+    ]
+    return {"said": _every(said), "pins": _every(pins), "told": _every(told)}
 
 
 def _proof_reads(drive: Drive) -> list[int]:

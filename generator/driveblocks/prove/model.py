@@ -9,6 +9,7 @@ import z3
 
 from driveblocks.host.engine import Source
 from driveblocks.prove import observer
+from driveblocks.prove.example import nothing
 from driveblocks.prove.rules import Subject
 from driveblocks.prove.sorts import UnsupportedError, initial, leaves, sort
 from driveblocks.prove.terms import Obligation, Store, Terms
@@ -43,24 +44,21 @@ class Model:
         return self._observe(self.before, self.before)
 
     @cached_property
-    def declared(self) -> list[tuple[z3.ExprRef, z3.ExprRef]]:
-        """Every scalar of the memory, and what it is at power-up."""
-        return [(term, initial_of(self.pou, path)) for path, term in self._memory()]
+    def declared(self) -> tuple[z3.ExprRef, ...]:
+        """That every scalar of the memory is what it is at power-up."""
+        start = {
+            each.name.upper() + leaf.path: initial(leaf)
+            for each in observer.kept(self.pou)
+            for leaf in leaves(each.type, each.start)
+        }
+        if isinstance(self.pou, Function):
+            start["RESULT"] = start[self.pou.name.upper()]
+        return tuple(term == start[path] for path, term in self._memory())
 
     @cached_property
-    def zero(self) -> list[tuple[z3.ExprRef, z3.ExprRef]]:
-        """Every scalar of the memory, and 0."""
-        return [(term, _zero(term)) for _, term in self._memory()]
-
-    @cached_property
-    def powered(self) -> Store:
-        """Every condition about the memory that was declared."""
-        return {name: z3.substitute(term, *self.declared) for name, term in self.was.items()}
-
-    @cached_property
-    def zeroed(self) -> Store:
-        """Every condition about memory that is all zero."""
-        return {name: z3.substitute(term, *self.zero) for name, term in self.was.items()}
+    def zero(self) -> tuple[z3.ExprRef, ...]:
+        """That every scalar of the memory is 0."""
+        return tuple(term == nothing(term) for _, term in self._memory())
 
     def _memory(self) -> Iterator[tuple[str, z3.ExprRef]]:
         """The scalars that are the block's own, not in-outs."""
@@ -87,24 +85,9 @@ def _unset(subject: Subject) -> Store:
     return {name.upper(): z3.BoolVal(False) for name in subject.conditions()}
 
 
-def _zero(term: z3.ExprRef) -> z3.ExprRef:
-    if z3.is_bool(term):
-        return z3.BoolVal(False)
-    return z3.FPVal(0.0, term.sort()) if z3.is_fp(term) else z3.BitVecVal(0, term.size())
-
-
 def in_outs(pou: Pou) -> set[str]:
     """The in-outs of a block."""
     return {name for name, each in pou.symbols.items() if each.kind is VarKind.IN_OUT}
-
-
-def initial_of(pou: Pou, path: str) -> z3.ExprRef:
-    """What a scalar is at power-up."""
-    for each in observer.kept(pou):
-        for leaf in leaves(each.type, each.start):
-            if each.name.upper() + leaf.path == path or (each.kind is VarKind.RESULT and path == "RESULT"):
-                return initial(leaf)
-    raise KeyError(path)
 
 
 def models(sources: Sequence[Source], subjects: Sequence[Subject]) -> list[Model]:

@@ -14,6 +14,8 @@ from driveblocks.prove.terms import Obligation, Store
 WORK = 60_000_000
 """Steps of the solver for one question, after which its answer is unknown; no clock, so that all machines agree."""
 
+STEPS = ("simplify", "propagate-values", "solve-eqs", "fpa2bv", "simplify", "bit-blast", "sat")
+"""How a solver goes about REALs that are reckoned with."""
 TRUE = z3.BoolVal(True)
 CALLS = "call by call"
 """What is asked of a call that finds what always holds."""
@@ -96,7 +98,7 @@ def _worlds(model: Model, inner: Sequence[Model], given: tuple[Term, ...]) -> tu
     calls = [World(CALLS, model.truth, (*given, *always))]
     if model.subject.restart:
         return [*calls, World("any memory, with a restart", model.truth, (*given, model.truth["Restarts"]))], []
-    return calls, [World("as declared", model.powered, ()), World("all zero", model.zeroed, ())]
+    return calls, [World("as declared", model.was, model.declared), World("all zero", model.was, model.zero)]
 
 
 def _of(model: Model, word: str, rules: Sequence[Rule], world: World, prefix: str = "") -> Iterator[Question]:
@@ -117,12 +119,10 @@ def _first(model: Model, given: tuple[Term, ...]) -> Iterator[Question]:
     if not model.subject.restart or model.subject.by_caller:
         return
     for about, memory in (("as declared", model.declared), ("all zero", model.zero)):
-        facts = tuple(z3.substitute(each, *memory) for each in given)
-        restarts = z3.substitute(model.truth["Restarts"], *memory)
-        block, words = model.pou.name, "the first call acts like a restart"
-        yield Question(block, about, words, "B6", "Restarts", facts, TRUE, restarts)
+        block, words, restarts = model.pou.name, "the first call acts like a restart", model.truth["Restarts"]
+        yield Question(block, about, words, "B6", "Restarts", (*given, *memory), TRUE, restarts)
         for each in model.obligations:
-            yield _agreed(model, f"every compiler, {about}", each, facts, z3.substitute(each.term, *memory))
+            yield _agreed(model, f"every compiler, {about}", each, (*given, *memory), each.term)
 
 
 def _parts(world: Store, word: str, number: int) -> tuple[Term, Term]:
@@ -147,8 +147,7 @@ def answers(asked: Iterable[Question], *, reach: bool = True, exact: bool = Fals
 
 def _solver(*, exact: bool) -> z3.Solver:
     """A solver that remembers from one question to the next; REALs that are reckoned with need another one."""
-    steps = ("simplify", "propagate-values", "solve-eqs", "fpa2bv", "simplify", "bit-blast", "sat")
-    solver = z3.Then(*steps).solver() if exact else z3.SolverFor("QF_BVFP")
+    solver = z3.Then(*STEPS).solver() if exact else z3.SolverFor("QF_BVFP")
     solver.set("rlimit", WORK)
     return solver
 

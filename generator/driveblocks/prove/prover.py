@@ -67,13 +67,19 @@ class Proved:
 
 def run(sources: Sequence[Source]) -> Iterator[Proved]:
     """The shared blocks, then those of each drive. UnsupportedError, CheckError."""
+    subjects = {each.path.stem: rules.family(facts(each.drive)) for each in sources}
+    for unit, made in texts(sources):
+        yield from proved(unit, made, subjects.get(unit) or rules.shared())
+
+
+def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:
+    """The blocks that every drive shares, then each drive with the shared blocks before its own."""
     spoken = languages(["en", "zh"], "utf-8")
     generic = [Text(each.path, each.text) for each in library.generic(spoken) if not each.name.endswith(LARGE)]
-    yield from proved(GENERIC, generic, rules.shared())
+    yield GENERIC, generic
     for source in sources:
-        made = library.drive(source.path.stem, source.drive, spoken)
-        own = [Text(each.path, each.text) for each in made]
-        yield from proved(source.path.stem, [*generic, *own], rules.family(facts(source.drive)))
+        own = library.drive(source.path.stem, source.drive, spoken)
+        yield source.path.stem, [*generic, *(Text(each.path, each.text) for each in own)]
 
 
 def proved(unit: str, sources: Sequence[Text], subjects: Sequence[Subject]) -> Iterator[Proved]:

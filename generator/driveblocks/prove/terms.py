@@ -7,7 +7,6 @@ collected as obligations: results within their width, indexes within their bound
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 
 import z3
@@ -26,7 +25,6 @@ from driveblocks.st.tree import (
     Case,
     Direction,
     Empty,
-    Exit,
     Expression,
     Function,
     If,
@@ -36,7 +34,6 @@ from driveblocks.st.tree import (
     Member,
     Name,
     Pou,
-    Return,
     Statement,
     Unary,
     VarDecl,
@@ -49,8 +46,6 @@ Store = dict[str, Term]
 """What every scalar is, by its path."""
 Run = Callable[[], None]
 """What a branch does."""
-LEFT = "#LEFT"
-"""The path under which a store says that a loop or a body was left by EXIT or RETURN."""
 TURNS = 40
 """Turns of a loop that are unrolled at most."""
 
@@ -99,7 +94,7 @@ class Terms:
         if len(set(in_outs.values())) < len(in_outs):
             raise UnsupportedError(f"{pou.name} with one variable in two in-outs")
         try:
-            self._left_by(lambda: self.statements(pou.body))
+            self.statements(pou.body)
         except UnsupportedError as error:
             if "line" in str(error) or pou.unit is None:
                 raise
@@ -110,14 +105,9 @@ class Terms:
     # ------------------------------------------------------------ statements
 
     def statements(self, body: Sequence[Statement]) -> None:
-        """Run statements one after the other; after one that may leave, the others where it has not."""
-        for index, each in enumerate(body):
+        """Run statements one after the other."""
+        for each in body:
             self.statement(each)
-            left = self.store.get(LEFT)
-            if left is not None and index + 1 < len(body):
-                if not z3.is_true(left):
-                    self._under(inverse(left), partial(self.statements, body[index + 1 :]))
-                return
 
     def statement(self, each: Statement) -> None:
         """Run one statement."""
@@ -131,9 +121,7 @@ class Terms:
         elif isinstance(each, Case):
             self._case(each)
         elif isinstance(each, While):
-            self._left_by(lambda: self._while(each, 0))
-        elif isinstance(each, Exit | Return):
-            self.store[LEFT] = z3.BoolVal(True)
+            self._while(each, 0)
         elif not isinstance(each, Empty):
             raise UnsupportedError(f"the statement {type(each).__name__}")
 
@@ -159,9 +147,6 @@ class Terms:
         (condition, body), *others = branches
         self._fork(self.value(condition), lambda: self.statements(body), lambda: self._branches(others, otherwise))
 
-    def _under(self, condition: Term, run: Run) -> None:
-        self._fork(condition, run, lambda: None)
-
     def _fork(self, condition: Term, then: Run, otherwise: Run) -> None:
         """Run both ways, and join what they leave."""
         if z3.is_true(condition):
@@ -180,24 +165,12 @@ class Terms:
 
     @staticmethod
     def _joined(condition: Term, first: Store, second: Store) -> Store:
-        left = {path: value for path, value in first.items() if path not in second and path != LEFT}
-        joined = second | left
-        no = z3.BoolVal(False)
-        if LEFT in first or LEFT in second:
-            joined[LEFT] = choice(condition, first.get(LEFT, no), second.get(LEFT, no))
+        joined = second | {path: value for path, value in first.items() if path not in second}
         for path, value in first.items():
             other = second.get(path)
-            if other is not None and other is not value and path != LEFT:
+            if other is not None and other is not value:
                 joined[path] = choice(condition, value, other)
         return joined
-
-    def _left_by(self, run: Run) -> None:
-        """Run what an EXIT or RETURN inside leaves, and nothing around it."""
-        outside = self.store.pop(LEFT, None)
-        run()
-        self.store.pop(LEFT, None)
-        if outside is not None:
-            self.store[LEFT] = outside
 
     def _case(self, each: Case) -> None:
         selector = self.value(each.selector)
@@ -229,9 +202,9 @@ class Terms:
 
         def run() -> None:
             self.statements(each.body)
-            self._under(inverse(self.store.get(LEFT, z3.BoolVal(False))), lambda: self._while(each, turns + 1))
+            self._while(each, turns + 1)
 
-        self._under(condition, run)
+        self._fork(condition, run, lambda: None)
 
     # ------------------------------------------------------------ calls
 

@@ -60,6 +60,7 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
         ("covers", manual.covers),
         ("second hand", "runs only when its user has checked the manual" if manual.second_hand else None),
         ("proof", None if drive.frames else view.UNPROVED),
+        ("safety rules", view.PROVABLE),
         ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
     )
 
