@@ -19,7 +19,7 @@ from tests.prove.evaluate import Program, signed
 
 from driveblocks.host.discovery import survey
 from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
+from driveblocks.host.engine import Library, ScanError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
@@ -39,6 +39,8 @@ class Score:
     """How many values were compared, left free, and differed."""
 
     calls: int = 0
+    refused: int = 0
+    """Calls that the engine ends, since a result leaves its width."""
     compared: int = 0
     free: int = 0
     wrong: tuple[str, ...] = ()
@@ -80,7 +82,11 @@ def compared(model: Model, library: Library, calls: int) -> Score:
         if call % 2 == 0 or not state:
             state = {path: drawn(random, kind) for path, (_, kind) in paths.items()}
         inputs = {path: drawn(random, paths[path][1]) for path in given}
-        after = _run(model, library, state | inputs)
+        try:
+            after = _run(model, library, state | inputs)
+        except ScanError:  # a result leaves its width, which no memory that the rules allow brings about: matiec wraps
+            state, score.refused = {}, score.refused + 1
+            continue
         said = program.run({BEFORE + path: value for path, value in state.items()} | inputs)
         for path, (_, kind) in paths.items():
             _compare(score, path, kind, said[model.after[path].get_id()], after[path])
@@ -109,9 +115,9 @@ def _compare(score: Score, path: str, kind: Elementary, said: Any, found: Any) -
 
 
 def engine(name: str) -> Any:
-    """The embedded engine with integers that wrap, or one of matiec."""
+    """The embedded engine, or one of matiec."""
     if name == "embedded":
-        return EmbeddedEngine("standard")
+        return EmbeddedEngine()
     return next(each.engine for each in survey().candidates() if each.name == name)
 
 

@@ -58,7 +58,7 @@ def test_premises_are_reached_on_the_engine() -> None:
 
 @pytest.mark.parametrize("family", agreement.sources())
 def test_the_terms_say_what_the_engine_does(family: str) -> None:
-    library = EmbeddedEngine("standard").build(agreement.sources()[family])
+    library = EmbeddedEngine().build(agreement.sources()[family])
     for model in agreement.subjects(family):
         if not isinstance(model.pou, Function) and not model.subject.exact:
             score = agreement.compared(model, library, 20)

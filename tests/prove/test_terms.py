@@ -52,7 +52,7 @@ def verdicts(body: str, **given: object) -> dict[str, Verdict]:
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_the_terms_say_what_the_engine_does(body: str) -> None:
     (model,) = models(sources(body), [Subject("Sample")])
-    score = compared(model, EmbeddedEngine("standard").build(sources(body)), 300)
+    score = compared(model, EmbeddedEngine().build(sources(body)), 300)
     assert (score.wrong, score.free) == ((), 0)
     assert score.compared > 300
 
