@@ -288,6 +288,7 @@ def _runs_on() -> Iterator[Step]:
         "StopConfirmed": False, "StopOverdue": False, "Seen.Driven": True, "Running": True, "Reason": "STOPPING",
     })  # fmt: skip
     yield Step("after StopWithinMs it is overdue", {}, "Motor.StopOverdue", 4000, {
+        ".WaitedMs": (940, 1100),
         "HardStop.HardStopOk": False, "StopConfirmed": False, "Seen.Stops >= 4": True,
     })  # fmt: skip
     yield Step("now it obeys", {"Fate.RunsOn": False, "Pins.HardReset": False}, "Motor.StopConfirmed", 3000, STANDS)
@@ -343,6 +344,7 @@ def faults(can: Ability) -> Iterator[Scene]:
     else:
         yield scene("a drive without a reset by the bus", POWER, *_no_reset(can))
     yield scene("two faults in turn", POWER, run(), *_two_faults(can))
+    yield scene("nine faults in turn", POWER, *_nine_faults(can))
 
 
 def _tripped(can: Ability) -> Shows:
@@ -364,11 +366,24 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the motor stands", {}, "Seen.Milli = 0", 4000, {"Reason": "FAULT", "Seen.Starts": 1})
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
-        "Motor.Diagnosis.FirstFaultMs > 500": True, "Motor.Diagnosis.FirstFaultState": 4,
-    })  # fmt: skip
+        "Motor.Diagnosis.FirstFaultMs > 500": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
+        "Motor.Diagnosis.FirstFaultState": 4,
+    } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)
     yield Step("released", {"RunForward": False, "FaultReset": False}, "Motor.Ready", 1500)
-    yield Step("a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {"Seen.Starts": 2, "FaultCode": 0})
+    yield Step("a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
+        "Seen.Starts": 2, "FaultCode": 0, "Motor.Diagnosis.FirstFaultCode": 0, "Motor.Diagnosis.FaultBack1": can.code,
+    })  # fmt: skip
+
+
+def _measured_at_fault(can: Ability) -> Shows:
+    """What was read last, before it tripped."""
+    found: Shows = {}
+    if can.measures("output_frequency"):
+        found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 3.0"] = True
+    if can.measures("dc_bus_voltage"):
+        found["Motor.Diagnosis.FirstFaultV"] = 540.0
+    return found
 
 
 def _gone(can: Ability) -> Iterator[Step]:
@@ -455,6 +470,22 @@ def _two_faults(can: Ability) -> Iterator[Step]:
     yield Step("reset on its keypad", {"Fate.KeypadReset": True}, "NOT Motor.Fault AND (Seen.Milli = 0)", 3000)
     yield Step("the second", {"Fate.Trips": second}, _code_known(can), 1500)
     yield Step("both are kept", ms=1500, shows=dict(back) | {"Motor.Diagnosis.FirstFaultCode": first if known else 0})
+
+
+def _nine_faults(can: Ability) -> Iterator[Step]:
+    """The last eight are kept, the last one first."""
+    first, second = can.codes
+    codes = [first, second, second, first, first, first, second, first, second]
+    for count, code in enumerate(codes, 1):
+        shown = code if can.code else 0
+        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=300, shows={
+            "Fault": True, "FaultCode": shown, "Motor.Diagnosis.FaultBack1": shown,
+        })  # fmt: skip
+        yield Step("it is reset", {"Fate.KeypadReset": True}, "NOT Motor.Fault", 1500)
+    kept = [code if can.code else 0 for code in reversed(codes)][:8]
+    yield Step("all are kept", ms=100, shows={
+        f"Motor.Diagnosis.FaultBack{place}": code for place, code in enumerate(kept, 1)
+    } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
 
 
 # ---------------------------------------------------------------- silence and disobedience
@@ -672,6 +703,9 @@ def _spoilt() -> Iterator[Step]:
         })  # fmt: skip
         good: Shows = {f"Pins.Settings.{setting}": 0, "RunForward": False}
         yield Step("0 is the map's value", good, "Motor.Ready", 1500, {"ErrorID": 0})
+    for within in (500, 65534):
+        yield Step(f"StopWithinMs {within}", {"StopWithinMs": within}, ms=60, shows={"ErrorID": 0, "Ready": True})
+    yield Step("StopWithinMs 65535", {"StopWithinMs": 65535}, ms=60, shows={"ErrorID": 72, "Reason": "MISSING"})
 
 
 def _address(can: Ability) -> Iterator[Step]:
