@@ -107,7 +107,8 @@ def does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Ite
 
 def error(block: str, name: str) -> Shows:
     """A result that is none."""
-    return {f"{block}.ErrorID": NUMBERS[name], f"{block}.Done": False}
+    found: Shows = {f"{block}.ErrorID": NUMBERS[name], f"{block}.Done": False}
+    return found if name == "REFUSED" else found | {f"{block}.RefusedReason": 0}
 
 
 def _barred(can: Ability) -> Iterator[Step]:
@@ -148,6 +149,7 @@ def _in_vain(drive: Drive, place: int) -> Iterator[Step]:
     lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(place)}
     yield Step("its answer stays away", lost, ms=50, shows=nothing)
     yield from does("Writer", place, "Error", error("Writer", "SILENCE") | nothing, Given=word(3))
+    yield from does("Reader", place, "Done", {"Reader.RefusedReason": 0, "Reader.ErrorID": 0})
     yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000, nothing)
     yield from does("Reader", place, "Error", error("Reader", "OFFLINE"))
 
