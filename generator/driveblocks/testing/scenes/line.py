@@ -122,6 +122,11 @@ def _no_line() -> Iterator[Step]:
 
 
 def _no_drive() -> Iterator[Step]:
+    for _ in range(2):
+        yield Step("for a moment", {"Pins.NoDrive": True}, ms=600, shows={"Slots[0].Unattended": False})
+        yield Step(
+            "called again", {"Pins.NoDrive": False}, ms=100, shows={"Slots[0].Unattended": False, "Running": True}
+        )
     yield Step("the line notices", {"Pins.NoDrive": True}, "Slots[0].Unattended", 1500, {"Seen.Driven": True})
     yield Step(
         "and stops the motor by itself",

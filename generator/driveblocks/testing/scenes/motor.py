@@ -104,7 +104,10 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     hertz = 5.0 if jog else 30.0
     opposite = "+" if back else "-"
     pace = why("RAMPING" if can.measures("output_frequency") else "RUNS")
-    yield Step("the start is sent", {pin: True}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
+    yield Step("the pin", {pin: True}, ms=20, shows={
+        "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
+    })  # fmt: skip
+    yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {"Seen.Order": ORDERS[does]})
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
@@ -212,7 +215,8 @@ def _too_early() -> Iterator[Step]:
 
 def _touch() -> Iterator[Step]:
     yield Step("for one scan", {"RunForward": True}, ms=20)
-    yield Step("released", {"RunForward": False}, "Motor.Ready", 3000, {"Seen.Driven": False})
+    yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
+    yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
     yield Step("nothing comes after", ms=500, shows={"Seen.Driven": False, "StopConfirmed": True})
 
 
@@ -279,6 +283,10 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
     ends = f"(Seen.StopKind = {4 if can.can('jog_stop') else 1}) AND ({TOLD})"
     yield Step("it ends", {"JogForward": False}, ends, 800)
     yield stand()
+    yield Step("nothing is left of it", ms=60, shows={"Slots[0].JogStop = 0": True, "StopConfirmed": True})
+    yield run({"Seen.Starts": 2})
+    yield Step("after a run there is but one stop", {"RunForward": False, ".Mark": "Seen.Stops"}, TOLD, 300)
+    yield stand({"Seen.StopKind": 1, "Seen.Stops - Mark": (1, 2)})
 
 
 def _runs_on() -> Iterator[Step]:
@@ -310,6 +318,10 @@ def _flicker() -> Iterator[Step]:
     for _ in range(3):
         yield Step("QuickStop", {"QuickStop": True}, ms=20)
         yield Step("not QuickStop", {"QuickStop": False}, ms=20, shows={"Seen.Starts": 1})
+    yield Step("a stop that changes nothing is a repetition", {"QuickStop": True}, ms=40, shows={
+        "Slots[0].StopAgain": True, "StopConfirmed": False,
+    })  # fmt: skip
+    yield Step("over", {"QuickStop": False}, ms=20)
     yield stand({"Seen.Starts": 1, "Reason": "HELD"})
 
 
@@ -597,7 +609,9 @@ def _unsaid(can: Ability) -> Iterator[Step]:
     forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
     register = forward.register
     lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
-    yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {"Seen.Starts": 1, "Running": True})
+    yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {
+        "Seen.Starts": 1, "Seen.Runs": 1, "Running": True,
+    })  # fmt: skip
     yield Step("it runs on", {"Fate.Unsaid": False}, ms=1000, shows={"Running": True, "Seen.Starts": 1})
 
 
@@ -683,6 +697,10 @@ def _speed_only() -> Iterator[Step]:
     )
     yield Step("the terminals do", {"Fate.KeypadRun": True}, "Motor.Running", 1500, {"Reason": "SPEED_ONLY"})
     yield Step("nobody stops it", {"RunForward": False}, ms=1500, shows={"Seen.Driven": True, "Running": True})
+    all_: Shows = {"Pins.StopAll": True, ".Mark": "Seen.References", "SpeedReferenceHz": 20.0}
+    yield Step("StopAll", all_, ms=600, shows={"ErrorID": 53, "Seen.References": "Mark", "Reason": "STOP_ALL"})
+    over: Shows = {"Pins.StopAll": False, "SpeedReferenceHz": 25.0, "Fate.KeypadRun": True}
+    yield Step("over", over, "(Seen.References > Mark) AND Motor.Running", 2000)
     yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
     yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
