@@ -28,6 +28,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     for words, steps in _midst(can):
         yield scene(f"a restart {words}", POWER, *steps, *_restart(can))
     yield scene("a restart with a fault", POWER, *_fault(can))
+    yield scene("a restart that leaves the motor to its terminals", POWER, run(), *_terminals())
     if not can.drive.identity:  # whose drive gets no stop before it has said what it is
         yield scene("a Restart that stays", POWER, run(), *_stays())
 
@@ -72,7 +73,9 @@ def _restart(can: Ability) -> Iterator[Step]:
         "Reason": "RESTARTED", "CommOk": False, "StopConfirmed": False, "Ready": False, "Running": False,
         "Motor.Diagnosis.StopReason": 10, "Motor.Diagnosis.CommandNotFollowed": False,
     })  # fmt: skip
-    yield Step("over, and nothing asked", AT_REST | {"StopWithinMs": 5000}, "Motor.Ready", 4000, STANDS | {
+    if not can.drive.identity:
+        yield Step("over: a stop at once", AT_REST | {"StopWithinMs": 5000}, "Seen.UntoldMs <= 40", 120)
+    yield Step("nothing asked", AT_REST | {"StopWithinMs": 5000}, "Motor.Ready", 4000, STANDS | {
         "Seen.Starts": "Mark", "Reason": "READY", "Error": False, "StopOverdue": False, "Motor.Diagnosis.State": 1,
         "Motor.Diagnosis.StopReason": 10, "Slots[0].ProvedStill": True, "Slots[0].JogStop = 0": True,
         "Slots[0].ResetAsked": False, "Slots[0].Tripped": False,
@@ -86,6 +89,15 @@ def _restart(can: Ability) -> Iterator[Step]:
         "Motor.Diagnosis.StopReason": 10, "ABS(Seen.StartMilli - 30000) <= 200": True,
     })  # fmt: skip
     yield Step("and stops by one stop", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | stopped)
+
+
+def _terminals() -> Iterator[Step]:
+    """Whoever gives only the speed from now on does not wait for standstill: the terminals may run it."""
+    speeds: Shows = {"Pins.Restart": True, "SpeedOnly": True, "RunForward": False, "Fate.RunsOn": True}
+    yield Step("Restart", speeds, ms=40, shows={"Reason": "RESTARTED"})
+    yield Step("over", {"Pins.Restart": False}, f"({why('SPEED_ONLY')}) AND (Motor.Diagnosis.State = 6)", 1500, {
+        "Seen.Driven": True, "Seen.Starts": 1,
+    })  # fmt: skip
 
 
 def _fault(can: Ability) -> Iterator[Step]:

@@ -96,6 +96,7 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "faces": [_face(made, register) for register in made.named],
         "shown": _shown(drive, made, numbers),
         "stored": _stored(made),
+        **_proof(drive),
         "moves": moves,
         "after": _after(made, at),
         "commands": _commands(made, at),
@@ -278,6 +279,14 @@ def _mistaken(drive: Drive) -> Iterator[tuple[int, str]]:
         pattern = of_condition(one)
         bit = pattern.mask & -pattern.mask
         yield pattern.register, f"IF Fate.WrongSetting THEN Value := Value XOR {word(bit)}; END_IF;"
+
+
+def _proof(drive: Drive) -> Context:
+    """The registers that prove standstill, each with the bits of the others."""
+    registers = sorted({each.register for each in drive.operation.standstill.all})
+    every = (1 << len(registers)) - 1
+    proof = [(register, word(every & ~(1 << place))) for place, register in enumerate(registers)]
+    return {"proof": proof, "unproved": word(every)}
 
 
 # ---------------------------------------------------------------- what a write does

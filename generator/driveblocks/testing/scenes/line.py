@@ -114,7 +114,7 @@ def _late_scan() -> Iterator[Step]:
 
 def _no_line() -> Iterator[Step]:
     yield Step("nobody serves the slot", {"Pins.NoLine": True}, why("NO_LINE"), 3000, {
-        "CommOk": False, "StopOverdue": True, "Running": False, "Seen.Driven": True,
+        "CommOk": False, "StopOverdue": True, "Running": False, "Seen.Driven": True, ".WaitedMs": (1960, 2080),
     })  # fmt: skip
     yield Step("the line is back: the motor is stopped", {"Pins.NoLine": False}, "Motor.StopConfirmed", 4000, STANDS | {
         "Seen.Starts": 1, "Reason": "HELD",
@@ -122,6 +122,11 @@ def _no_line() -> Iterator[Step]:
 
 
 def _no_drive() -> Iterator[Step]:
+    for _ in range(2):
+        yield Step("for a moment", {"Pins.NoDrive": True}, ms=600, shows={"Slots[0].Unattended": False})
+        yield Step(
+            "called again", {"Pins.NoDrive": False}, ms=100, shows={"Slots[0].Unattended": False, "Running": True}
+        )
     yield Step("the line notices", {"Pins.NoDrive": True}, "Slots[0].Unattended", 1500, {"Seen.Driven": True})
     yield Step(
         "and stops the motor by itself",
@@ -153,6 +158,7 @@ def _stuck() -> Iterator[Step]:
     yield Step("the contact is closed", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
     stuck: Shows = {"Pins.TxBusy": True, "RunForward": False, "Pins.HardReset": False}
     yield Step("no stop leaves: it is overdue", stuck, "Motor.StopOverdue", 3000, {
+        "(WaitedMs >= Bus.WorstStopMs) AND (WaitedMs <= Bus.WorstStopMs + 100)": True,
         "Seen.Driven": True, "HardStop.HardStopOk": False, "Bus.StopOverdue": True,
     })  # fmt: skip
     yield Step("it leaves", {"Pins.TxBusy": False}, "Motor.StopConfirmed", 5000, STANDS)

@@ -104,7 +104,10 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     hertz = 5.0 if jog else 30.0
     opposite = "+" if back else "-"
     pace = why("RAMPING" if can.measures("output_frequency") and not jog else "RUNS")
-    yield Step("the start is sent", {pin: True}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
+    yield Step("the pin", {pin: True}, ms=20, shows={
+        "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
+    })  # fmt: skip
+    yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {"Seen.Order": ORDERS[does]})
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
@@ -214,7 +217,8 @@ def _too_early() -> Iterator[Step]:
 
 def _touch() -> Iterator[Step]:
     yield Step("for one scan", {"RunForward": True}, ms=20)
-    yield Step("released", {"RunForward": False}, "Motor.Ready", 3000, {"Seen.Driven": False})
+    yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
+    yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
     yield Step("nothing comes after", ms=500, shows={"Seen.Driven": False, "StopConfirmed": True})
 
 
@@ -281,6 +285,10 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
     ends = f"(Seen.StopKind = {4 if can.can('jog_stop') else 1}) AND ({TOLD})"
     yield Step("it ends", {"JogForward": False}, ends, 800)
     yield stand()
+    yield Step("nothing is left of it", ms=60, shows={"Slots[0].JogStop = 0": True, "StopConfirmed": True})
+    yield run({"Seen.Starts": 2})
+    yield Step("after a run there is but one stop", {"RunForward": False, ".Mark": "Seen.Stops"}, TOLD, 300)
+    yield stand({"Seen.StopKind": 1, "Seen.Stops - Mark": (1, 2)})
 
 
 def _runs_on() -> Iterator[Step]:
@@ -290,6 +298,7 @@ def _runs_on() -> Iterator[Step]:
         "StopConfirmed": False, "StopOverdue": False, "Seen.Driven": True, "Running": True, "Reason": "STOPPING",
     })  # fmt: skip
     yield Step("after StopWithinMs it is overdue", {}, "Motor.StopOverdue", 4000, {
+        ".WaitedMs": (940, 1100),
         "HardStop.HardStopOk": False, "StopConfirmed": False, "Seen.Stops >= 4": True,
     })  # fmt: skip
     yield Step("now it obeys", {"Fate.RunsOn": False, "Pins.HardReset": False}, "Motor.StopConfirmed", 3000, STANDS)
@@ -311,6 +320,10 @@ def _flicker() -> Iterator[Step]:
     for _ in range(3):
         yield Step("QuickStop", {"QuickStop": True}, ms=20)
         yield Step("not QuickStop", {"QuickStop": False}, ms=20, shows={"Seen.Starts": 1})
+    yield Step("a stop that changes nothing is a repetition", {"QuickStop": True}, ms=40, shows={
+        "Slots[0].StopAgain": True, "StopConfirmed": False,
+    })  # fmt: skip
+    yield Step("over", {"QuickStop": False}, ms=20)
     yield stand({"Seen.Starts": 1, "Reason": "HELD"})
 
 
@@ -345,6 +358,7 @@ def faults(can: Ability) -> Iterator[Scene]:
     else:
         yield scene("a drive without a reset by the bus", POWER, *_no_reset(can))
     yield scene("two faults in turn", POWER, run(), *_two_faults(can))
+    yield scene("nine faults in turn", POWER, *_nine_faults(can))
 
 
 def _tripped(can: Ability) -> Shows:
@@ -366,11 +380,24 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the motor stands", {}, "Seen.Milli = 0", 4000, {"Reason": "FAULT", "Seen.Starts": 1})
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
-        "Motor.Diagnosis.FirstFaultMs > 500": True, "Motor.Diagnosis.FirstFaultState": 4,
-    })  # fmt: skip
+        "Motor.Diagnosis.FirstFaultMs > 500": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
+        "Motor.Diagnosis.FirstFaultState": 4,
+    } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)
     yield Step("released", {"RunForward": False, "FaultReset": False}, "Motor.Ready", 1500)
-    yield Step("a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {"Seen.Starts": 2, "FaultCode": 0})
+    yield Step("a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
+        "Seen.Starts": 2, "FaultCode": 0, "Motor.Diagnosis.FirstFaultCode": 0, "Motor.Diagnosis.FaultBack1": can.code,
+    })  # fmt: skip
+
+
+def _measured_at_fault(can: Ability) -> Shows:
+    """What was read last, before it tripped."""
+    found: Shows = {}
+    if can.measures("output_frequency"):
+        found["ABS(Motor.Diagnosis.FirstFaultHz - 30.0) < 3.0"] = True
+    if can.measures("dc_bus_voltage"):
+        found["Motor.Diagnosis.FirstFaultV"] = 540.0
+    return found
 
 
 def _gone(can: Ability) -> Iterator[Step]:
@@ -457,6 +484,22 @@ def _two_faults(can: Ability) -> Iterator[Step]:
     yield Step("reset on its keypad", {"Fate.KeypadReset": True}, "NOT Motor.Fault AND (Seen.Milli = 0)", 3000)
     yield Step("the second", {"Fate.Trips": second}, _code_known(can), 1500)
     yield Step("both are kept", ms=1500, shows=dict(back) | {"Motor.Diagnosis.FirstFaultCode": first if known else 0})
+
+
+def _nine_faults(can: Ability) -> Iterator[Step]:
+    """The last eight are kept, the last one first."""
+    first, second = can.codes
+    codes = [first, second, second, first, first, first, second, first, second]
+    for count, code in enumerate(codes, 1):
+        shown = code if can.code else 0
+        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=300, shows={
+            "Fault": True, "FaultCode": shown, "Motor.Diagnosis.FaultBack1": shown,
+        })  # fmt: skip
+        yield Step("it is reset", {"Fate.KeypadReset": True}, "NOT Motor.Fault", 1500)
+    kept = [code if can.code else 0 for code in reversed(codes)][:8]
+    yield Step("all are kept", ms=100, shows={
+        f"Motor.Diagnosis.FaultBack{place}": code for place, code in enumerate(kept, 1)
+    } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
 
 
 # ---------------------------------------------------------------- silence and disobedience
@@ -568,7 +611,9 @@ def _unsaid(can: Ability) -> Iterator[Step]:
     forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
     register = forward.register
     lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
-    yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {"Seen.Starts": 1, "Running": True})
+    yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {
+        "Seen.Starts": 1, "Seen.Runs": 1, "Running": True,
+    })  # fmt: skip
     yield Step("it runs on", {"Fate.Unsaid": False}, ms=1000, shows={"Running": True, "Seen.Starts": 1})
 
 
@@ -654,6 +699,10 @@ def _speed_only() -> Iterator[Step]:
     )
     yield Step("the terminals do", {"Fate.KeypadRun": True}, "Motor.Running", 1500, {"Reason": "SPEED_ONLY"})
     yield Step("nobody stops it", {"RunForward": False}, ms=1500, shows={"Seen.Driven": True, "Running": True})
+    all_: Shows = {"Pins.StopAll": True, ".Mark": "Seen.References", "SpeedReferenceHz": 20.0}
+    yield Step("StopAll", all_, ms=600, shows={"ErrorID": 53, "Seen.References": "Mark", "Reason": "STOP_ALL"})
+    over: Shows = {"Pins.StopAll": False, "SpeedReferenceHz": 25.0, "Fate.KeypadRun": True}
+    yield Step("over", over, "(Seen.References > Mark) AND Motor.Running", 2000)
     yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
     yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
@@ -674,6 +723,9 @@ def _spoilt() -> Iterator[Step]:
         })  # fmt: skip
         good: Shows = {f"Pins.Settings.{setting}": 0, "RunForward": False}
         yield Step("0 is the map's value", good, "Motor.Ready", 1500, {"ErrorID": 0})
+    for within in (500, 65534):
+        yield Step(f"StopWithinMs {within}", {"StopWithinMs": within}, ms=60, shows={"ErrorID": 0, "Ready": True})
+    yield Step("StopWithinMs 65535", {"StopWithinMs": 65535}, ms=60, shows={"ErrorID": 72, "Reason": "MISSING"})
 
 
 def _address(can: Ability) -> Iterator[Step]:

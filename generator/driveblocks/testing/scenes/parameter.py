@@ -18,6 +18,8 @@ BLOCKS = {
     "Storer": ("VFD_Store", "under test: stores them"),
     "Rival": ("VFD_ReadParameter", "reads one again and again, so is the next"),
     "Rival2": ("VFD_ReadParameter", "..."),
+    "Behind": ("VFD_ReadParameter", "... called after all others"),
+    "Presses": ("BOOL", "it is at it"),
     "Reading": ("BOOL", "its pin Execute"),
     "Writing": ("BOOL", "its pin Execute"),
     "Storing": ("BOOL", "its pin Execute"),
@@ -32,6 +34,7 @@ BLOCKS = {
     "Within": ("UINT", "its pin WithinMs"),
     "Minimum": ("UINT", "its pin MinimumS"),
     "Stores": ("UDINT", "times that the drive was told to store"),
+    "Upset": ("BOOL", "one of the rivals has not got its answer"),
     "Clash": ("BOOL", "Busy, Done and Error of a block have not excluded each other"),
 }
 _RIVAL = "(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Place, WithinMs := 5000, Slot := Slots[0]);"
@@ -45,6 +48,9 @@ CALLS = (
     "Writer(Execute := Writing, Address := Place, Quantity := Count, Value := Given, Value2 := Given2,",
     "  Value3 := Given3, AllowUnknown := Unknown, WithinMs := Within, Slot := Slots[0]);",
     "Storer(Execute := Storing, MinimumS := Minimum, WithinMs := Within, Slot := Slots[0], Stores := Stores);",
+    "Behind(Execute := Presses AND NOT Behind.Done AND NOT Behind.Error, Address := Place, WithinMs := 5000,",
+    "  Slot := Slots[0]);",
+    "Upset := Upset OR Rival.Error OR Rival2.Error OR Behind.Error;",
     "Clash := Clash OR (Reader.Busy AND (Reader.Done OR Reader.Error)) OR (Reader.Done AND Reader.Error)",
     "  OR (Writer.Busy AND (Writer.Done OR Writer.Error)) OR (Writer.Done AND Writer.Error)",
     "  OR (Storer.Busy AND (Storer.Done OR Storer.Error)) OR (Storer.Done AND Storer.Error)",
@@ -55,6 +61,7 @@ WITHIN_MS = 1500
 IDLE: Shows = {
     ".Reading": False, ".Writing": False, ".Storing": False, ".Count": 1, ".Unknown": False, "Pins.Others": 100,
     "Pins.Stores": 100, ".Within": WITHIN_MS, ".Rivals": False, ".Rests": False, ".Minimum": 0, ".Clash": False,
+    ".Upset": False, ".Presses": False,
 }  # fmt: skip
 
 
@@ -107,7 +114,8 @@ def does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Ite
 
 def error(block: str, name: str) -> Shows:
     """A result that is none."""
-    return {f"{block}.ErrorID": NUMBERS[name], f"{block}.Done": False}
+    found: Shows = {f"{block}.ErrorID": NUMBERS[name], f"{block}.Done": False}
+    return found if name == "REFUSED" else found | {f"{block}.RefusedReason": 0}
 
 
 def _barred(can: Ability) -> Iterator[Step]:
@@ -148,6 +156,7 @@ def _in_vain(drive: Drive, place: int) -> Iterator[Step]:
     lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(place)}
     yield Step("its answer stays away", lost, ms=50, shows=nothing)
     yield from does("Writer", place, "Error", error("Writer", "SILENCE") | nothing, Given=word(3))
+    yield from does("Reader", place, "Done", {"Reader.RefusedReason": 0, "Reader.ErrorID": 0})
     yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000, nothing)
     yield from does("Reader", place, "Error", error("Reader", "OFFLINE"))
 
@@ -175,5 +184,8 @@ def _stored() -> Iterator[Step]:
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
     yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600, shows=NOTHING_STARTED)
     yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, "Motor.Ready", 3000, {"Seen.Stores": 0})
+    yield Step("Execute", {".Storing": True}, ms=40, shows={
+        "Storer.Busy": True, "Storer.Done": False, "Storer.Error": False, "Storer.ErrorID": 0,
+    })  # fmt: skip
     yield from does("Storer", 0, "Done", {"Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True})
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 1})

@@ -23,6 +23,7 @@ RULES = (
     "a motor that nobody asks for is stopped", "Error with ErrorID", "no faster than MaximumHz", "no broadcast",
     "nothing stored unasked", "no register written unasked", "not Running and StopConfirmed", "the right way round",
     "Reason 0 only while it runs", "FaultCode only with Fault", "no closed contact while a stop is overdue",
+    "an answer to each command", "no StopConfirmed without its proof", "no fewer registers than are shown",
 )  # fmt: skip
 """What VFD_TestWatch sees broken, by bit."""
 

@@ -37,6 +37,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     if place is None:
         return
     yield scene("blocks that wait for their turn", idle(), *_turns(place))
+    yield scene("a block that is called after the others", idle(), *_one_behind(place))
     yield scene("what is not done in time", idle(), *_in_time(place))
     yield scene("a short pulse of Execute", idle(), *_pulse(place))
     yield scene("a line or a block that is not called meanwhile", idle(), *_not_called(place))
@@ -111,8 +112,7 @@ def _not_all(drive: Drive) -> Iterator[Step]:
         if place is not None:
             refused = error("Writer", results[place + bad]) | {"Seen.Others": 0, "Seen.Stores": 0}
             same = {name: word(GIVEN[0]) for name in ("Given", "Given2", "Given3")}
-            count = max(bad + 1, min(_most_written(drive), 0x10000 - place))
-            yield from does("Writer", place, "Error", refused, Count=count, **same)
+            yield from does("Writer", place, "Error", refused, Count=bad + 1, **same)
 
 
 def _fails_at(results: dict[int, str], place: int, bad: int) -> bool:
@@ -160,16 +160,33 @@ def _asks(function: int, place: int, count: int) -> Shows:
 def _turns(place: int) -> Iterator[Step]:
     """Two readers that never rest leave a writer its turn, and a writer leaves them theirs."""
     yield Step("two are at it", {".Rivals": True, ".Place": word(place)}, ms=400, shows={"Seen.Reads > 8": True})
-    begin: Shows = {".Writing": True, ".Given": word(3), ".Within": 8000}
+    begin: Shows = {".Writing": True, ".Given": word(3), ".Within": 8000, ".Mark": "Slots[0].Ask[2].Number"}
     yield Step("a third comes", begin, ms=20, shows={"Writer.Busy": True, "Writer.Done": False, "Seen.Others": 0})
-    yield Step("it gets its turn", {}, "Writer.Done", 4500, {"Seen.Others": 1, f"Seen.LastWord = {word(3)}": True})
+    yield Step("it gets its turn", {}, "Writer.Done", 4500, {
+        "Slots[0].Ask[2].Number - Mark": (17, 21), "Seen.Others": 1, f"Seen.LastWord = {word(3)}": True,
+    })  # fmt: skip
     released: Shows = {".Writing": False, ".Rivals": False}
+    readers: Shows = {".Writing": False, ".Reading": True, ".Mark": "Slots[0].Ask[2].Number"}
+    yield Step("another one, to read", readers, "Reader.Done", 4500, {"Slots[0].Ask[2].Number - Mark": (17, 21)})
     yield Step(
         "all rest", released, "NOT (Rival.Busy OR Rival2.Busy)", 1000, {"Writer.Done": False, "Clash = FALSE": True}
     )
     all_three: Shows = {".Writing": True, ".Reading": True, ".Rivals": True, ".Given": word(2)}
     yield Step("all at once", all_three, "Writer.Done AND Reader.Done", 6500, {f"Seen.LastWord = {word(2)}": True})
-    yield Step("released", released | {".Reading": False}, ms=400, shows=NOTHING_STARTED | {"Clash = FALSE": True})
+    yield Step("released", released | {".Reading": False}, ms=400, shows=NOTHING_STARTED | {
+        "Clash = FALSE": True, "Upset = FALSE": True,
+    })  # fmt: skip
+
+
+def _one_behind(place: int) -> Iterator[Step]:
+    """One that is called after all others gets its answers, whoever is quicker."""
+    presses: Shows = {".Presses": True, ".Place": word(place), ".Given": word(3), ".Within": 8000}
+    yield Step("one is at it", presses, ms=300, shows={"Behind.Error": False})
+    for _ in range(2):
+        two: Shows = {".Writing": True, ".Reading": True}
+        yield Step("two more", two, "Writer.Done AND Reader.Done", 5000, {"Upset = FALSE": True})
+        yield Step("released", {".Writing": False, ".Reading": False}, ms=100, shows={"Upset = FALSE": True})
+    yield Step("all rest", {".Presses": False}, ms=400, shows={"Clash = FALSE": True, "Upset = FALSE": True})
 
 
 # ---------------------------------------------------------------- time
@@ -187,11 +204,20 @@ def _in_time(place: int) -> Iterator[Step]:
     yield Step("and is sent no more", {"Fate.Skips": False, ".Writing": False}, ms=400, shows={
         "Seen.Others": 0, "Writer.Error": False, f"Slots[0].Ask[2].Words[3] = {word(0x3400)}": True,
     })  # fmt: skip
-    stuck: Shows = {"Pins.TxBusy": True, ".Writing": True, ".Within": 300}
-    yield Step("the port takes nothing", stuck, "Writer.Error", 1000, error("Writer", "NOT_SENT") | {
+    stuck: Shows = {"Pins.TxBusy": True, ".Writing": True, ".Reading": True, ".Within": 300}
+    both = error("Writer", "NOT_SENT") | error("Reader", "NOT_SENT")
+    yield Step("the port takes nothing", stuck, "Writer.Error AND Reader.Error", 1000, both | {
         ".WaitedMs": (300 - SLACK, 300 + SLACK),
     })  # fmt: skip
-    yield Step("what was not sent then is not sent later", {"Pins.TxBusy": False, ".Writing": False}, ms=600, shows={
+    freed: Shows = {"Pins.TxBusy": False, ".Writing": False, ".Reading": False}
+    yield Step("what was not sent then is not sent later", freed, ms=600, shows={"Seen.Others": 0, "CommOk": True})
+    slow: Shows = {"Fate.HoldMs": 100, "Pins.Settings.TurnRoundMs": 200, "Pins.Settings.LongestMs": 200}
+    yield Step("a reply takes long", slow, ms=400, shows={"CommOk": True})
+    yield Step("a request has just been sent", {}, "TxCount > 0", 500)
+    mailbox: Shows = {".Writing": True, "Pins.TxBusy": True}
+    yield Step("the next is in the mailbox", mailbox, "Writer.Error", 1000, error("Writer", "SILENCE"))
+    freed |= {"Fate.HoldMs": 0, "Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
+    yield Step("it does not leave it any more", freed, ms=600, shows={
         "Seen.Others": 0, "CommOk": True,
     })  # fmt: skip
     usual: Shows = {"Fate.Skips": True, ".Within": 0, ".Writing": True}
@@ -226,9 +252,14 @@ def _not_called(place: int) -> Iterator[Step]:
     lost: Shows = {".Rests": False, ".Writing": False}
     yield Step("its answer is lost", lost, "Reader.Error", 200, error("Reader", "LOST"))
     yield Step("released", {".Reading": False}, "Motor.Ready", 3000)
-    no_line: Shows = {"Pins.NoLine": True, ".Reading": True}
-    yield Step("nobody calls the line", no_line, ms=400, shows={"Reader.Busy": True, "Reader.Error": False})
-    yield Step("that is told", {}, "Reader.Error", 25000, error("Reader", "NO_LINE") | {
-        ".WaitedMs": (1000 * SCAN_MS - 400 - 10 * SCAN_MS, 1000 * SCAN_MS - 400 + 10 * SCAN_MS),
+    nobody: Shows = {"Pins.NoLine": True, "Pins.NoDrive": True}
+    calm: Shows = {"Reader.Busy": True, "Reader.Error": False, "Writer.Busy": True, "Writer.Error": False}
+    yield Step("nobody calls the line", nobody | {".Reading": True, ".Writing": True}, ms=900 * SCAN_MS, shows=calm)
+    yield Step("it is called for a moment", {"Pins.NoLine": False}, ms=20, shows=calm)
+    yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm)
+    told = error("Reader", "NO_LINE") | error("Writer", "NO_LINE")
+    yield Step("that is told", {}, "Reader.Error AND Writer.Error", 3000, told | {
+        ".WaitedMs": (90 * SCAN_MS, 110 * SCAN_MS),
     })  # fmt: skip
-    yield Step("it is called again", {"Pins.NoLine": False, ".Reading": False}, "Motor.Ready", 5000, NOTHING_STARTED)
+    back: Shows = {"Pins.NoLine": False, "Pins.NoDrive": False, ".Reading": False, ".Writing": False}
+    yield Step("it is called again", back, "Motor.Ready", 5000, NOTHING_STARTED)

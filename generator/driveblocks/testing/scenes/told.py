@@ -51,8 +51,8 @@ def known(drive: Drive) -> Shows:
 
 
 def _command(drive: Drive, does: str) -> Command:
-    commands = {str(one.does): one for one in drive.operation.commands}
-    return commands.get(does) or commands["stop"]
+    found = [one for each in (does, "stop") for one in drive.operation.commands if one.does == each]
+    return found[0]
 
 
 def _write(drive: Drive) -> int:
@@ -161,7 +161,7 @@ def _diagnosis(can: Ability) -> Shows:
 def _unset(can: Ability) -> Iterator[Step]:
     sets: Shows = {f"Pins.Settings.{key}": 0 for key in SETTINGS}
     learned = "Slots[0].TurnRoundMs = MAX(50, 2 * Slots[0].LongestReplyMs + 20)"
-    yield Step("none is set", sets, ms=100, shows=_slot(USUAL | {"TurnRoundMs": 500}))
+    yield Step("none is set", sets, ms=100, shows=_slot({**USUAL, "TurnRoundMs": 500}))
     yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
     yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL) | _diagnosis(can))
     yield Step("replies come later", {"Fate.HoldMs": 40}, ms=600, shows={learned: True, "CommOk": True})
