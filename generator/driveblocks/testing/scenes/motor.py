@@ -215,9 +215,10 @@ def _too_early() -> Iterator[Step]:
 
 
 def _touch() -> Iterator[Step]:
-    yield Step("for one scan", {"RunForward": True}, ms=20)
-    yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
-    yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
+    for _ in range(2):
+        yield Step("for one scan", {"RunForward": True}, ms=20)
+        yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
+        yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
     yield Step("nothing comes after", ms=500, shows={"Seen.Driven": False, "StopConfirmed": True})
 
 
@@ -728,6 +729,12 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step("over", over, "(Seen.References > Mark) AND Motor.Running", 2000)
     yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
     yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
+    unread: Shows = {"Fate.RefusesReads": True, "Pins.Settings.StaleMs": 600, "StopWithinMs": 5000}
+    yield Step("it cannot be read", unread, "NOT Motor.CommOk", 2000, {"Slots[0].Online": True})
+    blind: Shows = {"SpeedReferenceHz": 15.0, ".Mark": "Seen.References"}
+    yield Step("no reference goes to a drive that nobody sees", blind, ms=1000, shows={"Seen.References": "Mark"})
+    seen: Shows = {"Fate.RefusesReads": False, "Pins.Settings.StaleMs": 0}
+    yield Step("it is read again", seen, "Motor.CommOk AND (Seen.References > Mark)", 2000, {"Seen.Starts": 0})
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
     yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
 

@@ -118,6 +118,14 @@ def _resets(can: Ability) -> Iterator[Step]:
     end: Shows = {".Mute": False, "Fate.Dumb": False, "Fate.Cause": False, "FaultReset": False}
     yield Step("it answers", end, ms=300, shows={"Fault": True})
     yield Step("a new edge", {"FaultReset": True}, "Motor.Ready", 4000, {"Seen.Resets": 4})
+    trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True, "FaultReset": False}
+    yield Step("it trips again", trips, "Motor.Fault", 1500)
+    yield Step("its code is known", ms=500)
+    yield Step("a reset that is not answered", {".Mute": True, "FaultReset": True}, "Seen.Resets > 4", 3000)
+    yield Step("is taken back by a stop, when somebody else takes charge", {"MonitorOnly": True}, ms=40, shows={
+        "Slots[0].Ask[1].Number": "Slots[0].Answer[1].Number", "Reason": "NO_RESET",
+    })  # fmt: skip
+    yield Step("all is well", {".Mute": False, "Fate.Dumb": False, "Fate.Cause": False}, ms=20)
 
 
 def _silent() -> Iterator[Step]:
