@@ -28,6 +28,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     for words, steps in _midst(can):
         yield scene(f"a restart {words}", POWER, *steps, *_restart(can))
     yield scene("a restart with a fault", POWER, *_fault(can))
+    yield scene("a restart while its block is not called", POWER, run(), *_not_called())
     yield scene("a restart that leaves the motor to its terminals", POWER, run(), *_terminals())
     if not can.drive.identity:  # whose drive gets no stop before it has said what it is
         yield scene("a Restart that stays", POWER, run(), *_stays())
@@ -89,6 +90,14 @@ def _restart(can: Ability) -> Iterator[Step]:
         "Motor.Diagnosis.StopReason": 10, "ABS(Seen.StartMilli - 30000) <= 200": True,
     })  # fmt: skip
     yield Step("and stops by one stop", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | stopped)
+
+
+def _not_called() -> Iterator[Step]:
+    gone: Shows = {"Pins.NoDrive": True}
+    yield Step("its block is not called", gone, ms=700, shows={"Slots[0].Unattended": False, "Seen.Driven": True})
+    yield Step("Restart", {"Pins.Restart": True}, ms=40)
+    yield Step("its time begins anew", {"Pins.Restart": False}, ms=700, shows={"Slots[0].Unattended": False})
+    yield Step("the block is back", AT_REST | {"Pins.NoDrive": False}, "Motor.Ready", 5000, STANDS | {"Seen.Starts": 1})
 
 
 def _terminals() -> Iterator[Step]:

@@ -14,13 +14,15 @@ MARKS = {
     "Marks": ("MB_Words16", "counts of before"),
     "Sent": ("UINT", "requests that the line has counted since"),
     "Heard": ("UINT", "requests that the drive has heard since"),
+    "Least": ("UINT", "the lowest WorstStopMs since"),
     "Before": ("UINT", "what the drive had heard"),
 }
 CALLS = (
     "Heard := Seen.Reads + Seen.Writes - Before;",
+    "Least := MIN(Least, Bus.WorstStopMs);",
     "Sent := UDINT_TO_UINT(Slots[0].Requests MOD 65536) - Mark;",
 )
-BEGIN: Shows = {".Mark": "UDINT_TO_UINT(Bus.Requests MOD 65536)", ".Before": "Seen.Reads + Seen.Writes"}
+BEGIN: Shows = {".Mark": "UDINT_TO_UINT(Slots[0].Requests MOD 65536)", ".Before": "Seen.Reads + Seen.Writes"}
 COUNTERS = ("Timeouts", "Bad", "Refusals", "Retries")
 """Of the line and of a slot."""
 
@@ -57,10 +59,13 @@ def _promises(can: Ability) -> Iterator[Step]:
         silence=int(silence.milliseconds or 0) if silence else 0,
         by_one=any(function.code == 6 for function in drive.functions),
     )
+    worst = 0
     for words, sets, one in _lines(can, usual):
+        worst = one.worst
         yield Step(words, sets, ms=18 * SCAN_MS, shows={
             "Bus.StopAloneMs": one.alone, "Bus.WorstStopMs": one.worst, "Bus.CutToContactMs": one.cut,
         })  # fmt: skip
+    yield Step("it stays so in every scan", {".Least": 65535}, ms=18 * SCAN_MS, shows={".Least": worst})
 
 
 def _lines(can: Ability, usual: Promise) -> Iterator[tuple[str, Shows, Promise]]:

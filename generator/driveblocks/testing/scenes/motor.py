@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.st.writing import word
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -216,9 +217,10 @@ def _too_early() -> Iterator[Step]:
 
 
 def _touch() -> Iterator[Step]:
-    yield Step("for one scan", {"RunForward": True}, ms=20)
-    yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
-    yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
+    for _ in range(2):
+        yield Step("for one scan", {"RunForward": True}, ms=20)
+        yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
+        yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
     yield Step("nothing comes after", ms=500, shows={"Seen.Driven": False, "StopConfirmed": True})
 
 
@@ -428,10 +430,8 @@ def _vain(can: Ability) -> Iterator[Step]:
     yield Step("it trips", {"Fate.Trips": can.codes[1], "Fate.Cause": True}, "Motor.Fault", 1500)
     yield Step("the motor stands", {"RunForward": False}, "Seen.Milli = 0", 4000)
     yield Step("FaultReset", {"FaultReset": True}, "Seen.Resets >= 1", 3000, {"Fault": True})
-    yield Step(
-        "it has not helped", {}, why("NO_RESET"), 13000, {"Fault": True, "Ready": False, "(Seen.Resets <= 4)": True}
-    )
-    yield Step("no more attempts come", ms=1000, shows={"(Seen.Resets <= 4)": True, "Reason": "NO_RESET"})
+    yield Step("it has not helped", {}, why("NO_RESET"), 13000, {"Fault": True, "Ready": False})
+    yield Step("one is enough where it is answered", ms=1000, shows={"Seen.Resets": 1, "Reason": "NO_RESET"})
     yield Step("the cause is gone, the pin falls", {"Fate.Cause": False, "FaultReset": False}, ms=100)
     yield Step("a new edge", {"FaultReset": True}, "Motor.Ready", 4000, {"Fault": False, "Reason": "READY"})
 
@@ -500,6 +500,11 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     yield Step("all are kept", ms=100, shows={
         f"Motor.Diagnosis.FaultBack{place}": code for place, code in enumerate(kept, 1)
     } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
+    yield Step("the PLC restarts", {"Pins.Restart": True}, ms=40)
+    yield Step("it has stopped it", {"Pins.Restart": False}, "Motor.StopConfirmed", 3000)
+    yield Step("its first fault", {"Fate.Trips": second}, ms=400, shows={
+        "Motor.Diagnosis.FirstFaultCode": second if can.code else 0, "Fault": True,
+    })  # fmt: skip
 
 
 # ---------------------------------------------------------------- silence and disobedience
@@ -518,6 +523,7 @@ def silence(can: Ability) -> Iterator[Scene]:
     yield scene("a run that is not acknowledged", POWER, *_unacknowledged(can, "run", "NO_RUN"))
     if can.runs_at_once:
         yield scene("a run whose reply is lost", POWER, *_unsaid(can))
+        yield scene("a run that is never answered", POWER, *_tries(can))
     yield scene("started on its keypad", POWER, *_keypad_run())
     yield scene("stopped on its keypad", POWER, run(), *_keypad_stop())
     if can.shows("ready"):
@@ -617,6 +623,18 @@ def _unsaid(can: Ability) -> Iterator[Step]:
     yield Step("it runs on", {"Fate.Unsaid": False}, ms=1000, shows={"Running": True, "Seen.Starts": 1})
 
 
+def _tries(can: Ability) -> Iterator[Step]:
+    """One attempt and three more, with a look at the status before each."""
+    register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(register), "Fate.Local": True, "RunForward": True}
+    before: Shows = {".Mark": "Seen.Writes - Seen.References"}
+    yield Step("four times in vain", lost | before, why("NO_RUN"), 6000, {
+        "Seen.Writes - Seen.References - Mark": (4, 5), "Seen.Driven": False,
+    })  # fmt: skip
+    well: Shows = {"Fate.Unsaid": False, "Fate.Local": False, "RunForward": False}
+    yield Step("it is well again", well, "Motor.Ready", 5000, NOTHING_STARTED)
+
+
 def _keypad_run() -> Iterator[Step]:
     yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {"StopConfirmed": False})
     yield stand(NOTHING_STARTED)
@@ -654,8 +672,12 @@ def _no_supply() -> Iterator[Step]:
 
 def _stale() -> Iterator[Step]:
     yield Step("StaleMs is short", {"Pins.Settings.StaleMs": 600}, ms=300, shows=RUNNING)
-    yield Step("a reply is late", {"Fate.Dumb": True}, why("SLOW_LINE"), 600, {"CommOk": True, "Running": True})
-    yield Step("it stays away", {}, why("STALE"), 600, {"CommOk": False, "Running": False})
+    yield Step("a reply is late", {"Fate.Dumb": True}, why("SLOW_LINE"), 600, {
+        "CommOk": True, "Running": True, "Motor.Diagnosis.StatusAgeMs": (301, 360),
+    })  # fmt: skip
+    yield Step("it stays away", {}, why("STALE"), 600, {
+        "CommOk": False, "Running": False, "Motor.Diagnosis.StatusAgeMs": (601, 65535),
+    })  # fmt: skip
     yield Step("it comes: the motor is stopped", {"Fate.Dumb": False}, "Motor.StopConfirmed", 4000, STANDS | {
         "Seen.Starts": 1,
     })  # fmt: skip
@@ -667,7 +689,7 @@ def _stale() -> Iterator[Step]:
 def modes(can: Ability) -> Iterator[Scene]:
     """Who is in charge, settings that are missing or wrong."""
     yield scene("MonitorOnly", POWER, run(), *_monitor())
-    yield scene("SpeedOnly", POWER, *_speed_only())
+    yield scene("SpeedOnly", POWER, *_speed_only(can))
     yield scene("a setting that is missing", POWER, *_missing())
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
@@ -691,12 +713,16 @@ def _monitor() -> Iterator[Step]:
     })  # fmt: skip
 
 
-def _speed_only() -> Iterator[Step]:
+def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step("the terminals start it", {"SpeedOnly": True}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
     yield Step("the reference is sent", {"SpeedReferenceHz": 25.0}, "Seen.References >= 1", 2000, NOTHING_STARTED)
     yield Step(
         "a run pin starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "SPEED_ONLY"}
     )
+    register = can.drive.operation.reference.register
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(register), "SpeedReferenceHz": 26.0}
+    yield Step("a reference is lost", lost, why("NO_REFERENCE"), 3000, {"Error": True, "ErrorID": 20})
+    yield Step("it is sent again", {"Fate.Skips": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
     yield Step("the terminals do", {"Fate.KeypadRun": True}, "Motor.Running", 1500, {"Reason": "SPEED_ONLY"})
     yield Step("nobody stops it", {"RunForward": False}, ms=1500, shows={"Seen.Driven": True, "Running": True})
     all_: Shows = {"Pins.StopAll": True, ".Mark": "Seen.References", "SpeedReferenceHz": 20.0}
@@ -705,6 +731,12 @@ def _speed_only() -> Iterator[Step]:
     yield Step("over", over, "(Seen.References > Mark) AND Motor.Running", 2000)
     yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
     yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
+    unread: Shows = {"Fate.RefusesReads": True, "Pins.Settings.StaleMs": 600, "StopWithinMs": 5000}
+    yield Step("it cannot be read", unread, "NOT Motor.CommOk", 2000, {"Slots[0].Online": True})
+    blind: Shows = {"SpeedReferenceHz": 15.0, ".Mark": "Seen.References"}
+    yield Step("no reference goes to a drive that nobody sees", blind, ms=1000, shows={"Seen.References": "Mark"})
+    seen: Shows = {"Fate.RefusesReads": False, "Pins.Settings.StaleMs": 0}
+    yield Step("it is read again", seen, "Motor.CommOk AND (Seen.References > Mark)", 2000, {"Seen.Starts": 0})
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
     yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
 

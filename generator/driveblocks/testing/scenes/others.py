@@ -75,9 +75,13 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("another master goes away", START, *_goes_away())
     yield scene("replies that come twice", START, run(), *_twice())
     yield scene("noise before a reply", START, run(), *_noise(modes[0]))
+    if manners(drive).function == 6:
+        yield scene("an echo of another write", START, *_other_write(drive, modes[0]))
     if manners(drive).two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
     yield scene("a late reply behind a stop", START, run(), *_late_stop())
+    if can.drive.serial.unit.max > can.drive.serial.unit.min:
+        yield scene("late replies of one of two drives", START, *_late_other(can))
     yield scene("an echo that comes and goes", START, *_echo())
     if busy(drive):
         yield scene("a drive that is busy", START, *_busy(can))
@@ -145,6 +149,19 @@ def _noise(mode: str) -> Iterator[Step]:
     })  # fmt: skip
 
 
+def _other_write(drive: Drive, mode: str) -> Iterator[Step]:
+    """It has the form of a refusal, and another address: the reply still comes."""
+    late: Shows = {"Fate.HoldMs": 3 * SCAN_MS, "Pins.Settings.TurnRoundMs": 120, "Pins.Settings.LongestMs": 150}
+    yield Step("replies take some scans", late | {".Mark": "Bus.Timeouts"}, ms=300)
+    echo = _characters(mode, f"{drive.serial.unit.min:02X} 06 12 34 00 05")
+    for turn in range(3):
+        yield Step(f"it comes, {turn}", {}, "TxCount > 0", 500)
+        yield Step("before the reply", _comes(echo), ms=(4 + turn) * SCAN_MS, shows={"CommOk": True})
+    yield Step("no reply was lost", ms=200, shows={
+        "Bus.Timeouts - Mark": (0, 1), "Bus.Refusals": 0, "CommOk": True,
+    })  # fmt: skip
+
+
 def _wide() -> Iterator[Step]:
     yield Step("from here", {"Fate.Wide": True, ".Mark": "Bus.Timeouts"}, ms=1500, shows=RUNNING | {
         "Bus.Timeouts": "Mark", "Bus.Bad": 0, "OutputFrequencyHz": 30.0, "Bus.ForeignFrames": 0,
@@ -161,6 +178,20 @@ def _late_stop() -> Iterator[Step]:
     yield Step("in time again", {"Fate.HoldMs": 0}, "Motor.StopConfirmed", 4000, STANDS | {
         "Bus.ForeignFrames": 0, "Bus.LateReplies >= 1": True, "Slots[0].LongestReplyMs": (60, 320),
     })  # fmt: skip
+
+
+def _late_other(can: Ability) -> Iterator[Step]:
+    """They come when the other drive has been asked already, and are nobody's but its own."""
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    yield Step("two drives", other, "Other.Ready", 4000, {"Bus.ForeignFrames": 0})
+    late = 80 if can.drive.serial.silence else 60  # a silence of the drive's own lengthens what is in time
+    yield Step("one is later than it may be", {"OtherFate.HoldMs": late}, "NOT Slots[1].Online", 9000, {"CommOk": True})
+    yield Step("it is asked now and then", {".Mark": "Bus.LateReplies"}, ms=5000, shows={
+        "Bus.ForeignFrames": 0, "Bus.LateReplies - Mark": (2, 12), "Slots[1].LongestReplyMs": (35, 100),
+        "Bus.LateReplies = Slots[0].Late + Slots[1].Late": True, "Slots[0].LongestReplyMs <= 40": True,
+        "CommOk": True, "Reason": "READY",
+    })  # fmt: skip
+    yield Step("in time again", {"OtherFate.HoldMs": 0}, "Other.Ready", 9000, {"CommOk": True, "Bus.ForeignFrames": 0})
 
 
 def _echo() -> Iterator[Step]:
@@ -217,5 +248,8 @@ def _slots(can: Ability) -> Iterator[Step]:
         "Bus.ErrorSlot": 1, "Other.Ready": False,
     })  # fmt: skip
     yield Step("the port is worse", {"Pins.PortErrorID": 3}, ms=60, shows={"Bus.ErrorSlot": 0, "Bus.ErrorID": 57})
+    yield Step("time stands for a moment", {"Pins.PortErrorID": 0, "Pins.ElapsedMs": 0}, ms=400, shows={
+        "Bus.ErrorID": 55, "Bus.ErrorSlot": 1,
+    })  # fmt: skip
     again: Shows = {"Bus.ErrorSlot": 1, "Slots[0].LineErrorID = 55": True, "Slots[1].LineErrorID = 55": True}
-    yield Step("it works again", {"Pins.PortErrorID": 0}, ms=60, shows=again)
+    yield Step("it works again", {"Pins.ElapsedMs": SCAN_MS}, ms=60, shows=again)

@@ -13,9 +13,17 @@ CALLS = (
     "Reads := Seen.Reads - Marks[1];",
     "Writes := Seen.Writes - Marks[2];",
     "OtherReads := OtherSeen.Reads - Marks[3];",
+    "IF Mute THEN",
+    "  Fate.Dumb := Slots[0].ResetAsked AND (Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number);",
+    "END_IF;",
+    "IF Flaps THEN",
+    "  Fate.Dumb := (Seen.Reads + Seen.Writes) MOD 2 = 0;",
+    "END_IF;",
 )
 COUNTS = {
     "Marks": ("VFD_TestTimes", "counts of before"),
+    "Flaps": ("BOOL", "every other reply is lost"),
+    "Mute": ("BOOL", "replies to fault resets are lost"),
     "Stops": ("UINT", "stops that the drive has heard since, so are the next"),
     "Reads": ("UINT", "reads"),
     "Writes": ("UINT", "writes"),
@@ -44,6 +52,8 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("how often a dead drive is told to stop", POWER, run(), *_dead())
     if can.shows("ready"):
         yield scene("a drive that is not ready is told to stop", POWER, *_not_ready())
+    if can.can("fault_reset") and can.drive.operation.in_one_word:
+        yield scene("how often a fault reset is tried", POWER, *_resets(can))
     yield scene("how soon silence is overdue", POWER, run(), *_silent())
     yield scene("silence at standstill is no alarm", POWER, *_standing())
     yield scene("how often a dead drive is read", POWER, *_probes())
@@ -52,6 +62,8 @@ def scenes(can: Ability) -> Iterator[Scene]:
     if can.drive.serial.unit.max > can.drive.serial.unit.min:
         yield scene("what a dead drive costs the others", POWER, *_costs(can))
         yield scene("two dead drives", POWER, run(), *_two_dead(can))
+        yield scene("one silent drive of two", POWER, run(), *_one_silent(can))
+    yield scene("a drive that answers now and then", POWER, *_flaps())
 
 
 def _repeated() -> Iterator[Step]:
@@ -96,6 +108,24 @@ def _not_ready() -> Iterator[Step]:
     )
     yield Step("ready again", {"Fate.NotReady": False}, "Motor.Ready", 2000)
     yield Step("no more", FROM_HERE, ms=1500, shows={".Stops": 0})
+
+
+def _resets(can: Ability) -> Iterator[Step]:
+    """Where it is not answered, three times for one edge, the fault being read before each."""
+    yield Step("it trips", {"Fate.Trips": can.codes[1], "Fate.Cause": True}, "Motor.Fault", 1500)
+    yield Step("its code is known", ms=500)
+    yield Step("no answer to a reset", {".Mute": True, "FaultReset": True}, why("NO_RESET"), 12000, {"Seen.Resets": 3})
+    end: Shows = {".Mute": False, "Fate.Dumb": False, "Fate.Cause": False, "FaultReset": False}
+    yield Step("it answers", end, ms=300, shows={"Fault": True})
+    yield Step("a new edge", {"FaultReset": True}, "Motor.Ready", 4000, {"Seen.Resets": 4})
+    trips: Shows = {"Fate.Trips": can.codes[1], "Fate.Cause": True, "FaultReset": False}
+    yield Step("it trips again", trips, "Motor.Fault", 1500)
+    yield Step("its code is known", ms=500)
+    yield Step("a reset that is not answered", {".Mute": True, "FaultReset": True}, "Seen.Resets > 4", 3000)
+    yield Step("is taken back by a stop, when somebody else takes charge", {"MonitorOnly": True}, ms=40, shows={
+        "Slots[0].Ask[1].Number": "Slots[0].Answer[1].Number", "Reason": "NO_RESET",
+    })  # fmt: skip
+    yield Step("all is well", {".Mute": False, "Fate.Dumb": False, "Fate.Cause": False}, ms=20)
 
 
 def _silent() -> Iterator[Step]:
@@ -150,7 +180,10 @@ def _no_supply() -> Iterator[Step]:
 
 def _costs(can: Ability) -> Iterator[Step]:
     other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
-    yield Step("two drives", other, "Other.Ready", 4000, {"Bus.OnlineCount": 2})
+    timeouts: Shows = {".Mark": "Bus.Timeouts"}
+    yield Step("two drives", other | timeouts, "Other.Ready", 4000, {
+        "Bus.OnlineCount": 2, "Bus.ForeignFrames": 0, "Bus.Timeouts": "Mark",
+    })  # fmt: skip
     yield Step("both are read as often", FROM_HERE, ms=2000, shows={
         "(Reads + 3 >= OtherReads) AND (OtherReads + 3 >= Reads) AND (Reads > 8)": True,
     })  # fmt: skip
@@ -161,6 +194,23 @@ def _costs(can: Ability) -> Iterator[Step]:
         "OtherReads * 2 > Mark": True, ".OtherReads": (20, 200), "Bus.OnlineCount": 1, "Bus.AllOnline": False,
     })  # fmt: skip
     yield Step("it answers again", {"Fate.Cut": False}, "Bus.OnlineCount = 2", 9000, {"Other.CommOk": True})
+
+
+def _one_silent(can: Ability) -> Iterator[Step]:
+    """Its stop is overdue after its attempts and its longest time."""
+    other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
+    yield Step("two drives", other | {"Pins.Settings.LongestMs": 1500}, "Other.Ready", 4000)
+    yield Step("one is cut off", {"Fate.Cut": True}, why("OFFLINE"), 6000, {"Other.CommOk": True, "StopOverdue": False})
+    yield Step("its stop is sent, and not overdue yet", ms=1300, shows={"StopOverdue": False})
+    yield Step("now it is", {}, "Motor.StopOverdue", 12000, {"Other.StopOverdue": False, "Other.CommOk": True})
+
+
+def _flaps() -> Iterator[Step]:
+    """Three replies in a row make it one that answers."""
+    yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 4000)
+    flaps: Shows = {"Fate.Cut": False, ".Flaps": True}
+    yield Step("every other reply is lost", flaps, ms=6000, shows={"CommOk": False, "Slots[0].Online": False})
+    yield Step("none is", {".Flaps": False, "Fate.Dumb": False}, "Motor.Ready", 9000, NOTHING_STARTED)
 
 
 def _two_dead(can: Ability) -> Iterator[Step]:

@@ -35,6 +35,7 @@ BLOCKS = {
     "Minimum": ("UINT", "its pin MinimumS"),
     "Stores": ("UDINT", "times that the drive was told to store"),
     "Upset": ("BOOL", "one of the rivals has not got its answer"),
+    "Slips": ("BOOL", "the port takes characters in the scan in which the writer gives up"),
     "Clash": ("BOOL", "Busy, Done and Error of a block have not excluded each other"),
 }
 _RIVAL = "(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Place, WithinMs := 5000, Slot := Slots[0]);"
@@ -47,6 +48,9 @@ CALLS = (
     "END_IF;",
     "Writer(Execute := Writing, Address := Place, Quantity := Count, Value := Given, Value2 := Given2,",
     "  Value3 := Given3, AllowUnknown := Unknown, WithinMs := Within, Slot := Slots[0]);",
+    "IF Slips AND Writer.Error THEN",
+    "  Pins.TxBusy := FALSE;",
+    "END_IF;",
     "Storer(Execute := Storing, MinimumS := Minimum, WithinMs := Within, Slot := Slots[0], Stores := Stores);",
     "Behind(Execute := Presses AND NOT Behind.Done AND NOT Behind.Error, Address := Place, WithinMs := 5000,",
     "  Slot := Slots[0]);",
@@ -61,7 +65,7 @@ WITHIN_MS = 1500
 IDLE: Shows = {
     ".Reading": False, ".Writing": False, ".Storing": False, ".Count": 1, ".Unknown": False, "Pins.Others": 100,
     "Pins.Stores": 100, ".Within": WITHIN_MS, ".Rivals": False, ".Rests": False, ".Minimum": 0, ".Clash": False,
-    ".Upset": False, ".Presses": False,
+    ".Upset": False, ".Presses": False, ".Slips": False,
 }  # fmt: skip
 
 
@@ -86,7 +90,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("a parameter while the motor runs", idle(), run(), *_while_it_runs(can, place))
     yield scene("a start while a parameter is written", idle(), *_waits(place))
     if can.drive.storage.method == "enter_register":
-        yield scene("parameters are stored", idle(), *_stored())
+        yield scene("parameters are stored", idle(), *_stored(place))
 
 
 def place_of(drive: Drive) -> int | None:
@@ -129,7 +133,11 @@ def _barred(can: Ability) -> Iterator[Step]:
         yield from does("Writer", place, "Error", owned, Given=word(1), Unknown=True)
     yield from does("Writer", free, "Error", error("Writer", "UNKNOWN_ADDRESS") | untouched, Given=word(1))
     yield from does("Reader", free, "Error", error("Reader", "NOT_READABLE"))
-    yield from does("Reader", free, "Error", error("Reader", "REFUSED") | {"StopConfirmed": True}, Unknown=True)
+    refused = error("Reader", "REFUSED") | {
+        "StopConfirmed": True,
+        "Reader.RefusedReason": codes(can.drive)["address"] or 0,
+    }
+    yield from does("Reader", free, "Error", refused, Unknown=True)
     yield from does("Reader", 0xFFFF, "Error", error("Reader", "WRAP"), Count=2)
     yield from does("Reader", free, "Error", error("Reader", "QUANTITY"), Count=5)
     yield from does("Writer", free, "Error", error("Writer", "QUANTITY"), Count=4)
@@ -180,12 +188,19 @@ def _waits(place: int) -> Iterator[Step]:
     yield run()
 
 
-def _stored() -> Iterator[Step]:
+def _stored(place: int) -> Iterator[Step]:
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
     yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600, shows=NOTHING_STARTED)
     yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, "Motor.Ready", 3000, {"Seen.Stores": 0})
-    yield Step("Execute", {".Storing": True}, ms=40, shows={
+    rivals: Shows = {".Rivals": True, ".Place": word(place)}
+    yield Step("two that read without rest", rivals, ms=200, shows={"Storer.Busy": False})
+    yield Step("Execute", {".Storing": True, ".Within": 8000, ".Mark": "Slots[0].Ask[2].Number"}, ms=40, shows={
         "Storer.Busy": True, "Storer.Done": False, "Storer.Error": False, "Storer.ErrorID": 0,
     })  # fmt: skip
-    yield from does("Storer", 0, "Done", {"Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True})
+    yield Step("it gets its turn", {}, "Storer.Done", 4500, {
+        "Slots[0].Ask[2].Number - Mark": (17, 21), "Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True,
+        "Storer.Busy": False,
+    })  # fmt: skip
+    rest: Shows = {".Rivals": False, ".Storing": False}
+    yield Step("all rest", rest, "NOT (Rival.Busy OR Rival2.Busy)", 1000, {"Storer.Done": False, "Clash = FALSE": True})
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 1})

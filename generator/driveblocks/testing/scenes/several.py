@@ -214,9 +214,9 @@ def _in_time(place: int) -> Iterator[Step]:
     slow: Shows = {"Fate.HoldMs": 100, "Pins.Settings.TurnRoundMs": 200, "Pins.Settings.LongestMs": 200}
     yield Step("a reply takes long", slow, ms=400, shows={"CommOk": True})
     yield Step("a request has just been sent", {}, "TxCount > 0", 500)
-    mailbox: Shows = {".Writing": True, "Pins.TxBusy": True}
+    mailbox: Shows = {".Writing": True, "Pins.TxBusy": True, ".Slips": True}
     yield Step("the next is in the mailbox", mailbox, "Writer.Error", 1000, error("Writer", "SILENCE"))
-    freed |= {"Fate.HoldMs": 0, "Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
+    freed |= {".Slips": False, "Fate.HoldMs": 0, "Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
     yield Step("it does not leave it any more", freed, ms=600, shows={
         "Seen.Others": 0, "CommOk": True,
     })  # fmt: skip

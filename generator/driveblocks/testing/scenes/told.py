@@ -92,7 +92,8 @@ LEFT: Shows = {
     "StopAgain": True, "ResetAsked": True, "Once": True, "JogStop": 2, "ParameterCleared": 9, "OtherQuantity": 3,
     "LineErrorID": 55, "PollCount": 7, "LongestReplyMs": 900, "Replies": 200, "SinceStoreMs": 65535, "Alive": 33,
     "Ask[1].Number": 9, "Ask[1].FunctionCode": 6, "Ask[1].Quantity": 9, "Ask[2].Number": 9, "Ask[2].FunctionCode": 6,
-    "Ask[2].Quantity": 9, "Ask[3].Number": 35, "Answer[0].Tried": 12, "Answer[1].Tries": 3, "Answer[3].Tries": 3,
+    "Ask[2].Quantity": 9, "Ask[3].Number": 35, "Ask[0].Number": 12, "Answer[0].Number": 13,
+    "Answer[1].Tries": 3, "Answer[3].Tries": 3,
 }  # fmt: skip
 """What may stand in a slot that nobody has cleared: a drive online, a command and a parameter that wait."""
 
@@ -107,6 +108,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "StopConfirmed": False, "Seen.Others": 0,
     })  # fmt: skip
     yield Step("nothing of it counts", {}, "Motor.Ready", 2000, STANDS | NOTHING_STARTED | _slot({
+        "Ask[0].Number > 12": True,
         "Varied": False, "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
         "Shared": False, "Ascii": "rtu" not in drive.serial.mode.modes, "StopConfirmed": True, "ProvedStill": True,
         "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
@@ -121,6 +123,9 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
+    yield Step("another speed", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, _slot({
+        "Once": False, "Ask[1].Address": word(reference),
+    }))  # fmt: skip
     stop = _command(drive, "stop")
     yield Step("and stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | {
         f"Seen.LastWord = {word(_word(drive, stop))}": True, "Seen.Others": 0,
