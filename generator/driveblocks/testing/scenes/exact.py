@@ -20,8 +20,8 @@ MORE = More(
     calls=(
         "Command(Seen := Known, Asked := Wish, CommLost := FALSE, State := Stage1, Order := 5, Sent := 5,",
         "  SentWord := WORD#16#0000, StepNumber := 0, Number := 7, Posted := Anew, Begun := Anew, Dropped := FALSE,",
-        "  Answer := Answers, AnswerErrorID := 20, KnowsDirection := FALSE, FollowWithinMs := 1000, StepLast := 0,",
-        "  StepReached := TRUE, StepHoldMs := 0);",
+        "  AskNumber := 7, Answer := Answers, AnswerErrorID := 20, KnowsDirection := FALSE, FollowWithinMs := 1000,",
+        "  StepLast := 0, StepReached := TRUE, StepHoldMs := 0);",
         "Anew := FALSE;",
     ),
 )
