@@ -94,11 +94,14 @@ def _lines(can: Ability, usual: Promise) -> Iterator[tuple[str, Shows, Promise]]
 
 
 def _counts() -> Iterator[Step]:
-    same: Shows = {f"Bus.{name} = Slots[0].{name} + Slots[1].{name}": True for name in ("Requests", "Good", *COUNTERS)}
+    same: Shows = {
+        f"Bus.{name} = Slots[0].{name} MOD 9999 + Slots[1].{name} MOD 9999": True
+        for name in ("Requests", "Good", *COUNTERS)
+    }
     yield Step("from here", BEGIN | {".Marks[0]": "UINT_TO_WORD(Bus.Retries)"}, ms=20)
     yield Step("each request reaches the drive", ms=1000, shows=RUNNING | same | {
-        "Sent > 20": True, "(Sent + 1 >= Heard) AND (Sent <= Heard + 1)": True,
-        "(Bus.Requests >= Bus.Good) AND (Bus.Requests <= Bus.Good + 6)": True, "Bus.Timeouts": 0, "Bus.Bad": 0,
+        "Sent > 20": True, "(Sent MOD 9999 + 1 >= Heard) AND (Sent <= Heard MOD 9999 + 1)": True,
+        "(Bus.Requests >= Bus.Good) AND (Bus.Requests <= Bus.Good MOD 9999 + 6)": True, "Bus.Timeouts": 0, "Bus.Bad": 0,
         "Bus.Refusals": 0, "Bus.LateReplies": 0, "Bus.LastErrorID": 0,
     })  # fmt: skip
     for words, what, counter, error in (
@@ -107,15 +110,15 @@ def _counts() -> Iterator[Step]:
         ("it refuses reads", "RefusesReads", "Refusals", 40),
     ):
         yield Step(words, BEGIN | {f"Fate.{what}": True, ".Marks[1]": f"UINT_TO_WORD(Bus.{counter})"}, ms=600)
-        more = f"Bus.{counter} - WORD_TO_UINT(Marks[1])"
+        more = f"(Bus.{counter} MOD 9999 + 9999 - WORD_TO_UINT(Marks[1]) MOD 9999) MOD 9999"
         yield Step("each is counted", {f"Fate.{what}": False}, ms=60, shows=same | {
             f"({more} <= Heard) AND ({more} + 4 >= Heard) AND ({more} > 2)": True, "Bus.LastErrorID": error,
             f"Slots[0].LastErrorID = {error}": True,
         })  # fmt: skip
         yield Step("it is well again", {}, "Motor.CommOk", 3000)
     yield Step("late replies", BEGIN | {"Fate.HoldMs": 100, "Pins.Settings.LongestMs": 200}, ms=800, shows=same | {
-        "Bus.LateReplies >= 1": True, "Bus.LateReplies = Slots[0].Late + Slots[1].Late": True,
-        "Bus.LateReplies <= Heard + 1": True,
+        "Bus.LateReplies >= 1": True, "Bus.LateReplies = Slots[0].Late MOD 9999 + Slots[1].Late MOD 9999": True,
+        "Bus.LateReplies <= Heard MOD 9999 + 1": True,
         "Slots[0].LongestReplyMs": (60, 140), "Bus.ForeignFrames": 0,
     })  # fmt: skip
     end: Shows = {"Fate.HoldMs": 0, "RunForward": False}

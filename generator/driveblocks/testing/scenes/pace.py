@@ -17,7 +17,7 @@ CALLS = (
     "  Fate.Dumb := Slots[0].ResetAsked AND (Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number);",
     "END_IF;",
     "IF Flaps THEN",
-    "  Fate.Dumb := (Seen.Reads + Seen.Writes) MOD 2 = 0;",
+    "  Fate.Dumb := (Seen.Reads MOD 9998 + Seen.Writes MOD 9998) MOD 2 = 0;",
     "END_IF;",
 )
 COUNTS = {
@@ -191,7 +191,7 @@ def _costs(can: Ability) -> Iterator[Step]:
     yield Step("it is left alone", {}, ms=1000, shows={"Other.CommOk": True})
     begin: Shows = FROM_HERE | {".Mark": "OtherReads"}
     yield Step("the other has the wire to itself", begin, ms=2000, shows={
-        "OtherReads * 2 > Mark": True, ".OtherReads": (20, 200), "Bus.OnlineCount": 1, "Bus.AllOnline": False,
+        "OtherReads MOD 9999 * 2 > Mark": True, ".OtherReads": (20, 200), "Bus.OnlineCount": 1, "Bus.AllOnline": False,
     })  # fmt: skip
     yield Step("it answers again", {"Fate.Cut": False}, "Bus.OnlineCount = 2", 9000, {"Other.CommOk": True})
 

@@ -165,7 +165,7 @@ def _diagnosis(can: Ability) -> Shows:
 
 def _unset(can: Ability) -> Iterator[Step]:
     sets: Shows = {f"Pins.Settings.{key}": 0 for key in SETTINGS}
-    learned = "Slots[0].TurnRoundMs = MAX(50, 2 * Slots[0].LongestReplyMs + 20)"
+    learned = "Slots[0].TurnRoundMs = MAX(50, 2 * (Slots[0].LongestReplyMs MOD 9999) + 20)"
     yield Step("none is set", sets, ms=100, shows=_slot({**USUAL, "TurnRoundMs": 500}))
     yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
     yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL) | _diagnosis(can))
