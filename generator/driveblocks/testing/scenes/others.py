@@ -188,7 +188,8 @@ def _late_other(can: Ability) -> Iterator[Step]:
     yield Step("one is later than it may be", {"OtherFate.HoldMs": late}, "NOT Slots[1].Online", 9000, {"CommOk": True})
     yield Step("it is asked now and then", {".Mark": "Bus.LateReplies"}, ms=5000, shows={
         "Bus.ForeignFrames": 0, "Bus.LateReplies - Mark": (2, 12), "Slots[1].LongestReplyMs": (35, 100),
-        "Bus.LateReplies = Slots[0].Late MOD 9999 + Slots[1].Late MOD 9999": True, "Slots[0].LongestReplyMs <= 40": True,
+        "Bus.LateReplies = Slots[0].Late MOD 9999 + Slots[1].Late MOD 9999": True,
+        "Slots[0].LongestReplyMs <= 40": True,
         "CommOk": True, "Reason": "READY",
     })  # fmt: skip
     yield Step("in time again", {"OtherFate.HoldMs": 0}, "Other.Ready", 9000, {"CommOk": True, "Bus.ForeignFrames": 0})
@@ -225,7 +226,8 @@ def _hurry() -> Iterator[Step]:
     """What is written again and again leaves the reads their turn."""
     begin: Shows = {".Hurry": True, "SpeedReferenceHz": 34.0, ".Mark": "Seen.Reads + Seen.References"}
     yield Step("35 Hz, more or less", begin, ms=2000, shows={
-        "Running": True, "CommOk": True, "Seen.Reads MOD 9999 + Seen.References MOD 9999 > 30 + Mark MOD 9999": True, "Seen.References > 12": True,
+        "Running": True, "CommOk": True, "Seen.Reads MOD 9999 + Seen.References MOD 9999 > 30 + Mark MOD 9999": True,
+        "Seen.References > 12": True,
         "Motor.Diagnosis.StatusAgeMs": (0, 600), "Seen.Starts": 1, "ABS(Seen.Milli - 35000) <= 3000": True,
     })  # fmt: skip
     still: Shows = {".Hurry": False, "RunForward": False}
