@@ -113,7 +113,8 @@ def test_names_of_outputs_stand_for_bits(example: Unit) -> None:
 
 
 def test_one_failure_hides_no_other(example: Unit) -> None:
-    unit = only(changed(example, "EX100_FaultTextEn", "'OC Overcurrent'", "'OC Undercurrent'"), "FaultTextEn", "FaultNumber")
+    unit = only(example, "FaultTextEn", "FaultNumber")
+    unit = changed(unit, "EX100_FaultTextEn", "'OC Overcurrent'", "'OC Undercurrent'")
     unit = changed(unit, "EX100_FaultTextEn", "'OS Overspeed'", "'OS Underspeed'")
     unit = changed(unit, "EX100_FaultNumber", "Number := 17;", "Number := 18;")
     found = reds(unit)
