@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix linux-line desk-line release
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix linux-line desk-line release prove
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -57,7 +57,7 @@ exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^
 ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
 	$(PY) -m tests.commands.ci_jobs
 
-line:                 ## the line at length on a virtual RS-485 line: 10^6 random stop scenarios, planted mistakes; writes docs/line.md
+line:                 ## the line at length on a virtual RS-485 line: 10^6 random stop scenarios, planted mistakes; writes docs/measured/line.md
 	$(PY) -m tests.line.long --page
 
 drives:               ## drive blocks at length: planted mistakes, the matrix, 10^5 random walks, 24 hours of bus per family (matiec: faster)
@@ -66,13 +66,18 @@ drives:               ## drive blocks at length: planted mistakes, the matrix, 1
 matrix:               ## every mode x event x state on second models of the drives, TIMES=4 each, and random walks; matiec: faster
 	$(PY) -m tests.second.long --times $(or $(TIMES),4)
 
+prove:                ## every rule for every family, the terms against the engine in 10^4 calls per block, and 100 planted changes
+	$(DB) prove
+	$(PY) -m tests.prove.agreement
+	$(PY) -m tests.prove.mutants
+
 linux-line:           ## an hour of a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.softplc $(or $(SECONDS),3600)
 
 desk-line:            ## an hour of `driveblocks run` at pymodbus's server over pseudo-terminals, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.deskplc $(or $(SECONDS),3600)
 
-bench:                ## every figure, side by side in one run; writes docs/performance.md
+bench:                ## every figure, side by side in one run; writes docs/measured/performance.md
 	$(PY) -m tests.bench.run
 
 release:              ## one archive per platform from blocks/ into dist/, the same bytes each time

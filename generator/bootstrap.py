@@ -93,15 +93,35 @@ def set_up(extra: str) -> bool:
     whole = is_whole()
     if whole and stamp.exists() and stamp.read_text(encoding="utf-8") == wanted:
         return True
-    say(f"set up {VENV.name}/ (a minute or two)")
-    if not whole and not make_venv():
-        return False
-    install = [str(BIN / "python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--editable"]
-    if subprocess.run([*install, f".{extra}", "--constraint", CONSTRAINTS], cwd=ROOT, check=False).returncode:
+    say(f"set up {VENV.name}/ (a minute or two, on a slow machine several)")
+    if not whole:
+        print("  makes the virtual environment", flush=True)
+        if not make_venv():
+            return False
+    words = [str(BIN / "python"), "-m", "pip", "install", "--disable-pip-version-check", "--editable", f".{extra}"]
+    if installed([*words, "--constraint", CONSTRAINTS]):
         print("pip could not install the packages; is a package index reachable?", file=sys.stderr)
         return False
     stamp.write_text(wanted, encoding="utf-8")
     return True
+
+
+def installed(words: list[str]) -> int:
+    """Run pip, say what it is at and for how long, and return its exit status."""
+    start, collected = time.monotonic(), 0
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    with subprocess.Popen(words, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True, errors="replace") as pip:
+        for line in pip.stdout or ():
+            found = re.match(
+                r"\s*(Collecting|Downloading|Building|Installing collected packages:) ?([^\s(]*)(.*)", line
+            )
+            if found is None:
+                continue
+            collected += found[1] == "Collecting"
+            number = f" ({collected})" if found[1] == "Collecting" else ""
+            name = f"{collected} packages and driveblocks" if found[1].startswith("Installing") else found[2]
+            print(f"  {time.monotonic() - start:4.0f} s  {found[1].split()[0].lower()} {name}{number}", flush=True)
+    return pip.returncode
 
 
 def is_whole() -> bool:

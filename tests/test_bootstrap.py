@@ -110,6 +110,7 @@ def test_a_venv_that_is_not_whole_is_made_anew_though_its_stamp_is_right(
 
     monkeypatch.setattr(bootstrap, "is_whole", lambda: True)
     monkeypatch.setattr(subprocess, "run", run)
+    monkeypatch.setattr(bootstrap, "installed", lambda words: run(words).returncode)
     assert bootstrap.set_up("")
     assert [words[1:3] for words in done] == [["-m", "pip"]]
     assert bootstrap.set_up("")
@@ -117,6 +118,20 @@ def test_a_venv_that_is_not_whole_is_made_anew_though_its_stamp_is_right(
     monkeypatch.setattr(bootstrap, "is_whole", lambda: False)
     assert bootstrap.set_up("")
     assert [words[1:4] for words in done[1:]] == [["-m", "venv", "--clear"], ["-m", "pip", "install"]]
+
+
+def test_it_is_said_what_pip_is_at(capfd: pytest.CaptureFixture[str]) -> None:
+    lines = (
+        "Obtaining file:///x", "Collecting jinja2 (from driveblocks==1.0)", "  Downloading jinja2-3.1.whl (1 kB)",
+        "Collecting typer<1 (from driveblocks==1.0)", "Installing collected packages: jinja2, typer, driveblocks",
+    )  # fmt: skip
+    code = f"import sys; print({chr(10).join(lines)!r}); sys.exit(3)"
+    assert bootstrap.installed([sys.executable, "-c", code]) == 3
+    said = [line.split(" s  ")[1] for line in capfd.readouterr().out.splitlines()]
+    assert said == [
+        "collecting jinja2 (1)", "downloading jinja2-3.1.whl", "collecting typer<1 (2)",
+        "installing 2 packages and driveblocks",
+    ]  # fmt: skip
 
 
 # ---------------------------------------------------------------- the demo

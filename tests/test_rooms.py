@@ -6,7 +6,7 @@ from tests.rooms import GRAPH, room
 
 ROOMS = (
     "driveblocks", "console", "modbus", "st", "maps", "simulator", "reference", "tables", "explain", "host", "render",
-    "export", "docs", "testing", "building", "plc", "stand", "commands", "cli", "__main__",
+    "export", "docs", "testing", "prove", "building", "plc", "stand", "commands", "cli", "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file."""
 

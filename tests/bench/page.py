@@ -1,4 +1,4 @@
-"""The page `docs/performance.md` and its pictures, written from the record and from nothing else."""
+"""The page `docs/measured/performance.md` and its pictures, written from the record and from nothing else."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path

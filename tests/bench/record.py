@@ -1,4 +1,4 @@
-"""Record of the figures: `docs/performance.json`, from which the page and its pictures are written.
+"""Record of the figures: `docs/measured/performance.json`, from which the page and its pictures are written.
 
 One part for each measurement; a part that cannot be measured, for want of a tool, keeps what was measured before.
 """
@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-DOCS = Path(__file__).parents[2] / "docs"
+DOCS = Path(__file__).parents[2] / "docs" / "measured"
 PATH = DOCS / "performance.json"
 Rows = dict[str, dict[str, float]]
 """Row -> column -> figure."""

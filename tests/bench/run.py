@@ -1,7 +1,7 @@
 """Every figure of the project, side by side in one run: `python -m tests.bench.run`, some minutes on two cores.
 
-Writes `docs/performance.json`, and from it the page `docs/performance.md` with its pictures. What cannot be measured
-here is told, and keeps the figures that it had. `--only crc,growth` measures some parts; `--page` none.
+Writes `performance.json` in `docs/measured`, and from it the page `performance.md` with its pictures. What cannot be
+measured here is named, and keeps the figures that it had. `--only crc,growth` measures some parts; `--page` none.
 
 Exit status 1 if forms of the same work differ, or if a count cannot be repeated.
 """
@@ -82,7 +82,7 @@ def main() -> int:
     found, tools = record.read(), Tools.found()
     good = [measured(name, found, tools) for name in MEASUREMENTS if name in names]
     page.write(_in_order(found))
-    print(f"{record.DOCS.name}/{page.NAME} and its pictures are written")
+    print(f"{record.DOCS.parent.name}/{record.DOCS.name}/{page.NAME} and its pictures are written")
     return 0 if all(good) else 1
 
 

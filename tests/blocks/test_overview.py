@@ -18,7 +18,7 @@ TYPES = {
     "MB_LineFrame": 40, "MB_RxRing": 256, "MB_Port": 311, "MB_Words4": 8, "MB_Words16": 32, "MB_Ask": 14, "MB_Asks": 56,
     "MB_Answer": 6, "MB_Answers": 24, "MB_Slot": 209, "MB_Slots8": 8 * 209, "MB_Slots32": 32 * 209,
     "MB_StopTrack": 13, "MB_StopCopy": 12, "MB_Track": 49, "MB_Tracks8": 8 * 49, "MB_Tracks32": 32 * 49, "MB_Open": 25,
-    "VFD_Settings": 40, "VFD_Diagnosis": 88, "VFD_Asked": 13, "VFD_Seen": 29,
+    "VFD_Settings": 40, "VFD_Diagnosis": 88, "VFD_Asked": 13, "VFD_Seen": 32,
 }  # fmt: skip
 """ABI 1, typed by hand: 256 bytes; 513 characters; 125 words; 513 words; six fields of two bytes;
 the line's; the drive blocks'."""
@@ -91,12 +91,14 @@ WORST: dict[str, dict[str, Value]] = {
     "SN300G5_Reply": OPEN,
     "JSCC_Request": {**WRITE, "Address": 0x0000},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
-    "SN300G5_FaultNumber": dict.fromkeys((f"FaultContents{n}Word" for n in (1, 2, 3)), 0xFFFF),
+    "SN300G5_FaultNumber": dict.fromkeys(
+        (*(f"FaultContents{n}Word" for n in (1, 2, 3)), "CPFContents1Word", "CPFContents2Word"), 0xFFFF
+    ),
     **{name: dict(pins) for name, pins in PACKED.items()},
 }
 """Pins with which a block turns as often as it can."""
 
-SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 11}
+SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 32}
 """Turns that the stated bound has to spare: the LRC is not summed with itself; bits that no fault has are masked."""
 
 

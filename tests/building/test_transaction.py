@@ -160,7 +160,20 @@ def killed_with(folder: Path, last: int, missing: str) -> bool:
     return (folder / transaction.WORK / "old").exists() and not (folder / missing).exists()
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"files": {"../x": [null, "1"]}, "folders": []}'])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        '{"files": {"../x": [null, "1"]}, "folders": []}',
+        '{"files": {"a\\u0000b": [null, "1"]}, "folders": []}',
+        '{"files": {"\\ud800": [null, "1"]}, "folders": []}',
+        '{"files": {"x": [[], {}]}, "folders": []}',
+        '{"files": {"x": [null, "1"]}, "folders": "abc"}',
+        '{"files": {".driveblocks.work/old/only": [null, "1"]}, "folders": []}',
+        "[" * 100_000,
+    ],
+)
 def test_a_journal_of_someone_else_moves_nothing(tmp_path: Path, text: str) -> None:
     work = tmp_path / transaction.WORK
     (work / "old").mkdir(parents=True)
@@ -169,6 +182,56 @@ def test_a_journal_of_someone_else_moves_nothing(tmp_path: Path, text: str) -> N
     with pytest.raises(Refused, match="copy back what you miss from"):
         transaction.recover(tmp_path)
     assert (work / "old/only").exists()
+
+
+def prepared(tmp_path: Path, link: str, name: str) -> Path:
+    """An output folder with a journal that someone else wrote, and a link out of it."""
+    fill(tmp_path / "elsewhere")
+    folder = tmp_path / "out"
+    for part in ("new", "old"):
+        (folder / transaction.WORK / part).mkdir(parents=True)
+    files = {f"{name}/page": [None, text_digest("old page")], "new": [None, text_digest("fresh")]}
+    (folder / transaction.WORK / "journal.json").write_text(json.dumps({"files": files, "folders": [f"{name}/gone"]}))
+    if (folder / link).is_dir():
+        (folder / link).rmdir()
+    (folder / link).symlink_to(tmp_path / "elsewhere")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("link", "name"),
+    [
+        ("way", "way"),
+        (f"{transaction.WORK}/old/way", "way"),
+        (f"{transaction.WORK}/new/way", "way"),
+        (f"{transaction.WORK}/old", "a"),
+        (f"{transaction.WORK}/new", "a"),
+        (transaction.DONE, "a"),
+    ],
+)
+def test_a_journal_that_leads_through_a_link_changes_nothing(tmp_path: Path, link: str, name: str) -> None:
+    folder = prepared(tmp_path, link, name)
+    before = tree(tmp_path)
+    with pytest.raises(Refused, match=r"delete or move it, then build again"):
+        transaction.recover(folder)
+    assert tree(tmp_path) == before
+
+
+def test_a_work_folder_that_is_a_link_is_not_followed(tmp_path: Path) -> None:
+    fill(tmp_path / "elsewhere")
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / transaction.WORK).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(Refused, match="in the place of a folder of a build"):
+        transaction.recover(tmp_path / "out")
+    assert tree(tmp_path / "elsewhere") == whole(OLD)
+
+
+def test_no_folder_is_removed_through_a_link(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere/empty").mkdir(parents=True)
+    folder = fill(tmp_path / "out")
+    (folder / "way").symlink_to(tmp_path / "elsewhere")
+    transaction.write(folder, CHANGES, ["way/empty", *EMPTIED])
+    assert (tmp_path / "elsewhere/empty").is_dir()
 
 
 def test_names_that_are_one_file_where_case_does_not_count_are_put_back_once(tmp_path: Path) -> None:
@@ -207,6 +270,17 @@ def test_the_lock_file_of_a_killed_run_is_no_lock(tmp_path: Path) -> None:
     with transaction.locked(tmp_path):
         pass
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_a_lock_file_that_is_a_link_is_refused(tmp_path: Path, there: bool) -> None:
+    if there:
+        (tmp_path / "elsewhere").touch()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / transaction.LOCK).symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(Refused, match="in the place of the lock file"), transaction.locked(tmp_path / "out"):
+        pass
+    assert (tmp_path / "elsewhere").exists() == there
 
 
 @pytest.mark.parametrize("again", [False, True])

@@ -17,7 +17,7 @@ from typing import Any
 import yaml
 
 ROOT = Path(__file__).parents[2]
-README, PAGE = ROOT / "README.md", ROOT / "docs" / "ci.md"
+PAGE = ROOT / "docs" / "ci.md"
 EXAMPLE = ROOT / "tests" / "maps" / "example.yaml"
 INSTALL = 'pip install "$DRIVEBLOCKS"'
 LIMIT = 300

@@ -132,6 +132,14 @@ def test_an_older_output_with_the_same_files_is_taken_over() -> None:
     assert Path("out/iec61131/one").is_dir(), "a folder that was there before is not the generator's"
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_pipe_is_no_manifest() -> None:
+    Path("out").mkdir()
+    os.mkfifo(Path("out", manifest.NAME))
+    result = run("one.yaml", "-o", "out")
+    assert (result.exit_code, "not the list that this version" in result.stderr) == (2, True)
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -139,6 +147,9 @@ def test_an_older_output_with_the_same_files_is_taken_over() -> None:
         '{"format": 1, "maps": [], "files": {"../one.yaml": "0"}, "folders": []}',
         '{"format": 1, "maps": [], "files": {}, "folders": ["/"]}',
         '{"format": 1, "maps": [1], "files": {}, "folders": []}',
+        '{"format": 1, "maps": ["/a\\u0000.yaml"], "files": {}, "folders": []}',
+        '{"format": 1, "maps": [], "files": {}, "folders": ["a\\u0000b"]}',
+        '{"format": 1, "maps": [], "files": {}, "folders": "iec61131"}', "[" * 100_000,
     ],
 )  # fmt: skip
 def test_a_manifest_that_is_none_is_refused(text: str) -> None:
@@ -364,3 +375,10 @@ def test_after_a_killed_build_check_tells_and_the_next_build_goes_on() -> None:
     assert result.exit_code == 0
     assert result.stderr == "out: took back a build that was interrupted\n"
     assert files("out") == FILES | {"iec61131/one/EX100.st"}
+
+
+def test_a_named_map_takes_the_place_of_the_shipped_one_that_a_folder_was_built_from() -> None:
+    good("chf", "-o", "out")
+    put("invt_chf.yaml", (ROOT / "vendor_maps/invt_chf.yaml").read_text(encoding="utf-8"))
+    good("invt_chf.yaml", "one.yaml", "-o", "out")
+    assert manifest.read(Path("out")).maps == ("../invt_chf.yaml", "../one.yaml")

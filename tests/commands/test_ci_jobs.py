@@ -24,10 +24,6 @@ def test_both_jobs_run_the_same_lines() -> None:
     assert words == [["pip", "install"], *(["driveblocks", each] for each in ("check", "build", "test"))]
 
 
-def test_the_readme_shows_the_same_jobs() -> None:
-    assert ci_jobs.jobs(ci_jobs.README) == ci_jobs.jobs(ci_jobs.PAGE)
-
-
 def test_github_publishes_the_report_also_of_a_failure() -> None:
     file = ci_jobs.jobs(ci_jobs.PAGE)["github"]
     (job,) = file["jobs"].values()

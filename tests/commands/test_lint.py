@@ -1,6 +1,7 @@
 """`driveblocks lint`: what it prints and how it ends."""
 
 import json
+import os
 from pathlib import Path
 
 import pytest
@@ -197,3 +198,46 @@ def test_hostile_text_ends_without_a_traceback(tmp_path: Path) -> None:
     assert result.exit_code == 2
     assert "levels of nesting" in result.output
     assert "Traceback" not in result.output
+
+
+# ------------------------------------------------------------ the installed library
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("name", ["one_motor.st", "three_makes.st"])
+def test_a_program_that_uses_the_library_is_judged_as_it_would_run(name: str) -> None:
+    result = run(ROOT / "examples" / name)
+    assert (result.exit_code, result.output) == (0, "")
+
+
+def test_only_the_named_files_are_told_and_what_they_declare_themselves_is_theirs(tmp_path: Path) -> None:
+    path = tmp_path / "mine.st"
+    text = (ROOT / "examples/one_motor.st").read_text(encoding="utf-8").replace("CHF_Drive", "CHF_Drivve")
+    path.write_text("TYPE\n  MB_Adu : ARRAY[0..255] OF BYTE;\nEND_TYPE\n" + text, encoding="utf-8")
+    lines = run(path).output.splitlines()
+    assert {line.split(":")[0] for line in lines} == {str(path)}
+    assert next(line for line in lines if "ST003" in line).endswith("found CHF_Drivve")
+    assert not any("duplicate-name" in line for line in lines)
+
+
+def test_blocks_of_a_map_that_is_named_are_known(tmp_path: Path) -> None:
+    own, path = tmp_path / "mine.yaml", tmp_path / "mine.st"
+    text = (ROOT / "vendor_maps/invt_chf.yaml").read_text(encoding="utf-8")
+    own.write_text(text.replace("prefix: CHF", "prefix: MY1"), encoding="utf-8")
+    program = (ROOT / "examples/one_motor.st").read_text(encoding="utf-8")
+    path.write_text(program.replace("CHF_Drive", "MY1_Drive"), encoding="utf-8")
+    assert "ST003" in run(path).output
+    result = run("--map", own, path)
+    assert (result.exit_code, result.output) == (0, "")
+    assert run("--map", tmp_path / "no.yaml", path).exit_code == 2
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_pipe_is_no_source(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    result = run(tmp_path / "pipe")
+    assert (result.exit_code, result.stderr) == (
+        2,
+        f"{tmp_path / 'pipe'}:1:1: expected a file, found a pipe or device\n",
+    )

@@ -32,6 +32,18 @@ def test_the_table_fits_and_names_each_drive(shelf: Path, columns: int) -> None:
     assert row.split()[-4:] == ["27", "4", "9", "8"]
 
 
+def test_maps_that_are_named_are_listed_alone(shelf: Path) -> None:
+    own = shelf / "other" / "mine.yaml"
+    own.parent.mkdir()
+    own.write_text(EXAMPLE.read_text(encoding="utf-8"), encoding="utf-8")
+    result = CliRunner().invoke(app, ["list", str(own), "--json"])
+    assert [(each["drive"], each["file"]) for each in json.loads(result.stdout)] == [("mine", str(own))]
+    result = CliRunner().invoke(app, ["list", "nobody"])
+    assert (result.exit_code, "there is no drive `nobody`" in result.stderr) == (2, True)
+    result = CliRunner().invoke(app, ["show", str(own)])
+    assert f"driveblocksshow{own}TOPIC" in "".join(result.stdout.split())  # however it is folded
+
+
 def test_a_map_without_example_frames_is_shown_as_such(shelf: Path) -> None:
     text = EXAMPLE.read_text(encoding="utf-8")
     before, _, rest = text.partition("\nframes:")

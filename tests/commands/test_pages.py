@@ -9,17 +9,17 @@ import pytest
 import typer
 
 from driveblocks.cli import app
+from driveblocks.render.reasons import REASONS
 
 ROOT = Path(__file__).parents[2]
-PAGES = [
-    ROOT / name
-    for name in (
-        "README.md", "CONTRIBUTING.md", "docs/ci.md", "docs/drives.md", "docs/line.md", "docs/linux.md",
-        "docs/other-plcs.md", "docs/run.md", "docs/simulate.md", "docs/testing.md", "vendor_maps/README.md",
-        "blocks/openplc/README.md", "blocks/twincat/README.md",
-    )
-]  # fmt: skip
-EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+PAGES = sorted(
+    [
+        *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "vendor_maps/README.md")),
+        *ROOT.glob("docs/**/*.md"),
+        *ROOT.glob("blocks/*/README.md"),
+    ]
+)
+EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
 
 def code(page: Path) -> Iterator[str]:
@@ -66,8 +66,37 @@ def test_targets_of_make_are_there(page: Path) -> None:
     assert {text.split()[1] for text in code(page) if text.startswith("make ")} <= known
 
 
+def test_the_map_of_the_pages_names_each_of_them() -> None:
+    linked = {
+        ROOT / "docs" / link for link in re.findall(r"\]\(([^)#:]+)\)", (ROOT / "docs/README.md").read_text("utf-8"))
+    }
+    assert set(ROOT.glob("docs/**/*.md")) <= {path.resolve() for path in linked} | {ROOT / "docs/README.md"}
+
+
+def test_the_first_page_is_short_and_has_three_doors() -> None:
+    page = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(page.splitlines()) <= 90
+    doors = [line for line in page.splitlines() if line.startswith("## You ")]
+    assert doors == ["## You program a PLC", "## You write a map", "## You run CI for a PLC project"]
+
+
+def test_the_page_of_motors_that_do_not_run_names_each_reason() -> None:
+    page = (ROOT / "docs/not-running.md").read_text(encoding="utf-8")
+    named = {int(each) for row in re.findall(r"`(?:Stop)?Reason` ([\d, ]+)", page) for each in re.findall(r"\d+", row)}
+    running = {0, 1, 2, 3, 4, 5, 6}
+    assert {each.code for each in REASONS} - running - named == {29}, "29 warns before 28"
+    assert named <= {each.code for each in REASONS}
+
+
 def test_the_way_of_a_bit_is_as_it_is_told() -> None:
     rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", (ROOT / "CONTRIBUTING.md").read_text("utf-8"), re.MULTILINE)
     way = [(path, word) for path, word in rows if "/" in path]
     assert 1 < len(way) <= 6
     assert [path for path, word in way if word not in (ROOT / path).read_text("utf-8")] == []
+
+
+def test_the_page_of_other_plcs_names_those_that_import_xml_and_says_that_none_was_tried() -> None:
+    text = " ".join((ROOT / "docs/other-plcs.md").read_text("utf-8").split())
+    for name in ("GX Works3", "Sysmac Studio", "KV STUDIO", "PLCnext Engineer", "3.5.21"):
+        assert name in text
+    assert "none of these systems has been tried" in text

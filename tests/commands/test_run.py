@@ -1,6 +1,8 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
 import functools
+import io
+import os
 import re
 import subprocess
 import sys
@@ -10,21 +12,24 @@ from pathlib import Path
 
 import pytest
 import typer
+from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
 from typer.testing import CliRunner, Result
 
+from driveblocks import console
 from driveblocks.commands import run as command
-from driveblocks.maps import collection
+from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
+from driveblocks.plc.screen import Lines
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import TcpLink
 
 app = typer.Typer()
@@ -87,7 +92,11 @@ REFUSED = [
     ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or real"),
     ("my.st --simulate jscc --tcp 10.0.0.1:1", "--simulate and --tcp exclude each other"),
     ("--demo --port COM3", "--demo and --port exclude each other"),
-    ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT"),
+    ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT, with a port of 1 to 65535"),
+    ("my.st --tcp 127.0.0.1:²", "--tcp 127.0.0.1:² is no address"),
+    ("my.st --tcp 127.0.0.1:70000", "--tcp 127.0.0.1:70000 is no address"),
+    ("my.st --for " + 400 * "9" + "s", "is no time; write 10ms, 2.5s or 1min"),
+    ("my.st --scan " + 400 * "9" + "ms", "is no time; write 10ms, 2.5s or 1min"),
     ("my.st --allow-run", "--allow-run is for a real port; simulated drives may always run"),
     ("my.st --tcp :502 --simulated --allow-run", "--allow-run is for a real port"),
     ("my.st --tcp 10.0.0.1:502 --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:"),
@@ -109,6 +118,13 @@ REFUSED = [
     ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC leaves open: ReferenceScale"),
     ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
     ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
+    ("my.st --trace my.st", "my.st: there is a file that no run has written; name a new one, or move it away"),
+    ("my.st --picture my.st", "my.st: there is a file that no run has written"),
+    ("my.st --trace x --picture x", "--trace and --picture both name x; name two files"),
+    ("my.st --scenario no.yaml", "no.yaml:1:1: this file cannot be read"),
+    ("my.st --tcp :1 --simulated --scenario x", "--scenario is for drives that this run simulates"),
+    (".", ".:1:1: cannot be read: it is no file"),
+    ("my.st --script .", ".:1:1: cannot be read: it is no file"),
     ("my.st --port no-such-port", "no-such-port: "),
     ("my.st --port x --format 9X9", "--format 9X9 is none; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
 ]  # fmt: skip
@@ -135,12 +151,14 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
 def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
     Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
     files = ("--trace", "t.csv", "--picture", "t.svg")
-    result = run(program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf:60,jscc@7")
+    words = (program, *FAST, *files, "--show", "Motor.Running,Hz", "--simulate", "chf:60,jscc@7")
+    assert run(*words).exit_code == 0
+    result = run(*words)  # over what the first one wrote
     assert (result.exit_code, result.output[-1:]) == (0, "\n")
     lines = result.output.splitlines()
     assert all(line.startswith("SIMULATED  ") for line in lines)
     assert lines[1] == "SIMULATED  CHF at unit 1: maximum 60 Hz (100 %), FrequencyScale=0.01,"
-    assert lines[4] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
+    assert lines[5] == "SIMULATED  JSCC at unit 7: maximum 50 Hz, ReferenceScale=100"
     assert lines[-1] == "SIMULATED  stopped, and standstill read: Motor"
     rows = Path("t.csv").read_text(encoding="utf-8").splitlines()
     assert rows[:4] == ["# SIMULATED, my.st", "ms,Motor.Running,Hz", "0,0,20", "2000,0,10"]
@@ -165,8 +183,8 @@ def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) ->
     program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
     made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
     probe = made._probe
-    taken = (probe.number("Bus.Line.Rate"), probe.number("Bus.Line.CharBits"))
-    assert (made._line("BitRate"), made._line("CharacterBits")) == taken == (9600, 10)
+    assert (made._line("BitRate"), made._line("CharacterBits")) == (probe.number("Bus.Line.Rate"), 10) == (9600, 10)
+    assert probe.number("Bus.Line.CharUs") == 10 * 1_000_000 // 9600 + 1
 
 
 def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
@@ -194,6 +212,71 @@ def test_what_could_not_be_confirmed_is_told_before_a_file_that_cannot_be_writte
     result = run(program, "--fast", "--for", "1s", "--picture", "folder")
     assert result.exit_code == 2
     assert "SIMULATED  stopped, and standstill read: Motor\n" in result.output
+
+
+def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
+    Path("day.yaml").write_text("- at 3 s: trip 4 7\n- at 5 s: clear\n- at 7 s: reset\n", encoding="utf-8")
+    Path("run.txt").write_text("at 1s: Start := TRUE\n", encoding="utf-8")
+    result = run(program, *FAST, "--scenario", "day.yaml", "--show", "Motor.FaultCode")
+    assert result.exit_code == 0
+    lines = result.output.splitlines()
+    assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
+        place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
+    )
+
+
+def test_a_terminal_is_told_while_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = io.StringIO()
+    monkeypatch.setattr(console, "terminal", lambda: Console(file=drawn, force_terminal=True, color_system=None))
+    Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
+    assert drawn.getvalue() == "SIMULATED  compiling my.st\n"
+
+
+def test_an_empty_name_is_no_port(program: Path) -> None:
+    result = run(program, "--port", "")
+    assert (result.exit_code, result.stderr) == (2, "--port names no port; write one such as /dev/ttyUSB0 or COM3\n")
+
+
+@pytest.mark.parametrize("name", ["invt_chf.yaml", "mine.yaml"])
+def test_a_named_map_takes_the_place_of_the_shipped_one(program: Path, name: str) -> None:
+    shipped = catalog.resolve("chf")
+    Path(name).write_text(shipped.read_text(encoding="utf-8"), encoding="utf-8")
+    program.write_text(ONE.replace("JSCC", "CHF"), encoding="utf-8")
+    for simulate in ((), ("chf@7",), (f"{name}@7",)):
+        maps = () if simulate == (f"{name}@7",) else (name,)
+        made = Setup(Options(program=program, maps=maps, simulate=simulate, fast=True, length="1s"), Keyboard(0))
+        assert [one.path for one in made._wanted] == [Path(name)]
+        assert shipped not in [each.path for each in made._maps]
+
+
+def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path) -> None:
+    Path("mine.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg">\n</svg>\n', encoding="utf-8")
+    before = {path: path.read_bytes() for path in Path().iterdir()}
+    for option in ("--trace", "--picture"):
+        for name in ("mine.svg", "my.st"):
+            assert run(program, "--fast", "--for", "1s", option, name).exit_code == 2
+    assert {path: path.read_bytes() for path in Path().iterdir()} == before
+
+
+def test_a_lost_output_is_no_failure_of_the_program(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = Lines.say
+
+    def lost(screen: Lines, text: str) -> None:
+        if "stands" in text:
+            raise BrokenPipeError(32, "Broken pipe")
+        said(screen, text)
+
+    monkeypatch.setattr(Lines, "say", lost)
+    result = run(program, "--fast", "--for", "1s")
+    assert (result.exit_code, result.output.splitlines()[-1]) == (0, "SIMULATED  stopped, and standstill read: Motor")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
+def test_a_pipe_is_no_program_and_no_script(program: Path) -> None:
+    os.mkfifo("pipe")
+    for words in (("pipe",), (program, "--script", "pipe")):
+        result = run(*words)
+        assert (result.exit_code, result.stderr) == (2, "pipe:1:1: cannot be read: it is no file\n")
 
 
 def test_a_first_scan_that_does_not_end_is_refused(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -121,6 +121,14 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
     assert not any("ManualChecked :=" in page(family) for family in FAMILIES)
 
 
+def test_the_page_of_a_users_map_names_it_in_commands_by_its_file() -> None:
+    drive = shipped()["JSCC"]
+    files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
+    text = documents(files, [drive], {"JSCC": "mine.yaml"})["docs/JSCC_Drive.md"]
+    assert "`driveblocks show mine.yaml absent`" in text
+    assert "`driveblocks show jscc absent`" in page("JSCC")
+
+
 def by_itself(drive: Drive) -> dict[str, str]:
     """What the generated page of a drive says that it does by itself, by what happens."""
     files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]
@@ -178,7 +186,7 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
     pages = [root / "docs/line.md", root / "blocks/README.md", *FOLDER.glob("*.md"), *platforms]
     motors = [root / "examples/one_motor.st", root / "examples/three_makes.st"]
     texts = {"README.md": screen, **heads, **{str(path): path.read_text("utf-8") for path in [*pages, *motors]}}
-    assert len(pages) == 2 + len(blocks) + len(platforms)
+    assert len(pages) == 2 + len(blocks) + len(("Wiring", "Swapping")) + len(platforms)
     lost = [name for name, text in texts.items() if BRAKE not in " ".join(text.replace("> ", "").split())]
     assert lost == []
     for family in FAMILIES:
@@ -196,6 +204,65 @@ def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its
         said = " ".join((FOLDER.parent / name / "README.md").read_text(encoding="utf-8").split())
         assert "(../docs/VFD_HardStop.md)" in said
         assert "put a retriggered relay between" in said.lower()
+
+
+PLATFORM_PAGES = ("codesys", "openplc", "plcopen", "siemens", "twincat")
+
+
+@every_family
+def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wiring(family: str) -> None:
+    for name in PLATFORM_PAGES:
+        assert f"(../{name}/README.md)" in page(family)
+        platform = (FOLDER.parent / name / "README.md").read_text("utf-8")
+        assert f"(../docs/{family}_Drive.md" in platform
+        assert "(../docs/Wiring.md#what-hardstopok-drives)" in platform
+        assert "pin `SupplyOff`" in platform
+    assert "(Wiring.md)" in page(family)
+    assert "(Swapping.md)" in page(family)
+
+
+@every_family
+def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
+    drive, text = shipped()[family], page(family)
+    top = text.partition("\n## What your manual must still tell you\n")[2].partition("\n## ")[0]
+    rows_ = text.partition("\n## What the manual leaves open\n")[2].partition("\n## ")[0]
+    count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
+    assert f"**{count} things**" in top
+    assert text.index("must still tell you") < text.index("## In this order")
+    assert "terminals" in top
+    assert all(f"- {each.what}" in top for each in drive.absent if "serial" in each.about)
+    keypad = text.partition("\n## Keypad and wiring\n")[2].partition("\n## ")[0]
+    assert "(#what-your-manual-must-still-tell-you)" in keypad
+    assert (drive.manual.edition or "") in text.partition("\n>")[0]
+
+
+def test_a_reset_over_the_bus_is_advised_where_there_is_one() -> None:
+    for family in FAMILIES:
+        (advice,) = re.findall(r"^\| 40 \|.*", page(family), re.MULTILINE)
+        can = any(one.does == "fault_reset" for one in shipped()[family].operation.commands)
+        assert ("rising `FaultReset`" in advice) == can
+        assert ("the bus cannot reset it" in advice) != can
+        assert "at the drive itself" not in page(family)
+        assert "by hand" not in advice
+
+
+def test_a_misprint_in_what_the_block_reads_is_on_the_page() -> None:
+    section = page("SN300G5").partition("\n## Where the print was not followed\n")[2]
+    assert "| section (II), row U1-08 | U1-08 输出频率 | 输出功率 (output power) |" in section
+
+
+def test_a_system_whose_text_has_no_ladder_has_a_picture_of_it_in_three_steps() -> None:
+    for family in FAMILIES:
+        for platform in ("siemens", "twincat"):
+            drawn = [each.text for each in picture(f"{family}_Drive_ladder_{platform}.svg").iter()]
+            assert {"HardStopClosed", "StartButton", "WasPressed", "NotStop", f"{family}_Drive"} <= set(drawn)
+            assert f"{family}_Drive_ladder_{platform}.svg), from top to bottom, 3. " in page(family)
+
+
+def test_no_text_of_a_block_has_an_apostrophe() -> None:
+    """`$'` is right, and two readers of SCL and one compiler stop at it."""
+    assert [each.path for each in sources() if "$'" in each.text] == []
+    assert [each.code for each in REASONS if "急停" in each.zh] == []
 
 
 def test_a_first_motor_wires_nine_inputs_at_most() -> None:
@@ -236,7 +303,7 @@ def test_links_and_pictures_are_there_and_pictures_are_whole() -> None:
 
 
 def test_figures_of_the_line_follow_its_formula() -> None:
-    """JSCC at 9600, worked out by hand from docs/line.md."""
+    """JSCC at 9600, worked out by hand from the formula of docs/line.md."""
     rows = re.findall(
         r"^\| 9600 8N1, (the \w+) keeps the silence \| (\d+) ms \| (\d+) ms \| (\d+) ms \|", page("JSCC"), re.M
     )
@@ -250,21 +317,36 @@ def test_figures_of_the_line_follow_its_formula() -> None:
 
 @cache
 def library() -> dict[str, Instance]:
-    """The programs of all pages, each in an instance."""
+    """The programs of all pages, each in an instance, as they are and with RunForward on a switch."""
     examples = {family: example(family) for family in FAMILIES}
     files = [*sources(), *examples.values()]
     assert [each for each in lint_sources((f.path, f.text) for f in files) if each.path.count("/") == 0] == []
-    blocks = built(EmbeddedEngine(), "pages", files).library
-    return {family: blocks.instance(f"{family}_Motor") for family in FAMILIES}
+    bare = [Source(f"{one.path}bare", bared(one.text)) for one in examples.values()]
+    blocks = built(EmbeddedEngine(), "pages", [*files, *bare]).library
+    names = [name for family in FAMILIES for name in (f"{family}_Motor", f"{family}_Bare")]
+    return {name: blocks.instance(name) for name in names}
+
+
+def bared(text: str) -> str:
+    """A first motor whose RunForward is a switch, as the picture has it."""
+    for old, new in (
+        ("_Motor\n", "_Bare\n"),
+        ("RunForward := Run,", "RunForward := Switch,"),
+        ("\nVAR\n", "\nVAR\n  Switch : BOOL;\n"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text
 
 
 class Story:
     """A program with its drive, and the columns of what it does."""
 
-    def __init__(self, family: str) -> None:
+    def __init__(self, family: str, form: str) -> None:
         """A drive at the address and rate of the page."""
         rate, bits = re.findall(r"BitRate := (\d+), CharacterBits := (\d+)", page(family))[0]
-        self.program = library()[family]
+        self.program = library()[f"{family}_{form}"]
+        self.program["HardStopClosed"] = self.program["NotStop"] = True
         self.drive = SimulatedDrive(shipped()[family], shipped()[family].serial.unit.min)
         self.port = Port(self.program, [self.drive], 1000 * int(bits) / int(rate))
         self.program["Hertz"] = 20.0
@@ -303,22 +385,22 @@ class Story:
 
 def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
     """Columns without what only the picture has."""
-    return [replace(each, speed=(0.0, 0.0), event="") for each in columns]
+    return [replace(each, speed=(0.0, 0.0), shaft=None, event="") for each in columns]
 
 
 @every_family
-def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
-    story, drive = Story(family), shipped()[family]
+def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> None:
+    story, drive = Story(family, "Bare"), shipped()[family]
     story.run(3500)
-    story.run(6000, StartSwitch=True)
-    story.run(4000, StartSwitch=False)
+    story.run(6000, Switch=True)
+    story.run(4000, Switch=False)
     # status and frequency may come by different reads; a drive that has just left off running is then not proved yet
     assert [each for each in story.columns if each != timing.Column(0)] == drawn(timing.start_and_stop())
-    story.run(6000, StartSwitch=True)
+    story.run(6000, Switch=True)
     del story.columns[:-1]
     story.drive.trip(2)
     story.run(3000)
-    story.run(6000, StartSwitch=False)
+    story.run(6000, Switch=False)
     story.drive.clear_cause()
     if "FaultReset := ResetButton" in example(family).text:
         story.run(2000, ResetButton=True)
@@ -327,6 +409,25 @@ def test_the_example_runs_and_does_what_the_picture_shows(family: str) -> None:
         story.run(2000)
     assert story.columns == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
+
+
+@every_family
+def test_the_example_starts_by_one_press_and_stops_by_its_button(family: str) -> None:
+    story = Story(family, "Motor")
+    story.run(3500)
+    story.run(100, StartButton=True)
+    story.run(6000, StartButton=False)
+    assert story.drive.hertz == 20
+    story.run(6000, NotStop=False)
+    assert (story.drive.hertz, story.program["Motor.StopConfirmed"]) == (0, True)
+    story.run(3000, NotStop=True)
+    story.run(5000, StartButton=True)
+    story.drive.trip(2)
+    story.run(3000)
+    story.drive.clear_cause()
+    story.drive.reset()
+    story.run(6000)
+    assert (story.drive.hertz, story.program["Run"]) == (0, False), "a stuck button starts nothing"
 
 
 HARD_STOP = (
@@ -353,3 +454,17 @@ def test_the_contact_of_the_hard_stop_does_what_its_page_says(engine: Engine) ->
         block["Overdue"], block["Restart"], block["Reset"] = overdue, restart, reset
         block.scan()
         assert block["HardStopOk"] == closed, why
+
+
+def test_a_page_without_a_reset_by_the_bus_sends_nobody_to_a_bit() -> None:
+    """`KeepWord` changes with the next command, which a fault bars; the drive is reset by a wired button."""
+    assert "they reset no fault" in page("SN300G5")
+    assert "wire a button to that terminal" in page("SN300G5")
+
+
+def test_a_page_says_what_the_block_does_not_try_by_itself() -> None:
+    """Whether another setting makes the reference the run command: the manual does not bear an automatic trial."""
+    assert (
+        "The drive block does not try this by itself"
+        in page("SN300G5").partition("\n## What the manual leaves open")[2]
+    )

@@ -221,8 +221,8 @@ PLANTED = (
     ),
     Planted(
         "no refresh",
-        "  Refreshes := (EveryMs > 0) AND (RefreshedMs >= EveryMs);",
-        "  Refreshes := (EveryMs > 60000) AND (RefreshedMs >= EveryMs);",
+        "  Refreshes := Feeds OR ((RefreshMs > 0) AND (RefreshedMs >= RefreshMs));",
+        "  Refreshes := FALSE;",
         test_start.test_the_reference_alone_is_refreshed_while_it_runs,
     ),
     Planted(

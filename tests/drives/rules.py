@@ -228,7 +228,7 @@ class Observer:
         if does & set(STOPS):
             return
         if frame.address == self.meaning.reference:
-            if self.wish is None and not pins.get("SpeedOnly"):
+            if self.wish is None and frame.word and not pins.get("SpeedOnly"):
                 self.fail(f"{frame}: a reference without an edge")
         elif not does:
             self._parameter(frame)

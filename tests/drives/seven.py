@@ -1,4 +1,4 @@
-"""Seven drives of a family at its best bit rate: refresh, stops, share of the wire: `python -m tests.drives.seven`."""
+"""Drives of a family at its best bit rate: refresh, stops, share of the wire: `python -m tests.drives.seven`."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -24,9 +24,9 @@ PINS = ("BitRate : UDINT", "CharacterBits : UINT", "ElapsedMs : UINT", "MaxScanM
 SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, FullScaleHz := 50.0, StopWithinMs := 20000"
 
 
-def station(prefix: str) -> Source:
-    """A program with a line and seven drives, as a block."""
-    drives = range(COUNT)
+def station(prefix: str, count: int = COUNT) -> Source:
+    """A program with a line and so many drives, as a block."""
+    drives = range(count)
     calls = "".join(
         f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, Settings := Setting,"
         f" Address := {at + 1}, Slot := Slots[{at}]);\n"
@@ -62,14 +62,9 @@ def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: i
     """Let seven drives run, stop one at a time at random moments, and measure."""
     chance = Random(7)
     config = Config(rate=rate, keeps=keeps, turn_ms=20)
-    block = EmbeddedEngine().build([*sources(), station(drive.prefix)]).instance("Seven")
-    bench = DriveBench([SimulatedDrive(drive, at + 1) for at in range(COUNT)], config, block=block)
+    bench = _standing(drive, config, COUNT)
+    block = bench.block
     command = {one.does: one for one in drive.operation.commands}["stop"]
-    bench.attended = set()
-    bench.set(Restart=True)
-    bench.scan()
-    bench.set(Restart=False)
-    bench.run(8000)
     for at in range(COUNT):
         bench.set(**{f"Run{at}": True})
     bench.run(8000)
@@ -83,6 +78,24 @@ def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: i
         sum(gaps) / len(gaps), sum(late) / len(late), max(late), bench["TheLine.StopAloneMs"],
         bench["TheLine.WorstStopMs"], load, bench["TheLine.Timeouts"],
     )  # fmt: skip
+
+
+def promised(drive: Drive, rate: int, count: int, *, keeps: bool) -> tuple[int, int]:
+    """`StopAloneMs` and `WorstStopMs` of a line with so many drives."""
+    bench = _standing(drive, Config(rate=rate, keeps=keeps, turn_ms=20), count)
+    return bench["TheLine.StopAloneMs"], bench["TheLine.WorstStopMs"]
+
+
+def _standing(drive: Drive, config: Config, count: int) -> DriveBench:
+    """A line that was restarted, with all drives at standstill."""
+    block = EmbeddedEngine().build([*sources(), station(drive.prefix, count)]).instance("Seven")
+    bench = DriveBench([SimulatedDrive(drive, at + 1) for at in range(count)], config, block=block)
+    bench.attended = set()
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    bench.run(8000)
+    return bench
 
 
 def _asked(sent: Sent, unit: int, register: int) -> float | None:
@@ -119,5 +132,18 @@ def table() -> Iterator[str]:
             )
 
 
+def stop_table() -> Iterator[str]:
+    """How late a stop can be, by the number of drives, as Markdown."""
+    counts = (1, 2, 4, 6, 8)
+    yield f"| one family on the line | {' | '.join(f'{count} drive' + 's' * (count > 1) for count in counts)} |"
+    yield f"|---|{'---:|' * len(counts)}"
+    for prefix, rate in RATES.items():
+        for keeps in (True, False):
+            worst = [promised(maps()[prefix], rate, count, keeps=keeps)[1] for count in counts]
+            who = "port" if keeps else "line"
+            said = " | ".join(f"{each} ms" for each in worst)
+            yield f"| {prefix}, {rate} bit/s 8N1, the {who} keeps the silence | {said} |"
+
+
 if __name__ == "__main__":
-    print("\n".join(table()))
+    print("\n".join([*table(), "", *stop_table()]))

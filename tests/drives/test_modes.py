@@ -3,13 +3,14 @@
 from contextlib import suppress
 
 import pytest
-from tests.drives.bench import SETTINGS, Bench
+from tests.drives.bench import SETTINGS, Bench, Frame
 from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, maps
 from tests.drives.test_start import edge, meet, motions
 from tests.drives.test_stop import stops
 
 from driveblocks.host.engine import Value
+from driveblocks.simulator.drive import SimulatedDrive
 
 
 def writes(bench: Bench, ms: int) -> list[int]:
@@ -82,6 +83,61 @@ def test_a_plc_that_starts_warm_in_a_mode_sends_each_stop_once(kind: str, mode: 
     assert not bench.shows("StopOverdue")
 
 
+STATUS = 0x2000
+"""Its bit 9 says that the bus is in command, on a made-up drive."""
+
+
+def elsewhere(mode: str) -> Bench:
+    """A motor that somebody else has started, before the PLC starts in a mode; the bus is not in command."""
+    bench = watched("CIA", start=False)
+    bench.drives[0].set(STATUS, 0)
+    bench.drives[0].keypad_run(20.0)
+    return bench.put(**{mode: True})
+
+
+@pytest.mark.parametrize("mode", ["SpeedOnly", "MonitorOnly"])
+def test_a_motor_in_other_hands_gets_no_stop_after_a_restart(mode: str) -> None:
+    bench = elsewhere(mode).restart()
+    assert not stops(bench, bench.run(3000))
+    assert bench.out("State") == (6 if mode == "SpeedOnly" else 5)
+    assert bench.drives[0].mode == "running"
+    assert not bench.shows("StopConfirmed")
+    assert not bench.shows("StopOverdue")
+    assert not stops(bench, bench.restart().run(3000))
+    bench.put(**{mode: False})
+    assert stops(bench, bench.run(300))
+
+
+@pytest.mark.parametrize("mode", ["SpeedOnly", "MonitorOnly"])
+def test_where_the_bus_is_in_command_a_restart_sends_its_stop(mode: str) -> None:
+    bench = elsewhere(mode)
+    bench.drives[0].set(STATUS, 0x0200)
+    bench.restart()
+    assert stops(bench, bench.run(500))
+    assert bench.drives[0].mode != "running"
+
+
+@pytest.mark.parametrize("spoilt", ["the mode", "a stop pin", "full control"])
+def test_a_restart_does_not_wait_for_the_bus_where_a_stop_is_asked_for(spoilt: str) -> None:
+    bench = elsewhere("SpeedOnly")
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    if spoilt == "full control":
+        bench.put(SpeedOnly=False)
+    bench.restart()
+    if spoilt != "full control":
+        assert not stops(bench, bench.run(2000))
+        bench.put(**({"SpeedOnly": False} if spoilt == "the mode" else {"Enable": False}))
+    assert stops(bench, bench.run(500))
+
+
+def test_a_restart_does_not_wait_for_the_bus_for_good() -> None:
+    bench = elsewhere("SpeedOnly").put(BootMs=3000)
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    bench.restart()
+    assert not stops(bench, bench.run(2900))
+    assert stops(bench, bench.run(1500))
+
+
 def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
     bench = watched("CHF", "CHF").running()
     bench.put(Address=9)
@@ -129,6 +185,49 @@ def test_a_foreign_master_keeps_one_from_starting_until_somebody_says_so() -> No
     assert not motions(bench, bench.run(2000))
     bench.line(Acknowledge=True).put(RunForward=False).run(1000)
     bench.running()
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_running_motors_go_on_beside_a_foreign_master(kind: str) -> None:
+    """Their reference is refreshed, and changes."""
+    bench = watched(kind).running()
+    meet(bench)
+    before = len(bench.frames)
+    bench.put(SpeedReferenceHz=10.0).run(5000)
+    words = {each.word for each in sent(bench, bench.frames[before:], "reference")}
+    assert len(words) == 1
+    assert len(sent(bench, bench.run(3000), "reference")) >= 2
+    assert bench.drives[0].hertz == pytest.approx(10.0, abs=0.1)
+    assert bench.reason() == "RUNS"
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_with_a_foreign_master_one_reading_proves_no_standstill(kind: str) -> None:
+    """Replies that somebody else may have asked for show standstill once; the motor runs on."""
+    bench = Bench(kind).running()
+    bench.drives[0].keeps_running = True
+    meet(bench)
+    standing = SimulatedDrive(maps()[kind], 1)
+    shown: set[tuple[int, int]] = set()
+    bench.put(RunForward=False)
+    bench.until(lambda: bench.out("Control.Acknowledged"))
+
+    def once(frame: Frame, reply: bytes | None) -> bytes | None:
+        read = frame.address, frame.word
+        if not frame.read or read in shown:
+            return reply
+        shown.add(read)
+        return standing.reply(bytes([1, frame.function, *divmod(frame.address, 256), *divmod(frame.word, 256)]))
+
+    bench.spoil = once
+    confirmed = []
+    bench.watch.append(lambda one: confirmed.append(one.shows("StopConfirmed")))
+    bench.run(600)
+    assert len(shown) > 1
+    assert not any(confirmed)
+    bench.drives[0].keeps_running = False
+    bench.until(lambda: bench.shows("StopConfirmed"), 9000)
+    assert bench.drives[0].mode == "standing"
 
 
 def test_a_late_scan_is_flagged_and_starts_all_the_same() -> None:

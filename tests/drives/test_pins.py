@@ -4,9 +4,9 @@ from contextlib import suppress
 from dataclasses import replace
 
 import pytest
-from tests.blocks.compare.comparison import with_double
+from tests.blocks.compare.comparison import beside
 from tests.drives.bench import OFF, Bench
-from tests.drives.rules import sent
+from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, built, library, maps, name_of, texts
 from tests.drives.test_stop import stops
 
@@ -83,7 +83,7 @@ def test_memory_of_zeros_behaves_like_declared_memory(kind: str) -> None:
 
 
 def test_memory_of_zeros_on_matiec(matiec: Engine) -> None:
-    for engine in with_double(matiec).values():
+    for engine in beside(matiec).values():
         stations = built(engine, kinds=FAMILIES)
         for kind in FAMILIES:
             alike(kind, stations)
@@ -191,3 +191,81 @@ def test_the_diagnosis_says_why_and_how_it_stopped() -> None:
     assert bench.number("MeasuresAgeMs") < 200
     assert stops(bench, bench.frames)
     assert name_of(("CHF",)) == "Station_CHF"
+
+
+@pytest.mark.parametrize("kind", FAMILIES)
+def test_ready_is_never_shown_without_stop_confirmed(kind: str) -> None:
+    bench = watched(kind)
+    alone: list[str] = []
+
+    def look(bench: Bench) -> None:
+        if bench.shows("Ready") and not bench.shows("StopConfirmed"):
+            alone.append(bench.told())
+
+    bench.watch.append(look)
+    bench.running().put(RunForward=False).stopped().running()
+    bench.drives[0].keypad_stop()
+    bench.put(RunForward=False).run(5000)
+    assert not alone
+
+
+@pytest.mark.parametrize("reference", [25.0, 5.0])
+def test_a_jog_runs_as_asked_whatever_the_reference_is(reference: float) -> None:
+    """The drive jogs at a speed of its own."""
+    bench = watched("CHF").put(SpeedReferenceHz=reference).stopped().put(JogForward=True)
+    bench.run(3000)
+    assert bench.drives[0].hertz == 5.0
+    assert bench.reason() == "RUNS"
+    bench.put(JogForward=False).stopped().put(RunForward=True, SpeedReferenceHz=25.0).run(500)
+    assert bench.reason() == "RAMPING"
+
+
+def test_a_time_that_is_off_lets_nothing_pass_that_was_never_read() -> None:
+    bench = watched("CHF", start=False).put(StaleMs=OFF)
+    bench.spoil = lambda frame, reply: None if frame.address == 0x1001 else reply  # it answers, but no status
+    ok: list[bool] = []
+    bench.watch.append(lambda one: ok.append(one.shows("CommOk")))
+    bench.restart().run(3000)
+    assert ok
+    assert not any(ok)
+
+
+@pytest.mark.parametrize("ms", [59_000, 60_000, 61_000, 120_000])
+def test_what_was_read_before_minutes_without_a_call_is_old(ms: int) -> None:
+    """The clock of the line goes round in 60 s."""
+    bench = watched("CHF").stopped()
+    assert bench.shows("CommOk")
+    bench.leave("Skip0").run(ms - bench.ms)
+    bench.leave("Skip0", on=False).scan()
+    assert bench.number("StatusAgeMs") == OFF
+    assert not bench.shows("CommOk")
+    assert not bench.shows("StopConfirmed")
+
+
+def test_a_changed_keep_word_is_sent_with_the_next_command_and_not_before() -> None:
+    """So no bit of it resets a fault: a fault stops, and bars the next command."""
+    bench = watched("SN300G5").stopped().put(KeepWord=0x0010)
+    assert not [each for each in bench.run(3000) if not each.read]
+    bench.put(RunForward=True).run(500)
+    assert 0x0011 in [each.word for each in bench.frames if each.address == 0 and not each.read]
+
+
+@pytest.mark.parametrize("kind", ["CHF", "SN300G5"])
+def test_a_reset_that_is_refused_is_not_shown_as_one_on_its_way(kind: str) -> None:
+    bench = watched(kind).stopped()
+    shown: set[str] = set()
+    bench.watch.append(lambda one: shown.add(one.reason()))
+    bench.put(FaultReset=True).run(500)
+    assert "RESETTING" not in shown
+    assert "NO_RESET" in shown
+
+
+@pytest.mark.parametrize("code", [0x33, 0x44])
+def test_a_fault_of_the_control_circuit_has_a_code_of_its_own(code: int) -> None:
+    """Bits of 0017H and 0018H, CPF02 to CPF23, which the manual's table of fault numbers does not list."""
+    bench = watched("SN300G5").stopped()
+    bench.drives[0].trip(code)
+    bench.run(1000)
+    assert bench.shows("Fault")
+    assert bench.out("FaultCode") == code
+    assert bench.drives[0].word(0x17 if code < 0x40 else 0x18) == (0x0004 if code < 0x40 else 0x0008)

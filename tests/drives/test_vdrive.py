@@ -104,9 +104,10 @@ def request(one: SimulatedDrive, chance: random.Random) -> bytes:
         return unit + write(one, address, word, chance)
     spots = [gauge.register for gauge in table.gauges] + list(table.named)
     spots += [table.present or 0x14, *(chance.choice(table.readable + table.writable).last for _ in range(3))]
-    return (
-        unit + b"\3" + chance.choice(spots).to_bytes(2, "big") + chance.choice([1, 1, 1, 2, 5, 17]).to_bytes(2, "big")
-    )
+    first, number = chance.choice(spots), chance.choice([1, 1, 1, 2, 5, 17])
+    if number < 17 and not table.copies.keys().isdisjoint(range(first, first + number)):
+        first, number = table.gauges[0].register, 1  # the drive in C says nothing again
+    return unit + b"\3" + first.to_bytes(2, "big") + number.to_bytes(2, "big")
 
 
 def write(one: SimulatedDrive, address: int, word: int, chance: random.Random) -> bytes:

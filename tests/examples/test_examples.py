@@ -1,6 +1,7 @@
 """The examples as a user would take them: short, clean, and run against simulated drives by the bytes on the wire."""
 
 import re
+from itertools import pairwise
 from pathlib import Path
 
 from tests.blocks.library import built, shipped, sources
@@ -12,7 +13,7 @@ from driveblocks.st.lint import lint_sources
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
-NAMES = ("one_motor", "three_makes")
+NAMES = ("one_motor", "three_makes", "hand_off_auto")
 PARTS = ("types/", "modbus/MB_Hex", "line/", "vfd/VFD_", "invt_chf/", "jscc/", "shuen_sn300g5/")
 SPARE = re.compile(r"Text|_Request\.|_Reply\.|_Command\.|32")
 """Blocks that the examples do not use."""
@@ -27,7 +28,7 @@ JOG_STOP = bytes.fromhex("010610000008")
 
 def test_every_example_is_short_clean_and_tried() -> None:
     assert {path.stem for path in FOLDER.iterdir()} == set(NAMES)
-    assert all(len(text.splitlines()) < 80 for text in TEXTS.values())
+    assert all(len(text.splitlines()) < 100 for text in TEXTS.values())
     assert lint_sources((each.path, each.text) for each in FILES) == []
 
 
@@ -65,12 +66,12 @@ def test_one_motor(engine: Engine) -> None:
     # reference and run once each and turns up to speed
     # (a jog is not known to be none, so that its end is sent, too)
     assert set(plant.run(3500, NotStop=True, Hertz=30.0)) == {STOP, JOG_STOP}
-    assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, False]
-    # the contact closes by a press of the reset button, which sends nothing
-    assert plant.run(100, Reset=True) == []
-    assert plant.run(500, Reset=False) == []
+    assert plant.says("Standing", "Why", "HardStopOk") == [True, 20, False]
+    # the contact closes by a press of the reset button, and with it the hard stop; nothing is sent
+    assert plant.run(100, ResetButton=True) == []
+    assert plant.run(500, ResetButton=False, HardStopClosed=True) == []
     assert plant.says("Standing", "Why", "HardStopOk") == [True, 1, True]
-    started = [*plant.run(100, Start=True), *plant.run(900, Start=False)]
+    started = [*plant.run(100, StartButton=True), *plant.run(900, StartButton=False)]
     assert started[:2] == [bytes.fromhex(each) for each in ("010620001770", "010610000001")]
     assert plant.says("Standing", "Why") == [False, 0]
     assert 0 < drive.hertz < 30
@@ -78,25 +79,131 @@ def test_one_motor(engine: Engine) -> None:
     assert drive.hertz == 30
     # stop: at once, repeated, confirmed when it stands, and the button that returns starts nothing
     assert plant.run(1000, NotStop=False)[0] == STOP
-    assert plant.says("Standing", "Why") == [False, 20]
+    assert plant.says("Standing", "Why") == [False, 4]
     plant.run(4000)
-    assert plant.says("Standing", "Why") == [True, 20]
+    assert plant.says("Standing", "Why") == [True, 1]
     assert plant.run(2000, NotStop=True) == []
     # a trip stops it, with the start button stuck; the reset moves nothing; a new edge does
-    plant.run(3000, Start=True)
+    plant.run(3000, StartButton=True)
     drive.trip(3)
     plant.run(500)
     assert plant.says("Why", "Motor.FaultCode", "Standing") == [40, 3, False]
     drive.clear_cause()
     plant.run(10000)
-    plant.run(3000, Reset=True)
+    plant.run(3000, ResetButton=True)
     assert plant.says("Why", "Motor.Fault", "Standing") == [1, False, True]
     assert (drive.hertz, drive.fault) == (0, 0)
-    plant.run(3000, Reset=False, Start=False)
+    plant.run(3000, ResetButton=False, StartButton=False)
     assert drive.hertz == 0
-    plant.run(100, Start=True)
-    plant.run(4000, Start=False)
+    plant.run(100, StartButton=True)
+    plant.run(4000, StartButton=False)
     assert drive.hertz == 30
+    # the hard stop opens, and closes again: nothing starts
+    assert plant.run(1000, HardStopClosed=False)[0] == STOP
+    plant.run(5000)
+    plant.run(3000, HardStopClosed=True)
+    assert (drive.hertz, plant.says("Run")) == (0, [False])
+
+
+def test_one_press_is_enough_after_a_stop_at_the_keypad(engine: Engine) -> None:
+    """The seal-in drops when the block lets go; a button that is held or stuck starts nothing again."""
+    plant = Plant(engine, "OneMotor", ["CHF"], 10)
+    (drive,) = plant.drives
+    plant.run(4000, NotStop=True, HardStopClosed=True, Hertz=30.0)
+    for held in (False, True):
+        plant.run(100, StartButton=True)
+        plant.run(5000, StartButton=held)
+        assert (drive.hertz, plant.says("Run")) == (30, [True])
+        drive.reply(STOP)  # somebody else stops it, as the keypad would
+        plant.run(8000)
+        assert (drive.hertz, plant.says("Standing")) == (0, [True])
+        plant.run(100, StartButton=False)
+        assert plant.says("Run") == [False]
+    plant.run(100, StartButton=True)
+    plant.run(5000, StartButton=False)
+    assert drive.hertz == 30
+
+
+def hand(engine: Engine) -> Plant:
+    """Hand, off, auto with a motor that has run up to 20 Hz in hand."""
+    plant = Plant(engine, "HandOffAuto", ["CHF"], 10)
+    plant.run(4000, NotStop=True, HardStopClosed=True, HertzPerS=5.0, Hand=True, AutoHertz=40.0)
+    plant.run(4000, Faster=True)
+    plant.run(100, Faster=False, StartButton=True)
+    plant.run(6000, StartButton=False)
+    assert plant.drives[0].hertz == 20
+    return plant
+
+
+def speeds(frames: list[bytes]) -> list[float]:
+    """The references of some writes, in Hz: percent of 50 Hz, in hundredths."""
+    return [int.from_bytes(frame[4:6], "big") / 200 for frame in frames if frame[2:4] == b"\x20\x00"]
+
+
+def test_hand_and_auto_change_without_a_bump(engine: Engine) -> None:
+    plant = hand(engine)
+    (drive,) = plant.drives
+    # to auto: it runs on, and its speed leads to that of the process at 5 Hz/s
+    written = plant.run(8000, AutoRun=True, Hand=False, Auto=True)
+    assert STOP not in written
+    way = [20.0, *speeds(written)]
+    assert way == sorted(way)
+    assert way[-1] == 40
+    assert max(b - a for a, b in pairwise(way)) <= 5.0, "no more than a second's worth between two references"
+    assert drive.hertz == 40
+    # back to hand: it runs on at the speed that it has
+    written = plant.run(5000, Hand=True, Auto=False)
+    assert STOP not in written
+    assert set(speeds(written)) == {40.0}
+    assert (drive.hertz, plant.says("Hertz")) == (40, [40.0])
+    written = plant.run(2000, Slower=True)
+    assert STOP not in written
+    plant.run(3000, Slower=False)
+    assert 29.9 <= drive.hertz <= 30.1
+    # to auto, which does not want it
+    assert plant.run(1000, AutoRun=False, Hand=False, Auto=True)[0] == STOP
+
+
+def test_off_stops_at_once_and_nothing_starts_by_itself(engine: Engine) -> None:
+    plant = hand(engine)
+    (drive,) = plant.drives
+    for selected in ({"Hand": False, "Auto": False}, {"Hand": True, "Auto": True}):
+        assert plant.run(1000, **selected)[0] == STOP
+        plant.run(6000)
+        assert drive.hertz == 0
+        plant.run(3000, Hand=True, Auto=False)
+        assert drive.hertz == 0, "hand has to be started"
+        plant.run(100, StartButton=True)
+        plant.run(6000, StartButton=False)
+        assert drive.hertz == 20
+    # auto: by both, once; a stop elsewhere, or a fault, is no reason to start again
+    plant.run(6000, Hand=False)
+    plant.run(9000, Auto=True, AutoRun=True)
+    assert drive.hertz == 40
+    drive.reply(STOP)
+    plant.run(12000)
+    assert (drive.hertz, plant.says("Run")) == (0, [False])
+    plant.run(500, AutoRun=False)
+    plant.run(9000, AutoRun=True)
+    assert drive.hertz == 40
+    drive.trip(3)
+    plant.run(10000)
+    drive.clear_cause()
+    plant.run(3000, ResetButton=True)
+    plant.run(5000, ResetButton=False)
+    assert (drive.hertz, drive.fault, plant.says("Run")) == (0, 0, [False])
+
+
+def test_a_speed_that_is_no_number_stops_it_and_hand_is_not_spoilt(engine: Engine) -> None:
+    plant = hand(engine)
+    plant.run(8000, AutoRun=True, Hand=False, Auto=True)
+    assert plant.run(1000, AutoHertz=float("nan"))[0] == STOP
+    plant.run(8000)
+    assert plant.says("Motor.Reason", "HandHertz") == [32, 40.0]
+    plant.run(2000, Hand=True, Auto=False, AutoHertz=40.0)
+    plant.run(100, StartButton=True)
+    plant.run(9000, StartButton=False)
+    assert plant.drives[0].hertz == 40
 
 
 def test_three_makes(engine: Engine) -> None:

@@ -129,7 +129,10 @@ def test_request_and_reply_of_a_single_write_are_the_same(explain: Explain) -> N
             "CHF",
             "01 06 10 00 00 06",
             "01 06 10 00 00 06",
-            [(0x1000, "=", "Coast stop", "自由停机 (紧急停机)"), (0x1000, "command", "coast stop", "")],
+            [
+                (0x1000, "=", "Coast to stop (emergency stop)", "自由停机 (紧急停机)"),
+                (0x1000, "command", "coast stop", ""),
+            ],
         ),
         (
             "SN300G5",

@@ -57,9 +57,12 @@ _declared = test_twincat.test_declarations_and_their_comments_are_the_canonical_
 _bodies = test_twincat.test_bodies_are_the_canonical_ones_and_have_the_hash_of_the_head
 _bytes = test_twincat.test_files_are_utf_8_with_a_mark_at_the_start_and_crlf
 _ids = test_twincat.test_ids_are_unique_and_always_the_same
-_family = test_twincat.test_the_project_of_a_family_lists_what_is_not_of_another
+_family = test_twincat.test_the_library_of_a_family_lists_what_is_not_of_another
+_begin = test_twincat.test_a_project_to_begin_with_has_its_own_files_and_links_its_library
+_mine = test_twincat.test_nothing_of_the_user_lies_in_the_library
+_tasks = test_twincat.test_tasks_call_the_first_motor_and_in_front_of_it_the_terminal
 _order = test_twincat.test_projects_list_parts_in_the_order_of_use_and_every_folder
-_all = test_twincat.test_the_project_of_all_lists_every_file_once_and_nothing_else
+_all = test_twincat.test_the_library_of_all_lists_every_file_of_its_folder_once_and_nothing_else
 _refused = test_twincat.test_what_the_format_cannot_say_is_refused_with_its_place
 _canonical = test_openplc.test_a_library_is_the_canonical_texts_in_the_order_of_their_use_and_nothing_else
 _first = test_openplc.test_a_first_motor_says_what_its_line_is_and_how_often_it_comes
@@ -116,11 +119,39 @@ PLANTED = (
     Planted(
         "a project lists the blocks of other families",
         twincat,
-        "for part in library.parts), *adapter",
+        "for part in parts), *adapter",
         "for part in shelf.parts), *adapter",
         _family,
     ),
-    Planted("a project forgets its first motor", twincat, "*adapter, *own]", "*adapter]", _family),
+    Planted(
+        "a project forgets its first motor", twincat, "[*own, *shared], items", "[*own[1:], *shared], items", _begin
+    ),
+    Planted(
+        "a project to begin with links nothing", twincat, "[*own, *shared], items", "[*own, *shared, *items]", _begin
+    ),
+    Planted("a link leads elsewhere", twincat, "<Link>{escape(path)}", "<Link>{item.name}", _begin),
+    Planted(
+        "a first motor lies in the library",
+        twincat,
+        'f"{MOTOR}/{item.path}": item.text for item in own',
+        'f"{LIBRARY}/{item.path}": item.text for item in own',
+        _mine,
+    ),
+    Planted("the terminal is served too slowly", twincat, "1000, 1000 *", "9000, 1000 *", _tasks),
+    Planted(
+        "a task calls the program of another family",
+        twincat,
+        'name = f"{drive.prefix}_Motor"',
+        'name = "CHF_Motor"',
+        _tasks,
+    ),
+    Planted(
+        "a library has no title",
+        twincat,
+        "<Title>{name}",
+        "<Title>",
+        test_twincat.test_projects_say_what_a_library_is_saved_by,
+    ),
     Planted(
         "a project is sorted",
         twincat,
@@ -131,8 +162,8 @@ PLANTED = (
     Planted(
         "a project forgets a folder",
         twincat,
-        "dict.fromkeys(item.folder for item in items)",
-        "dict.fromkeys(item.folder for item in items[1:60])",
+        "(*items, *linked) if item.folder)",
+        "(*items, *linked)[1:60] if item.folder)",
         _order,
     ),
     Planted("paths of Unix in a project", twincat, '.replace("/", "\\\\")', "", _all),

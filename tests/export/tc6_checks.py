@@ -5,15 +5,16 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from itertools import combinations
+from itertools import combinations, product
 from pathlib import Path
 
 from lxml import etree
 from tests.export.tc6_form import Unit, scanned, single
-from tests.export.tc6_reader import File
+from tests.export.tc6_reader import File, Node
 
 from driveblocks.export.part import Shelf
 from driveblocks.export.target import Writer
+from driveblocks.export.wide import wide
 from driveblocks.st.fingerprint import fingerprint, stream
 
 DIALECTS = {
@@ -25,7 +26,8 @@ _WIRED = re.compile(r"(\w+) := ([^,]+)")
 ROOM = 2
 """Pixels between any two things in a ladder."""
 _COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
-_ASSIGNED = re.compile(r"^  ([\w.]+) := (.*);", re.MULTILINE)
+_ASSIGNED = re.compile(r"^  ([\w.]+) := (.*?);", re.MULTILINE | re.DOTALL)
+_NAME = re.compile(r"\b(?!AND\b|OR\b|NOT\b)[A-Za-z][\w.]*")
 _DONE = re.compile(r"^  ([\w.]+)(?:\(| :=)", re.MULTILINE)
 
 
@@ -48,25 +50,37 @@ class Made:
 
 
 def made(writer: Writer, shelf: Shelf, target: str) -> Iterator[Made]:
-    """Every file of a target, as written from a shelf."""
-    files = writer(shelf)
-    libraries = list(shelf.libraries())
-    assert [name for name in files if name.endswith(".xml")] == [f"{target}/{each.name}.xml" for each in libraries]
-    for library, text in zip(libraries, files.values(), strict=False):
-        own = tuple(_own(shelf, target, [each.prefix for each in library.drives]))
-        file = File(text, *DIALECTS[target])
-        texts = (*(part.text for part in library.parts), *own)
-        yield Made(target, library.name, file, texts, tuple(each.prefix for each in library.drives))
+    """Every file of a target, as written from a shelf: libraries, then what is a user's."""
+    files = {name: text for name, text in writer(shelf).items() if name.endswith(".xml")}
+    meant = [*_libraries(shelf, target), *_own(shelf, target)]
+    assert list(files) == [f"{target}/{name}.xml" for name, _, _ in meant]
+    for (name, texts, prefixes), text in zip(meant, files.values(), strict=True):
+        yield Made(target, name, File(text, *DIALECTS[target]), texts, prefixes)
 
 
-def _own(shelf: Shelf, target: str, prefixes: list[str]) -> Iterator[str]:
-    if target == "codesys":
-        yield from (part.text for part in shelf.adapter(target))
-    for drive in shelf.drives.values():
-        if drive.prefix in prefixes:
-            yield from (part.text for part in shelf.programs(target, drive))
-            if target == "plcopen":
-                yield shelf.motor(target, drive).text.replace("_Motor", "_Ladder")
+_Meant = tuple[str, tuple[str, ...], tuple[str, ...]]
+"""A file: its name, the texts that it holds, and the prefixes of first motors that it runs."""
+
+
+def _libraries(shelf: Shelf, target: str) -> Iterator[_Meant]:
+    port = tuple(part.text for part in shelf.adapter(target))
+    texts = wide(shelf) if target == "codesys" else ()
+    for library in shelf.libraries():
+        yield library.name, (*(part.text for part in (*library.parts, *library.own(texts))), *port), ()
+
+
+def _own(shelf: Shelf, target: str) -> Iterator[_Meant]:
+    for library in list(shelf.libraries())[1:]:
+        (drive,) = library.drives
+        programs = [part.text for part in shelf.programs(target, drive)]
+        drawn = programs[0].replace(f"{drive.prefix}_Motor", f"{drive.prefix}_Ladder")
+        if target == "plcopen":
+            texts = (*(part.text for part in library.parts), programs[0], drawn)
+            yield f"{drive.prefix}_Motor", texts, (drive.prefix,)
+        else:
+            names = ("Motor", "Master", "Ladder") if len(programs) > 1 else ("Motor", "Ladder")
+            for name, text in zip(names, (*programs, drawn), strict=True):
+                yield f"{drive.prefix}_{name}", (text,), ()
 
 
 def names(one: Made) -> None:
@@ -92,7 +106,7 @@ def comments(one: Made) -> None:
 def bodies(one: Made) -> None:
     """Each body is untouched, and its tokens have the hash in its head."""
     for read, meant in one.pairs:
-        if not read.name.endswith("_Ladder"):
+        if not meant.name.endswith("_Ladder"):
             assert read.body == meant.body, read.name
         if hashed := re.search(r" Body ([0-9A-F]{8}),", read.head):
             assert fingerprint(stream(read.body)) == hashed[1], read.name
@@ -151,39 +165,64 @@ def folders(one: Made) -> None:
 
 
 def tasks(one: Made) -> None:
-    """The neutral file runs the first motors in one task."""
-    if one.target == "plcopen":
-        (task,) = one.file.all("instances/configurations/configuration/resource/task")
+    """A project to begin with runs its first motor in one task; a library runs nothing."""
+    found = one.file.all("instances/configurations/configuration/resource/task")
+    assert len(found) == len(one.prefixes)
+    for task in found:
         assert task.get("interval") == "T#10ms"
         runs = [each.get("typeName") for each in one.file.all("pouInstance", task)]
         assert runs == [f"{prefix}_Motor" for prefix in one.prefixes]
 
 
+def drawings(one: Made) -> list[tuple[Node, str]]:
+    """Each ladder of a file, and the body that it stands for."""
+    nodes = {node.get("name"): node for node in one.file.all("types/pous/pou")}
+    return [(nodes[unit.name], unit.body) for _, unit in one.pairs if unit.name.endswith("_Ladder")]
+
+
 def ladders(one: Made) -> None:
     """A ladder calls the same blocks with the same values as the program in text, and its wires meet its pins."""
-    bodies = {unit.name: unit.body for unit in _pous(one)}
-    for prefix in one.prefixes if one.target == "plcopen" else ():
-        (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
-        drawn, body = one.file.ladder(node), bodies[f"{prefix}_Motor"]
+    for node, body in drawings(one):
+        drawn = one.file.ladder(node)
         assert drawn.calls == {
             name: dict(_WIRED.findall(_COMMENT.sub("", given))) for name, given in _CALL.findall(body)
         }
-        assert drawn.coils == {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
+        coils = {name: value.replace("FALSE", "resetTRUE") for name, value in _ASSIGNED.findall(body)}
+        assert {name: truth(value) for name, value in drawn.coils.items()} == {k: truth(v) for k, v in coils.items()}
         assert [drawn.order[number] for number in sorted(drawn.order)] == _DONE.findall(body)
         assert drawn.loose == []
-        assert drawn.remarks == [single(each[2:-2]) for each in _COMMENT.findall(body)]
+        assert drawn.remarks == (
+            [single(each[2:-2]) for each in _COMMENT.findall(body)] if one.target == "plcopen" else []
+        )
+
+
+def truth(value: str) -> str | tuple[tuple[str, ...], list[bool]]:
+    """What contacts come to for each state of theirs; a single word is itself."""
+    if " " not in value:
+        return value
+    names = tuple(sorted(set(_NAME.findall(value))))
+    said = _NAME.sub(lambda found: f"v[{names.index(found[0])}]", " ".join(value.split()))
+    said = re.sub(r"\b(AND|OR|NOT)\b", lambda found: found[0].lower(), said)
+    return names, [bool(eval(said, {"v": v})) for v in product((False, True), repeat=len(names))]  # noqa: S307
 
 
 def room(one: Made) -> None:
     """No two things of a ladder touch: boxes, contacts and coils with the names above them, rails."""
-    for prefix in one.prefixes if one.target == "plcopen" else ():
-        (node,) = (each for each in one.file.all("types/pous/pou") if each.get("name") == f"{prefix}_Ladder")
+    for node, _ in drawings(one) if one.target == "plcopen" else ():
         boxes = one.file.boxes(node)
         assert len(boxes) > 20
         close = [(a.what, b.what) for a, b in combinations(boxes, 2) if a.near(b, ROOM)]
         assert not close
 
 
+def libraries(one: Made) -> None:
+    """A file of CODESYS names the library that its serial port needs, and no other does."""
+    if one.target == "codesys":
+        named = [each.get("Name") for node in one.file.data("libraries", one.file.root) for each in node]
+        needs = any("COM.Open" in text for text in one.texts)
+        assert named == (["#CAA SerialCom"] if needs else [])
+
+
 CHECKS: tuple[Callable[[Made], None], ...] = (
-    names, declarations, comments, bodies, schema, marks, plain, folders, tasks, ladders, room,
+    names, declarations, comments, bodies, schema, marks, plain, folders, libraries, tasks, ladders, room,
 )  # fmt: skip

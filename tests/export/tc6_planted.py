@@ -15,7 +15,7 @@ from tests.export.tc6_checks import Made, made
 from driveblocks.export.part import Shelf
 
 BOTH = ("plcopen", "codesys")
-MODULES = ("element", "tc6", "ladder", *BOTH)
+MODULES = ("element", "tc6", "ladder", "rungs", *BOTH)
 """What writes, each after what it imports."""
 
 
@@ -64,7 +64,7 @@ PLANTED = (
         "every comment is lost", "tc6", "self.text(text)) if text else", "self.text(text)) if 0 else", checks.comments
     ),
     Planted("a comment ends early", "tc6", "one.text.split()) for", "one.text.split()[:3]) for", checks.comments),
-    Planted("a head is lost", "tc6", "self.dialect.documentation(head)", "None", checks.comments),
+    Planted("a head is lost", "tc6", "self.dialect.documentation(below)", "None", checks.comments),
     Planted(
         "an initial value is lost",
         "tc6",
@@ -211,6 +211,32 @@ PLANTED = (
         ("codesys",),
     ),
     Planted(
+        "nobody says which library the port needs",
+        "codesys",
+        '"libraries", element',
+        '"library", element',
+        checks.libraries,
+        ("codesys",),
+    ),
+    Planted("a network has no title", "rungs", 'text="networktitle"', 'text="title"', checks.ladders, ("codesys",)),
+    Planted(
+        "a call is not on the rail",
+        "rungs",
+        'ins = [\n            _pin("EN", _wires([_RAIL])),',
+        'ins = [\n            _pin("EN", _wires([])),',
+        checks.ladders,
+        ("codesys",),
+    ),
+    Planted("an open contact is a closed one", "rungs", "str(negated).lower()", '"true"', checks.ladders, ("codesys",)),
+    Planted(
+        "an or is an and",
+        "rungs",
+        "*self.contacts(value.right, begin)]",
+        "*self.contacts(value.right, self.contacts(value.left, begin))]",
+        checks.ladders,
+        ("codesys",),
+    ),
+    Planted(
         "the task is too slow",
         "plcopen",
         '"interval": f"T#{SCAN_MS}ms"',
@@ -221,17 +247,31 @@ PLANTED = (
     Planted(
         "a wire misses its pin",
         "ladder",
-        "return number, (_CONTACT + 21, y)",
-        "return number, (_CONTACT, y)",
+        "return number, (x + 21, y)\n\n    @static",
+        "return number, (x, y)\n\n    @static",
         checks.ladders,
         ("plcopen",),
     ),
     Planted("statements are done in another order", "ladder", "str(self.turn)", "str(99 - self.turn)", checks.ladders),
     Planted("two boxes touch", "ladder", "_PITCH = 32", "_PITCH = 20", checks.room, ("plcopen",)),
     Planted(
+        "a closed contact is an open one",
+        "ladder",
+        'how = {"negated": "true"} if negated',
+        "how = {} if negated",
+        checks.ladders,
+    ),
+    Planted(
+        "parallel contacts are in series",
+        "ladder",
+        "ends, x, right = self.network(value.right, begin",
+        "ends, x, right = self.network(value.right, begin[:1]",
+        checks.ladders,
+    ),
+    Planted(
         "a contact is a wire",
         "ladder",
-        "number, there = self.contact(_said(value), here[1])",
+        "number, there = self.contact(said(value), (_CONTACT, here[1]), [])",
         "number, there = 1, (_RAIL + 3, here[1])",
         checks.ladders,
         ("plcopen",),

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 
 from lxml import etree
 from tests.export.tc6_form import Row, Unit, single
@@ -14,6 +15,8 @@ SECTIONS = {
     "tempVars": "VAR_TEMP", "externalVars": "VAR_EXTERNAL",
 }  # fmt: skip
 KINDS = {"function": "FUNCTION", "functionBlock": "FUNCTION_BLOCK", "program": "PROGRAM"}
+HEADS = {"p": "documentation", "xhtml": "interface/documentation"}
+"""Where a dialect has the head of a block."""
 Node = etree._Element
 Point = tuple[int, int]
 
@@ -103,7 +106,7 @@ class File:
                 KINDS[node.get("pouType", "")],
                 node.get("name", ""),
                 self.said(returns) if returns is not None else "",
-                single(self.written(self.one("documentation", node))),
+                single(self.written(self.one(HEADS[self.tag], node))),
                 tuple(rows),
                 self.written(self.one("body/ST", node)),
             )
@@ -164,6 +167,8 @@ class File:
     def ladder(self, pou: Node) -> Rung:
         """The ladder of a program, wire by wire."""
         body = self.all("body/LD", pou)[0]
+        if self.tag == "xhtml":
+            return self.networks(body)
         drawn = {each.get("localId", ""): each for each in body}
         assert len(drawn) == len(body), "a number twice"
         made = Rung()
@@ -192,6 +197,73 @@ class File:
                 made.order[number] = name
         return made
 
+    def networks(self, body: Node) -> Rung:
+        """The ladder of a program in CODESYS's form: network by network, a comment and a title in front of each."""
+        drawn = {each.get("localId", ""): each for each in body}
+        assert len(drawn) == len(body), "a number twice"
+        assert {(each.get("x"), each.get("y")) for each in self.all("*/position", body)} == {("0", "0")}
+        made, titled = Rung(), 0
+        for node in body:
+            tag, name = etree.QName(node).localname, ""
+            if tag == "vendorElement":
+                assert [each.text for each in self.data("fbdelementtype", node)] == ["networktitle"]
+                titled += 1
+            elif tag == "coil":
+                name = self.all("variable", node)[0].text or ""
+                storage = node.get("storage", "").removeprefix("none")
+                made.coils[name] = storage + self.power(node, drawn, made)
+            elif tag == "block":
+                name = self.called(node, drawn, made)
+            if name:
+                made.order[titled] = name
+        assert len(made.order) == titled == len(self.all("comment", body))
+        return made
+
+    def called(self, node: Node, drawn: dict[str, Node], made: Rung) -> str:
+        """A box: the call of an instance, or a MOVE; EN is on the rail."""
+        pins = {pin.get("formalParameter", ""): pin for pin in self.all("inputVariables/variable", node)}
+        values = {name: self.power(pin, drawn, made) for name, pin in pins.items()}
+        assert values.pop("EN") == "TRUE"
+        kinds = [each.text for each in self.data("fbdcalltype", node)]
+        (types,) = (str(each.text).split() for each in self.data("inputparamtypes", node))
+        ends = {
+            pin.get("formalParameter", ""): "".join(
+                each.text or "" for each in self.all("connectionPointOut/expression", pin)
+            )
+            for pin in self.all("outputVariables/variable", node)
+        }
+        if node.get("typeName") == "MOVE":
+            assert (kinds, list(ends), types) == (["operator"], ["ENO", "Out2"], ["BOOL"])
+            made.coils[ends["Out2"]] = values["In2"]
+            return ends["Out2"]
+        assert (kinds, len(types)) == (["functionblock"], len(pins))
+        assert not any(ends.values())
+        made.calls[node.get("instanceName", "")] = values
+        return node.get("instanceName", "")
+
+    def assigned(self, pin: Node) -> str:
+        """The variable that a pin on the right is assigned to."""
+        return "".join(each.text or "" for each in self.all("connectionPointOut/expression", pin))
+
+    def power(self, node: Node, drawn: dict[str, Node], made: Rung) -> str:
+        """What a coil, a contact or a pin is wired to; several wires are an OR."""
+        found = [self.before(drawn[each.get("refLocalId", "")], drawn, made)
+                 for each in self.all("connectionPointIn/connection", node)]  # fmt: skip
+        return found[0] if len(found) == 1 else f"({' OR '.join(found)})"
+
+    def before(self, node: Node, drawn: dict[str, Node], made: Rung) -> str:
+        """What an element gives to the right."""
+        tag = etree.QName(node).localname
+        if tag == "leftPowerRail":
+            return "TRUE"
+        if tag == "inVariable":
+            return self.all("expression", node)[0].text or ""
+        assert (tag, node.get("edge"), node.get("storage")) == ("contact", "none", "none")
+        said = self.all("variable", node)[0].text or ""
+        said = f"NOT {said}" if node.get("negated") == "true" else said
+        before = self.power(node, drawn, made)
+        return said if before == "TRUE" else f"{before} AND {said}"
+
     def boxes(self, pou: Node) -> list[Box]:
         """Everything that is drawn in the ladder of a program, but for its wires; names above count as theirs."""
         return [self.box(node) for node in self.all("body/LD", pou)[0]]
@@ -208,15 +280,16 @@ class File:
         return Box(f"{node.get('localId')} {name}", x - beside, top, x + width + beside, y + height)
 
     def source(self, pin: Node, node: Node, drawn: dict[str, Node], made: Rung) -> str:
-        """What a pin is wired to, in ST; the wire must begin and end where the pins are."""
-        wire = self.one("connection", pin)
-        if wire is None:
-            return ""
-        other, name = drawn[wire.get("refLocalId", "")], wire.get("formalParameter", "")
-        ends = [_at(each) for each in self.all("position", wire)]
-        if ends[0] != self.place(pin, node) or ends[-1] not in self.outs(other, name):
-            made.loose.append(f"{wire.get('refLocalId')} to {node.get('localId')}: {ends}")
-        return self.given(other, name, drawn, made)
+        """What a pin is wired to, in ST; several wires are an OR. Each must begin and end where the pins are."""
+        found = []
+        for wire in self.all("connection", pin):
+            other, name = drawn[wire.get("refLocalId", "")], wire.get("formalParameter", "")
+            ends = [_at(each) for each in self.all("position", wire)]
+            bent = any(a[0] != b[0] and a[1] != b[1] for a, b in pairwise(ends))
+            if bent or ends[0] != self.place(pin, node) or ends[-1] not in self.outs(other, name):
+                made.loose.append(f"{wire.get('refLocalId')} to {node.get('localId')}: {ends}")
+            found.append(self.given(other, name, drawn, made))
+        return found[0] if len(found) == 1 else f"({' OR '.join(found)})" if found else ""
 
     def given(self, node: Node, pin: str, drawn: dict[str, Node], made: Rung) -> str:
         """What an element gives to the right."""
@@ -225,9 +298,13 @@ class File:
             return "TRUE"
         if tag == "block":
             return f"{node.get('instanceName')}.{pin}"
-        if tag == "contact":
-            assert self.source(self.all("connectionPointIn", node)[0], node, drawn, made) == "TRUE"
-        return self.all("variable" if tag in ("contact", "coil") else "expression", node)[0].text or ""
+        said = self.all("variable" if tag in ("contact", "coil") else "expression", node)[0].text or ""
+        if tag != "contact":
+            return said
+        before = self.source(self.all("connectionPointIn", node)[0], node, drawn, made)
+        assert before, "a contact that hangs on nothing"
+        said = f"NOT {said}" if node.get("negated") == "true" else said
+        return said if before == "TRUE" else f"{before} AND {said}"
 
     def outs(self, node: Node, pin: str) -> list[Point]:
         """Where the pins on the right of an element are; of a block, the one of that name."""

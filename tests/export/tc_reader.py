@@ -28,6 +28,21 @@ class Project:
     compiled: tuple[str, ...]
     folders: tuple[str, ...]
     libraries: tuple[str, ...]
+    links: tuple[str, ...]
+    """Of what is compiled, where it is shown, for what lies in another folder."""
+    title: tuple[str, ...]
+    """Company, title and version."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task: what it calls, how often."""
+
+    name: str
+    id: str
+    us: int
+    priority: int
+    program: str
 
 
 def root(text: str) -> Xml.Element:
@@ -50,6 +65,17 @@ def read(path: str, text: str) -> Object:
     return Object(one.attrib["Name"], one.attrib["Id"], one[0].text or "", body or "")
 
 
+def task(text: str) -> Task:
+    """A task. Raises AssertionError for what is none."""
+    top = root(text)
+    assert (top.tag, top.get("Version"), len(top)) == ("TcPlcObject", "1.1.0.1", 1)
+    tags = ["CycleTime", "Priority", "PouCall", "TaskFBGuid", "Fb_init", "Fb_exit", "CycleUpdate", "PostCycleUpdate"]
+    assert [child.tag for child in top[0]] == tags
+    assert len({child.text for child in top[0][3:]}) == len(tags) - 3
+    us, priority = (int(top[0].findtext(tag) or "") for tag in tags[:2])
+    return Task(top[0].attrib["Name"], top[0].attrib["Id"], us, priority, top[0].findtext("PouCall/Name") or "")
+
+
 def project(text: str) -> Project:
     """A project. Raises AssertionError for what is none."""
     top = root(text)
@@ -64,4 +90,7 @@ def project(text: str) -> Project:
     name, id_ = properties.findtext(f"{BUILD}Name"), properties.findtext(f"{BUILD}ProjectGuid")
     assert name
     assert id_
-    return Project(name, id_, included("Compile"), included("Folder"), included("PlaceholderReference"))
+    links = tuple(one.findtext(f"{BUILD}Link") or "" for one in top.iter(f"{BUILD}Compile"))
+    title = tuple(properties.findtext(f"{BUILD}{tag}") or "" for tag in ("Company", "Title", "ProjectVersion"))
+    compiled, folders, libraries = (included(tag) for tag in ("Compile", "Folder", "PlaceholderReference"))
+    return Project(name, id_, compiled, folders, libraries, links, title)

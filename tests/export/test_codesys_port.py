@@ -5,6 +5,7 @@ here, and what they answer is set here.
 import re
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import pairwise
 
 import pytest
 from tests.export.test_tc6 import LANGUAGES, stock
@@ -273,23 +274,41 @@ class _Slave:
 
     def __init__(self, prefix: str, **words: int) -> None:
         self.program = _master(prefix)()
-        self.answers, self.asked = True, list[tuple[int, Value]]()
+        self.answers, self.asked, self.ms = True, list[tuple[int, Value]](), 0
         for name, value in words.items():
             self.program[name] = value
 
     def scans(self, count: int) -> list[tuple[int, Value]]:
-        """What is asked in so many scans, which answer at once, each with the command word."""
+        """What is asked in so many scans, which answer at once, each with the command word; pauses are passed over."""
         self.asked.clear()
         for _ in range(count):
+            if self.program.state().get("WAITS"):
+                self.program.scan(self.ms * 1_000_000)
+                self.ms += 20
             self.program["Channel.xDone" if self.answers else "Channel.xError"] = True
             turn, word = self.program["Turn"], self.program["CommandWord"]
             assert isinstance(turn, int)
-            self.program.scan()
+            self.program.scan(self.ms * 1_000_000)
+            self.ms += 20
             self.asked.append((turn, word))
         return self.asked
 
 
 RUN, STOP = 1, 3
+
+
+def test_the_own_master_keeps_the_silence_that_the_drive_asks_for() -> None:
+    """JSCC wants more than 10 ms between frames."""
+    for prefix, least in (("JSCC", 11), ("CHF", 0)):
+        one, at, begun = _master(prefix)(), 0, list[int]()
+        for at in range(0, 400, 5):
+            one["Channel.xDone"] = True
+            turn = one["Turn"]
+            one.scan(at * 1_000_000)
+            begun += [at] if one["Turn"] != turn else []
+        gaps = {b - a for a, b in pairwise(begun)}
+        assert min(gaps) >= max(least, 5)
+        assert max(gaps) <= least + 10
 
 
 def test_the_own_master_reads_before_it_writes_stops_and_then_runs_by_an_edge() -> None:

@@ -9,6 +9,7 @@ import pytest
 from tests.blocks.toolchains import FOUND, translate
 from tests.examples.port import Port
 from tests.export.stock import canon, made
+from tests.host.configuration import start
 
 from driveblocks.export import openplc
 from driveblocks.host.discovery import EMBEDDED
@@ -75,13 +76,11 @@ def test_a_first_motor_goes_behind_its_library_as_one_program_that_lints_clean()
 
 
 def test_a_first_motor_says_what_its_line_is_and_how_often_it_comes() -> None:
+    port = written()["LX_Line8.st"]
+    assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", port, re.M) == ["LX_Port", "LX_Line8"]
     for drive in made().drives.values():
         linux, other = written()[f"{drive.prefix}_Motor.st"], written()[f"{drive.prefix}_MotorBytes.st"]
-        assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", linux, re.M) == [
-            "LX_Port",
-            "LX_Line8",
-            f"{drive.prefix}_Motor",
-        ]
+        assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", linux, re.M) == [f"{drive.prefix}_Motor"]
         assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", other, re.M) == [f"{drive.prefix}_MotorBytes"]
         for text in (linux, other):
             assert text.count("INTERVAL := T#10ms") == 1
@@ -101,7 +100,7 @@ _BUILT: dict[str, Library] = {}
 def built(engine: Engine) -> Library:
     """Library and first motors of the CHF family as one file; what is in C only where the engine takes it."""
     if engine.name not in _BUILT:
-        linux = "" if engine.name == EMBEDDED else programs("CHF", "Motor")
+        linux = "" if engine.name == EMBEDDED else written()["LX_Line8.st"] + programs("CHF", "Motor")
         text = f"{written()['CHF.st']}\n{linux}\n{written()['CHF_MotorBytes.st']}"
         _BUILT[engine.name] = engine.build([Source("motor.st", text)])
     return _BUILT[engine.name]
@@ -118,20 +117,23 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
             port.scan()
         return [program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
 
+    program["HardStopClosed"] = program["NotStop"] = True
     assert run(3500) == [True, False, False]
     program["ResetButton"] = True
     assert run(10) == [True, False, True]
     program["ResetButton"] = False
-    program["Hertz"], program["StartSwitch"] = 30.0, True
+    program["Hertz"], program["StartButton"] = 30.0, True
+    run(100)
+    program["StartButton"] = False
     assert run(6000) == [False, True, True]
     assert drive.hertz == 30
-    program["StartSwitch"] = False
+    program["NotStop"] = False
     assert run(6000) == [True, False, True]
     assert drive.hertz == 0
 
 
 def test_its_task_calls_it(engine: Engine) -> None:
-    configuration = built(engine).configuration()
+    configuration = start(built(engine))
     assert configuration.tick_ns == 10_000_000
     assert configuration["Res0.First.FirstScan"] is True
     configuration.run()
@@ -159,8 +161,8 @@ def with_addresses(text: str) -> str:
 @TOOLS
 def test_every_first_motor_compiles_with_addresses_as_the_page_says(tool: Installation, tmp_path: Path) -> None:
     prefixes = [drive.prefix for drive in made().drives.values()]
-    port = programs(prefixes[0], "Motor").partition(f"(* {prefixes[0]}_Motor")[0]
-    linux = [programs(prefix, "Motor").removeprefix(port) for prefix in prefixes]
+    port = written()["LX_Line8.st"]
+    linux = [programs(prefix, "Motor") for prefix in prefixes]
     others = [programs(prefix, "MotorBytes") for prefix in prefixes]
     located = [with_addresses(text) for text in [*linux, *others]]
     translate(tool, [written()["DriveBlocks.st"], port, *located], tmp_path)
@@ -169,5 +171,5 @@ def test_every_first_motor_compiles_with_addresses_as_the_page_says(tool: Instal
 
 @TOOLS
 def test_an_upload_compiles_as_it_is(tool: Installation, tmp_path: Path) -> None:
-    translate(tool, [written()["CHF.st"], written()["CHF_Motor.st"]], tmp_path)
+    translate(tool, [written()[f"{name}.st"] for name in ("CHF", "LX_Line8", "CHF_Motor")], tmp_path)
     assert {"Config0.c", "Res0.c"} <= {path.name for path in tmp_path.iterdir()}

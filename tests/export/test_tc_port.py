@@ -269,12 +269,15 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive() -> None:
             port.scan()
         return [terminal.program[path] for path in ("Motor.StopConfirmed", "Motor.Running", "HardStopOk")]
 
+    terminal.program["HardStopClosed"] = terminal.program["NotStop"] = True
     assert run(3500) == [True, False, False]
     terminal.program["ResetButton"] = True
     assert run(SCAN_MS) == [True, False, True]
     terminal.program["ResetButton"] = False
-    terminal.program["Hertz"], terminal.program["StartSwitch"] = 30.0, True
+    terminal.program["Hertz"], terminal.program["StartButton"] = 30.0, True
+    run(100)
+    terminal.program["StartButton"] = False
     assert run(6000) == [False, True, True]
-    terminal.program["StartSwitch"] = False
+    terminal.program["NotStop"] = False
     assert run(6000) == [True, False, True]
     assert terminal.program["Bus.Timeouts"] == terminal.program["Bus.Bad"] == 0

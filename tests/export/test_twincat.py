@@ -1,14 +1,17 @@
 """The files of TwinCAT 3 as an independent reader sees them. What each check is good for, `planted.py` shows."""
 
 import functools
+import posixpath
 import re
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import PurePosixPath
 
 import pytest
 from tests.export import tc_reader
 from tests.export.stock import Canon, canon, made
 
+from driveblocks import __version__
 from driveblocks.export import twincat
 from driveblocks.export.part import WHOLE, Part, Shelf
 from driveblocks.export.problem import ExportError
@@ -32,7 +35,13 @@ def written() -> dict[str, str]:
 
 def objects() -> dict[str, tc_reader.Object]:
     """Every object by its path."""
-    return {path: tc_reader.read(path, text) for path, text in written().items() if ".Tc" in path}
+    kinds = (".TcPOU", ".TcDUT", ".TcGVL")
+    return {path: tc_reader.read(path, text) for path, text in written().items() if path.endswith(kinds)}
+
+
+def tasks() -> dict[str, tc_reader.Task]:
+    """Every task by its path."""
+    return {path: tc_reader.task(text) for path, text in written().items() if path.endswith(".TcTTO")}
 
 
 def projects() -> dict[str, tc_reader.Project]:
@@ -48,7 +57,7 @@ def names(kind: str) -> set[str]:
 def test_every_part_is_a_file_in_its_folder_and_under_its_name() -> None:
     for part in canon().values():
         ending = "TcPOU" if part.body else "TcDUT"
-        path = f"{part.folder}/{part.name}.{ending}"
+        path = f"library/{part.folder}/{part.name}.{ending}"
         assert tc_reader.read(path, written()[path]).name == part.name
 
 
@@ -83,7 +92,9 @@ def test_files_are_utf_8_with_a_mark_at_the_start_and_crlf() -> None:
 
 
 def test_ids_are_unique_and_always_the_same() -> None:
-    ids = [one.id for one in objects().values()] + [one.id for one in projects().values()]
+    ids = [one.id for one in objects().values()]
+    ids += [one.id for one in projects().values()]
+    ids += [one.id for one in tasks().values()]
     assert all(ID.fullmatch(each) for each in ids)
     assert max(Counter(ids).values()) == 1
     assert {name: fixed(name) for name in FIXED} == FIXED
@@ -92,51 +103,98 @@ def test_ids_are_unique_and_always_the_same() -> None:
 def fixed(name: str) -> str:
     """The id of an object or a project."""
     if name.endswith(".plcproj"):
-        return projects()[name].id
+        return projects()[f"library/{name}"].id
     return next(one.id for one in objects().values() if one.name == name)
 
 
-def test_the_project_of_all_lists_every_file_once_and_nothing_else() -> None:
-    listed = [path.replace("\\", "/") for path in projects()[f"{WHOLE}.plcproj"].compiled]
-    assert sorted(listed) == sorted(path for path in written() if ".Tc" in path)
-    assert not [path for path in projects()[f"{WHOLE}.plcproj"].compiled if "/" in path]
+def listed(path: str) -> list[str]:
+    """The files of a project by their paths below the folder of the target."""
+    folder = path.split("/", maxsplit=1)[0]
+    compiled = (posixpath.normpath(f"{folder}/{each}") for each in slashed(projects()[path].compiled))
+    return list(compiled)
 
 
-def test_the_project_of_a_family_lists_what_is_not_of_another() -> None:
+def slashed(paths: Iterable[str]) -> list[str]:
+    """Paths of Windows as ours."""
+    assert not any("/" in each for each in paths)
+    return [each.replace("\\", "/") for each in paths]
+
+
+def test_the_library_of_all_lists_every_file_of_its_folder_once_and_nothing_else() -> None:
+    wanted = [path for path in written() if path.startswith("library/") and ".Tc" in path]
+    assert sorted(listed(f"library/{WHOLE}.plcproj")) == sorted(wanted)
+
+
+def test_the_library_of_a_family_lists_what_is_not_of_another() -> None:
     for folder, drive in made().drives.items():
-        others = {name: other.prefix for name, other in made().drives.items() if name != folder}
+        others = made().drives.keys() - {folder}
         wanted = [
             path
             for path in written()
-            if ".Tc" in path and path.split("/")[0] not in others
-            if path.split("/")[1].split("_")[0] not in others.values()
+            if path.startswith("library/") and ".Tc" in path and path.split("/")[1] not in others
         ]
-        listed = projects()[f"{drive.prefix}.plcproj"]
-        assert sorted(path.replace("\\", "/") for path in listed.compiled) == sorted(wanted)
-        assert listed.name == drive.prefix
-        assert f"motor/{drive.prefix}_Motor.TcPOU" in wanted
+        assert sorted(listed(f"library/{drive.prefix}.plcproj")) == sorted(wanted)
+        assert projects()[f"library/{drive.prefix}.plcproj"].name == drive.prefix
+
+
+def test_a_project_to_begin_with_has_its_own_files_and_links_its_library() -> None:
+    shared = ["motor/TC_Fast.TcPOU", "motor/TC_Com.TcGVL", "motor/TC_FastTask.TcTTO"]
+    for drive in made().drives.values():
+        path = f"motor/{drive.prefix}_Motor.plcproj"
+        own = [f"motor/{drive.prefix}_Motor.TcPOU", f"motor/{drive.prefix}_Task.TcTTO", *shared]
+        assert listed(path) == [*own, *listed(f"library/{drive.prefix}.plcproj")]
+        links = slashed(projects()[path].links)
+        assert links[: len(own)] == [""] * len(own)
+        assert [f"library/{link}" for link in links[len(own) :]] == listed(path)[len(own) :]
+    assert not any(any(one.links) for path, one in projects().items() if path.startswith("library/"))
+
+
+def test_nothing_of_the_user_lies_in_the_library() -> None:
+    """An update replaces that folder."""
+    for path, one in objects().items():
+        own = one.name.startswith("TC_") and not one.name.startswith(("TC_Port", "TC_Line"))
+        assert path.startswith("motor/") == (own or one.name.endswith("_Motor")), path
+    assert all(path.startswith("motor/") for path in tasks())
+
+
+def test_tasks_call_the_first_motor_and_in_front_of_it_the_terminal() -> None:
+    fast = tasks()["motor/TC_FastTask.TcTTO"]
+    assert (fast.name, fast.program, fast.us) == ("TC_FastTask", "TC_Fast", 1000)
+    for drive in made().drives.values():
+        one = tasks()[f"motor/{drive.prefix}_Task.TcTTO"]
+        assert (one.name, one.program, one.us) == (f"{drive.prefix}_Task", f"{drive.prefix}_Motor", 10_000)
+        assert one.priority > fast.priority
+    assert len(tasks()) == 1 + len(made().drives)
+
+
+def test_projects_say_what_a_library_is_saved_by() -> None:
+    for one in projects().values():
+        assert one.title == ("DriveBlocks", one.name, f"{__version__}.0")
 
 
 def test_projects_list_parts_in_the_order_of_use_and_every_folder() -> None:
     for path, one in projects().items():
-        listed = [PurePosixPath(each.replace("\\", "/")) for each in one.compiled]
-        library = [each.stem for each in listed if each.stem in canon()]
+        shown = [link or each for link, each in zip(slashed(one.links), slashed(one.compiled), strict=True)]
+        places = [PurePosixPath(each) for each in shown]
+        library = [each.stem for each in places if each.stem in canon()]
         assert library == [name for name in canon() if name in library], path
-        assert set(one.folders) == {str(each.parent) for each in listed}, path
+        assert set(one.folders) == {str(each.parent) for each in places} - {"."}, path
         assert one.libraries == ("Tc2_System", "Tc2_SerialCom"), path
 
 
-def test_names_of_beckhoff_stand_in_the_adapter_alone() -> None:
+def test_names_of_beckhoff_stand_in_the_adapter_and_in_what_is_the_users_alone() -> None:
     foreign = re.compile(r"\b(ComBuffer|SendByte|ReceiveByte|SerialLineControl|GETCPUCOUNTER|ADR|TC_\w+)\b")
-    folders = {path.split("/")[0] for path, one in objects().items() if foreign.search(one.declaration + one.body)}
-    assert folders == {"port", "motor"}
+    using = {
+        str(PurePosixPath(path).parent) for path, one in objects().items() if foreign.search(one.declaration + one.body)
+    }
+    assert using == {"library/port", "motor"}
 
 
 def test_the_page_counts_what_a_project_holds() -> None:
     page = written()["README.md"]
-    for path, one in projects().items():
-        kinds = Counter(PurePosixPath(each.replace("\\", "/")).parts[0] for each in one.compiled)
-        types, port, motor = kinds.pop("types"), kinds.pop("port"), kinds.pop("motor")
+    for path in projects():
+        kinds = Counter(each.split("/")[1] if each.startswith("library/") else "motor" for each in listed(path))
+        types, port, motor = kinds.pop("types"), kinds.pop("port"), kinds.pop("motor", 0)
         assert f"| `{path}` | {types} | {kinds.total()} | {port} | {motor} |" in page
 
 

@@ -1,8 +1,8 @@
 """The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]` (`make line`).
 
 Random lines of every kind around each line of matiec, every planted mistake found, 10^5 scans of walks with the full
-state of every engine compared, refresh beside its formulas. `--page` writes what was measured into docs/line.md.
-Exit status 1 if anything is not as it must be.
+state of every engine compared, refresh beside its formulas. `--page` writes the table of
+docs/measured/line.md. Exit status 1 if anything is not as it must be.
 """
 
 import argparse
@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from tests.blocks.compare.comparison import with_double
+from tests.blocks.compare.comparison import beside
 from tests.blocks.toolchains import FOUND
 from tests.drives import test_engines
 from tests.drives.walk import walk as drive_walk
@@ -27,7 +27,7 @@ from tests.line.walk import walk
 from driveblocks.host.discovery import MATIEC_NAMES, survey
 from driveblocks.host.matiec.installation import Installation
 
-PAGE = Path(__file__).parents[2] / "docs" / "line.md"
+PAGE = Path(__file__).parents[2] / "docs" / "measured" / "line.md"
 KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1, "faults": 0.1}
 """Kinds of random lines, and how many of each for one of the first."""
 OTHERS = 0.2
@@ -75,7 +75,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="The line at length.")
     parser.add_argument("--runs", type=int, default=1_000_000, help="random stop scenarios; a tenth of each other kind")
     parser.add_argument("--first", type=int, default=0, help="the first seed")
-    parser.add_argument("--page", action="store_true", help="write the figures into docs/line.md")
+    parser.add_argument("--page", action="store_true", help="write the figures into docs/measured/line.md")
     options = parser.parse_args()
     if WHY_NOT:
         print(WHY_NOT)
@@ -167,7 +167,7 @@ def bus(job: Job) -> Iterator[Row]:
         measured = noise.told("{wrong_readings:.0f} of {scrambled:.0f} believed; the checksum lets ")
         name = "ASCII" if ascii_ else "RTU"
         fine = noise["wrong_readings"] <= 1.2 * theory + 10
-        yield Row(f"{name} replies, every byte behind the head by chance", f"{measured}{theory:.1f} pass", fine)
+        yield Row(f"{name} replies, every byte after the head random", f"{measured}{theory:.1f} pass", fine)
 
 
 def _turns(line: CLine) -> Iterator[Row]:
@@ -257,7 +257,7 @@ def sanitized(job: Job) -> Iterator[Row]:
 def engines(_: Job) -> Iterator[Row]:
     """10^5 scans of walks, the full state of both lines of matiec and of the embedded engine after each."""
     found = {each.name: each.engine for each in survey().candidates() if each.name in MATIEC_NAMES and each.engine}
-    every = {**with_double(next(iter(found.values()))), **found}
+    every = {**beside(next(iter(found.values()))), **found}
     for seed in range(WALKS):
         walk(seed, SCANS, twins(every))
     yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")

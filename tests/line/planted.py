@@ -41,7 +41,7 @@ PLANTED = (
         "Open.Mirrors AND (Echo > ECHO_HEARD) AND NOT OwnHeard",
     ),
     Planted(
-        "a stop is given up behind its retries",
+        "a stop is given up after its retries",
         "      IF NOT Stop.Accepted THEN\n",
         "      IF Track[Slot].Stop.Lost THEN\n        Slots[Slot].Answer[0].Number := Asked;\n      END_IF;\n"
         "      IF NOT Stop.Accepted THEN\n",

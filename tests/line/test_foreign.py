@@ -28,6 +28,7 @@ def strange(bench: Bench, frame: bytes = REQUEST) -> None:
 
 def passes(bench: Bench) -> bool:
     """Whether a start passes."""
+    bench.put(0, Once=True)
     bench.command(0)
     bench.run(100)
     assert (bench.answer(0, COMMAND) == "FOREIGN") is (bench["ErrorID"] == 54)
@@ -49,6 +50,48 @@ def test_more_than_so_many_in_ten_seconds(most: int, limit: int) -> None:
     bench.run(2500)
     assert passes(bench)
     assert bench["ForeignFrames"] == 0
+
+
+@pytest.mark.parametrize("kind", ["Once", "ResetAsked", "a reference"])
+def test_only_what_starts_a_motor_or_resets_its_fault_is_kept_back(kind: str) -> None:
+    """The reference of a running motor passes."""
+    bench = quiet()
+    for _ in range(6):
+        strange(bench)
+    if kind != "a reference":
+        bench.put(0, **{kind: True})
+    bench.command(0)
+    bench.run(100)
+    assert bench.answer(0, COMMAND) == ("OK" if kind == "a reference" else "FOREIGN")
+
+
+@pytest.mark.parametrize("how", ["the pin", "a long scan"])
+def test_a_restart_forgets_them(how: str) -> None:
+    bench = quiet()
+    for _ in range(6):
+        strange(bench)
+    assert bench["ErrorID"] == 54
+    if how == "the pin":
+        bench.set(Restart=True)
+        bench.scan()
+        bench.set(Restart=False)
+    else:
+        bench.scan(took=1_100_000)
+    bench.run(1000)
+    assert (bench["ErrorID"], bench["ForeignFrames"]) == (0, 0)
+    assert passes(bench)
+    for _ in range(6):
+        strange(bench)
+    assert not passes(bench)
+
+
+def test_a_restart_by_its_pin_forgets_late_scans() -> None:
+    bench = quiet()
+    bench.scan(took=200_000)
+    assert bench["Slots[0].ScanLate"]
+    bench.set(Restart=True)
+    bench.scan()
+    assert not bench["Slots[0].ScanLate"]
 
 
 def test_five_in_ten_seconds_for_minutes_stop_nobody() -> None:

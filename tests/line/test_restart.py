@@ -128,3 +128,24 @@ def test_counters_of_the_line_are_the_sums_of_its_drives() -> None:
         assert bench[name] == sum(bench.slot(slot, name) for slot in range(3)) > 0
     assert 50 < bench["LoadPercent"] <= 100
     assert 0 < bench["CycleMs"] <= bench["WorstCycleMs"]
+
+
+@pytest.mark.parametrize("box", [COMMAND, PARAMETER])
+def test_attempts_are_counted_anew_even_if_a_number_comes_again(box: int) -> None:
+    """It was sent and taken back; who asks after a restart goes on from what was answered."""
+    bench = Bench(Config(drives=1)).ready()
+    bench.drives[0].alive = False
+    bench.ask(0, box, 6, 0x2000)
+    bench.run(40)
+    assert bench.slot(0, f"Answer[{box}].Tries") > 0
+    bench.block[f"Slots[0].Ask[{box}].Number"] = bench.slot(0, f"Answer[{box}].Number")
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    bench.drives[0].alive = True
+    bench.run(1000)
+    before = bench["Retries"]
+    bench.ask(0, box, 6, 0x2000)
+    bench.run(200)
+    assert bench.answer(0, box) == "OK"
+    assert bench["Retries"] == before

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from driveblocks.host.engine import Configuration, Instance, Library, Value
+from driveblocks.host.engine import Instance, Library, Value
 
 _COPY = re.compile(r"[\w.]+\.(?:REPLY|SLOT|SLOTS|PORT|STORES|OPEN|TRACK|TX|READS\.WORDS|GATE\.ASK|REST\.DIAGNOSIS)\b.*")
 """Copies of in-outs inside inner instances, which only C keeps."""
@@ -73,10 +73,6 @@ class TwinLibrary:
     def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
         """Call a function of the first."""
         return self.libraries[0].call(function, arguments)
-
-    def configuration(self, name: str | None = None) -> Configuration:
-        """Start that of the first."""
-        return self.libraries[0].configuration(name)
 
     def blocks(self) -> Iterator[str]:
         """Those of the first."""

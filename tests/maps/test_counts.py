@@ -74,6 +74,14 @@ def test_the_table_has_a_line_for_each_drive_and_register_table(drive: Drive) ->
     assert {line.count("|") for line in lines} == {12}
 
 
+def test_the_front_table_has_a_line_for_each_drive_with_what_it_can_do(drive: Drive) -> None:
+    lines = inventory.front({CHECKOUT / "vendor_maps" / "example.yaml": drive}, CHECKOUT).splitlines()
+    assert lines[2:] == [
+        "| [`EX100_Drive`](blocks/docs/EX100_Drive.md) | Example Drives EX100 series "
+        "| run, run in reverse, stop, coast, reset a fault | 8 | 2 |"
+    ]  # fmt: skip
+
+
 def test_links_lead_from_the_page_to_the_map(drive: Drive) -> None:
     assert "](example.yaml)" in inventory.table({EXAMPLE: drive}, EXAMPLE.parent)
     assert "](../maps/example.yaml)" in inventory.table({EXAMPLE: drive}, EXAMPLE.parents[1] / "commands")

@@ -244,7 +244,7 @@ def test_english_names_have_the_numbers_of_the_chinese() -> None:
 
 def test_a_fault_has_one_english_name_in_bits_and_codes() -> None:
     found = rows(SN)
-    bits = {bit.id: bit.name for word in (0x14, 0x15, 0x16) for bit in found[word].bits if bit.id}
+    bits = {bit.id: bit.name for word in range(0x14, 0x19) for bit in found[word].bits if bit.id}
     assert {one.id: one.name for one in SN.faults.codes} == bits
     fault_type = {one.value: one.name for one in rows(JS)[0x3000].values if one.value}
     assert {one.code: one.name for one in JS.faults.codes} == fault_type
@@ -374,7 +374,8 @@ def test_sn300g5_analog_outputs_are_signed_counts() -> None:
 
 
 def test_sn300g5_faults() -> None:
-    wanted = [line.split(" ", 2) for line in sn300g5.FAULTS.strip().splitlines()]
+    lines = (*sn300g5.FAULTS.strip().splitlines(), *sn300g5.CPF_FAULTS.strip().splitlines())
+    wanted = [line.split(" ", 2) for line in lines]
     assert [[f"{one.code:02X}", one.id, bare(one.text_zh)] for one in SN.faults.codes] == [
         [code, id_, bare(text)] for code, id_, text in wanted
     ]
@@ -386,10 +387,10 @@ def test_sn300g5_faults() -> None:
 def test_sn300g5_fault_number_is_16_x_word_plus_bit_plus_1() -> None:
     codes = {one.id: one.code for one in SN.faults.codes}
     found = rows(SN)
-    bits = {bit.id: (word, bit.bit.first) for word in (0x14, 0x15, 0x16) for bit in found[word].bits if bit.id}
+    bits = {bit.id: (word, bit.bit.first) for word in range(0x14, 0x19) for bit in found[word].bits if bit.id}
     assert codes == {id_: 16 * (word - 0x14) + bit + 1 for id_, (word, bit) in bits.items()}
     assert SN.faults.bits is not None
-    assert (SN.faults.bits.first, SN.faults.bits.last) == (0x14, 0x16)
+    assert (SN.faults.bits.first, SN.faults.bits.last) == (0x14, 0x18)
 
 
 def test_sn300g5_errors_by_their_meaning() -> None:
@@ -439,12 +440,16 @@ def test_sn300g5_watchdog_is_h5_04_and_h5_05() -> None:
 
 def test_sn300g5_settings_that_may_stop_another_way_or_act_later_say_so() -> None:
     settings = {one.id: one for one in SN.settings}
-    for one in SN.settings:
+    for one in (each for each in SN.settings if each.source == "table of communication parameters"):
         assert "acts only after the supply was switched off and on" in (one.note or ""), one.id
     for value, other in ((1, "coast"), (2, "decelerate")):
         note = settings["H5-04"].values[value].note or ""
         assert "another drive" in note, value
         assert other in note, value
+    for id_, words in (("B1-03", "by a ramp or by coasting"), ("O2-01", "the keypad is in control")):
+        needed = settings[id_].needed
+        assert needed is not None
+        assert words in needed.why
     for id_ in ("H5-01", "H5-02", "H5-03"):
         assert "taken over at power-up" in (settings[id_].note or ""), id_
 

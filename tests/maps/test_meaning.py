@@ -22,7 +22,7 @@ PATHS = [
 RIGHT = {
     "CHF": {
         ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("jog_forward", "Jog forward"),
-        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast stop"),
+        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast to stop (emergency stop)"),
         ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
     },
     "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},

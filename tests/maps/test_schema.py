@@ -80,3 +80,9 @@ def test_the_guide_is_current() -> None:
 def test_a_page_without_markers_is_refused() -> None:
     with pytest.raises(ValueError, match="markers"):
         page.update("no markers here")
+
+
+def test_the_reference_lists_every_word_that_a_key_can_have() -> None:
+    text = page.reference()
+    for word in ("percent_of_maximum", "coast_stop", "zero_speed", "r/min", "likely", "ram_address_bit"):
+        assert f"`{word}`" in text

@@ -63,6 +63,14 @@ def test_the_end_of_the_input_stops_every_drive(keys: Callable[[str], Keyboard])
     assert screen.lines[-1] == "the input has ended: stopping every drive"
 
 
+def test_q_stops_every_drive_and_help_says_what_may_be_typed(keys: Callable[[str], Keyboard]) -> None:
+    desk, screen = Desk(), Noted()
+    result = run(desk, screen, keys("help\nq\n"), end_of_input=True)
+    assert (result.reason, result.unconfirmed, result.stopped) == ("q", {}, ("Motor",))
+    assert screen.lines[:3] == list(live.HELP[:3])
+    assert live.HELP[-1] not in screen.lines, "nobody can trip a drive that is not simulated here"
+
+
 def test_a_pipe_that_has_ended_does_not_end_a_simulation(keys: Callable[[str], Keyboard]) -> None:
     desk = Desk()
     assert run(desk, Noted(), keys("Hz := 10")).reason == "10 s are over"

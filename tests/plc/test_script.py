@@ -52,7 +52,7 @@ def test_a_time(text: str, us: int) -> None:
     assert script.duration_us(text) == us
 
 
-@pytest.mark.parametrize("text", ["", "10", "-1s", "1h", "1e3s", "s", "1.s"])
+@pytest.mark.parametrize("text", ["", "10", "-1s", "1h", "1e3s", "s", "1.s", "9" * 400 + "s"])
 def test_no_time(text: str) -> None:
     with pytest.raises(ValueError, match="is no time; write 10ms"):
         script.duration_us(text)
@@ -75,6 +75,7 @@ def test_a_line_that_is_typed_sets_or_toggles() -> None:
         ("2", "Hz is no BOOL; write Hz := VALUE"),
         ("Go", "the program has no variable Go"),
         ("Hz = 3", "the program has no variable Hz = 3"),
+        ("Hz := 1e999", "Hz takes a number, not `1e999`"),
         ("Start := 5", "Start is a BOOL; write TRUE or FALSE, not `5`"),
     ],
 )

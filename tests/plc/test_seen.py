@@ -3,6 +3,7 @@
 import io
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
@@ -78,6 +79,18 @@ def test_a_table_fits_and_says_whose_port_it_is(
     assert max(len(line.rstrip()) for line in visible) <= width
 
 
+def test_a_wide_terminal_has_room_for_a_plot_of_the_last_seconds() -> None:
+    terminal = Console(file=io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), width=screen.WIDE)
+    plots, made = screen.Plots(terminal), Seen("Motor", 7, "forward", 40.0, 0.0, "")
+    for place in range(2 * screen.PLOTTED):
+        made = replace(made, hertz=min(40.0, 10.0 * (place // 10)))
+        for at_us in (0, 200_000):
+            plots.add(View(place * screen.PLOT_US + at_us, (made,), {}, {}))
+    assert plots.line(made) == "▅" * 6 + "▆" * 10 + "█" * 8
+    assert plots.fit
+    assert not screen.Plots(Console(file=io.StringIO(), width=screen.WIDE - 1)).fit
+
+
 @pytest.mark.parametrize("style", [screen.BAD, screen.GOOD])
 def test_colours_are_read_on_black_and_on_white(style: str) -> None:
     colour = Style.parse(style).color
@@ -94,14 +107,16 @@ def test_a_long_name_of_a_fault_and_of_a_drive_are_read_whole_at_80_columns() ->
     fault, drive = "fault 10 Motor thermal overload protection", "Conveyor3.Motor"
     seen = Seen(drive, 247, fault, -50.0, 400.0, "123456/123456/0")
     heading = screen.Heading("SIMULATED", "my.st", real=False, remark="heard/answered/refused")
-    Console(file=drawn, width=80).print(*screen._parts(heading, View(0, (seen,), {}, {})))
+    terminal = Console(file=drawn, width=80)
+    terminal.print(*screen._parts(heading, View(0, (seen,), {}, {}), screen.Plots(terminal)))
     for word in (*fault.split(), drive, "-50.0", "400.0", *seen.why.split(), *heading.remark.split()):
         assert word in drawn.getvalue()
 
 
 def test_frames_that_were_not_sent_stand_in_the_table() -> None:
     view = View(0, (), {}, {}, dropped=7, port_error="No such device")
-    text = "\n".join(str(part) for part in screen._parts(screen.Heading("REAL PORT", "my.st", True), view))
+    parts = screen._parts(screen.Heading("REAL PORT", "my.st", True), view, screen.Plots(Console(width=80)))
+    text = "\n".join(map(str, parts))
     assert "7 frames not sent: only reads and stops leave" in text
     assert "the port does not work: No such device" in text
 

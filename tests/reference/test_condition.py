@@ -51,14 +51,24 @@ def test_a_mask_asks_for_its_bits_alone() -> None:
     ],
 )
 def test_fault_numbers_of_fault_words(drives: dict[str, Drive], words: tuple[int, int, int], expected: Faulted) -> None:
-    assert numbered(drives["SN300G5"], words) == expected
+    assert numbered(drives["SN300G5"], (*words, 0, 0)) == expected
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"), [((0x0004, 0), Faulted(0x33, 1)), ((0, 0x0001), Faulted(0x41, 1)), ((0xFFFF, 0xFFFF), None)]
+)
+def test_faults_of_the_control_circuit_have_the_numbers_after_them(
+    drives: dict[str, Drive], words: tuple[int, int], expected: Faulted | None
+) -> None:
+    found = numbered(drives["SN300G5"], (0, 0, 0, *words))
+    assert found == expected if expected else found.count == 9
 
 
 def test_every_fault_bit_has_the_number_of_its_code(drives: dict[str, Drive]) -> None:
     drive = drives["SN300G5"]
     for fault in drive.faults.codes:
         index, bit = divmod(fault.code - 1, 16)
-        words = [0, 0, 0]
+        words = [0, 0, 0, 0, 0]
         words[index] = 1 << bit
         assert numbered(drive, words) == Faulted(fault.code, 1)
 
@@ -69,7 +79,7 @@ def test_a_drive_without_fault_bits_has_no_numbers(drives: dict[str, Drive]) -> 
 
 
 def test_texts(drives: dict[str, Drive]) -> None:
-    assert text.fault(drives["SN300G5"], 0x18) == Texts("Overspeed", "超速")
+    assert text.fault(drives["SN300G5"], 0x18) == Texts("OS Overspeed", "OS 超速")
     assert text.fault(drives["SN300G5"], 0x1D) is None
     assert text.error(drives["CHF"], 8) == Texts("Drive busy storing to EEPROM", "变频器忙（EEPROM 正在存储中）")
     assert text.error(drives["JSCC"], 2) == Texts("Illegal data address", "不合法数据地址")

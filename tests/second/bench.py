@@ -65,6 +65,8 @@ class Second(Bench):
         """How often; 0: by chance."""
         self.strange_us = 0
         """When it spoke last."""
+        self.strangers: list[int] = []
+        """When it has spoken."""
         self.lineless = False
         """The line is not called."""
         self.flicker = ""
@@ -210,6 +212,7 @@ class Second(Bench):
         often = self.now - self.strange_us >= 1000 * self.strange_ms if self.strange_ms else self._happens(400)
         if self.strange and often:
             self.strange_us = self.now
+            self.strangers.append(self.now)
             other = ascii_frame(STRANGER) if self.ascii else rtu(STRANGER)
             self.transmit(other, at + CHAR_US * (len(text) + 6), None)
         if self._happens(self.faults.twice):

@@ -108,6 +108,8 @@ class Claims:
         self.claims = [Claim() for _ in judge.units]
         self.doubled_us = -FOREIGN_US
         self.retries: object = 0
+        self.all_us = 0
+        """When all drives were last stopped by the line, whose own stops count as sent again."""
         self.unlinked = 0
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
@@ -115,7 +117,7 @@ class Claims:
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (6, 16)
         self._kept(index, body)
-        shared = pins.get("Shared") and now_us - claim.changed_us > ATTEND_US
+        shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
         if shared and not writes and index + 1 not in self.bench.deaf:
             self._once(index, "barred", bad=True, seen=body.hex())
         if writes:
@@ -302,7 +304,8 @@ class Claims:
         alone = self.unlinked > UNLINKED_CALLS + 2 and not bench.pins[index].get("Left")
         told = bench.shows("StopOverdue", index) and not bench.shows("CommOk", index)
         self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
-        shared = bool(bench.pins[index].get("Shared")) and now - claim.changed_us > ATTEND_US
+        pins = bench.pins[index]
+        shared = bool(pins.get("Shared")) and not pins.get("Left") and now - claim.changed_us > ATTEND_US
         told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
         told = told or bool(bench.pins[index].get("SupplyOff"))
         self._once(index, "shared", bad=shared and not told, seen=bench.reason(index))
@@ -436,7 +439,10 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]
         self._once(0, "strange", bad=good and strange != 0, seen=f"{strange!r} foreign frames")
+        if any(pins.get("StopAll") for pins in bench.pins):
+            self.all_us = now
         retries, steady = block["TheLine.Retries"], good and all(self.willing(i) for i in units)
+        steady = steady and now - self.all_us > ATTEND_US
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)
         self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
         self.retries = retries

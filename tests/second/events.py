@@ -19,6 +19,10 @@ ABSENT = 29
 """A unit address that no drive here has, and each could have."""
 FOREIGN = 54
 """ErrorID: another master is on the line."""
+REMEMBERED_US = 10_000_000
+"""Its frames count for so long, or until a restart."""
+SEEN_BY = 7
+"""More of them than the line bears, and some that may be damaged."""
 
 
 def nothing(_: Second, __: Random) -> None:
@@ -324,9 +328,12 @@ def _few_gone(b: Second, _: Random) -> None:
 
 
 def _strangers_gone(b: Second, _: Random) -> None:
-    if b.block["TheLine.ErrorID"] != FOREIGN or b.shows("Ready"):
+    since = max(b.now - REMEMBERED_US, b.judge.units[0].restarted_us)
+    many = len([at for at in b.strangers if at > since]) > SEEN_BY  # it speaks after replies
+    if many and (b.block["TheLine.ErrorID"] != FOREIGN or b.shows("Ready")):
         b.judge.tell(0, "strangers", f"their frames, and ErrorID {b.block['TheLine.ErrorID']!r}")
     b.strange, b.strange_ms = False, 0
+    b.run(300)  # the last of them has come
     b.line(Acknowledge=True).run(100)
     b.line(Acknowledge=False)
 

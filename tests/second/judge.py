@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import Claims
-from tests.second.observer import Figures, Observer, Truth
+from tests.second.observer import JOG, RUN, Figures, Observer, Truth
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -205,7 +205,8 @@ class Judge:
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
         self._reach(index, unit)
         driven = one.by == "bus" and not one.stopping
-        if abs(hz) <= self.figures.still_hz or (driven and self.observer.watches[index + 1].permitted):
+        stands = abs(hz) <= self.figures.still_hz and not driven  # at 0 Hz by the bus it still has not stopped
+        if stands or (driven and self.observer.watches[index + 1].permitted):
             unit.turned_us = now
         watches_only = pins.get("SpeedOnly") or pins.get("MonitorOnly")  # keypad and terminals may move it
         foreign = one.by in ("keypad", "terminals")
@@ -302,7 +303,9 @@ class Judge:
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
-        self.once(index, "reason", bad=calm and reason in SILENT, seen=f"Reason {reason!r}, and it answers")
+        held = any(bench.pins[index].get(each) for each in RUN + JOG)  # so the reason is that of a lost edge
+        silent = calm and reason in SILENT and not held
+        self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
         if not good or bench.lineless:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)

@@ -23,8 +23,8 @@ from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.host.engine import EngineError, Library
 from driveblocks.st.lint import lint_sources
 
-SEEDS, NUMBER = (421, 411, 412), 60
-CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "StopRound", "Send", "Why", "HardStop")
+SEEDS, NUMBER = (734, 421, 411, 412), 60
+CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
 DRIVE = ("Link", "Unit", "Usual", "Identity", "Diagnose")
 LINE = ("Line8", "Stop", "Rank", "Overdue", "Promise", "Foreign", "LineRequest", "Listen")
 OF_EACH = ("Drive", "Reads", "Orders", "ParameterGate")

@@ -54,3 +54,17 @@ def test_a_reset_waits_for_both_stops() -> None:
         b.put(0, FaultReset=False).run(3000)
         assert b.models[0].fault is None, f"after {ms} ms"
         assert b.wait(lambda: b.shows("Ready"), 9000)
+
+
+def test_the_reference_is_sent_again_after_another_block_was_on_the_slot() -> None:
+    """It took back the reference that was on its way, which was waited for ever after."""
+    b = at_terminals().put(0, RefreshMs=100)
+    for ms in range(0, 200, 20):
+        b.run(ms)
+        b.twin(on=True)
+        b.run(1000)
+        b.twin(on=False)
+        b.run(6000)
+        for hz in (10.0, 25.0):
+            b.put(0, SpeedReferenceHz=hz).run(1000)
+            assert b.models[0].reference_hz == hz, f"after {ms} ms"

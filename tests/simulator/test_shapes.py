@@ -3,6 +3,7 @@
 from decimal import Decimal
 
 import pytest
+from tests.shapes import shapes
 from tests.simulator.shapes import shape
 from tests.simulator.talk import Talk, talk
 
@@ -175,3 +176,13 @@ def test_a_direction_beside_the_start_acts_at_once() -> None:
     one.drive.step(1000)
     one.write(0x0003, 1)
     assert one.drive.mode == "standing"
+
+
+@pytest.mark.parametrize(("name", "word", "mask"), [("cia402", 0x40, 0x6F), ("profidrive", 0x40, 0x47)])
+def test_a_drive_of_states_that_is_in_none_says_that_switching_on_is_disabled(name: str, word: int, mask: int) -> None:
+    drive = shapes()[name]
+    one = talk(drive)
+    register = drive.operation.states[0].register
+    assert one.drive.word(register) & mask == word
+    one.drive.trip(1)
+    assert one.drive.word(register) & 0x40 == 0

@@ -1,6 +1,7 @@
 """Whatever has the form of a program: linter and embedded engine say what they think of it, and raise nothing else."""
 
 import random
+from contextlib import suppress
 from itertools import cycle
 
 import pytest
@@ -8,11 +9,10 @@ from hypothesis import given, settings, strategies
 from tests.st.grammar import Program
 
 from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Overflow, ScanError, Source
+from driveblocks.host.engine import EngineError, Source
 from driveblocks.st.lint import lint_sources
 from driveblocks.st.standard import FUNCTIONS, Signature
 
-MODELS: list[tuple[Overflow, str]] = [("fail", ""), ("standard", ""), ("c", ""), ("c", "beremiz"), ("c", "openplc")]
 VALUES = ["7", "16#FF", "1.5", "TRUE", "WORD#16#00FF", "T#1s", "'ab'", "red", "SQRT(2)", "row", "w"]
 PLACES = [
     "i := {};", "r := {};", "q := {};", "w := {};", "row[{}] := 1;", "pair(PT := {});", "i := SHL(w, {});",
@@ -27,28 +27,20 @@ VAR i : INT; r : REAL; q : BOOL; w : WORD; row : T_Row; pair : TON; END_VAR
 """
 
 
-def use(text: str, models: list[tuple[Overflow, str]] = MODELS) -> int:
-    """Lint a text, and run it where that is possible; how many models have run it."""
+def use(text: str, coverage: bool = False) -> bool:
+    """Lint a text, and run it where that is possible; whether it has run."""
     lint_sources([("any.st", text)])
-    ran = 0
-    for model, line in models:
-        engine = EmbeddedEngine(model, line=line, loop_limit=500, coverage=line == "openplc")
-        try:
-            library = engine.build([Source("any.st", text)])
-        except EngineError:
-            break
-        try:
-            if "Example" in library.blocks():
-                instance = library.instance("Example")
-                instance.scan(0)
-                instance.scan(1_000_000)
-                instance.state()
-            else:
-                library.call("Example", {})
-            ran += 1
-        except ScanError:
-            continue
-    return ran
+    with suppress(EngineError):
+        library = EmbeddedEngine(loop_limit=500, coverage=coverage).build([Source("any.st", text)])
+        if "Example" in library.blocks():
+            instance = library.instance("Example")
+            instance.scan(0)
+            instance.scan(1_000_000)
+            instance.state()
+        else:
+            library.call("Example", {})
+        return True
+    return False
 
 
 def judged(text: str) -> bool:
@@ -110,11 +102,11 @@ def test_what_it_can_be_is_not(statement: str) -> None:
 
 
 def test_random_programs_run() -> None:
-    ran = sum(use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), MODELS[:3]) for seed in range(24))
+    ran = sum(use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), seed % 2 == 0) for seed in range(120))
     assert ran > 20
 
 
-@given(strategies.integers(0, 2**40))
+@given(strategies.integers(0, 2**40), strategies.booleans())
 @settings(max_examples=10)
-def test_random_programs_raise_nothing(seed: int) -> None:
-    use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text())
+def test_random_programs_raise_nothing(seed: int, coverage: bool) -> None:
+    use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), coverage)

@@ -24,8 +24,8 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.desk import ONE
 from tests.stand.softplc import SoftPlc
 
+from driveblocks.plc.bus import Loss
 from driveblocks.render.reasons import REASONS
-from driveblocks.stand.bus import Loss
 
 UNIT = 7
 RATE, BITS = 19200, 10

@@ -18,11 +18,11 @@ from tests.blocks.toolchains import COMPILER, FOUND, run, translate
 from tests.simulator.talk import MAPS
 
 from driveblocks.host.matiec.installation import Installation
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import PtyLink
 from driveblocks.stand.stand import Stand
 

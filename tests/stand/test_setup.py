@@ -12,10 +12,10 @@ from typer.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.modbus.frame import Mode, seal
+from driveblocks.plc.bus import Bus, Frame
 from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Bus, Frame
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours
 from driveblocks.stand.trace import Tracer
@@ -44,6 +44,8 @@ def said(*words: str, status: int = 0) -> str:
         (["jscc:ReferenceScale=x"], "jscc: `ReferenceScale=x` is no scale; write 0.1 to 1000 counts per Hz"),
         (["jscc", "--baud", "7"], "--baud 7 is no rate"),
         (["jscc", "--format", "9N1"], "--format 9N1 is none"),
+        (["jscc", "--port", ""], "--port names no port"),
+        (["jscc", "--for", 400 * "9" + "s"], "is no time; write 10ms"),
         (["jscc", "--for", "soon"], "--for: `soon` is no time"),
         (["jscc", "--scenario", "nowhere.yaml"], "nowhere.yaml:1:1: this file cannot be read"),
         (["jscc", "--port", "/dev/nowhere"], "/dev/nowhere: "),
@@ -101,6 +103,15 @@ def test_a_trace_says_what_explain_says() -> None:
         "2000H  01F4H  Output frequency: 500 = 50.0 Hz; no standstill",
     ]
     assert "Wrong RTU frame" in list(tracer.lines(Frame(0, reply.correct[:-1], reply=True)))[1].strip()
+
+
+def test_a_flood_makes_nobody_deaf_for_long() -> None:
+    prefix, request, reply = next(each for each in pairs() if each[1].id == "read_frequency_rtu_request")
+    bus = Bus([prepared(prefix, request, reply)], 19200, 10)
+    for at_us in range(0, 1_000_000, 10_000):
+        bus.send(bytes(4096), at_us)
+    bus.send(request.correct, 5_000_000)
+    assert bus.receive(5_100_000) == reply.correct
 
 
 @pytest.mark.parametrize(("what", "kept"), [("drop", 0), ("damage", 1)])
@@ -169,7 +180,7 @@ def judged(units: tuple[int, ...], master: bytes = b"", *, echo: bool = False) -
 
 
 POLL = seal("rtu", bytes.fromhex("02 03 20 00 00 01"))
-WRITE = seal("rtu", bytes.fromhex("02 06 10 00 00 04"))
+WRITE = seal("rtu", bytes.fromhex("02 06 10 00 00 03"))
 OTHER = seal("rtu", bytes.fromhex("09 03 20 00 00 01"))
 
 

@@ -25,7 +25,6 @@ from tests.shapes import shapes
 from driveblocks.building.build import units
 from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
 from driveblocks.host.embedded.compiler import Compiler
-from driveblocks.host.embedded.scope import Options
 from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
@@ -263,7 +262,7 @@ class _Single(Compiler):
 
     def __init__(self, checked: Checked, path: str) -> None:
         self.path = path
-        super().__init__(checked, Options())
+        super().__init__(checked)
 
     def _attempt(self, pou: Pou) -> None:
         if pou.unit is not None and pou.unit.path == self.path:

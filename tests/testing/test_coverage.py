@@ -8,7 +8,7 @@ import pytest
 
 from driveblocks.host.coverage import Branches, Lines, Outcome
 from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Configuration, Engine, EngineError, Instance, Source, Value
+from driveblocks.host.engine import Engine, EngineError, Instance, Source, Value
 from driveblocks.host.matiec import Flags, MatiecEngine
 from driveblocks.testing import coverage, junit, runner
 from driveblocks.testing.coverage import Coverage, Exemption, counting, result
@@ -163,9 +163,6 @@ def test_counters_that_do_not_fit_the_source_are_an_error(shared: Unit) -> None:
         def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
             raise KeyError(function, arguments)
 
-        def configuration(self, name: str | None = None) -> Configuration:
-            raise KeyError(name)
-
         def blocks(self) -> Iterator[str]:
             return iter(())
 
@@ -190,9 +187,9 @@ def test_counters_are_added_to_an_engine_and_nothing_else_is_changed(matiec: Mat
 
 
 def test_counters_are_added_to_the_embedded_engine() -> None:
-    made: Engine = counting(EmbeddedEngine("c", line="beremiz", loop_limit=7))
+    made: Engine = counting(EmbeddedEngine(loop_limit=7))
     assert isinstance(made, EmbeddedEngine)
-    assert (made.options.model, made.options.line, made.options.coverage, made.loop_limit) == ("c", "beremiz", True, 7)
+    assert (made.coverage, made.loop_limit) == (True, 7)
 
 
 def test_every_explanation_is_whole() -> None:

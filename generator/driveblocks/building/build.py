@@ -35,7 +35,9 @@ def files(sources: list[Source], languages: list[Language], targets: Collection[
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
-    texts = documents(made, [source.drive for source in sources], linked=CANONICAL in targets)
+    own = {source.drive.prefix: source.path.name for source in sources if not catalog.is_shipped(source.path)}
+    linked = CANONICAL in targets
+    texts = documents(made, [source.drive for source in sources], own, linked=linked, targets=targets)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
@@ -131,10 +133,12 @@ def _refusal(folder: Path, plan: Plan, names: list[str]) -> str:
 def _others(folder: Path, old: Manifest, named: list[Path]) -> list[Path]:
     """Maps that the folder was built from and that are not named. Raises Refused for those that are gone.
 
-    A named map takes the place of one of the same file name that is gone: it has been moved.
+    A named map takes the place of one of the same file name that is gone: it has been moved. It takes that of a
+    shipped one with its file name or prefix, too.
     """
     known, stems = {path.resolve() for path in named}, {path.stem for path in named}
-    paths = [path for path in (_path(word, folder) for word in old.maps) if path.resolve() not in known]
+    built = [path for path in (_path(word, folder) for word in old.maps) if path.resolve() not in known]
+    paths = [path for path in built if catalog.displacing(path, named) == path]
     if gone := [path for path in paths if not path.exists() and path.stem not in stems]:
         lines = [f"{path}: not there; {folder} was built from it as well" for path in gone]
         raise Refused("\n".join([*lines, "name the map where it is now, or build without it by --only"]))
@@ -144,7 +148,7 @@ def _others(folder: Path, old: Manifest, named: list[Path]) -> list[Path]:
 def _word(path: Path, folder: Path) -> str:
     """How a manifest names a map: one that is shipped by its name, another by its path from the folder."""
     whole = path.resolve()
-    if whole in {shipped.resolve() for shipped in catalog.shipped()}:
+    if catalog.is_shipped(path):
         return whole.stem
     try:
         relative = Path(os.path.relpath(whole, folder.resolve())).as_posix()

@@ -11,6 +11,10 @@ from typing import Any
 
 NAME = ".driveblocks.json"
 FORMAT = 1
+OWN = {".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"}
+"""What a build makes in the folder for itself: no name that is read from a file may lead there."""
+MALFORMED = (ValueError, TypeError, KeyError, AttributeError, RecursionError)
+"""What reading a file raises that holds something else."""
 OLDEST = "iec61131"
 """The target of a folder whose manifest names none: there was no other."""
 
@@ -50,27 +54,41 @@ def read(folder: Path) -> Manifest:
     if not os.path.lexists(path):
         return Manifest()
     try:
-        return _parsed(json.loads(path.read_text(encoding="utf-8")))
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        right = "restore it, or delete it: files that are as they would be written are then taken over again"
-        raise Refused(f"{path}: not the list that this version of DriveBlocks writes; {right}") from None
+        if path.is_file():  # a pipe would be waited for
+            return _parsed(json.loads(path.read_text(encoding="utf-8")))
+    except MALFORMED:
+        pass
+    right = "restore it, or delete it: files that are as they would be written are then taken over again"
+    raise Refused(f"{path}: not the list that this version of DriveBlocks writes; {right}")
 
 
 def _parsed(content: Any) -> Manifest:
-    """Raises ValueError, TypeError, KeyError or AttributeError when it is anything but a manifest."""
-    maps, folders, files = content["maps"], content["folders"], content["files"]
-    targets = content.get("targets", [OLDEST])
-    if content["format"] != FORMAT or not all(map(is_below, [*folders, *files])):
+    """Raises one of MALFORMED when it is anything but a manifest."""
+    files = dict(content["files"].items())
+    maps, targets = words(content["maps"]), words(content.get("targets", [OLDEST]))
+    if content["format"] != FORMAT:
         raise ValueError
-    if not all(isinstance(word, str) for word in [*maps, *targets, *files.values()]):
-        raise ValueError
-    return Manifest(tuple(maps), tuple(targets), dict(files), tuple(folders))
+    words([*maps, *targets, *files.values()])
+    return Manifest(
+        tuple(maps), tuple(targets), {name: files[name] for name in below([*files])}, tuple(below(content["folders"]))
+    )
 
 
-def is_below(name: str) -> bool:
-    """Whether a name that was read from a file leads nowhere but into the folder."""
-    path = Path(name)
-    return bool(path.parts) and not path.anchor and ".." not in path.parts
+def words(read: Any) -> list[str]:
+    """A list of words that was read from a file. Raises ValueError when it is anything else."""
+    if not isinstance(read, list) or not all(isinstance(word, str) and "\0" not in word for word in read):
+        raise ValueError
+    for word in read:
+        os.fsencode(word)
+    return read
+
+
+def below(read: Any) -> list[str]:
+    """Names that were read from a file and lead nowhere but into the folder. Raises ValueError for others."""
+    for path in map(Path, words(read)):
+        if not path.parts or path.anchor or ".." in path.parts or path.parts[0].casefold() in OWN:
+            raise ValueError
+    return list(read)
 
 
 def made(
@@ -116,7 +134,7 @@ def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, 
     states = {}
     for name in sorted({*texts, *listed}):
         wanted = text_digest(texts[name]) if name in texts else None
-        barrier = _barrier(folder, name)
+        barrier = barrier_to(folder, name)
         if barrier is not None and wanted is not None:
             states[barrier] = State.FOREIGN
         elif barrier is None:
@@ -141,7 +159,7 @@ def _state(here: str | None, listed: str | None, wanted: str | None) -> State | 
     return State.LEFT_OVER if wanted is None else State.OUTDATED
 
 
-def _barrier(folder: Path, name: str) -> str | None:
+def barrier_to(folder: Path, name: str) -> str | None:
     """The first part of a file's way that is no folder but a link or a file: nothing is written through it."""
     for parent in parents([name]):
         path = folder / parent

@@ -31,15 +31,19 @@ def release(root: Path, out: Path) -> list[Path]:
         own = [f"{BLOCKS}/{name}" for name in listed if name.startswith(folders)]
         page = f"{BLOCKS}/{target}/README.md"
         if own:
-            reached = _reached(root, page if page in own else f"{BLOCKS}/README.md")
+            foreign = tuple(f"{BLOCKS}/{other}/" for other in TARGETS if f"{other}/" not in folders)
+            reached = _reached(root, page if page in own else f"{BLOCKS}/README.md", foreign)
             path = out / f"driveblocks-{__version__}-{target}.zip"
             _pack(path, root, {LICENCE, *own, *reached})
             made.append(path)
     return made
 
 
-def _reached(root: Path, page: str) -> set[str]:
-    """A page and the files that it links to, and those that these link to, as paths from the root."""
+def _reached(root: Path, page: str, foreign: tuple[str, ...]) -> set[str]:
+    """A page and the files that it links to, and those that these link to, as paths from the root.
+
+    The page of another platform is taken along, since the drives' pages name it, but not what that leads to.
+    """
     found: set[str] = set()
     waiting = [page]
     while waiting:
@@ -47,7 +51,7 @@ def _reached(root: Path, page: str) -> set[str]:
         if name in found or not (root / name).is_file():
             continue
         found.add(name)
-        if name.endswith(".md"):
+        if name.endswith(".md") and not name.startswith(foreign):
             links = _LINK.findall((root / name).read_text(encoding="utf-8"))
             waiting += [posixpath.normpath(posixpath.join(posixpath.dirname(name), link)) for link in links]
     return found

@@ -9,12 +9,13 @@ import errno
 import json
 import os
 import shutil
+import stat
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.building.manifest import Refused, digest, is_below, parents, text_digest
+from driveblocks.building.manifest import MALFORMED, Refused, barrier_to, below, digest, parents, text_digest, words
 
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
 JOURNAL, NEW, OLD = "journal.json", "new", "old"
@@ -55,10 +56,11 @@ def _taken(folder: Path) -> int:
     path = folder / LOCK
     while True:
         folder.mkdir(parents=True, exist_ok=True)
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+        _refuse_other(path, stat.S_ISREG, "the lock file of a build")
+        file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
         try:
             _lock(file)
-            if os.path.samestat(os.fstat(file), path.stat()):
+            if os.path.samestat(os.fstat(file), path.lstat()):
                 return file
         except FileNotFoundError:
             pass  # its last owner has removed it meanwhile
@@ -69,6 +71,13 @@ def _taken(folder: Path) -> int:
             error.filename = error.filename or str(path)
             raise
         os.close(file)
+
+
+def _refuse_other(path: Path, kind: Callable[[int], bool], wanted: str) -> None:
+    """Raises Refused where a link, or what is not of a kind, has the place of something that builds make."""
+    with contextlib.suppress(FileNotFoundError):
+        if not kind(path.lstat().st_mode):
+            raise Refused(f"{path}: in the place of {wanted}, and is none; delete or move it, then build again")
 
 
 def _release(path: Path, file: int) -> None:
@@ -169,17 +178,21 @@ def _move(source: Path, target: Path, known: Path) -> None:
 def _prune(folder: Path, names: list[str]) -> None:
     """Remove folders that are empty, inner ones first."""
     for name in sorted(names, reverse=True):
-        with contextlib.suppress(OSError):
-            (folder / name).rmdir()
+        if barrier_to(folder, name) is None:
+            with contextlib.suppress(OSError):
+                (folder / name).rmdir()
 
 
 def recover(folder: Path) -> bool:
     """Take back a build that did not come to its end; says whether there was one. Raises Refused and OSError."""
     work = folder / WORK
+    for path in (work, folder / DONE, work / NEW, work / OLD):
+        _refuse_other(path, stat.S_ISDIR, "a folder of a build")
     if (folder / DONE).is_dir():
         shutil.rmtree(folder / DONE)
     if not work.is_dir():
         return False
+    _refuse_other(work / JOURNAL, stat.S_ISREG, "the journal of a build")
     begun = interrupted(folder)
     if begun:
         _undo(folder, _journal(work))
@@ -188,15 +201,15 @@ def recover(folder: Path) -> bool:
 
 
 def _journal(work: Path) -> _Journal:
+    """What a build was about to do. Raises Refused."""
     try:
         content = json.loads((work / JOURNAL).read_text(encoding="utf-8"))
         files = {name: (before, after) for name, (before, after) in content["files"].items()}
-        if all(map(is_below, [*files, *content["folders"]])):
-            return _Journal(files, content["folders"])
-    except (ValueError, TypeError, KeyError, AttributeError):
-        pass
-    right = f"copy back what you miss from {work / OLD}, then delete {work}"
-    raise Refused(f"{work / JOURNAL}: not the journal of a build; {right}")
+        words([text for pair in files.values() for text in pair if text is not None])
+        return _Journal({name: files[name] for name in below([*files])}, below(content["folders"]))
+    except MALFORMED:
+        right = f"copy back what you miss from {work / OLD}, then delete {work}"
+        raise Refused(f"{work / JOURNAL}: not the journal of a build; {right}") from None
 
 
 def _undo(folder: Path, journal: _Journal) -> None:
@@ -205,6 +218,7 @@ def _undo(folder: Path, journal: _Journal) -> None:
     Raises Refused for files that someone else has written since: neither they nor the old ones are thrown away.
     """
     new, old = folder / WORK / NEW, folder / WORK / OLD
+    _refuse_ways_out([folder, new, old], [*journal.files, *journal.folders])
     made = {after for name, (_, after) in journal.files.items() if after and not os.path.lexists(new / name)}
     ours = [name for name in journal.files if digest(folder / name) in made]
     kept = [name for name in journal.files if os.path.lexists(old / name)]
@@ -218,3 +232,12 @@ def _undo(folder: Path, journal: _Journal) -> None:
         if name not in kept and journal.files[name][0] is None:
             (folder / name).unlink()
     _prune(folder, journal.folders)
+
+
+def _refuse_ways_out(roots: list[Path], names: list[str]) -> None:
+    """Raises Refused where a name leads through a link, or through anything else that is no folder."""
+    ways = dict.fromkeys(root / part for root in roots for name in names if (part := barrier_to(root, name)))
+    if lines := [
+        f"{way}: no folder any more, and an interrupted build would put files back through it" for way in ways
+    ]:
+        raise Refused("\n".join([*lines, "delete or move it, then build again"]))

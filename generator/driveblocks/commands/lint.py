@@ -11,6 +11,7 @@ from driveblocks import console
 
 if TYPE_CHECKING:
     from driveblocks.st.problems import Problem
+    from driveblocks.st.tree import Unit
 
 # A source of more is no source; the largest library in public use has a tenth of it.
 MOST_BYTES = 8 << 20
@@ -28,6 +29,9 @@ For = Annotated[
     list[str] | None,
     typer.Option("--for", metavar="TARGET", help="Also tell names that these targets of build, or all, cannot take."),
 ]
+Maps = Annotated[
+    list[str] | None, typer.Option("--map", metavar="MAP", help="A map of your own, whose blocks the sources use.")
+]
 Listing = Annotated[bool, typer.Option("--list", help="List the rules and stop.")]
 Format = Annotated[str, typer.Option("--format", metavar="text|json", help="How to print the findings.")]
 
@@ -37,15 +41,16 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     select: Select = None,
     ignore: Ignore = None,
     targets: For = None,
+    maps: Maps = None,
     listing: Listing = False,
     output: Format = "text",
 ) -> None:
     """Find what is not portable in Structured Text.
 
     A finding is one line, `file:line:col: CODE rule: why; what to write instead`. The files are taken as one text:
-    each may use what another declares. Of a file that cannot be read or parsed only that is told, and the others are
-    judged all the same. The exit status is 0 without findings, 1 with findings, and 2 if a file could not be judged;
-    standard error names it. docs/lint.md explains every rule.
+    each may use what another declares, and the types and blocks of the installed library. Of a file that cannot be
+    read or parsed only that is told, and the others are judged all the same. The exit status is 0 without findings,
+    1 with findings, and 2 if a file could not be judged; standard error names it. docs/lint.md explains every rule.
 
     With --for, also names that the targets of build keep for themselves are told.
 
@@ -66,7 +71,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         _stop(str(error))
     wanted = _targets(_split(targets))
     sources, unread = _read(files or [])
-    problems = lint_sources(sources, selection, wanted)
+    library = _library(sources, maps)
+    own = {path for path, _ in sources}
+    problems = [each for each in lint_sources([*library, *sources], selection, wanted) if each.path in own]
     _print(problems, output)
     broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
     unjudged = [*unread, *(f"{path}: not judged beyond its syntax" for path in broken)]
@@ -80,6 +87,30 @@ def _stop(text: str) -> None:
     """End with the status for bad input."""
     typer.echo(text, err=True)
     raise typer.Exit(2)
+
+
+def _library(sources: list[tuple[str, str]], maps: list[str] | None) -> list[tuple[str, str]]:
+    """Those files of the library, by path and text, that sources need beside what they declare themselves."""
+    from driveblocks.maps import catalog
+    from driveblocks.maps.problem import MapError
+    from driveblocks.plc.source import known, needed
+    from driveblocks.st.lint import Selection, lint_sources
+    from driveblocks.st.parser import ParseError, parse
+
+    def parsed(path: str, text: str) -> "Unit":
+        try:
+            return parse(text, path)
+        except ParseError as error:
+            return error.unit
+
+    try:
+        named = [catalog.resolve(name) for name in maps or ()]
+        if not lint_sources(sources, Selection(frozenset({"undeclared-name", "unknown-type"}))):
+            return []
+        files = needed([parsed(*each) for each in sources], known(named))
+    except (catalog.UnknownDrive, MapError) as error:
+        _stop(str(error))
+    return [(f"library/{file.path}", file.text) for file in files]
 
 
 def _split(words: list[str] | None) -> list[str]:
@@ -130,6 +161,8 @@ def _files(path: Path, bad: list[str]) -> list[Path]:
 
 def _text(path: Path) -> str:
     """The text of one file. Raises OSError, or ValueError saying why it is no source."""
+    if path.exists() and not path.is_file():
+        raise ValueError("expected a file, found a pipe or device")
     with path.open("rb") as stream:
         data = stream.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:

@@ -5,14 +5,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from driveblocks.commands import Maps, refuse
+
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
 
 Json = Annotated[bool, typer.Option("--json", help="Print everything that the maps hold as one JSON array.")]
 
 
-def run(json: Json = False) -> None:
-    """List the drives that there are maps for.
+def run(maps: Maps = None, json: Json = False) -> None:
+    """List the drives that there are maps for: those that are named, else all that are shipped.
 
     A map with mistakes is left out, its mistakes go to standard error, and the exit status is 2.
 
@@ -20,12 +22,16 @@ def run(json: Json = False) -> None:
     """
     from driveblocks.maps import catalog
 
-    loaded = {path: drive for path in catalog.shipped() if (drive := _load(path)) is not None}
+    try:
+        paths = catalog.chosen(maps)
+    except catalog.UnknownDrive as unknown:
+        refuse(str(unknown))
+    loaded = {path: drive for path in paths if (drive := _load(path)) is not None}
     if json:
         _print_json(loaded)
     else:
         _print_table(loaded)
-    if len(loaded) < max(1, len(catalog.shipped())):
+    if len(loaded) < max(1, len(set(paths))):
         raise typer.Exit(2)
 
 

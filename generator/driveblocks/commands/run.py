@@ -54,6 +54,10 @@ Show = Annotated[
 Script = Annotated[
     Path | None, typer.Option(metavar="FILE", help="Set inputs by lines such as: at 2.5s: Start := TRUE")
 ]
+Scenario = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE.yaml", help="What happens to simulated drives, such as - at 3 s: trip OC 2"),
+]
 Trace = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write what the shown variables did.")]
 Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw a timing diagram of the shown variables.")]
 Allow = Annotated[
@@ -77,6 +81,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     for_: For = None,
     show: Show = None,
     script: Script = None,
+    scenario: Scenario = None,
     trace: Trace = None,
     picture: Picture = None,
     allow_run: Allow = False,
@@ -101,7 +106,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         program=program, name=name, maps=tuple(maps or ()), simulate=tuple(simulate or ()), tcp=tcp, port=port,
         simulated=simulated, form=form, scan=scan, watchdog=watchdog, length=for_,
         show=tuple(",".join(show or ()).replace(",", " ").split()),
-        script=script, trace=trace, picture=picture, allow_run=allow_run, demo=demo, fast=fast,
+        script=script, scenario=scenario, trace=trace, picture=picture, allow_run=allow_run, demo=demo, fast=fast,
     )  # fmt: skip
     try:
         status = Setup(options, Keyboard(0)).run()

@@ -26,7 +26,7 @@ Ascii = Annotated[bool, typer.Option("--ascii", help="MODBUS ASCII instead of RT
 Scenario = Annotated[
     Path | None, typer.Option(metavar="FILE.yaml", help="What happens when, such as - at 3 s: trip OC")
 ]
-Trace = Annotated[bool, typer.Option("--trace", help="Write every frame as `driveblocks explain` says it.")]
+Frames = Annotated[bool, typer.Option("--frames", help="Write every frame as `driveblocks explain` says it.")]
 For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End after this time, such as 60s.")]
 Schema = Annotated[bool, typer.Option("--schema", help="Print the JSON Schema of scenarios, and nothing else.")]
 
@@ -40,7 +40,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     form: Form = "8N1",
     ascii_mode: Ascii = False,
     scenario: Scenario = None,
-    trace: Trace = False,
+    frames: Frames = False,
     for_: For = None,
     schema: Schema = False,
 ) -> None:
@@ -49,10 +49,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
     of its addresses, and refuses where a real unit answers. The exit status is 0, or 2 for bad input.
 
-    Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --trace
+    Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """
+    from driveblocks.plc import scenario as scenarios
     from driveblocks.plc.options import Refused
-    from driveblocks.stand import scenario as scenarios
     from driveblocks.stand.setup import Setup, Words
 
     if schema:
@@ -62,7 +62,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         refuse("name a drive; for example: driveblocks simulate jscc@1")
     words = Words(
         drives=drives, port=port, tcp=tcp, pty=pty, baud=baud, form=form.upper(), ascii=ascii_mode,
-        scenario=scenario, trace=trace, length=for_,
+        scenario=scenario, frames=frames, length=for_,
     )  # fmt: skip
     try:
         Setup(words).run()

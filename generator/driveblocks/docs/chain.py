@@ -20,9 +20,9 @@ def picture(name: str) -> str:
 
 
 def _hard_stop(canvas: Canvas, y: float) -> None:
-    _contact(canvas, 200, y, "hard stop", "emergency stop, guards: wired")
-    _contact(canvas, 390, y, "K1", "opened by a stop that is overdue")
-    _coil(canvas, 580, y, "Q1", "power of the machine's drives")
+    contact(canvas, 200, y, "hard stop", "emergency stop, guards: wired")
+    contact(canvas, 390, y, "K1", "opened by a stop that is overdue")
+    coil(canvas, 580, y, "Q1", "power of the machine's drives")
     for begin, end in ((LEFT, 190), (210, 380), (400, 568), (592, RIGHT)):
         canvas.path([(begin, y), (end, y)])
 
@@ -34,19 +34,21 @@ def _output(canvas: Canvas, y: float) -> None:
     canvas.box(310, y - 20, 160, 40, "dashed")
     canvas.text(390, y + 4, "retriggered relay", "", "middle")
     canvas.text(390, y + 36, "where outputs hold their state in STOP", "small", "middle")
-    _coil(canvas, 580, y, "K1", "")
+    coil(canvas, 580, y, "K1", "")
     for begin, end in ((LEFT, 120), (250, 310), (470, 568), (592, RIGHT)):
         canvas.path([(begin, y), (end, y)])
 
 
-def _contact(canvas: Canvas, x: float, y: float, above: str, below: str) -> None:
+def contact(canvas: Canvas, x: float, y: float, above: str, below: str) -> None:
+    """A normally open contact with its name, and what opens it."""
     for edge in (x - 10, x + 10):
         canvas.path([(edge, y - 10), (edge, y + 10)])
     canvas.text(x, y - 18, above, "head", "middle")
     canvas.text(x, y + 28, below, "small", "middle")
 
 
-def _coil(canvas: Canvas, x: float, y: float, above: str, below: str) -> None:
+def coil(canvas: Canvas, x: float, y: float, above: str, below: str) -> None:
+    """A coil with its name, and what it switches."""
     for side in (-12, 12):
         canvas.curve((x + side / 2, y - 10), (x + 1.5 * side, y), (x + side / 2, y + 10))
     canvas.text(x, y - 18, above, "head", "middle")

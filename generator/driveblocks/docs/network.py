@@ -16,8 +16,7 @@ def picture(title: str, diagram: Element) -> str:
     canvas = Canvas(title, int(right) + _MARGIN, int(bottom) + _MARGIN)
     for each in diagram.content:
         for wire in _found(each, "connection"):
-            (here, there) = (_point(one) for one in wire.content)
-            canvas.path([there, here])
+            canvas.path([_point(one) for one in wire.content])
     for each in diagram.content:
         _DRAWN[each.tag](canvas, each)
     return canvas.svg()
@@ -35,6 +34,8 @@ def _contact(canvas: Canvas, one: Element) -> None:
     for edge in (x + 5, x + wide - 5):
         canvas.path([(edge, y), (edge, y + high)])
         canvas.path([(x if edge < x + wide / 2 else x + wide, y + 8), (edge, y + 8)])
+    if "negated" in one.attributes:
+        canvas.path([(x + 5, y + high), (x + wide - 5, y)])
     canvas.text(x + wide / 2, y - 4, _text(one, "variable"), "mono", "middle")
 
 

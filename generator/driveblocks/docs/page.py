@@ -1,26 +1,27 @@
 """The page of a drive block: values for its template, and the pictures beside it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from math import ceil
 from typing import Any
 
-from driveblocks.docs import chain, ladder, network, states, timing
+from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
 from driveblocks.maps import conduct
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Absence, Drive, Notice, Setting
+from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.render import context
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
-from driveblocks.render.library import BYTES, DRIVE_TYPES, File, first_motor
+from driveblocks.render.library import BYTES, DRIVE_TYPES, File, adapter, first_motor
 from driveblocks.render.motor import SCAN_MS, motor
 from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.render.reasons import STATES as NAMES
+from driveblocks.render.text import ENGLISH
 from driveblocks.st.checker import check
 from driveblocks.st.parser import parse
 from driveblocks.st.tree import Checked, FunctionBlock, TypeDecl, VarKind
@@ -38,21 +39,41 @@ ABILITIES = {
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
 }  # fmt: skip
 """Command -> what a drive can do over the bus if it has it."""
+PLATFORMS = {
+    "codesys": "CODESYS and its relatives", "twincat": "TwinCAT 3", "siemens": "TIA Portal",
+    "openplc": "OpenPLC and plain text", "plcopen": "Beremiz and PLCopen XML",
+}  # fmt: skip
+"""Targets with a page -> whom it is for."""
+DRAWN = {
+    "siemens": "an FB in LAD", "twincat": "a POU in LD",
+}  # fmt: skip
+"""Targets whose texts carry no ladder -> what it is drawn in."""
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 
 
-def documents(files: list[File], drives: list[Drive], *, linked: bool = True) -> dict[str, str]:
-    """The overview, every page and every picture, path below the output folder -> text; `linked` see `overview`."""
+def documents(
+    files: list[File],
+    drives: list[Drive],
+    named: Mapping[str, str] | None = None,
+    *,
+    linked: bool = True,
+    targets: Collection[str] = (),
+) -> dict[str, str]:
+    """The overview, every page and every picture, path below the output folder -> text.
+
+    `named`: prefix -> what a map is called in a command, where that is not its prefix; `linked` see `overview`;
+    `targets` are those that are built, whose pages a drive's leads to.
+    """
     checked = check([parse("\n".join(file.text for file in files), "library")])
     return {
         "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
-        **pages(drives, checked),
+        **pages(drives, checked, named or {}, [one for one in PLATFORMS if one in targets]),
     }
 
 
-def pages(drives: list[Drive], checked: Checked) -> dict[str, str]:
+def pages(drives: list[Drive], checked: Checked, named: Mapping[str, str], platforms: list[str]) -> dict[str, str]:
     """Every page and picture, path below the output folder -> text."""
     found = _shared(drives, checked.blocks) if drives else {}
     for drive in drives:
@@ -60,10 +81,12 @@ def pages(drives: list[Drive], checked: Checked) -> dict[str, str]:
         block = checked.blocks[name.upper()]
         inputs, in_outs, outputs = _pins(drive, block)
         values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
-        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values)
+        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, named.get(drive.prefix), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
-        found[f"{FOLDER}/{name}_ladder.svg"] = _network(drive, checked.blocks)
+        found[f"{FOLDER}/{name}_ladder.svg"] = _network(BYTES, drive, checked.blocks)
+        for platform in (one for one in DRAWN if one in platforms):
+            found[f"{FOLDER}/{name}_ladder_{platform}.svg"] = _network(platform, drive, checked.blocks)
     return found
 
 
@@ -76,13 +99,47 @@ def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[st
         f"{FOLDER}/{STATES}": states.picture(),
         f"{FOLDER}/{HARD_STOP}.md": text,
         f"{FOLDER}/{HARD_STOP}.svg": chain.picture(HARD_STOP),
+        f"{FOLDER}/Wiring.md": render("docs/Wiring.md.j2", families=[_wires(drive) for drive in drives]),
+        f"{FOLDER}/bus.svg": bus.picture(),
+        f"{FOLDER}/sto.svg": sto.picture(),
+        f"{FOLDER}/Swapping.md": render("docs/Swapping.md.j2", drives=[_swapped(drive) for drive in drives]),
     }
 
 
-def _network(drive: Drive, blocks: Mapping[str, FunctionBlock]) -> str:
-    """The first motor for any port as a ladder: the one that PLCopen XML has."""
-    file = first_motor(BYTES, drive)
+def _wires(drive: Drive) -> dict[str, str]:
+    """What the manual of a drive says of its line, and what it leaves open."""
+    gaps = [one for one in drive.absent if "serial" in one.about and "termination" in one.what]
+    silence = drive.serial.silence
+    milliseconds = f"more than {silence.milliseconds} ms" if silence and silence.milliseconds else ""
+    characters = f"{silence.characters} characters" if silence and silence.characters else ""
+    return {
+        "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
+        "port": drive.serial.interface.en,
+        "open": "the manual does not say" if gaps else "see the manual",
+        "silence": milliseconds or characters or "the manual does not say",
+        "find_out": "; ".join(one.find_out for one in gaps),
+    }
+
+
+def _swapped(drive: Drive) -> dict[str, str]:
+    """What a block of this family wants otherwise than that of another."""
+    first, unit = motor(drive), drive.serial.unit
+    return {
+        "prefix": drive.prefix,
+        "full": f"required: what {first['maximum']} says" if first["percent"] else "no use",
+        "scale": "required" if first["unscaled"] else "no use",
+        "reset": "yes" if first["has_reset"] else "no",
+        "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
+        "units": f"{unit.min} to {unit.max}",
+    }
+
+
+def _network(platform: str, drive: Drive, blocks: Mapping[str, FunctionBlock]) -> str:
+    """The first motor of a platform as a ladder; that for any port is the one that PLCopen XML has."""
+    file = first_motor(platform, drive)
+    port = (parse(one.text, one.path).elements for one in adapter(platform, [ENGLISH]))
     named = {block.name: block for block in blocks.values()}
+    named |= {one.name: one for elements in port for one in elements if isinstance(one, FunctionBlock)}
     return network.picture(f"{file.name} as a ladder", diagram(Part(file.folder, parse(file.text, file.path)), named))
 
 
@@ -99,12 +156,18 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
+def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: str | None, platforms: list[str]) -> str:
     block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
+    open_ = [each for each in drive.absent if _open(drive, each)]
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
+        word=named or drive.prefix.lower(),
+        edition=drive.manual.edition,
+        platforms=[(one, PLATFORMS[one], DRAWN.get(one)) for one in platforms],
+        first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
+        errata=list(_errata(drive)),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
         hides=[pin.name for pin in values["outputs"] if pin.idle],
         settings=drive.settings,
@@ -112,7 +175,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
         stay=[each for each in drive.settings if _stays(each)],
         named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
         hazards=[each for each in drive.notices if _matters(each)],
-        open=[each for each in drive.absent if _open(drive, each)],
+        open=open_,
         reasons=REASONS,
         reads=list(_reads(drive)),
         refresh=list(_refresh(drive)),
@@ -128,6 +191,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]]) -> str:
         derived=_guessed(drive),
         verify=drive.operation.reference.verify,
         conduct=_conduct(drive),
+        feeds=drive.watchdog.feeds if drive.watchdog else None,
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=TURN_ROUND_MS,
@@ -203,6 +267,23 @@ def _open(drive: Drive, one: Absence) -> bool:
     words |= {address for address, row in rows.items() if row and not row.scale}
     about = {"serial", "operation", *CONDUCT, *(f"register {address_text(word)}" for word in words)}
     about |= {f"setting {each.id}" for each in drive.settings}
+    return not about.isdisjoint(one.about)
+
+
+def _errata(drive: Drive) -> Iterator[dict[str, str]]:
+    """The misprints that bear on a block: where, what is printed and used, why; those of words only with the words."""
+    plain = not drive.manual.title.own
+    for one in (each for each in drive.errata if _bears(drive, each)):
+        if not plain or (one.where + one.used + one.why).isascii():
+            printed = one.printed if one.printed.isascii() or not plain else "(not in English)"
+            yield {"where": one.where, "printed": printed, "used": one.used, "why": one.why}
+
+
+def _bears(drive: Drive, one: Erratum) -> bool:
+    """Whether a misprint is about a word that the block reads or writes, or about a keypad setting."""
+    words = {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
+    words |= {each.register for each in drive.operation.measures}
+    about = {f"register {address_text(word)}" for word in words} | {f"setting {each.id}" for each in drive.settings}
     return not about.isdisjoint(one.about)
 
 

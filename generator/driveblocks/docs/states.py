@@ -73,7 +73,7 @@ def _others(canvas: Canvas) -> None:
     canvas.text(
         70,
         546,
-        "Blue leads to motion, red to a stop. With SpeedOnly a power-up leads to 6, and no stop is sent.",
+        "Blue leads to motion, red to a stop. With SpeedOnly a power-up leads to 6 once its stop is answered.",
         "small",
     )
 

@@ -5,10 +5,12 @@ A test runs each block against a simulated drive and compares what it does with 
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import groupby, pairwise
+from operator import itemgetter
 
 from driveblocks.docs.canvas import Canvas
 from driveblocks.maps.model import Drive
+from driveblocks.render.reasons import STATES
 from driveblocks.simulator.pattern import of_condition
 
 Speed = tuple[float, float]
@@ -29,6 +31,8 @@ class Column:
     at_speed: bool = False
     confirmed: bool = False
     speed: Speed = (0.0, 0.0)
+    shaft: Speed | None = None
+    """The same of the shaft, where it is not the output's."""
     event: str = ""
     """What a person or the drive does at its beginning."""
 
@@ -53,10 +57,11 @@ def start_and_stop() -> tuple[Column, ...]:
 def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
     """A trip while it runs, then the reset: by the bus, or at the drive where the bus cannot."""
     proved = proves_while_tripped(drive)
-    tripped = Column(0, ("stop",), run=True, fault=True, event="trip")
+    tripped = Column(0, ("stop",), run=True, fault=True, event="trip", shaft=(1.0, 0.3))
     stands = (replace(STOPPED, run=True, fault=True),) if proved else ()
     released = replace(STOPPED, fault=True) if proved else Column(0, ("stop",), fault=True)
     begin = (STARTING[-1], tripped, *stands, replace(released, event="release"))
+    begin = (*begin[:2], replace(begin[2], shaft=(0.3, 0.0)), *begin[3:])
     if not any(one.does == "fault_reset" for one in drive.operation.commands):
         return (*begin, replace(STOPPED, event="reset by other means"))
     asked = Column(0, ("stop", "reset"), fault=True, reset=True, event="reset")
@@ -70,13 +75,13 @@ def proves_while_tripped(drive: Drive) -> bool:
     return any(not any(fault.excludes(each) for each in proof) for fault in faults)
 
 
-WIDTH, LEFT, ROW, TOP, GAP, HIGH = 760, 150, 32, 44, 60, 16
+WIDTH, LEFT, ROW, TOP, GAP, HIGH = 1040, 150, 32, 44, 60, 16
 SIGNALS = {
     "RunForward": "run", "FaultReset": "reset", "Fault": "fault", "Running": "running", "AtSpeed": "at_speed",
     "StopConfirmed": "confirmed",
 }  # fmt: skip
 """Pin of the block -> field of a column."""
-TALL = ROW * (len(SIGNALS) + 4)
+TALL = ROW * (len(SIGNALS) + 5)
 
 
 def picture(drive: Drive, name: str) -> str:
@@ -88,7 +93,7 @@ def picture(drive: Drive, name: str) -> str:
     canvas.text(
         16,
         canvas.height - 14,
-        "Not to scale: a column lasts until something changes, or until a read shows it.",
+        "Not to scale: a column lasts until something changes, or a read shows it. After a trip the shaft may coast.",
         "small",
     )
     return canvas.svg()
@@ -102,19 +107,25 @@ def _panel(canvas: Canvas, top: float, title: str, columns: tuple[Column, ...]) 
         canvas.path([(x, top), (x, top + TALL - 6)], "thin")
     _words(canvas, top, "event", [each.event for each in columns], edges)
     _words(canvas, top + ROW, "sends", [", ".join(each.sends) for each in columns], edges)
-    _words(canvas, top + 2 * ROW, "State", [str(each.state) for each in columns], edges)
+    _words(canvas, top + 2 * ROW, "State", [STATES[each.state][0] for each in columns], edges)
     for row, (name, key) in enumerate(SIGNALS.items(), 3):
         canvas.text(LEFT - 10, top + ROW * row + 18, name, "mono", "end")
         shares = [(float(getattr(each, key)),) * 2 for each in columns]
         canvas.path(list(_curve(shares, edges, top + ROW * row + 22)), "stop" if key == "fault" else "line")
-    base = top + TALL - 10
-    canvas.text(LEFT - 10, base - 4, "OutputFrequencyHz", "mono", "end")
-    canvas.path(list(_curve([each.speed for each in columns], edges, base)), "go")
+    for name, base, curve in (
+        ("OutputFrequencyHz", top + TALL - 10 - ROW, [each.speed for each in columns]),
+        ("motor shaft", top + TALL - 10, [each.shaft or each.speed for each in columns]),
+    ):
+        canvas.text(LEFT - 10, base - 4, name, "mono", "end")
+        canvas.path(list(_curve(curve, edges, base)), "go")
 
 
 def _words(canvas: Canvas, top: float, name: str, words: list[str], edges: list[float]) -> None:
+    """A row of words, each in a band over all columns in a row that have it."""
     canvas.text(LEFT - 10, top + 18, name, "mono", "end")
-    for word, (left, right) in zip(words, pairwise(edges), strict=True):
+    for word, spans in groupby(zip(words, pairwise(edges), strict=True), key=itemgetter(0)):
+        ends = [edge for _, span in spans for edge in span]
+        left, right = ends[0], ends[-1]
         if word:
             canvas.box(left + 2, top + 4, right - left - 4, 20, "band")
             canvas.text((left + right) / 2, top + 18, word, "small", "middle")

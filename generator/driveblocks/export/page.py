@@ -6,36 +6,29 @@ from collections.abc import Iterable, Mapping, Sequence
 from driveblocks.export.part import Part, Shelf
 from driveblocks.render.environment import render
 from driveblocks.render.motor import SCAN_MS
+from driveblocks.st.tree import Program
 
 KINDS = {"TYPE": "types", "FUNCTION": "functions", "FUNCTION_BLOCK": "function blocks", "PROGRAM": "programs"}
 
 
-def page(
-    target: str, shelf: Shelf, programs: Mapping[str, Sequence[Part]], port: Iterable[Part] = ()
-) -> dict[str, str]:
-    """The README of a target whose libraries are one XML file each; `programs` by prefix, the first motor in front."""
+def page(target: str, shelf: Shelf, files: Mapping[str, Sequence[Part]]) -> dict[str, str]:
+    """The README of a target of XML files; `files` by name without ending, the libraries in front."""
     if not shelf.drives:
         return {}
-    files = [
-        {
-            "name": f"{library.name}.xml",
-            "drives": len(library.drives),
-            "count": census(
-                (*library.parts, *port, *(one for drive in library.drives for one in programs[drive.prefix]))
-            ),
-        }
-        for library in shelf.libraries()
-    ]
-    prefix, first = next(iter(programs.items()))
+    first, *_ = shelf.drives.values()
+    programs = [part.name for parts in files.values() for part in parts if isinstance(part.element, Program)]
     values = {
-        "files": files,
+        "files": [{"name": f"{name}.xml", "count": census(parts)} for name, parts in files.items()],
+        "libraries": [f"{library.name}.xml" for library in shelf.libraries()],
         "kinds": list(KINDS.values()),
-        "prefix": prefix,
-        "prefixes": list(programs),
+        "prefix": first.prefix,
+        "prefixes": [drive.prefix for drive in shelf.drives.values()],
         "scan": SCAN_MS,
+        "master": any(name == f"{first.prefix}_Master" for name in programs),
+        "motor": shelf.motor(target, first).text,
+        "wide": any(part.name.endswith("ZhW") for parts in files.values() for part in parts),
     }
-    text = render(f"{target}/README.md.j2", motor=first[0].text, master=len(first) > 1, **values)
-    return {f"{target}/README.md": text}
+    return {f"{target}/README.md": render(f"{target}/README.md.j2", **values)}
 
 
 def census(parts: Iterable[Part]) -> dict[str, int]:

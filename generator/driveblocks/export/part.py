@@ -73,6 +73,11 @@ class Library:
     parts: tuple[Part, ...]
     drives: tuple[Drive, ...]
 
+    def own(self, parts: Iterable[Part]) -> tuple[Part, ...]:
+        """Of parts that a target adds, those beside parts of this library."""
+        folders = {part.folder for part in self.parts}
+        return tuple(part for part in parts if part.folder in folders)
+
 
 @dataclass(frozen=True)
 class Shelf:
@@ -96,6 +101,11 @@ class Shelf:
     def motor(self, platform: str, drive: Drive) -> Part:
         """The first program of a user: one motor at the platform's serial port. Parsed, not typed."""
         return next(_read([library.first_motor(platform, drive)]))
+
+    def motors(self, platform: str, drive: Drive) -> tuple[Part, Part]:
+        """The first motor, and the same under the name of what is to become its ladder."""
+        motor, name, other = self.motor(platform, drive), f"{drive.prefix}_Motor", f"{drive.prefix}_Ladder"
+        return motor, Part(motor.folder, parse(motor.text.replace(name, other), motor.unit.path.replace(name, other)))
 
     def programs(self, platform: str, drive: Drive) -> tuple[Part, ...]:
         """The first motor, and what else a platform has for a drive that is a program of a user. Parsed, not typed."""

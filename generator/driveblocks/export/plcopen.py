@@ -2,50 +2,46 @@
 
 from driveblocks import __version__
 from driveblocks.export.element import Element, element
-from driveblocks.export.ladder import ladder
+from driveblocks.export.ladder import diagram, ladder
 from driveblocks.export.page import page
-from driveblocks.export.part import Part, Shelf
+from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.tc6 import NEUTRAL, project, types, written
-from driveblocks.maps.model import Drive
 from driveblocks.render.library import BYTES
 from driveblocks.render.motor import SCAN_MS
-from driveblocks.st.parser import parse
 from driveblocks.st.problems import Problem
 from driveblocks.st.tree import FunctionBlock
 
 
 def write(shelf: Shelf) -> dict[str, str]:
-    """A file of each library, with a first motor of each drive as text and as a ladder. Raises ExportError."""
+    """A file of each library, and a project to begin with for each drive: its library, a first motor as text and as a
+    ladder, and a task. Raises ExportError."""
     problems: list[Problem] = []
-    blocks = {part.name: part.element for part in shelf.parts if isinstance(part.element, FunctionBlock)}
-    programs = {drive.prefix: _programs(shelf, drive) for drive in shelf.drives.values()}
-    every = (*shelf.parts, *(one for both in programs.values() for one in both))
+    motors = {drive.prefix: shelf.motors(BYTES, drive) for drive in shelf.drives.values()}
+    files = {library.name: library.parts for library in shelf.libraries()}
+    files |= {motor.name: (*files[prefix], motor, drawn) for prefix, (motor, drawn) in motors.items()}
+    every = (*shelf.parts, *(one for both in motors.values() for one in both))
     made = {part.name: written(part, NEUTRAL, problems) for part in every}
-    made |= {twin.name: ladder(made[twin.name], twin, blocks) for _, twin in programs.values()}
+    blocks = {part.name: part.element for part in shelf.parts if isinstance(part.element, FunctionBlock)}
+    made |= {drawn.name: ladder(made[drawn.name], diagram(drawn, blocks)) for _, drawn in motors.values()}
     if problems:
         raise ExportError(problems)
-    files: dict[str, str] = {}
-    for library in shelf.libraries():
-        own = [one for drive in library.drives for one in programs[drive.prefix]]
-        content = types(made[part.name] for part in (*library.parts, *own))
-        names = [drive.prefix for drive in library.drives]
-        files[f"plcopen/{library.name}.xml"] = project(NEUTRAL, library.name, __version__, content, _instances(names))
-    return files | page(BYTES, shelf, programs)
+    runs = {motor.name: prefix for prefix, (motor, _) in motors.items()}
+    texts = {
+        f"plcopen/{name}.xml": project(
+            NEUTRAL, name, __version__, types(made[part.name] for part in parts), _instances(runs.get(name))
+        )
+        for name, parts in files.items()
+    }
+    return texts | page(BYTES, shelf, files)
 
 
-def _programs(shelf: Shelf, drive: Drive) -> tuple[Part, Part]:
-    """The first motor of a drive, and what is to become its ladder."""
-    motor = shelf.motor(BYTES, drive)
-    name, other = f"{drive.prefix}_Motor", f"{drive.prefix}_Ladder"
-    return motor, Part(motor.folder, parse(motor.text.replace(name, other), motor.unit.path.replace(name, other)))
-
-
-def _instances(prefixes: list[str]) -> Element:
-    """One task that runs the first motors."""
-    runs = [element("pouInstance", {"name": f"{one}_1", "typeName": f"{one}_Motor"}) for one in prefixes]
-    task = element("task", {"name": "Motors", "priority": "0", "interval": f"T#{SCAN_MS}ms"}, *runs)
-    resource = element("resource", {"name": "Cpu"}, task)
-    return element(
-        "instances", {}, element("configurations", {}, element("configuration", {"name": "Config"}, resource))
-    )
+def _instances(prefix: str | None) -> Element:
+    """One task that runs the first motor; none of a library."""
+    configurations = element("configurations")
+    if prefix:
+        run = element("pouInstance", {"name": f"{prefix}_1", "typeName": f"{prefix}_Motor"})
+        task = element("task", {"name": "Motors", "priority": "0", "interval": f"T#{SCAN_MS}ms"}, run)
+        resource = element("resource", {"name": "Cpu"}, task)
+        configurations = element("configurations", {}, element("configuration", {"name": "Config"}, resource))
+    return element("instances", {}, configurations)

@@ -123,17 +123,19 @@ class _Sheet:
         )
 
     def pou(self, one: tree.Pou, head: str, extra: Sequence[Element]) -> Element:
+        """CODESYS has the documentation of a block last in its interface, others beside it."""
         for odd in one.extras:
             self.refuse(odd.at, f"{odd.word} has no form in this XML; write it as a block or function of its own")
         if isinstance(one, tree.FunctionBlock) and one.heritage:
             self.refuse(one.at, f"`{one.heritage}` has no form in this XML; write the block without")
+        above, below = (head, "") if self.dialect.plain else ("", head)
         returns = one.returns if isinstance(one, tree.Function) else None
         interface = element(
             "interface",
             {},
             element("returnType", {}, self.spec(returns)) if returns else None,
             *(self.section(block) for block in one.blocks),
-            self.dialect.documentation(self.documented(one.head, None)),
+            self.dialect.documentation("\n".join(filter(None, (above, self.documented(one.head, None))))),
         )
         return element(
             "pou",
@@ -141,7 +143,7 @@ class _Sheet:
             interface,
             element("body", {}, element("ST", {}, self.dialect.text(self.part.body))),
             element("addData", {}, *extra) if extra else None,
-            self.dialect.documentation(head),
+            self.dialect.documentation(below),
         )
 
     def section(self, block: VarBlock) -> Element | None:

@@ -3,13 +3,11 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Protocol
 
 # A value as Python sees it: BOOL is bool; bit strings and integers are int; REAL and LREAL are float;
 # STRING is bytes; TIME is int nanoseconds; an array is a list; a structure is a dict in declaration order.
 Value = bool | int | float | bytes | list["Value"] | dict[str, "Value"]
-
-Overflow = Literal["standard", "c", "fail"]
 
 
 @dataclass(frozen=True)
@@ -77,26 +75,6 @@ class Instance(Protocol):
         """Every scalar of the instance and of all inside it, path in upper case -> value, in declaration order."""
 
 
-class Configuration(Protocol):
-    """A whole CONFIGURATION that runs its tasks on virtual time."""
-
-    @property
-    def tick_ns(self) -> int:
-        """The common tick of all tasks in nanoseconds."""
-
-    def __getitem__(self, path: str) -> Value:
-        """Read `Resource.Program.Variable` or a global."""
-
-    def __setitem__(self, path: str, value: Value) -> None:
-        """Write `Resource.Program.Variable` or a global."""
-
-    def run(self, ticks: int = 1) -> None:
-        """Run so many ticks; each runs the tasks that are due, then advances the clock by `tick_ns`."""
-
-    def state(self) -> dict[str, Value]:
-        """Every scalar of the configuration, path in upper case -> value."""
-
-
 class Library(Protocol):
     """Compiled sources."""
 
@@ -105,9 +83,6 @@ class Library(Protocol):
 
     def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
         """Call a FUNCTION by its formal parameters. KeyError if there is none of that name; ScanError."""
-
-    def configuration(self, name: str | None = None) -> Configuration:
-        """Start the CONFIGURATION of that name, or the only one. KeyError."""
 
     def blocks(self) -> Iterator[str]:
         """The names of the function blocks and programs, in source order."""

@@ -65,6 +65,19 @@ def resolve(name: str) -> Path:
     raise _unknown(name, maps)
 
 
+def is_shipped(path: Path) -> bool:
+    """Whether a map is one of those."""
+    return path.resolve() in {each.resolve() for each in shipped()}
+
+
+def displacing(path: Path, named: Iterable[Path]) -> Path:
+    """What takes the place of a shipped map: the named one with its prefix or file name; itself without such."""
+    if not is_shipped(path):
+        return path
+    stem, prefix = _names(path)[0], _names(path)[-1]
+    return next((each for each in named if stem == _names(each)[0] or prefix == _names(each)[-1]), path)
+
+
 def chosen(names: Iterable[str] | None) -> list[Path]:
     """The maps of the words of a command line; all that are shipped without any. Raises UnknownDrive."""
     return [resolve(name) for name in names] if names else list(shipped())

@@ -77,7 +77,8 @@ def _formed(shape: Form, node: Scalar, report: Report, name: str) -> Any:
         report.add(node.at, f"`{name}` has no value", shape.right)
         return _BAD
     if shape.pattern.fullmatch(node.text) is None:
-        report.add(node.at, f"`{name}: {_short(node.text)}` is not {_article(shape.name)}", shape.right)
+        right = _address(node.text) if shape in (form.ADDRESS, form.ADDRESSES) else ""
+        report.add(node.at, f"`{name}: {_short(node.text)}` is not {_article(shape.name)}", right or shape.right)
         return _BAD
     if shape is form.ENGLISH and form.holds_chinese(node.text):
         report.add(node.at, f"`{name}` holds Chinese: the translation is missing", shape.right)
@@ -86,6 +87,14 @@ def _formed(shape: Form, node: Scalar, report: Report, name: str) -> Any:
         report.add(node.at, f"`{name}` is a text, but {node.text} without quotes is a number", f'write "{node.text}"')
         return _BAD
     return shape.parse(node.text)
+
+
+def _address(text: str) -> str:
+    """What digits alone may stand for; empty where they cannot be an address."""
+    if not re.fullmatch("[0-9]{1,5}", text) or int(text) > 0xFFFF:
+        return ""
+    digits = f"{text:0>4}H if the manual's digits are hexadecimal, " if len(text) <= 4 else ""
+    return f"write {digits}{form.address_text(int(text))} if they are decimal"
 
 
 def _article(name: str) -> str:
@@ -123,6 +132,9 @@ def _unknown_keys(known: dict[str, Key], node: Entries, report: Report, name: st
             continue
         near = _nearest(text, [word for word in known if word not in node.entries])
         right = f"did you mean `{near}`?" if near else "known keys: " + ", ".join(known)
+        value = node.entries[text][1]
+        if " " in text and isinstance(value, Scalar) and value.plain and not value.text:
+            right = "a comma ends a value inside { }; put the whole text into quotes"
         report.add(key.at, f"unknown key `{_short(text)}` in `{name}`", right)
         meant.add(near or "")
     return meant

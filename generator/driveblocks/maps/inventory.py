@@ -1,4 +1,4 @@
-"""The READMEs' table of drives: how much each shipped map holds, per section and per kind, as Markdown."""
+"""The READMEs' tables of drives, as Markdown: what each drive can do, and how much each shipped map holds."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -9,6 +9,19 @@ from driveblocks.maps.counts import Counts, Tally
 from driveblocks.maps.model import Drive
 
 BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
+FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
+
+_FRONT = ("drive block", "drives", "what the bus can do", "misprints found", "left open by the manual")
+_WORDS = {
+    "run_forward": "run",
+    "run_reverse": "run in reverse",
+    "jog_forward": "jog",
+    "stop": "stop",
+    "quick_stop": "quick stop",
+    "coast_stop": "coast",
+    "fault_reset": "reset a fault",
+}
+"""What a drive is told, as the front table lists it."""
 
 _COLUMNS = (
     "drive and its register tables", "registers", "bits", "enums", "enum values",
@@ -17,15 +30,29 @@ _COLUMNS = (
 
 
 def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
-    """A page's text with the part between the markers made anew; `folder` is where the page lies, for its links.
+    """A page's text with the part between its markers made anew; `folder` is where the page lies, for its links.
 
     Raises ValueError without markers.
     """
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end:
-        raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
-    return f"{before}{BEGIN}\n{table(maps, folder)}{END}{after}"
+    for begin, end, made in ((BEGIN, END, table), (FRONT_BEGIN, FRONT_END, front)):
+        before, found, rest = text.partition(begin)
+        _, closed, after = rest.partition(end)
+        if found and closed:
+            return f"{before}{begin}\n{made(maps, folder)}{end}{after}"
+    raise ValueError(f"the page lacks the markers {BEGIN} and {END}")
+
+
+def front(maps: Mapping[Path, Drive], folder: Path) -> str:
+    """One line for each drive: its page, its name, what the bus can do with it, misprints and gaps of its manual."""
+    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 3 + ("---:",) * 2]
+    for path, drive in maps.items():
+        page = Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs"
+        link = f"[`{drive.prefix}_Drive`]({(page / f'{drive.prefix}_Drive.md').as_posix()})"
+        told = {each.does for each in drive.operation.commands} if drive.operation else set()
+        held = counts.of_drive(drive)
+        can = ", ".join(word for name, word in _WORDS.items() if name in told)
+        rows.append((link, view.title(drive), can, str(held.errata), str(held.absent)))
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
 def table(maps: Mapping[Path, Drive], folder: Path) -> str:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.shape import EntryOf, Key, ListOf, keys_of
+from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, keys_of
 
 BEGIN, END = "<!-- skeleton:begin -->", "<!-- skeleton:end -->"
 
@@ -59,7 +59,15 @@ def _table(cls: type) -> str:
 def _row(key: Key) -> str:
     example = f"{key.name}: {key.example}".replace("|", "\\|")
     link = _link(key)
-    return f"| `{key.name}` | {'yes' if key.required else ''} | {key.doc}{link} | `{example}` |\n"
+    return f"| `{key.name}` | {'yes' if key.required else ''} | {key.doc}{_words(key)}{link} | `{example}` |\n"
+
+
+def _words(key: Key) -> str:
+    """The words that a key can have, where these are all."""
+    shape = key.shape.item if isinstance(key.shape, ListOf) else key.shape
+    if not isinstance(shape, OneOf):
+        return ""
+    return f"; {'one of ' if len(shape.words) > 1 else ''}{', '.join(f'`{word}`' for word in shape.words)}"
 
 
 def _link(key: Key) -> str:

@@ -44,6 +44,9 @@ def of_drive(drive: Drive, stem: str) -> Plain:
 UNPROVED = "no example frames: the tests rest on the reference model alone, which reads the same map"
 """What is said wherever a map without example frames is shown: a slip in it passes all its own tests."""
 
+PROVABLE = "`driveblocks prove` shows that they hold in every call of its drive block"
+"""What is said of the safety rules wherever a map is shown."""
+
 
 def title(drive: Drive) -> str:
     """Maker and family in English, the maker once."""

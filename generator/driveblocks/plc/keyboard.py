@@ -41,6 +41,15 @@ class Keyboard:
         ended()
 
 
+def is_variable(word: str, program: Variables) -> bool:
+    """Whether a line is the name of a variable."""
+    try:
+        program[word]
+    except KeyError:
+        return False
+    return True
+
+
 def typed(line: str, inputs: tuple[str, ...], program: Variables) -> Setting:
     """What a line sets: `NAME := VALUE`, or the number or name of a BOOL, which changes. Raises ValueError."""
     word = line.strip()

@@ -9,10 +9,18 @@ from contextlib import contextmanager, suppress
 from types import FrameType
 
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.keyboard import Keyboard, typed
+from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.screen import Screen
 from driveblocks.plc.session import Result, Session
 
+HELP = (
+    "2                 toggle input 2; so does its name",
+    "Hertz := 30.0     set a variable",
+    "q                 stop every drive and end, as Ctrl-C",
+    "t 1, d 1, r 1     at unit 1: trip the drive, drop its supply, restore it (supply, cause and fault)",
+    "trip OC 1         whatever a scenario may say; docs/simulate.md lists it",
+)
+"""What a person may type; the last two lines are for simulated drives."""
 REASONS = {"SIGINT": "Ctrl-C", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
 """Why a run ends, where the name of the signal does not say it."""
 INSISTS = ("SIGINT", "SIGBREAK")
@@ -100,14 +108,15 @@ def listening(ending: Ending, suspend: Callable[[], None] | None = None) -> Iter
 
 
 def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:
-    inputs, instance = session.controller.wiring.inputs, session.controller.instance
-
     def taken(line: str) -> None:
-        if line.strip():
-            try:
-                session.settings.put(typed(line, inputs, instance))
-            except ValueError as error:
-                session.told.put(str(error))
+        word = line.strip()
+        if word == "q":
+            session.ending.ask("q")
+        elif word == "help":
+            for text in HELP if session.play is not None else HELP[:-2]:
+                session.told.put(text)
+        elif word:
+            session.typed.put(line)
 
     def ended() -> None:
         if end_of_input:

@@ -1,11 +1,13 @@
 """The words of the command line: what they are, and what does not go together."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.plc import script
 
+NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
 
 
@@ -30,6 +32,7 @@ class Options:
     length: str | None = None
     show: tuple[str, ...] = ()
     script: Path | None = None
+    scenario: Path | None = None
     trace: Path | None = None
     picture: Path | None = None
     allow_run: bool = False
@@ -47,6 +50,11 @@ class Options:
         return self.port is not None or (self.tcp is not None and not self.simulated)
 
 
+def is_port(number: str) -> bool:
+    """Whether digits are the number of a TCP port that one can connect to."""
+    return bool(re.fullmatch("[0-9]{1,5}", number)) and 0 < int(number) <= 0xFFFF
+
+
 def wrong(options: Options) -> Iterator[str]:
     """What does not go together."""
     if (options.program is None) != options.demo:
@@ -60,8 +68,10 @@ def wrong(options: Options) -> Iterator[str]:
         ways.insert(0, "--demo")
     if len(ways) > 1:
         yield f"{' and '.join(ways)} exclude each other: drives are simulated, or real"
-    if options.tcp is not None and not options.tcp.rpartition(":")[2].isdigit():
-        yield f"--tcp {options.tcp} is no address; write HOST:PORT"
+    if options.tcp is not None and not is_port(options.tcp.rpartition(":")[2]):
+        yield f"--tcp {options.tcp} is no address; write HOST:PORT, with a port of 1 to 65535"
+    if options.port == "":
+        yield NO_PORT
     if options.simulated and not options.loopback:
         yield (
             f"--simulated is for a simulator of this computer; write --tcp {LOOPBACK[1]}:5020 --simulated, "
@@ -69,10 +79,18 @@ def wrong(options: Options) -> Iterator[str]:
         )
     if options.allow_run and not options.real:
         yield "--allow-run is for a real port; simulated drives may always run"
+    yield from _wrong_files(options)
     if options.fast and (options.tcp or options.port):
         yield "--fast is for simulated drives; a port has its own time"
     if options.fast and not options.demo and options.length is None:
         yield "--fast needs --for: it would never end"
+
+
+def _wrong_files(options: Options) -> Iterator[str]:
+    if options.trace is not None and options.trace == options.picture:
+        yield f"--trace and --picture both name {options.trace}; name two files"
+    if options.scenario is not None and (options.tcp or options.port or options.demo):
+        yield "--scenario is for drives that this run simulates; driveblocks simulate has its own, and so has --demo"
 
 
 def time(word: str, text: str, least: int, most: int) -> int:

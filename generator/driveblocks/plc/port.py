@@ -168,6 +168,8 @@ class _Serial:
         except ValueError:
             raise
         except OSError as error:
+            if "Could not configure port" in str(error):
+                raise OSError(errno.ENOTTY, "this is no serial port") from error
             raise OSError(error.errno, _WHY.get(error.errno or 0) or str(error)) from error
         except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
             refuses = f"the port refuses {bit_rate} bit/s {form}; a pseudo-terminal takes 8N1 only"

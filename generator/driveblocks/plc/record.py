@@ -1,5 +1,6 @@
 """What variables did over a run: a trace as CSV, and a timing picture as SVG. Memory and file grow by changes alone."""
 
+import re
 from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Protocol
@@ -9,6 +10,12 @@ from driveblocks.host.engine import Value
 
 MOST_CHANGES = 20_000
 """Changes of one variable that a picture holds; older ones are forgotten."""
+
+TRACE = re.compile(rb"# (SIMULATED|REAL PORT), [^\n]*\nms,")
+"""How a trace begins."""
+_MARK = "<!-- a picture of driveblocks run -->"
+PICTURE = re.compile(rb"<svg [^>]*>\n" + re.escape(_MARK.encode()))
+"""How a picture begins."""
 
 _LEFT, _RIGHT, _LANE, _HIGH, _TOP, _WIDTH = 200, 30, 44, 26, 34, 1000
 
@@ -68,6 +75,7 @@ class Timing:
         parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" font-family="sans-serif" '
             'font-size="13">',
+            _MARK,
             "<style>svg{background:#fff}text{fill:#222}.g{stroke:#ddd}.l{stroke:#05c;fill:none;stroke-width:1.5}"
             "@media(prefers-color-scheme:dark){svg{background:#181818}text{fill:#ddd}.g{stroke:#444}.l{stroke:#6af}}"
             "</style>",

@@ -1,6 +1,8 @@
 """Keeps what scans have seen, in a thread of its own: a full pipe or a slow disk never makes a scan wait."""
 
+import errno
 import queue
+import re
 import stat
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -8,12 +10,15 @@ from pathlib import Path
 
 from driveblocks import console
 from driveblocks.host.engine import Value
+from driveblocks.plc import record
 from driveblocks.plc.port import reason
 from driveblocks.plc.record import Timing, Trace
 
 MOST_WAITING = 5_000
 """Scans that may wait to be written."""
 LOOK_S = 0.05
+HEAD = 4096
+"""So much of a file says who wrote it."""
 
 Row = tuple[int, Mapping[str, Value]]
 """Microseconds since the start, and values."""
@@ -98,6 +103,7 @@ class _Plain:
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A trace as CSV. Raises OSError."""
+    _spare(path, record.TRACE)
     opened = None if _is_pipe(path) else _Plain(path)
 
     def keep(rows: Iterator[Row]) -> None:
@@ -110,6 +116,7 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A timing diagram as SVG. Raises OSError."""
+    _spare(path, record.PICTURE)
     path.touch()
 
     def keep(rows: Iterator[Row]) -> None:
@@ -119,6 +126,17 @@ def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Reco
         _Plain(path).write(made.svg())
 
     return Recorder(console.name(path), keep, waits=waits)
+
+
+def _spare(path: Path, mine: re.Pattern[bytes]) -> None:
+    """Raises OSError for a file that holds anything but what an earlier run wrote."""
+    if not path.is_file():
+        return
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    if head and not mine.match(head):
+        why = "there is a file that no run has written; name a new one, or move it away"
+        raise OSError(errno.EEXIST, why, str(path))
 
 
 def _is_pipe(path: Path) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from rich.columns import Columns
-from rich.console import Group
+from rich.console import Console, Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
@@ -16,13 +16,18 @@ from driveblocks import console
 from driveblocks.host.engine import Value
 from driveblocks.plc.view import Seen, View, spelled
 
-HELP = "Type a number to toggle, or NAME := VALUE, and Enter; Ctrl-C stops all and ends."
+HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."
 BAD, GOOD = "bold red1", "bold green4"
 """Colours of fixed shade, readable on black and on white; the red and green of a palette are too dark or too bright."""
 WHY = "why"
 LONGEST_STATE = "reverse, at speed"
 """For which there is always room, lest columns jump."""
 MOST_SAID = 200
+WIDE = 110
+"""Columns from which there is room for plots."""
+BARS = "▁▂▃▄▅▆▇█"
+PLOTTED, PLOT_US = 24, 500_000
+"""Columns of a plot, and the time of each."""
 EVERY_US = 1_000_000
 """Between two lines on a number that changes all the time."""
 
@@ -87,6 +92,35 @@ class Heading:
     """What the last column of the table tells."""
 
 
+class Plots:
+    """The frequency of each drive over the last seconds, on a terminal that has room for it."""
+
+    def __init__(self, terminal: Console) -> None:
+        """Empty."""
+        self._terminal = terminal
+        self._hertz: dict[tuple[str, int], deque[float]] = {}
+        self._next_us = 0
+
+    @property
+    def fit(self) -> bool:
+        """Whether there is room, and the terminal has the characters."""
+        return self._terminal.width >= WIDE and not self._terminal.options.ascii_only
+
+    def add(self, view: View) -> None:
+        """How things are."""
+        if view.at_us >= self._next_us:
+            self._next_us = view.at_us + PLOT_US
+            for each in view.drives:
+                made = self._hertz.setdefault((each.name, each.unit), deque(maxlen=PLOTTED))
+                made.append(abs(each.hertz or 0.0))
+
+    def line(self, drive: Seen) -> str:
+        """A drive's plot; its highest bar is what is asked, or the most that was seen."""
+        seen = self._hertz.get((drive.name, drive.unit), deque()) if drive.hertz is not None else ()
+        most = max(1.0, abs(drive.asked_hz), *seen)
+        return "".join(BARS[round((len(BARS) - 1) * hertz / most)] for hertz in seen)
+
+
 class LiveTable:
     """A table on a terminal, drawn anew in its place; what is said goes above it."""
 
@@ -94,6 +128,7 @@ class LiveTable:
         """Begin."""
         self._heading = heading
         self._console = console.terminal()
+        self._plots = Plots(self._console)
         self._live = Live(console=self._console, auto_refresh=False, redirect_stdout=False, redirect_stderr=False)
         self._live.start()
 
@@ -103,7 +138,8 @@ class LiveTable:
 
     def show(self, view: View) -> None:
         """Draw the table."""
-        self._live.update(Group(*_parts(self._heading, view)), refresh=True)
+        self._plots.add(view)
+        self._live.update(Group(*_parts(self._heading, view, self._plots)), refresh=True)
 
     def close(self) -> None:
         """Leave the last table as it is, and the cursor visible."""
@@ -117,6 +153,7 @@ class Desk:
         """Begin."""
         self._heading = heading
         self._console = console.terminal()
+        self._plots = Plots(self._console)
         self._said: deque[str] = deque(maxlen=MOST_SAID)
         self._view: View | None = None
         self._console.set_alt_screen(True)
@@ -129,9 +166,10 @@ class Desk:
     def show(self, view: View) -> None:
         """Draw everything but the last row, and leave the cursor where it is."""
         self._view = view
+        self._plots.add(view)
         height = self._console.height - 1
         with self._console.capture() as capture:
-            self._console.print(Group(*_parts(self._heading, view), *_keys(view)))
+            self._console.print(Group(*_parts(self._heading, view, self._plots), *_keys(view)))
         table = capture.get().splitlines()[:height]
         rows = [*table, *list(self._said)[max(0, len(self._said) + len(table) - height) :]]
         rows += [""] * (height - len(rows))
@@ -145,15 +183,15 @@ class Desk:
         for text in self._said:
             self._console.print(Text(text, overflow="fold"))
         if self._view is not None:
-            self._console.print(Group(*_parts(self._heading, self._view)))
+            self._console.print(Group(*_parts(self._heading, self._view, self._plots)))
 
 
-def _parts(heading: Heading, view: View) -> list[Table | Text]:
+def _parts(heading: Heading, view: View, plots: Plots) -> list[Table | Text]:
     head = Text.assemble(
         (f" {heading.label} ", "bold white on red" if heading.real else "bold reverse"),
         f"  {heading.title}  {view.at_us / 1e6:.1f} s",
     )
-    parts: list[Table | Text] = [head, _drives(view.drives, heading.remark)]
+    parts: list[Table | Text] = [head, _drives(view.drives, heading.remark, plots)]
     if view.port_error:
         parts.append(Text(f"the port does not work: {view.port_error}", BAD))
     if view.dropped:
@@ -169,18 +207,21 @@ def _keys(view: View) -> list[Columns | Text]:
     return [Text(), Columns(words, padding=(0, 3)), Text(HELP)] if words else []
 
 
-def _drives(drives: Sequence[Seen], remark: str) -> Table:
+def _drives(drives: Sequence[Seen], remark: str, plots: Plots) -> Table:
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("drive", overflow="fold", min_width=5)
     table.add_column("unit", justify="right", no_wrap=True)
     table.add_column("state", min_width=len(LONGEST_STATE))
     for name in ("asked", "Hz"):
         table.add_column(name, justify="right", no_wrap=True, min_width=5)
+    if plots.fit:
+        table.add_column(f"Hz, last {PLOTTED * PLOT_US // 1_000_000} s", no_wrap=True, min_width=PLOTTED)
     table.add_column(remark, min_width=20, no_wrap=remark != WHY)  # a reason is a sentence, anything else numbers
     for each in drives:
         hertz = "-" if each.hertz is None else f"{each.hertz:.1f}"
         state = Text(each.state, _style(each.state))
-        table.add_row(each.name, str(each.unit), state, f"{each.asked_hz:.1f}", hertz, each.why)
+        plot = [plots.line(each)] if plots.fit else []
+        table.add_row(each.name, str(each.unit), state, f"{each.asked_hz:.1f}", hertz, *plot, each.why)
     return table
 
 

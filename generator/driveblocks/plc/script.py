@@ -3,12 +3,13 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Protocol
 
 from driveblocks.host.engine import Message, Value
 
 _UNITS = {"ms": 1_000, "s": 1_000_000, "min": 60_000_000}
-_TIME = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)")
+_TIME = re.compile(r"([0-9]{1,12}(?:\.[0-9]{1,12})?)\s*(ms|s|min)")
 _LINE = re.compile(r"at\s+(?P<time>[^:]*?)\s*:(?P<rest>.*)", re.IGNORECASE)
 _SETTING = re.compile(r"\s*(?P<name>[A-Za-z_][\w.\[\],]*)\s*:=\s*(?P<value>.*?)\s*")
 _COMMENT = re.compile(r"(?<!\S)#")
@@ -128,7 +129,7 @@ def _value(text: str, old: Value, name: str) -> Value:
     whole = _WHOLE.fullmatch(word)
     if isinstance(old, int) and whole:
         return int(whole["digits"].replace("_", ""), int(whole["base"])) if whole["base"] else int(word)
-    if isinstance(old, float) and re.fullmatch(r"[-+]?\d+(\.\d+)?(E[-+]?\d+)?", word):
+    if isinstance(old, float) and re.fullmatch(r"[-+]?\d+(\.\d+)?(E[-+]?\d+)?", word) and isfinite(float(word)):
         return float(word)
     if isinstance(old, int | float):
         kind = "a whole number" if isinstance(old, int) else "a number"

@@ -13,7 +13,9 @@ from driveblocks.plc.clock import Clock
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Speech, Stopper
 from driveblocks.plc.gate import Gate, GivenUp
+from driveblocks.plc.keyboard import is_variable, typed
 from driveblocks.plc.pace import Pace
+from driveblocks.plc.play import Play
 from driveblocks.plc.port import Port
 from driveblocks.plc.recorder import Recorder
 from driveblocks.plc.script import Setting
@@ -52,8 +54,10 @@ class Session:
         self.ending = ending
         self.watchdog = Watchdog()
         self.pace = Pace(scan_us)
-        self.settings: queue.SimpleQueue[Setting] = queue.SimpleQueue()
-        """What a person sets, from another thread."""
+        self.typed: queue.SimpleQueue[str] = queue.SimpleQueue()
+        """Lines of a person, from another thread; what they do is reckoned between two scans."""
+        self.play: Play | None = None
+        """What happens to simulated drives."""
         self.script: Sequence[Setting] = ()
         self.shown: tuple[str, ...] = ()
         self.recorders: list[Recorder] = []
@@ -137,6 +141,7 @@ class Session:
             due += scan_us
             due += scan_us * self.pace.add(done - start, done - due)
             self._clock.sleep_until(due)
+        self._take(self._clock.now_us() - self._begun_us)
 
     def _scan(self, now_us: int) -> None:
         since = now_us - self._begun_us
@@ -145,9 +150,10 @@ class Session:
             setting = self.script[self._done]
             instance[setting.name] = setting.value
             self._done += 1
-        while not self.settings.empty():
-            setting = self.settings.get()
-            instance[setting.name] = setting.value
+        self._take(since)
+        if self.play is not None:
+            for says in self.play.due(since):
+                self.told.put(f"{since / 1e6:5.1f} s  {says}")
         self.step(since)
         self.controller.scan(now_us)
         self._gate.check()
@@ -156,6 +162,19 @@ class Session:
             self._looked_us = since
             self.view = look(self.controller, self.shown, since, self._gate.error)
             self._tell()
+
+    def _take(self, since: int) -> None:
+        """Do what a person has typed."""
+        while not self.typed.empty():
+            line, program = " ".join(self.typed.get().split()), self.controller
+            try:
+                if self.play is not None and not is_variable(line, program.instance) and self.play.takes(line):
+                    self.play.typed(line, since)
+                else:
+                    setting = typed(line, program.wiring.inputs, program.instance)
+                    program.instance[setting.name] = setting.value
+            except ValueError as error:
+                self.told.put(str(error))
 
     def _record(self, since: int) -> None:
         if self.recorders:

@@ -10,23 +10,24 @@ from pathlib import Path
 
 from driveblocks import console
 from driveblocks.host.engine import BuildError, ScanError
-from driveblocks.maps import catalog, collection
+from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, permission, port, recorder, script, source, wiring
+from driveblocks.plc import demo, live, permission, port, recorder, scenario, script, source, wiring
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import Clock, RealClock, VirtualClock
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
+from driveblocks.plc.play import Play
 from driveblocks.plc.port import Port, WirePort
 from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 LONGEST_SCAN_US = 60_000_000
@@ -61,6 +62,8 @@ class Setup:
         self._departure = Departure(LEAVE_S * self._pause)
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
+        if console.terminal().is_terminal:
+            console.write(f"{self.label}  compiling {console.name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
         self._probe = self._probed()
@@ -68,6 +71,7 @@ class Setup:
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
+        self._session.play = self._play()
         self._records()
         self._free = self._allowed()
 
@@ -82,12 +86,7 @@ class Setup:
     def _load(self) -> source.Loaded:
         name = console.name(catalog.shown(self._path))
         try:
-            text = self._path.read_text(encoding="utf-8-sig")
-        except (OSError, UnicodeDecodeError) as error:
-            why = (error.strerror or str(error)) if isinstance(error, OSError) else "it is not UTF-8; save it as such"
-            raise Refused(f"{name}:1:1: cannot be read: {why}") from None
-        try:
-            return source.load(name, text, self._maps, self._options.name)
+            return source.load(name, _text(self._path, name), self._maps, self._options.name)
         except BuildError as error:
             raise Refused(str(error)) from None
 
@@ -160,8 +159,15 @@ class Setup:
         known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
         if not self._options.simulate:
             return list(of_program(self._probe, tuple(known.values())))
-        drives = words(self._options.simulate)
-        return named(drives, lambda name: known[catalog.resolve(name).resolve()], "--simulate ")
+        paths = [path for path, _ in known.values()]
+        try:
+            return named(
+                words(self._options.simulate),
+                lambda name: known[catalog.displacing(catalog.resolve(name), paths).resolve()],
+                "--simulate ",
+            )
+        except catalog.UnknownDrive as error:
+            raise Refused(str(error)) from None
 
     def _simulated(self) -> Port:
         wanted = self._wanted
@@ -171,13 +177,30 @@ class Setup:
         if isinstance(self._clock, VirtualClock) or self._options.demo:
             drives = [one.made(ascii_mode=ascii_mode) for one in wanted]
             if self._options.demo:
-                self._play(drives)
-            return WirePort(Wire(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock))
+                self._show(drives)
+            bus, clock = Bus(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock)
+            self._acts(lambda happening: bus.happen(happening.act, clock.now_us()))
+            return WirePort(bus, clock)
         process = Simulation(wanted, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
+        self._acts(process.happen)
         return port.tcp(LOOPBACK[1], process.port, self._clock)
 
-    def _play(self, drives: list[SimulatedDrive]) -> None:
+    def _play(self) -> Play | None:
+        """What happens to simulated drives; None where nobody can know what they are. Raises Refused."""
+        path, drives = self._options.scenario, {one.unit: one.drive for one in self._wanted}
+        if self._options.tcp or self._options.port or self._options.demo:
+            return None
+        try:
+            return Play(drives, scenario.read(path, drives) if path else ())
+        except MapError as error:
+            raise Refused(str(error)) from None
+
+    def _acts(self, act: Callable[[scenario.Happening], None]) -> None:
+        if self._session.play is not None:
+            self._session.play.act = act
+
+    def _show(self, drives: list[SimulatedDrive]) -> None:
         for drive in drives:
             drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
         self._demo = demo.Demo(self._session, drives[-1])
@@ -235,10 +258,9 @@ class Setup:
         path = self._options.script
         if path is None:
             return []
+        name = console.name(path)
         try:
-            return script.read(console.name(path), path.read_text(encoding="utf-8"), controller.instance)
-        except (OSError, UnicodeDecodeError) as error:
-            raise Refused(f"{console.name(path)}:1:1: cannot be read: {error}") from None
+            return script.read(name, _text(path, name), controller.instance)
         except script.ScriptError as error:
             raise Refused(str(error)) from None
 
@@ -292,13 +314,17 @@ class Setup:
 
         def also(at_us: int) -> None:
             step(at_us)
-            live.tell(session, screen)
-            if session.view is not None:
-                screen.show(session.view)
+            try:
+                live.tell(session, screen)
+                if session.view is not None:
+                    screen.show(session.view)
+            except (OSError, ValueError) as error:
+                session.ending.ask(f"the screen has failed: {error}")
 
         session.step = also
         result = session.run(self._for_us)
-        live.tell(session, screen)
+        with suppress(OSError, ValueError):
+            live.tell(session, screen)
         return result
 
     def _settled(self, result: Result) -> None:
@@ -329,6 +355,18 @@ class Setup:
         return self._status(result) or (2 if failed else 0)
 
 
+def _text(path: Path, name: str) -> str:
+    """The text of a plain file: a pipe would be waited for. Raises Refused."""
+    try:
+        if path.exists() and not path.is_file():
+            raise Refused(f"{name}:1:1: cannot be read: it is no file")
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise Refused(f"{name}:1:1: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise Refused(f"{name}:1:1: cannot be read: it is not UTF-8; save it as such") from None
+
+
 def _print(text: str) -> None:
     """On standard output, else on the other stream."""
     try:
@@ -349,11 +387,9 @@ def _stands(result: Result) -> Iterator[str]:
 
 def _maps(options: Options) -> list[Map]:
     """The shipped maps, and those that are named. Raises Refused."""
-    named = [*options.maps, *(one.name for one in words(options.simulate))]
+    named = [*options.maps, *(one.name for one in words(options.simulate) if catalog.is_path(one.name))]
     try:
-        paths = [*catalog.shipped(), *(catalog.resolve(name) for name in named)]
-        known = {path.resolve(): path for path in reversed(paths)}
-        return collection.read(sorted(known.values(), key=lambda path: path.stem))
+        return source.known([catalog.resolve(name) for name in named])
     except (catalog.UnknownDrive, MapError) as error:
         raise Refused(str(error)) from None
 

@@ -4,9 +4,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 
 from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
 from driveblocks.host.engine import BuildError, Message, Source
+from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.model import Drive
 from driveblocks.render import library
@@ -29,29 +31,37 @@ class Loaded:
 
 def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> Loaded:
     """Compile a program; `name` says which, where there are several. Raises BuildError."""
-    used = [each for each in maps if re.search(rf"\b{each.drive.prefix}_", text, re.IGNORECASE)]
-    built = EmbeddedEngine("fail").build([*_needed(path, text, used), Source(path, text)])
+    try:
+        files = needed([parse(text, path)], maps)
+    except ParseError as error:
+        raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
+    built = EmbeddedEngine().build([*files, Source(path, text)])
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
 
 
-def _needed(path: str, text: str, maps: Sequence[Map]) -> list[Source]:
-    """The files of the library that a text needs, in their order, but for what it declares itself."""
-    try:
-        own = {getattr(each, "name", "").upper() for each in parse(text, path).elements}
-    except ParseError as error:
-        raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
+def known(named: Sequence[Path] = ()) -> list[Map]:
+    """The shipped maps, and those that are named, which take the place of shipped ones. Raises MapError."""
+    paths = [*(path for path in catalog.shipped() if catalog.displacing(path, named) == path), *named]
+    single = {path.resolve(): path for path in reversed(paths)}
+    return collection.read(sorted(single.values(), key=lambda path: path.stem))
+
+
+def needed(units: Sequence[Unit], maps: Sequence[Map]) -> list[Source]:
+    """The files of the library that texts need, in their order, but for what they declare themselves."""
+    own = {getattr(each, "name", "").upper() for unit in units for each in unit.elements}
+    text = "\n".join(unit.text for unit in units)
     files = [*_shared()]
-    for each in maps:
+    for each in (one for one in maps if re.search(rf"\b{one.drive.prefix}_", text, re.IGNORECASE)):
         files.extend(library.drive(each.path.stem, each.drive, _english()))
-    known = {file.name.upper(): file for file in files if file.name.upper() not in own}
+    there = {file.name.upper(): file for file in files if file.name.upper() not in own}
     wanted: set[str] = set()
     waiting = [text]
     while waiting:
         words = {word.upper() for word in _WORD.findall(waiting.pop())}
-        new = (words & known.keys()) - wanted
+        new = (words & there.keys()) - wanted
         wanted |= new
-        waiting += [known[word].text for word in sorted(new)]
+        waiting += [there[word].text for word in sorted(new)]
     return [Source(f"{file.folder}/{file.name}.st", file.text) for file in files if file.name.upper() in wanted]
 
 

@@ -65,7 +65,9 @@ class Wanted:
         given = dict(self.scales)
         scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
         text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))
-        return textwrap.wrap(text, WIDTH, subsequent_indent="  ")
+        zeros = self.made(ascii_mode=False).table.zeros
+        lines = [text, f"  reads 0 until written: {zeros}"] if zeros else [text]
+        return [row for line in lines for row in textwrap.wrap(line, WIDTH, subsequent_indent="  ")]
 
 
 def open_scales(drive: Drive) -> dict[str, int]:

@@ -9,6 +9,8 @@ from driveblocks.simulator.drive import SimulatedDrive
 
 _LONGEST = 520
 """Characters that no request has."""
+_MOST_WAITING = 2 * _LONGEST
+"""Characters that wait for the wire; what comes faster than it can carry is lost, as in a buffer that is full."""
 _LENGTHS = {3: 8, 4: 8, 6: 8, 8: 8}
 """Bytes of an RTU request by its function; of 10H its byte count says, of others their checksum."""
 _PATIENCE_US = 50_000
@@ -42,6 +44,8 @@ class Wire:
         self._give_up(now_us)
         if self._said and self._said[-1][0] + len(self._said[-1][1]) * self._character_us > now_us:
             self._said.clear()
+            return
+        if self._asked_us - now_us > _MOST_WAITING * self._character_us:
             return
         self._asked_us = max(now_us, self._asked_us) + len(data) * self._character_us
         self._asked = (self._asked + data)[-_LONGEST:]

@@ -28,8 +28,11 @@ def of(entry: Returned | Bit) -> Texts:
 
 
 def fault(drive: Drive, code: int) -> Texts | None:
-    """The text of a fault code."""
-    return _first(of(one) for one in drive.faults.codes if one.code == code)
+    """The text of a fault code, after the drive's own name for it."""
+    found = next((one for one in drive.faults.codes if one.code == code), None)
+    if found is None or not found.id:
+        return of(found) if found else None
+    return Texts(*(f"{found.id} {each}" for each in of(found)))
 
 
 def error(drive: Drive, code: int) -> Texts | None:

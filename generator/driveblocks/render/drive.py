@@ -100,7 +100,7 @@ def drive_block(drive: Drive) -> Context:
         "checked": checked(drive),
         "maximum": reference["maximum"],
         "identity": _identity(drive),
-        "commanded_by": _commanded_by(drive, number),
+        "commanded_by": _commanded_by(drive, number, told),
         "own_maximum": _own_maximum(drive),
         "feeds": drive.watchdog.feeds if drive.watchdog else None,
     }
@@ -173,13 +173,13 @@ def _identity(drive: Drive) -> Context | None:
     }
 
 
-def _commanded_by(drive: Drive, number: dict[int, int]) -> Context | None:
+def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> Context | None:
     """What all has to hold while the bus is in command, and the reads that bring it."""
     bus = drive.operation.commanded_by
     if bus is None:
         return None
     return {
-        "tests": [_condition(drive, each) for each in bus.all],
+        "holds": [told.holds(each) for each in bus.all],
         "reads": sorted({number[each.register] for each in bus.all}),
         "source": context.source_of(drive, bus.source),
     }

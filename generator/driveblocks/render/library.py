@@ -32,7 +32,8 @@ LINE_BLOCKS = (
 CONTROL_BLOCKS = (
     "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_Set", "VFD_Usual", "VFD_IsScale", "VFD_Scaled",
     "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start",
-    "VFD_StopRound", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
+    "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter",
+    "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = (8, 32)
@@ -150,11 +151,11 @@ def _sized(folder: str, name: str, languages: list[Language]) -> Iterator[File]:
 def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """The blocks of one drive. Raises ValueError when a name makes no identifier."""
     shared = {"drive": context.identity(drive), **_texts_of(languages)}
-    for template, values in (*_blocks(stem, drive), *_texts(drive, languages)):
+    for template, values in (*_blocks(drive), *_texts(drive, languages)):
         yield _file(stem, template, {"name": f"{drive.prefix}_{template}", **shared, **values})
 
 
-def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
+def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
     yield "CanAccess", context.access(drive, "r", allowed.readable)
@@ -179,7 +180,7 @@ def _blocks(stem: str, drive: Drive) -> Iterator[tuple[str, context.Context]]:
     block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
     for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
-    yield "Version", {**context.version(drive), "stem": stem}
+    yield "Version", context.version(drive)
 
 
 def _texts_of(languages: list[Language]) -> context.Context:

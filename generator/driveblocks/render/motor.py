@@ -1,5 +1,7 @@
 """The first program of a user: one motor on one port."""
 
+from math import ceil
+
 from driveblocks.maps.model import Drive
 from driveblocks.render import context
 from driveblocks.render.context import Context
@@ -7,6 +9,8 @@ from driveblocks.render.drive import drive_block
 
 SCAN_MS = 10
 """Interval of its task."""
+PATIENCE_MS = 500
+"""How long a Modbus master of the PLC is to wait for a reply: what the line takes until it has learned better."""
 
 
 def motor(drive: Drive) -> Context:
@@ -25,7 +29,15 @@ def motor(drive: Drive) -> Context:
         "maximum": values["maximum"],
         "checked": values["checked"],
         "ascii": "rtu" not in drive.serial.mode.modes,
+        "pause": _pause(drive),
+        "patience": PATIENCE_MS,
     }
+
+
+def _pause(drive: Drive) -> int:
+    """Silence that a Modbus master of the PLC has to be told to keep, ms: it knows of 3.5 characters alone."""
+    silence = drive.serial.silence and drive.serial.silence.milliseconds
+    return ceil(silence) + 1 if silence else 0
 
 
 def _port(drive: Drive) -> dict[str, int]:

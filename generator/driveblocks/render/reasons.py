@@ -12,6 +12,8 @@ class Reason:
     en: str
     zh: str
     remedy: str
+    without: str = ""
+    """What to do at a drive that takes no fault reset over the bus, where that is something else."""
 
 
 REASONS = (
@@ -61,13 +63,13 @@ REASONS = (
     Reason(
         19,
         "HEARTBEAT",
-        "the refresh is slower than the drive's watchdog allows",
+        "the refresh is slower than the watchdog of the drive allows",
         "刷新慢于通讯超时",
         "fewer drives, a higher bit rate, or a longer watchdog",
     ),
     # what the user asks
     Reason(20, "DISABLED", "Enable is FALSE", "未使能", "set `Enable`"),
-    Reason(21, "STOP_PIN", "QuickStop or CoastStop is TRUE", "急停或自由停机信号有效", "release it"),
+    Reason(21, "STOP_PIN", "QuickStop or CoastStop is TRUE", "快速停机或自由停机信号有效", "release it"),
     Reason(22, "STOP_ALL", "all drives of the line are being stopped", "全部停机中", "release `StopAll` of the line"),
     Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start anew"),
     Reason(
@@ -82,7 +84,7 @@ REASONS = (
     Reason(
         27,
         "SPEED_ONLY",
-        "run comes by the drive's terminals",
+        "run comes by the terminals of the drive",
         "由端子控制启停",
         "start and stop by the drive's own terminals",
     ),
@@ -123,7 +125,7 @@ REASONS = (
         "变频器参数设置不符",
         "correct the setting that the page names",
     ),
-    Reason(34, "UNREAD", "the drive's settings are not read yet", "参数尚未读取", "wait"),
+    Reason(34, "UNREAD", "the settings of the drive are not read yet", "参数尚未读取", "wait"),
     Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start anew"),
     # the drive
     Reason(
@@ -131,7 +133,9 @@ REASONS = (
         "FAULT",
         "fault: see FaultCode",
         "故障，见FaultCode",
-        "remove the cause, then a rising `FaultReset`; at the drive itself where `Diagnosis.CanResetFault` is FALSE",
+        "remove the cause, then a rising `FaultReset`",
+        "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of it is listed "
+        "under [gaps](#what-the-manual-leaves-open)",
     ),
     Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
     Reason(
@@ -177,8 +181,8 @@ REASONS = (
         "NO_RESET",
         "the reset was refused or has not helped",
         "复位被拒绝或无效",
-        "release the run pins, remove the cause, then a rising `FaultReset`; reset it at the drive itself where "
-        "`Diagnosis.CanResetFault` is FALSE",
+        "release the run pins, remove the cause, then a rising `FaultReset`",
+        "does not appear: no reset is sent to this drive",
     ),
     Reason(
         49,
@@ -197,7 +201,7 @@ REASONS = (
     Reason(
         51,
         "OTHER_MAXIMUM",
-        "the drive's own maximum frequency is not FullScaleHz",
+        "the maximum frequency of the drive itself is not FullScaleHz",
         "变频器最高频率与FullScaleHz不一致",
         "`Diagnosis.OwnMaximumHz`: set `FullScaleHz`, or the drive, to what is right for the motor",
     ),

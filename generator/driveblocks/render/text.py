@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, Drive, Returned, Worded
+from driveblocks.maps.model import Bit, Drive, Fault, Returned, Worded
 from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
@@ -102,9 +102,14 @@ def _own(name: str, texts: list[tuple[int, str, str]], head: Context, language: 
     return {"name": f"{name}{language.suffix}", "rows": rows, **head, **_language(language)}
 
 
+def led(fault: Fault, text: str) -> str:
+    """The text of a fault after the name that the drive shows: `OH1 Heatsink overtemperature`."""
+    return f"{fault.id} {text}" if fault.id else text
+
+
 def fault_texts(drive: Drive, language: Language) -> Context:
     """For CodeText: fault codes."""
-    rows = [_entry(language, fault.code, fault) for fault in drive.faults.codes]
+    rows = [_row(language, fault.code, led(fault, language.pick(fault)), fault.text_zh) for fault in drive.faults.codes]
     head = {
         "title": "fault codes",
         "source": source_of(drive, drive.faults.source),

@@ -1,5 +1,6 @@
 """What the status words show: for each situation of the drive, words in which just the map's right conditions hold."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields
 from itertools import product
@@ -39,6 +40,8 @@ class Fact:
 
 
 Words = dict[int, int]
+_DISABLED = re.compile(r"switch(ing|ed)?[ -]on (disabled|inhibited)", re.IGNORECASE)
+"""How manuals name the bit of CiA 402 and PROFIdrive."""
 
 
 def situations() -> Iterator[Situation]:
@@ -70,7 +73,21 @@ def face(drive: Drive, measured: frozenset[int], situation: Situation, state: st
     options = [_options(fact) for fact in facts]
     registers = {each.register for fact in facts for all_ in fact.any for each in all_}
     candidates = [words for chosen in product(*options) if (words := _together(chosen, registers)) is not None]
-    return max(candidates, key=lambda words: ([fact.shown(words) == fact.wanted for fact in facts], _least(words)))
+    shown = max(candidates, key=lambda words: ([fact.shown(words) == fact.wanted for fact in facts], _least(words)))
+    if state is None and drive.operation.states and not situation.fault and not situation.running:
+        return _waiting(drive, shown, facts)
+    return shown
+
+
+def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
+    """The words of a drive that goes through states and is in none: the bit that says so, unless it says more."""
+    for register in dict.fromkeys(each.register for each in drive.operation.states):
+        row = drive.register_at(register)
+        for bit in (each.bit.first for each in (row.bits if row else ()) if _DISABLED.match(each.name or "")):
+            made = {**words, register: words.get(register, 0) | 1 << bit}
+            if all(fact.shown(made) == fact.shown(words) for fact in facts):
+                return made
+    return words
 
 
 def _least(words: Words) -> list[int]:

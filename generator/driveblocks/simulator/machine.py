@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
+from driveblocks.simulator.copies import RPM_PER_HERTZ, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
@@ -39,6 +40,8 @@ class Machine:
         self.fault = 0
         """Code of the present fault."""
         self.last_fault = 0
+        self._at_fault: dict[int, int] = {}
+        """What registers show of the moment of the last fault."""
         self.cause = False
         """Whether the fault's cause is still there: no reset works."""
         self.warning = False
@@ -97,12 +100,25 @@ class Machine:
             return self._measure(gauge)
         if address == self.table.present:
             return self._code
+        copy = self.table.copies.get(address)
+        if copy:
+            return self._at_fault.get(address, 0) if copy.at_fault else self._copied(copy)
         home = self.memory.home(address)
         bits = self.table.fault_bits
         if bits and bits[0] <= home <= bits[1]:
             place = self._code - 1 - 16 * (home - bits[0])
             return self.memory[home] | (1 << place if 0 <= place < 16 else 0)
         return self.memory[home] & ~self.table.named.get(home, 0) | self._face().get(home, 0)
+
+    def _copied(self, copy: Copy) -> int:
+        if copy.same is not None:
+            return self.word(copy.same)
+        if copy.shows in ("fault", "last_fault"):
+            return self._code if copy.shows == "fault" else self.last_fault
+        if copy.shows not in ("asked", "speed"):
+            return self._measure(Gauge(copy.register, copy.shows, copy.milli, copy.signed))
+        milli = self._asked() if copy.shows == "asked" else RPM_PER_HERTZ * self.motor.shaft
+        return _counts(milli if copy.signed else abs(milli), copy.milli)
 
     @property
     def _code(self) -> int:
@@ -137,8 +153,7 @@ class Machine:
             "dc_bus_voltage": 1000 * habits.bus_volts,
             "output_power": habits.kilowatts * self.load * share * driven // 10,
         }[gauge.shows]
-        # towards 0, as C divides
-        return (milli // gauge.milli if milli >= 0 else -(-milli // gauge.milli)) & WORD
+        return _counts(milli, gauge.milli)
 
     # ------------------------------------------------------------ time
 
@@ -156,8 +171,10 @@ class Machine:
 
     def _goal(self) -> int:
         """Where the output frequency goes, in thousandths of a hertz."""
-        if self._stopping:
-            return 0
+        return 0 if self._stopping else self._asked()
+
+    def _asked(self) -> int:
+        """What is asked of it, whether it runs or not."""
         if self._jog:
             milli = 1000 * self.habits.jog_hz
         elif self._own_milli is not None:
@@ -197,6 +214,7 @@ class Machine:
         """A fault, whose cause stays until `clear_cause`."""
         if not self.powered or self.fault:
             return
+        self._at_fault = {each.register: self._copied(each) for each in self.table.copies.values() if each.at_fault}
         self.fault = self.last_fault = code
         self.cause = True
         self._let_go()
@@ -336,3 +354,8 @@ class Machine:
     def _settle(self) -> None:
         if self._next and self.now >= self._next[1]:
             self.state, self._next = self._next[0], None
+
+
+def _counts(milli: int, per: int) -> int:
+    """A word, rounded towards 0, as C divides."""
+    return (milli // per if milli >= 0 else -(-milli // per)) & WORD

@@ -35,6 +35,12 @@ def codes(drive: Drive) -> dict[str, int | None]:
     return found
 
 
+def refuses_beyond(drive: Drive) -> bool:
+    """Whether the manual lists a refusal of values beyond a limit."""
+    texts = (text for code in drive.errors.codes for text in _causes(code))
+    return any(re.search(r"beyond .*limit", text, re.IGNORECASE) for text in texts)
+
+
 def _number(drive: Drive, reason: str) -> int | None:
     for code in drive.errors.codes:
         texts = [code.name] if reason in _NAMES else _causes(code)

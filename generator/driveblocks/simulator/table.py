@@ -1,5 +1,6 @@
 """A map as the numbers that a simulated drive works with, in Python and in C."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -8,11 +9,13 @@ from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
 from driveblocks.maps.plan import Words, manners, most, plan
 from driveblocks.modbus.layout import Manners
+from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import Move, moves
 from driveblocks.simulator.pattern import WORD, Pattern, of_condition
-from driveblocks.simulator.refusal import codes
+from driveblocks.simulator.plate import plate
+from driveblocks.simulator.refusal import codes, refuses_beyond
 
 MEASURES = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
 
@@ -90,6 +93,9 @@ class Table:
     storage: Storage
     present: int | None
     fault_bits: tuple[int, int] | None
+    copies: dict[int, Copy]
+    zeros: str
+    """Registers that read 0 until somebody writes them, in words."""
 
 
 def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
@@ -100,6 +106,10 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     words = most(drive, "ascii" if ascii_mode else "rtu")
     broadcast, bits = drive.serial.broadcast, drive.faults.bits
     states = tuple(state.name for state in drive.operation.states)
+    named = named_bits(drive, measured)
+    codes_at = {drive.faults.present, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
+    known = {*measured, *named, *codes_at, *plate(drive, habits), manners(drive).address}
+    again = copies(drive, habits, known)
     return Table(
         functions=allowed.functions,
         sub_functions=allowed.sub_functions,
@@ -108,18 +118,20 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         writable=allowed.writable,
         broadcast=broadcast.address if broadcast else None,
         broadcasts=broadcast.start_addresses if broadcast else (),
-        limits=_limits(drive),
+        limits=(*_limits(drive), *_choices(drive), *_highest(drive, habits)),
         manners=manners(drive),
         codes=codes(drive),
         moves=moves(drive),
         states=states,
-        named=named_bits(drive, measured),
+        named=named,
         faces=_faces(drive, measured),
         gauges=gauges,
         reference=_reference(drive, drive.operation.reference, habits),
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         fault_bits=(bits.first, bits.last) if bits else None,
+        copies={each.register: each for each in again},
+        zeros=zeros(drive, {*known, *(each.register for each in again)}),
     )
 
 
@@ -164,6 +176,23 @@ def _limits(drive: Drive) -> tuple[Limit, ...]:
         if row.range
         for address in row.address
     )
+
+
+def _choices(drive: Drive) -> Iterator[Limit]:
+    """A command register whose row lists values takes these; between the lowest and the highest of them, any."""
+    for register in dict.fromkeys(command.register for command in drive.operation.commands):
+        row = drive.register_at(register)
+        if row and row.values and not row.masks and not row.range:
+            listed = [each.value for each in row.values]
+            yield Limit(register, min(listed), max(listed), signed=False)
+
+
+def _highest(drive: Drive, habits: Habits) -> Iterator[Limit]:
+    """A reference in Hz ends at the drive's own maximum, where the manual has its scale and refuses what is beyond."""
+    row = drive.register_at(drive.operation.reference.register)
+    in_hertz = drive.operation.reference.means == "frequency" and row is not None and not row.range and not row.signed
+    if row is not None and in_hertz and row.scale and refuses_beyond(drive):
+        yield Limit(row.address.first, 0, int(habits.maximum_hz / Decimal(row.scale.factor)), signed=False)
 
 
 def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:

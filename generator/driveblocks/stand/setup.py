@@ -11,15 +11,14 @@ from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live, port
+from driveblocks.plc import live, port, scenario
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.options import LOOPBACK, Refused, time
+from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, time
 from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.plc.wanted import named
 from driveblocks.plc.wanted import words as drives_of
-from driveblocks.stand import scenario
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
 from driveblocks.stand.neighbour import Neighbours
 from driveblocks.stand.stand import Stand, view
@@ -43,7 +42,7 @@ class Words:
     form: str = "8N1"
     ascii: bool = False
     scenario: Path | None = None
-    trace: bool = False
+    frames: bool = False
     length: str | None = None
 
 
@@ -79,6 +78,8 @@ class Setup:
         good = colon and host in LOOPBACK and number.isdecimal() and int(number) <= 0xFFFF
         if words.tcp is not None and not good:
             found.append(f"--tcp {words.tcp}: a simulator serves this computer only; write --tcp {HOST}:{TCP}")
+        if words.port == "":
+            found.append(NO_PORT)
         if not 300 <= words.baud <= 1_000_000:
             found.append(f"--baud {words.baud} is no rate; write 300 to 1000000")
         if not _FORM.fullmatch(words.form):
@@ -153,7 +154,7 @@ class Setup:
         def look(at_us: int) -> None:
             while self._bus.frames:
                 frame = self._bus.frames.popleft()
-                if self._words.trace:
+                if self._words.frames:
                     for line in self._tracer.lines(frame):
                         say(line)
             screen.show(view(self._bus, self.maps, at_us, counted=isinstance(screen, LiveTable)))

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from driveblocks.maps.model import Drive
+from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import Clock
 from driveblocks.plc.ending import Ending
+from driveblocks.plc.scenario import Happening
 from driveblocks.plc.view import Seen, View
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.stand.bus import Bus
 from driveblocks.stand.link import Link
-from driveblocks.stand.scenario import Happening
 
 LOOK_US = 200_000
 """Between two looks for the screen."""

@@ -8,7 +8,7 @@ from driveblocks.explain.paste import Paste
 from driveblocks.explain.unreadable import UnreadableError
 from driveblocks.explain.wire import open_
 from driveblocks.maps.model import Drive
-from driveblocks.stand.bus import Frame
+from driveblocks.plc.bus import Frame
 
 
 class Tracer:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from rich.console import RenderableType
 
-from driveblocks.maps import conduct, counts, view
+from driveblocks.maps import catalog, conduct, counts, view
 from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import (
@@ -40,7 +40,8 @@ def pages(drive: Drive, file: str) -> Iterator[RenderableType]:
     yield from _counts(drive)
     yield heading("Registers")
     yield from tables(drive)
-    yield f"\nMore: `driveblocks show {Path(file).stem} TOPIC`, where TOPIC is one of {listed(KINDS)}, or a register."
+    word = Path(file).stem if catalog.is_shipped(Path(file)) else file
+    yield f"\nMore: `driveblocks show {word} TOPIC`, where TOPIC is one of {listed(KINDS)}, or a register."
 
 
 def _text(text: Text) -> str:
@@ -59,6 +60,7 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
         ("covers", manual.covers),
         ("second hand", "runs only when its user has checked the manual" if manual.second_hand else None),
         ("proof", None if drive.frames else view.UNPROVED),
+        ("safety rules", view.PROVABLE),
         ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
     )
 

@@ -35,8 +35,7 @@ class Counted(Protocol):
 def counting(engine: Engine) -> Engine:
     """The same engine with counters; one that has none as it is."""
     if isinstance(engine, EmbeddedEngine):
-        options = engine.options
-        return EmbeddedEngine(options.model, line=options.line, loop_limit=engine.loop_limit, coverage=True)
+        return EmbeddedEngine(loop_limit=engine.loop_limit, coverage=True)
     if isinstance(engine, MatiecEngine):
         return replace(engine, flags=replace(engine.flags, coverage=True))
     return engine

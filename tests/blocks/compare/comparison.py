@@ -9,9 +9,9 @@ from tests.blocks.compare.pou import Pou, Text, shipped
 from tests.blocks.compare.stimulus import stimuli
 from tests.blocks.compare.subject import EmbeddedSubject, MatiecSubject, Subject
 from tests.host.compare.lockstep import ABSENT, Difference, State, first_unlike
-from tests.host.compare.models import MODELS, double
 from tests.host.compare.scenarios import Inputs
 
+from driveblocks.host.discovery import EMBEDDED
 from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.host.embedded.library import EmbeddedLibrary
 from driveblocks.host.engine import Engine, Library, ScanError
@@ -23,14 +23,9 @@ AS_USERS = 64
 Libraries = Mapping[str, Library]
 
 
-def models() -> dict[str, Engine]:
-    """The embedded engine in each of its models, by name."""
-    return {f"embedded-{model}": EmbeddedEngine(model=model) for model in MODELS}
-
-
-def with_double(matiec: Engine) -> dict[str, Engine]:
-    """The embedded engine that follows a line of matiec, and the line itself."""
-    return {f"embedded-{matiec.name.partition('-')[2]}": double(matiec), matiec.name: matiec}
+def beside(matiec: Engine) -> dict[str, Engine]:
+    """A line of matiec, whose state has more in it, and the embedded engine."""
+    return {matiec.name: matiec, EMBEDDED: EmbeddedEngine()}
 
 
 def build(engines: Mapping[str, Engine], text: Text | None = None) -> Libraries:
@@ -46,7 +41,7 @@ def subjects(libraries: Libraries, pou: Pou) -> list[Subject]:
 
 def _subject(name: str, library: Library, pou: Pou) -> Subject:
     if isinstance(library, EmbeddedLibrary):
-        return EmbeddedSubject(library, pou, name, library.compiler.options.model == "c")
+        return EmbeddedSubject(library, pou, name)
     assert isinstance(library, MatiecLibrary)
     return MatiecSubject(library, pou, name)
 

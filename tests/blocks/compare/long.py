@@ -1,8 +1,8 @@
 """Every block and function of the library at length: `python -m tests.blocks.compare.long [--scans N] [--blocks A,B]
 [--seed N]`.
 
-10^5 random scans of each; after every scan its full state is compared between the three models of the embedded engine,
-both lines of matiec, and the embedded engine as it follows each line. A line that is not found is said to be missing.
+10^5 random scans of each; after every scan its full state is compared between both lines of matiec and the embedded
+engine. A line that is not found is said to be missing.
 Exit status 1 if anything differs.
 """
 
@@ -13,7 +13,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 
-from tests.blocks.compare.comparison import Libraries, build, compare, models, subjects, with_double
+from tests.blocks.compare.comparison import Libraries, beside, build, compare, subjects
 from tests.blocks.compare.pou import Pou, shipped
 
 from driveblocks.host.discovery import MATIEC_NAMES, survey
@@ -73,10 +73,10 @@ def _results(jobs: list[Job]) -> Iterator[tuple[str, bool]]:
 @functools.cache
 def _libraries() -> Libraries:
     """The library on every engine that is found; once per process."""
-    engines: dict[str, Engine] = models()
+    engines: dict[str, Engine] = {}
     for each in survey().candidates():
         if each.engine is not None and each.name in MATIEC_NAMES:
-            engines |= with_double(each.engine)
+            engines |= beside(each.engine)
     return build(engines)
 
 

@@ -58,7 +58,7 @@ def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
     if pou.arms:
         for arm in pou.arms:
             yield {**dict(arm)}
-    elif len(wholes) <= 3:
+    elif len(wholes) <= 5:
         for pin, value in ((pin, value) for pin in wholes for value in pou.whole):
             if pin.span[0] <= value <= pin.span[1]:
                 for rest in (0, 1, draws.whole(0, 20)):

@@ -88,13 +88,15 @@ def _grouped(found: Sequence[Leaf], follows_c: bool) -> list[tuple[str, list[Lea
 class EmbeddedSubject(_Stepping):
     """On the embedded engine, whose variables are attributes and lists."""
 
-    def __init__(self, library: EmbeddedLibrary, pou: Pou, name: str, follows_c: bool) -> None:
+    follows_c = False
+
+    def __init__(self, library: EmbeddedLibrary, pou: Pou, name: str) -> None:
         """Make an instance."""
         instance = library.instance(pou.block)
         self._root: Any = instance._root
         super().__init__(instance, {pin.path: self._setter(pin.path, bool(pin.length)) for pin in pou.pins})
-        self.name, self.follows_c = name, follows_c
-        self._readers = [_attributes(group, each) for group, each in _grouped(pou.leaves, follows_c) if each]
+        self.name = name
+        self._readers = [_attributes(group, each) for group, each in _grouped(pou.leaves, False) if each]
 
     def image(self) -> Image:
         """Read the whole state; arrays are the live lists."""

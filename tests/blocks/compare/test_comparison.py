@@ -1,13 +1,12 @@
-"""Every block and function of the library gives the same state after every scan, on every engine and in every model.
+"""Every block and function of the library gives the same state after every scan, on every engine.
 
 The short form of `python -m tests.blocks.compare.long`.
 """
 
-import functools
 from itertools import islice
 
 import pytest
-from tests.blocks.compare.comparison import Libraries, build, compare, models, subjects, with_double
+from tests.blocks.compare.comparison import Libraries, beside, build, compare, subjects
 from tests.blocks.compare.pou import shipped
 from tests.blocks.compare.stimulus import enough, stimuli
 from tests.blocks.compare.subject import EmbeddedSubject
@@ -31,26 +30,15 @@ UNREACHED = {
 these loops are checked before, so that none ends without a turn."""
 
 
-_WITH_DOUBLE: dict[str, Libraries] = {}
-
-
-@functools.cache
-def _models() -> Libraries:
-    return build(models())
-
-
-@pytest.mark.parametrize("folder", FOLDERS)
-def test_the_library_means_the_same_in_every_model(folder: str) -> None:
-    """No intermediate result leaves its type: `fail` never fails, and C's promotion changes nothing."""
-    _compare(_models(), folder)
+_BESIDE: dict[str, Libraries] = {}
 
 
 @pytest.mark.parametrize("folder", FOLDERS)
 def test_matiec_gives_the_same_state_after_every_scan(folder: str, matiec: Engine) -> None:
     """Every variable of the instance and of all inside it."""
-    if matiec.name not in _WITH_DOUBLE:
-        _WITH_DOUBLE[matiec.name] = build(with_double(matiec))
-    _compare(_WITH_DOUBLE[matiec.name], folder)
+    if matiec.name not in _BESIDE:
+        _BESIDE[matiec.name] = build(beside(matiec))
+    _compare(_BESIDE[matiec.name], folder)
 
 
 def _compare(libraries: Libraries, folder: str) -> None:
@@ -63,7 +51,7 @@ def test_the_inputs_reach_every_line_and_outcome() -> None:
     """What never ran was never compared; what cannot run is explained above."""
     library = EmbeddedEngine(coverage=True).build(shipped().sources)
     for pou in shipped().pous.values():
-        run = EmbeddedSubject(library, pou, "embedded", follows_c=False)
+        run = EmbeddedSubject(library, pou, "embedded")
         for inputs in islice(stimuli(pou, SEED), enough(pou)):
             run.step(inputs)
     lines = {(path, line) for path, hits in library.coverage().items() for line in hits if not hits[line]}

@@ -141,6 +141,8 @@ def _type(found: Read, spec: Spec | None) -> str:
     """A type in upper case, the name of an array replaced by what it stands for."""
     if isinstance(spec, NamedSpec):
         part = found.parts.get(spec.name.upper())
+        if spec.name == "TON":
+            return "TON_TIME"
         return spec.name.upper() if part is None or structure(part) else _type(found, part.element.spec)  # type: ignore[union-attr]  # a type
     if isinstance(spec, ArraySpec):
         bounds = [(each.low.text, each.high.text) for each in spec.ranges if each]  # type: ignore[attr-defined]  # literals

@@ -160,7 +160,7 @@ PLANTED = (
         '    yield "VERSION : 0.1"\n    yield from head(part)\n    yield from sections',
         "    yield from head(part)\n    yield from sections",
     ),
-    Planted("access is not optimized", "declaration", "'TRUE'", "'FALSE'"),
+    Planted("access is not optimized", "declaration", "else 'TRUE'", "else 'FALSE'"),
     Planted("BEGIN is missing", "declaration", 'yield "BEGIN"', 'yield ""'),
     Planted("a local has no #", "body", 'self.put(value.at, "#")', 'self.put(value.at, "")'),
     Planted(

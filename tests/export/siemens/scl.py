@@ -37,7 +37,9 @@ _SYSTEM = {
     "SEND_P2P": "REQ:BOOL PORT:PORT BUFFER:* LENGTH:UINT DONE:BOOL ERROR:BOOL STATUS:WORD",
     "RECEIVE_P2P": "PORT:PORT BUFFER:* NDR:BOOL ERROR:BOOL STATUS:WORD LENGTH:UINT",
     "RECEIVE_RESET": "REQ:BOOL PORT:PORT DONE:BOOL ERROR:BOOL STATUS:WORD",
-    "MODBUS_COMM_LOAD": "REQ:BOOL PORT:PORT BAUD:UDINT PARITY:UINT MB_DB:* DONE:BOOL ERROR:BOOL STATUS:WORD MODE:USINT",
+    "MODBUS_COMM_LOAD": "REQ:BOOL PORT:PORT BAUD:UDINT PARITY:UINT RESP_TO:UINT MB_DB:* DONE:BOOL ERROR:BOOL "
+    "STATUS:WORD MODE:USINT RETRIES:UINT",
+    "TON_TIME": "IN:BOOL PT:TIME Q:BOOL ET:TIME",
     "MODBUS_MASTER": "REQ:BOOL MB_ADDR:UINT MODE:USINT DATA_ADDR:UDINT DATA_LEN:UINT DATA_PTR:* DONE:BOOL BUSY:BOOL "
     "ERROR:BOOL STATUS:WORD MB_DB:*",
 }
@@ -180,14 +182,16 @@ class _Reader:
         if kind == "FUNCTION":
             self.take(":")
             self.block.returns = self.type()
-        if kind != "TYPE" and self.take(kind="pragma") != "{ S7_Optimized_Access := 'TRUE' }":
-            raise self.fail("optimized access")
+        access = self.take(kind="pragma") if kind != "TYPE" else ""
         self.take("VERSION")
         self.take(":")
         self.take(kind="literal")
         self.block.head = [each.removeprefix("//").removeprefix(" ") for each in self.skip("line")]
         while self.at("STRUCT" if kind == "TYPE" else "VAR", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP"):
             self.section(kind)
+        owns = any(one.type.upper() == "MODBUS_MASTER" for one in self.block.variables)
+        if access and access != f"{{ S7_Optimized_Access := '{'FALSE' if owns else 'TRUE'}' }}":
+            raise self.fail("optimized access, but for what hands memory to Modbus_Master")
         if kind == "TYPE":
             if not self.block.variables:
                 raise self.fail("STRUCT, since nothing else has a type of its own")
@@ -391,7 +395,7 @@ class _Reader:
                 self.take(formal)
                 self.take(":=")
                 self.expression()
-        elif name == "RUNTIME" or re.fullmatch(r"(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+", name):
+        elif name in ("RUNTIME", "ABS") or re.fullmatch(r"(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+", name):
             self.expression()
         else:
             raise self.fail(f"a function of SCL instead of {name}")

@@ -422,6 +422,9 @@ class Owned:
     def __init__(self, prefix: str) -> None:
         self.motor = running().instance(f"{prefix}_Master")
         self.wrote: list[tuple[object, object]] = []
+        self.ms = 0
+        self.ended: list[int] = []
+        """When a request ended, or the next one began, ms."""
         for name, value in {"UnitAddress": 1, "Enable": True, "SpeedReferenceHz": 25.0, "MaximumHz": 50.0}.items():
             self.motor[name] = value
         for name, number in {"ReferenceScale": 100.0, "FullScaleHz": 50.0}.items():
@@ -433,7 +436,10 @@ class Owned:
         for name, value in pins.items():
             self.motor[name] = value
         for _ in range(scans):
-            self.motor.scan()
+            before = self.motor["Open"]
+            self.motor.scan(self.ms * 1_000_000)
+            self.ended += [self.ms] if self.motor["Open"] != before else []
+            self.ms += 5
             if self.motor["Master.DONE"] and self.motor["Mode"]:
                 self.wrote.append((self.motor["Master.Written"], self.motor["Master.Word"]))
 
@@ -442,15 +448,40 @@ class Owned:
 def test_a_master_of_the_plc_stops_first_then_gives_the_speed_and_runs(prefix: str) -> None:
     owned = Owned(prefix)
     command, speed = owned.motor["Command.Address"], owned.motor["Reference.Address"]
-    owned.scan(40, RunForward=False)
+    owned.scan(60, RunForward=False)
     stop = owned.wrote[0][1]
     assert owned.wrote == [(command, stop), (speed, owned.motor["Reference.Value"])]
     owned.wrote.clear()
-    owned.scan(40, RunForward=True)
+    owned.scan(60, RunForward=True)
     assert [where for where, _ in owned.wrote] == [command]
     assert owned.wrote[0][1] != stop
-    owned.scan(10, RunForward=False)
+    owned.scan(20, RunForward=False)
     assert owned.wrote[-1] == (command, stop)
+
+
+@pytest.mark.parametrize(("prefix", "least"), [("CHF", 0), ("JSCC", 11), ("SN300G5", 0)])
+def test_a_master_of_the_plc_keeps_the_silence_that_the_drive_asks_for(prefix: str, least: int) -> None:
+    """JSCC wants more than 10 ms between frames; 3.5 characters are the instruction's own."""
+    owned = Owned(prefix)
+    owned.scan(100)
+    pauses = [begin - end for end, begin in zip(owned.ended[1::2], owned.ended[2::2], strict=False)]
+    assert len(pauses) > 10
+    assert min(pauses) >= least
+    assert max(pauses) <= least + 10
+
+
+def test_a_master_of_the_plc_does_not_hold_a_stop_back_by_retries() -> None:
+    for prefix in ("CHF", "JSCC", "SN300G5"):
+        owned = Owned(prefix)
+        owned.scan(1)
+        assert owned.motor["Load.RETRIES"] == 0
+        assert owned.motor["Load.RESP_TO"] == 500
+
+
+def test_a_block_that_hands_memory_to_an_instruction_has_no_optimized_access_and_all_others_have() -> None:
+    """The reader refuses any other; these are the blocks that it has seen."""
+    found = {name for name, text in written().items() if "S7_Optimized_Access := 'FALSE'" in text}
+    assert found == {f"siemens/{prefix}_Master.scl" for prefix in ("CHF", "JSCC", "SN300G5")}
 
 
 def test_a_master_of_the_plc_believes_a_standstill_only_behind_the_stop() -> None:

@@ -8,8 +8,9 @@ from math import isnan
 
 from tests.host.compare.cases import Case, Stimulus
 from tests.host.compare.scenarios import Inputs
+from tests.host.configuration import Configuration, start
 
-from driveblocks.host.engine import Configuration, Engine, Instance, Library, ScanError, Value
+from driveblocks.host.engine import Engine, Instance, Library, ScanError, Value
 
 State = dict[str, Value]
 ABSENT = b"(no such variable)"
@@ -41,7 +42,7 @@ class Run:
         self.name = name or engine.name
         self.subject: Instance | Configuration
         if case.configuration:
-            self.subject = library.configuration(case.configuration)
+            self.subject = start(library, case.configuration)
         else:
             self.subject = library.instance(case.block)
 

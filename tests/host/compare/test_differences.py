@@ -1,7 +1,7 @@
 """The list of differences says what is so: on the embedded engine, on matiec, and in the linter."""
 
 import pytest
-from tests.host.compare.lockstep import alike, first_unlike
+from tests.host.compare.lockstep import first_unlike
 from tests.host.compare.witness import BAD_C, ERROR, Witness, build_together, load_witnesses
 
 from driveblocks.host.embedded import EmbeddedEngine
@@ -9,7 +9,6 @@ from driveblocks.host.engine import Engine
 from driveblocks.st.lint import lint_sources
 
 WITNESSES = load_witnesses()
-LINES = ("beremiz", "openplc")
 
 
 @pytest.fixture(params=WITNESSES, name="witness")
@@ -27,20 +26,7 @@ def test_matiec_gives_what_is_listed(matiec: Engine) -> None:
     assert first_unlike(found, listed) is None, (found, listed)
 
 
-def test_the_standard_model_gives_what_the_standard_says(witness: Witness) -> None:
-    """Or is listed as not following."""
-    found = witness.value(EmbeddedEngine(model="standard"))
-    assert alike(found, witness.expected["standard"]) == ("standard" not in witness.not_followed)
-
-
-@pytest.mark.parametrize("line", LINES)
-def test_the_model_of_c_follows_each_line(witness: Witness, line: str) -> None:
-    """Or is listed as not following."""
-    found = witness.value(EmbeddedEngine(model="c", line=line))
-    assert alike(found, witness.expected[line]) == (line not in witness.not_followed)
-
-
-def test_the_default_model_stops_where_it_is_listed(witness: Witness) -> None:
+def test_the_embedded_engine_stops_where_it_is_listed(witness: Witness) -> None:
     """A difference that goes unnoticed is listed as such, with the reason why that does no harm."""
     assert (witness.value(EmbeddedEngine()) == ERROR) == witness.fails
 

@@ -26,7 +26,6 @@ class Witness:
     expected: dict[str, Value]
     fails: bool
     rules: tuple[str, ...]
-    not_followed: tuple[str, ...]
     productions: tuple[str, ...]
 
     def value(self, engine: Engine) -> Value:
@@ -61,13 +60,8 @@ def load_witnesses() -> dict[str, Witness]:
     return {name: _witness(name, entry) for name, entry in entries.items()}
 
 
-def not_followed(line: str) -> list[str]:
-    """The productions in which C's model does not follow a line of matiec."""
-    return [rule for each in load_witnesses().values() if line in each.not_followed for rule in each.productions]
-
-
 def not_noticed() -> list[str]:
-    """The productions whose differences the `fail` model lets pass."""
+    """The productions whose differences the embedded engine lets pass."""
     return [rule for each in load_witnesses().values() if not each.fails for rule in each.productions]
 
 
@@ -82,7 +76,6 @@ def _witness(name: str, entry: dict[str, Any]) -> Witness:
         expected={who: _value(entry[who]) for who in ("standard", "beremiz", "openplc")},
         fails=entry["fails"],
         rules=tuple(sorted(entry["rule"].replace("none", "").split())),
-        not_followed=tuple(entry.get("not_followed", [])),
         productions=tuple(entry.get("productions", [])),
     )
 

@@ -101,13 +101,11 @@ def main() -> None:
     """Print all figures of the embedded engine."""
     sources = corpus(40)
     lines = sum(each.text.count("\n") for each in sources)
-    for model in ("fail", "standard", "c"):
-        engine = EmbeddedEngine(model)
-        seconds = build_seconds(engine, sources)
-        print(
-            f"{model:9}{crc_rate(engine):6.1f} MB/s of CRC{scan_rate(engine) / 1e6:6.2f} million scans/s"
-            f"{lines:7} lines built in {seconds:.2f} s"
-        )
+    engine = EmbeddedEngine()
+    print(
+        f"{crc_rate(engine):6.1f} MB/s of CRC{scan_rate(engine) / 1e6:6.2f} million scans/s"
+        f"{lines:7} lines built in {build_seconds(engine, sources):.2f} s"
+    )
 
 
 if __name__ == "__main__":

@@ -7,58 +7,52 @@ from collections.abc import Mapping
 import pytest
 
 from driveblocks.host.embedded import EmbeddedEngine, EmbeddedInstance, EmbeddedLibrary
-from driveblocks.host.engine import Overflow, ScanError, Source, Value
+from driveblocks.host.engine import ScanError, Source, Value
 
-# What a row says where a model raises ScanError; no ST value is equal to it.
+# What a row says where the engine raises ScanError; no ST value is equal to it.
 FAULT = b"\0 fault"
-# Expression, type of its result, VAR_INPUT, values of these; then the result by the standard, in C, and under `fail`.
-Row = tuple[str, str, str, dict[str, Value], Value, Value, Value]
-
-MODELS: tuple[Overflow, ...] = ("standard", "c", "fail")
+# Expression, type of its result, VAR_INPUT, values of these; then the result in C, and here.
+Row = tuple[str, str, str, dict[str, Value], Value, Value]
 
 
-def build(text: str, model: Overflow = "fail", *, line: str = "", **options: int) -> EmbeddedLibrary:
+def build(text: str, *, loop_limit: int = 1000, coverage: bool = False) -> EmbeddedLibrary:
     """Build one source, named `test.st`."""
-    engine = EmbeddedEngine(
-        model,
-        line=line,
-        loop_limit=options.get("loop_limit", 1000),
-        coverage=bool(options.get("coverage", 0)),
-    )
-    return engine.build([Source("test.st", text)])
+    return EmbeddedEngine(loop_limit=loop_limit, coverage=coverage).build([Source("test.st", text)])
 
 
-def block(
-    declarations: str, body: str, model: Overflow = "fail", *, types: str = "", line: str = ""
-) -> EmbeddedInstance:
+def block(declarations: str, body: str, *, types: str = "") -> EmbeddedInstance:
     """An instance of a function block `Test` whose declarations and body these are."""
     text = f"{types}\nFUNCTION_BLOCK Test\n{declarations}\n{body}\nEND_FUNCTION_BLOCK\n"
-    return build(text, model, line=line).instance("Test")
+    return build(text).instance("Test")
 
 
-def evaluate(expression: str, result: str, inputs: str = "", model: Overflow = "fail", **values: Value) -> Value:
+def evaluate(expression: str, result: str, inputs: str = "", **values: Value) -> Value:
     """The value of an expression stored in a variable of type `result`; `inputs` as in VAR_INPUT."""
     given = f"VAR_INPUT {inputs} END_VAR" if inputs else ""
-    made = block(f"{given} VAR_OUTPUT Answer : {result}; END_VAR", f"Answer := {expression};", model)
+    made = block(f"{given} VAR_OUTPUT Answer : {result}; END_VAR", f"Answer := {expression};")
     for name, value in values.items():
         made[name] = value
     made.scan(0)
     return made["Answer"]
 
 
-def fault(expression: str, result: str, inputs: str = "", model: Overflow = "fail", **values: Value) -> str:
+def fault(expression: str, result: str, inputs: str = "", **values: Value) -> str:
     """The text of the ScanError that an expression must raise."""
     with pytest.raises(ScanError) as caught:
-        evaluate(expression, result, inputs, model, **values)
+        evaluate(expression, result, inputs, **values)
     return caught.value.message.text
 
 
-def outcomes(expression: str, result: str, inputs: str, values: Mapping[str, Value]) -> dict[Overflow, Value]:
-    """What each model makes of an expression; FAULT where it raises ScanError."""
-    found: dict[Overflow, Value] = {}
-    for model in MODELS:
-        try:
-            found[model] = evaluate(expression, result, inputs, model, **values)
-        except ScanError:
-            found[model] = FAULT
-    return found
+def outcome(expression: str, result: str, inputs: str, values: Mapping[str, Value]) -> Value:
+    """What an expression gives; FAULT where it raises ScanError."""
+    try:
+        return evaluate(expression, result, inputs, **values)
+    except ScanError:
+        return FAULT
+
+
+def check(row: Row) -> None:
+    """The engine gives what the row says: what C gives, or a fault."""
+    expression, result, inputs, values, c, here = row
+    assert outcome(expression, result, inputs, values) == here
+    assert here in (c, FAULT)

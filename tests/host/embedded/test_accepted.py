@@ -5,26 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 
-import pytest
 from tests.host.accept.programs import load_programs
-from tests.host.embedded.snippets import MODELS
+from tests.host.configuration import start
 
 from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
-from driveblocks.host.engine import BuildError, Overflow, ScanError, Source
+from driveblocks.host.engine import BuildError, ScanError, Source
 
 
-def accepted(model: Overflow) -> Iterator[EmbeddedLibrary]:
+def accepted() -> Iterator[EmbeddedLibrary]:
     """The libraries of all programs that build."""
     for name, text in load_programs().items():
         with suppress(BuildError):
-            yield EmbeddedEngine(model).build([Source(name, text)])
+            yield EmbeddedEngine().build([Source(name, text)])
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_nothing_but_scan_errors(model: Overflow) -> None:
+def test_nothing_but_scan_errors() -> None:
     """No construct that is let through makes the engine itself stumble."""
     count = 0
-    for library in accepted(model):
+    for library in accepted():
         count += 1
         for block in library.blocks():
             instance = library.instance(block)
@@ -33,7 +31,7 @@ def test_nothing_but_scan_errors(model: Overflow) -> None:
                     instance.scan(scan * 10_000_000)
             instance.state()
         for name in library.compiler.checked.configurations:
-            running = library.configuration(name)
+            running = start(library, name)
             with suppress(ScanError):
                 running.run(3)
             running.state()

@@ -15,7 +15,7 @@ HEAD = "FUNCTION_BLOCK Test\nVAR_INPUT n : INT; END_VAR\nVAR i : INT; y : INT; E
 
 def counted(body: str, inputs: Sequence[int]) -> dict[str, int]:
     """The outcomes of a body's decisions, `line:column text` -> hits; line 1 is the first of the body."""
-    library = build(f"{HEAD}{body}\nEND_FUNCTION_BLOCK\n", coverage=1)
+    library = build(f"{HEAD}{body}\nEND_FUNCTION_BLOCK\n", coverage=True)
     made = library.instance("Test")
     for n in inputs:
         made["n"] = n
@@ -76,19 +76,6 @@ def test_for_takes_a_turn_ends_or_takes_none() -> None:
     }  # fmt: skip
 
 
-@pytest.mark.parametrize(("line", "turns"), [("beremiz", 3), ("openplc", 4)])
-def test_for_counts_the_turns_that_the_engine_takes(line: str, turns: int) -> None:
-    """Beremiz leaves out a single turn; so does the count."""
-    text = f"{HEAD}FOR i := 1 TO n DO y := i; END_FOR;\nEND_FUNCTION_BLOCK\n"
-    library = EmbeddedEngine("c", line=line, coverage=True).build([Source("test.st", text)])
-    made = library.instance("Test")
-    for n in (0, 1, 3):
-        made["n"] = n
-        made.scan()
-    hits = {each.text: number for each, number in library.branches()["test.st"].items()}
-    assert hits == {"FOR FALSE": 3, "FOR TRUE": turns, "FOR without a turn": 2 if line == "beremiz" else 1}
-
-
 def test_functions_and_all_sources_are_counted_outcomes_that_never_came_with_0() -> None:
     function = "FUNCTION Sign : INT\nVAR_INPUT n : INT; END_VAR\nIF n < 0 THEN Sign := -1; END_IF;\nEND_FUNCTION\n"
     block = f"{HEAD}IF n = 1 THEN y := Sign(n); END_IF;\nEND_FUNCTION_BLOCK\n"
@@ -104,7 +91,7 @@ def test_functions_and_all_sources_are_counted_outcomes_that_never_came_with_0()
 
 def test_a_condition_that_fails_has_no_outcome() -> None:
     text = f"{HEAD}y := 0;\nIF 1 / n = 1 THEN y := 1; END_IF;\nEND_FUNCTION_BLOCK\n"
-    library = build(text, coverage=1)
+    library = build(text, coverage=True)
     with pytest.raises(ScanError):
         library.instance("Test").scan()
     assert set(library.branches()["test.st"].values()) == {0}

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from tests.host.embedded.snippets import MODELS, build
+from tests.host.configuration import start
+from tests.host.embedded import schedule
+from tests.host.embedded.snippets import build
 
-from driveblocks.host.engine import Engine, Overflow, ScanError, Source
+from driveblocks.host.engine import Engine, ScanError, Source
 
 TEXT = """TYPE Row : ARRAY[0..2] OF INT; END_TYPE
 FUNCTION_BLOCK Bump
@@ -40,10 +42,9 @@ END_CONFIGURATION
 PROGRAMS = ("First", "Second", "Third", "Fourth")
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_tasks_are_due_by_their_intervals(model: Overflow) -> None:
+def test_tasks_are_due_by_their_intervals() -> None:
     """Every 30 ms, every 20 ms, on an event, and in every tick of 10 ms."""
-    running = build(TEXT, model).configuration()
+    running = start(build(TEXT))
     assert running.tick_ns == 10_000_000
     running.run(12)
     assert [running[f"Station.{name}.scans"] for name in PROGRAMS] == [4, 6, 0, 12]
@@ -56,11 +57,10 @@ def test_tasks_are_due_by_their_intervals(model: Overflow) -> None:
     assert running["station.THIRD.scans"] == 2
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_globals_are_shared(model: Overflow) -> None:
+def test_globals_are_shared() -> None:
     """Among programs and blocks, of one configuration only."""
-    library = build(TEXT, model)
-    running, other = library.configuration("plant"), library.configuration("Plant")
+    library = build(TEXT)
+    running, other = start(library, "plant"), start(library, "Plant")
     running.run(1)
     assert (running["total"], running["share"], other["total"]) == (103, [5, 103, 0], 100)
     assert (running["Station.local"], running["Station.First.start"]) == (8, 7)
@@ -69,10 +69,9 @@ def test_globals_are_shared(model: Overflow) -> None:
     assert (running["TOTAL"], running["share"]) == (1, [5, 1, 9])
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_the_clock_is_the_configuration_s(model: Overflow) -> None:
+def test_the_clock_is_the_configuration_s() -> None:
     """A timer of 50 ms, in a program that runs each 10 ms."""
-    running = build(TEXT, model).configuration()
+    running = start(build(TEXT))
     running.run(5)
     assert (running["Station.Fourth.beat.Q"], running["Station.Fourth.beat.ET"]) == (False, 40_000_000)
     running.run(1)
@@ -97,8 +96,8 @@ PROGRAM A3 WITH Soon : Mark(number := 3);
 PROGRAM A4 WITH Soon : Mark(number := 4);
 END_RESOURCE
 END_CONFIGURATION"""
-    for model, trace in (("standard", 3412), ("fail", 3412), ("c", 1234)):
-        running = build(text, model).configuration()  # type: ignore[arg-type]
+    for by_priority, trace in ((True, 3412), (False, 1234)):
+        running = schedule.start(build(text), by_priority=by_priority)
         running.run()
         assert running["trace"] == trace
 
@@ -115,7 +114,7 @@ def test_a_block_alone_has_globals_of_its_own() -> None:
 
 def test_state_and_paths() -> None:
     """Globals first, each resource's behind its name; then the programs."""
-    running = build(TEXT).configuration()
+    running = start(build(TEXT))
     paths = list(running.state())
     assert paths[:7] == ["TOTAL", "SHARE[0]", "SHARE[1]", "SHARE[2]", "BEGIN", "GO", "STATION.LOCAL"]
     assert "STATION.FIRST.BEAT.ET" in paths
@@ -123,15 +122,15 @@ def test_state_and_paths() -> None:
         with pytest.raises(KeyError):
             running[wrong]
     with pytest.raises(KeyError, match="no configuration"):
-        build(TEXT).configuration("Other")
+        start(build(TEXT), "Other")
     with pytest.raises(KeyError, match="0 configurations"):
-        build("FUNCTION_BLOCK B VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK").configuration()
+        start(build("FUNCTION_BLOCK B VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK"))
 
 
 def test_a_fault_in_a_task_is_a_scan_error() -> None:
     """At the statement."""
     text = TEXT.replace("sum := start + scans;", "sum := start / (scans - 2);")
-    running = build(text).configuration()
+    running = start(build(text))
     running.run(1)
     with pytest.raises(ScanError) as caught:
         running.run(1)
@@ -141,8 +140,8 @@ def test_a_fault_in_a_task_is_a_scan_error() -> None:
 def test_matiec_runs_the_same(matiec: Engine) -> None:
     """Every variable after each of some ticks, events included; its C of connected programs does not compile."""
     text = TEXT.replace("(start := begin, sum => local)", "")
-    theirs = matiec.build([Source("test.st", text)]).configuration()
-    mine = build(text, "c").configuration()
+    theirs = start(matiec.build([Source("test.st", text)]))
+    mine = schedule.start(build(text), by_priority=False)
     assert mine.tick_ns == theirs.tick_ns
     for tick in range(40):
         for running in (mine, theirs):

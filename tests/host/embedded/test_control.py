@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import pytest
-from tests.host.embedded.snippets import MODELS, block, build
+from tests.host.embedded.snippets import block, build
 
-from driveblocks.host.engine import BuildError, Overflow, ScanError
+from driveblocks.host.engine import BuildError, ScanError
 
 COUNTER = "VAR_INPUT n : INT; END_VAR VAR_OUTPUT y : INT; END_VAR VAR i : INT; k : INT; END_VAR"
 
 
-def run(body: str, n: int, model: Overflow = "fail", line: str = "") -> int:
+def run(body: str, n: int) -> int:
     """The output `y` after one scan with the input `n`."""
-    made = block(COUNTER, body, model, line=line)
+    made = block(COUNTER, body)
     made["n"] = n
     made.scan()
     answer = made["y"]
@@ -29,20 +29,18 @@ CASE = """CASE n OF
 ELSE y := 9; END_CASE;"""
 
 
-@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(("n", "expected"), [(11, 1), (10, 2), (6, 2), (5, 3), (1, 3), (0, 4), (-7, 4)])
-def test_if(n: int, expected: int, model: Overflow) -> None:
+def test_if(n: int, expected: int) -> None:
     """The first branch whose condition holds."""
-    assert run(IF, n, model) == expected
+    assert run(IF, n) == expected
 
 
-@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(
     ("n", "expected"), [(-3, 1), (1, 2), (2, 2), (3, 9), (5, 3), (8, 3), (9, 9), (10, 3), (-20, 4), (-10, 4), (-9, 9)]
 )
-def test_case(n: int, expected: int, model: Overflow) -> None:
+def test_case(n: int, expected: int) -> None:
     """Labels, lists and ranges."""
-    assert run(CASE, n, model) == expected
+    assert run(CASE, n) == expected
 
 
 def test_case_without_match_and_else_does_nothing() -> None:
@@ -61,46 +59,38 @@ def test_a_case_of_many_branches(count: int) -> None:
         assert made["y"] == expected
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_while_and_exit(model: Overflow) -> None:
+def test_while_and_exit() -> None:
     """The sum of 1..n, left early at 7."""
     body = "y := 0; i := 0; WHILE i < n DO i := i + 1; IF i = 7 THEN EXIT; END_IF; y := y + i; END_WHILE;"
-    assert [run(body, n, model) for n in (0, 1, 3, 6, 7, 20)] == [0, 1, 6, 21, 21, 21]
+    assert [run(body, n) for n in (0, 1, 3, 6, 7, 20)] == [0, 1, 6, 21, 21, 21]
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_repeat_runs_at_least_once(model: Overflow) -> None:
+def test_repeat_runs_at_least_once() -> None:
     """The condition stands behind."""
     body = "y := 0; REPEAT y := y + 1; UNTIL y >= n END_REPEAT;"
-    assert [run(body, n, model) for n in (-5, 1, 4)] == [1, 1, 4]
+    assert [run(body, n) for n in (-5, 1, 4)] == [1, 1, 4]
 
 
-@pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(
     ("head", "expected"),
     [("0 TO 4", 10), ("4 TO 0 BY -1", 10), ("0 TO 9 BY 3", 18), ("5 TO 4", 0), ("0 TO n BY 2", 6), ("n TO 0 BY -2", 8)],
 )
-def test_for(head: str, expected: int, model: Overflow) -> None:
+def test_for(head: str, expected: int) -> None:
     """The sum of the values that the control variable takes; n is 5, except that no loop here runs once."""
-    assert run(f"y := 0; FOR i := {head} DO y := y + i; END_FOR;", 5, model) == expected + (head.startswith("n"))
+    assert run(f"y := 0; FOR i := {head} DO y := y + i; END_FOR;", 5) == expected + (head.startswith("n"))
 
 
 def test_for_that_runs_once_is_a_miscompile_of_beremiz() -> None:
-    """Beremiz' compiler leaves it out, so that the default model refuses it."""
+    """Beremiz' compiler leaves it out, so that it is refused."""
     body = "y := 0; FOR i := n TO 3 DO y := y + 1; END_FOR;"
-    assert run(body, 3, "standard") == 1
-    assert run(body, 3, "c", "openplc") == 1
-    assert run(body, 3, "c", "beremiz") == 0
-    assert run(body, 2, "c", "beremiz") == 2
     with pytest.raises(ScanError, match=r"exactly once"):
         run(body, 3)
     assert run(body, 2) == 2
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_a_for_over_its_whole_type_does_not_end(model: Overflow) -> None:
+def test_a_for_over_its_whole_type_does_not_end() -> None:
     """The control variable wraps and never gets beyond the end: the budget stops it."""
-    made = block("VAR u : USINT; n : UINT; END_VAR", "FOR u := 0 TO 255 DO n := n + 1; END_FOR;", model)
+    made = block("VAR u : USINT; n : UINT; END_VAR", "FOR u := 0 TO 255 DO n := n + 1; END_FOR;")
     with pytest.raises(ScanError, match="does not end"):
         made.scan()
 
@@ -108,12 +98,10 @@ def test_a_for_over_its_whole_type_does_not_end(model: Overflow) -> None:
 def test_limits_of_for_are_taken_once() -> None:
     """Except on matiec, which looks again before each turn."""
     body = "k := 3; y := 0; FOR i := 1 TO k DO k := 5; y := y + 1; END_FOR;"
-    assert run(body, 0, "standard") == 3
-    assert run(body, 0, "c") == 5
+    assert run(body, 0) == 3
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_nested_loops(model: Overflow) -> None:
+def test_nested_loops() -> None:
     """EXIT leaves the innermost one."""
     body = """y := 0; i := 0;
     WHILE i < 10 DO
@@ -121,15 +109,14 @@ def test_nested_loops(model: Overflow) -> None:
       WHILE TRUE DO k := k + 1; IF k > i THEN EXIT; END_IF; y := y + 1; END_WHILE;
       i := i + 1;
     END_WHILE;"""
-    assert run(body, 0, model) == sum(range(10))
+    assert run(body, 0) == sum(range(10))
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_return_from_inside_a_loop_keeps_what_was_written(model: Overflow) -> None:
+def test_return_from_inside_a_loop_keeps_what_was_written() -> None:
     """Variables that live in Python variables during the loop are put back."""
     body = "i := 0; WHILE i < 100 DO i := i + 1; y := i * 2; IF i = n THEN RETURN; END_IF; END_WHILE; y := -1;"
-    assert run(body, 5, model) == 10
-    made = block(COUNTER, body, model)
+    assert run(body, 5) == 10
+    made = block(COUNTER, body)
     made["n"] = 5
     made.scan()
     assert made["i"] == 5
@@ -203,20 +190,15 @@ END_FUNCTION_BLOCK
         assert caught.value.message.line == 3
 
 
-def test_both_sides_of_and_are_evaluated_except_in_c() -> None:
+def test_both_sides_of_and_are_evaluated() -> None:
     """IEC 61131-3 leaves it open; matiec takes C's short circuit."""
     types = "TYPE Row : ARRAY[0..3] OF INT; END_TYPE"
     declarations = "VAR_INPUT n : INT; END_VAR VAR_OUTPUT y : BOOL; END_VAR VAR a : Row; END_VAR"
-    for body, answer in (("y := (n < 4) AND (a[n] = 0);", False), ("y := (n > 3) OR (a[n] = 0);", True)):
-        for model in ("standard", "fail"):
-            made = block(declarations, body, model, types=types)
-            made["n"] = 4
-            with pytest.raises(ScanError, match="index 4 of a is outside"):
-                made.scan()
-        made = block(declarations, body, "c", types=types)
+    for body in ("y := (n < 4) AND (a[n] = 0);", "y := (n > 3) OR (a[n] = 0);"):
+        made = block(declarations, body, types=types)
         made["n"] = 4
-        made.scan()
-        assert made["y"] is answer
+        with pytest.raises(ScanError, match="index 4 of a is outside"):
+            made.scan()
 
 
 @pytest.mark.parametrize("branches", [1, 15, 16, 17, 32, 33, 3000])
@@ -235,7 +217,7 @@ def test_chains_of_any_length(word: str, branches: int) -> None:
 def test_a_long_chain_is_left_and_counted_as_a_short_one() -> None:
     chain = "ELSIF ".join(f"i = {each} THEN k := {each}; " for each in range(40))
     body = f"WHILE TRUE DO i := i + 1; IF {chain}ELSE EXIT; END_IF; END_WHILE; y := k;"
-    library = build(f"FUNCTION_BLOCK Test {COUNTER} {body} END_FUNCTION_BLOCK", coverage=1)
+    library = build(f"FUNCTION_BLOCK Test {COUNTER} {body} END_FUNCTION_BLOCK", coverage=True)
     made = library.instance("Test")
     made.scan()
     assert made["y"] == 39

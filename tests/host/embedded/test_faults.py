@@ -194,12 +194,3 @@ class TestBuildErrors:
         with pytest.raises(BuildError) as caught:
             build(text)
         assert caught.value.messages[0].line == 3
-
-    def test_options(self) -> None:
-        """A model or line that does not exist."""
-        with pytest.raises(ValueError, match="wrap"):
-            EmbeddedEngine("wrap")  # type: ignore[arg-type]
-        with pytest.raises(ValueError, match="beremiz or openplc"):
-            EmbeddedEngine("c", line="codesys")
-        with pytest.raises(ValueError, match="model c"):
-            EmbeddedEngine("fail", line="openplc")

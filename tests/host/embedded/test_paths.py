@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import pytest
-from tests.host.embedded.snippets import MODELS, build
+from tests.host.embedded.snippets import build
 
 from driveblocks.host.embedded import EmbeddedInstance
-from driveblocks.host.engine import Overflow, Value
+from driveblocks.host.engine import Value
 
 TEXT = """
 TYPE Frame : ARRAY[0..3] OF BYTE; END_TYPE
@@ -32,11 +32,10 @@ END_FUNCTION_BLOCK
 """
 
 
-@pytest.fixture(params=MODELS)
-def made(request: pytest.FixtureRequest) -> EmbeddedInstance:
+@pytest.fixture
+def made() -> EmbeddedInstance:
     """An instance with a variable of each kind."""
-    model: Overflow = request.param
-    return build(TEXT, model).instance("Test")
+    return build(TEXT).instance("Test")
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -87,37 +88,19 @@ def source(program: list[Any]) -> str:
 VALUES = st.fixed_dictionaries({name: literals(name) for name in VARIABLES})
 
 
-@settings(max_examples=80)
+@settings(max_examples=120)
 @given(programs(), VALUES)
-def test_random_programs_by_the_standard(program: list[Any], values: dict[str, int]) -> None:
-    """The same final values as an interpreter that wraps after every operation; twice, for what an instance keeps."""
+def test_random_programs(program: list[Any], values: dict[str, int]) -> None:
+    """A scan fails or gives the same as an interpreter that wraps after every operation; twice, for what is kept."""
     reference = Interpreter({**values, "i": 0, "j": 0, "k": 0})
-    made = build(source(program), "standard", loop_limit=100_000).instance("Test")
+    made = build(source(program), loop_limit=100_000).instance("Test")
     for name, value in values.items():
         made[name] = value
-    for _ in range(2):
-        reference.run(program)
-        made.scan()
-        assert {name: made[name] for name in reference.values} == reference.values
-
-
-@settings(max_examples=40)
-@given(programs(), VALUES)
-def test_random_programs_that_do_not_fail(program: list[Any], values: dict[str, int]) -> None:
-    """Under the default model a scan either fails or gives what the standard says; so does C's model then."""
-    reference = Interpreter({**values, "i": 0, "j": 0, "k": 0})
-    careful, c = (build(source(program), model, loop_limit=100_000).instance("Test") for model in ("fail", "c"))
-    for name, value in values.items():
-        careful[name] = c[name] = value
-    try:
-        careful.scan()
-    except ScanError:
-        return
-    reference.run(program)
-    c.scan()
-    expected = {name.upper(): value for name, value in reference.values.items()}
-    assert {name: value for name, value in careful.state().items() if "[" not in name} == expected
-    assert careful.state() == c.state()
+    with suppress(ScanError):
+        for _ in range(2):
+            made.scan()
+            reference.run(program)
+            assert {name: made[name] for name in reference.values} == reference.values
 
 
 def test_the_interpreter_is_no_echo() -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 import pytest
+from tests.host.configuration import start
 
 from driveblocks.host.matiec import BadCError
 from driveblocks.host.matiec.library import MatiecLibrary
@@ -115,7 +116,7 @@ END_CONFIGURATION
 
 
 def test_tasks_run_when_due(build: Builder) -> None:
-    plant = build(PLANT).configuration()
+    plant = start(build(PLANT))
     assert plant.tick_ns == 5_000_000
     plant.run()
     assert (plant["Cpu.Quick.Count"], plant["Cpu.Lazy.Count"]) == (1, 1)
@@ -126,7 +127,7 @@ def test_tasks_run_when_due(build: Builder) -> None:
 
 
 def test_clock_runs_with_the_ticks(build: Builder) -> None:
-    plant = build(PLANT).configuration("plant")
+    plant = start(build(PLANT), "plant")
     plant.run(9)
     assert (plant["Cpu.Quick.Delay.ET"], plant["Cpu.Quick.Delay.Q"]) == (40_000_000, False)
     plant.run(2)
@@ -134,7 +135,7 @@ def test_clock_runs_with_the_ticks(build: Builder) -> None:
 
 
 def test_variables_can_be_written(build: Builder) -> None:
-    plant = build(PLANT).configuration()
+    plant = start(build(PLANT))
     plant["Total"] = -3
     plant["Cpu.Lazy.Count"] = 1000
     plant["Storage"] = {"LEVEL": 1.5, "ROWS": [1, 2, 3]}
@@ -147,7 +148,7 @@ def test_variables_can_be_written(build: Builder) -> None:
 
 
 def test_state_has_globals_and_programs(build: Builder) -> None:
-    state = build(PLANT).configuration().state()
+    state = start(build(PLANT)).state()
     assert list(state)[:5] == ["TOTAL", "STORAGE.LEVEL", "STORAGE.ROWS[5]", "STORAGE.ROWS[6]", "STORAGE.ROWS[7]"]
     assert state["CPU.OWN"] == 0.5
     assert next(name for name in state if name.startswith("CPU.QUICK.")) == "CPU.QUICK.COUNT"
@@ -156,20 +157,20 @@ def test_state_has_globals_and_programs(build: Builder) -> None:
 
 def test_configurations_are_apart(build: Builder) -> None:
     library = build(PLANT)
-    first, second = library.configuration(), library.configuration()
+    first, second = start(library), start(library)
     first.run(3)
     assert (first["Cpu.Quick.Count"], second["Cpu.Quick.Count"]) == (2, 0)
-    assert library.configuration()["Total"] == 100
+    assert start(library)["Total"] == 100
 
 
 def test_two_resources(build: Builder) -> None:
-    both = build(TWO).configuration()
+    both = start(build(TWO))
     both.run(4)
     assert [both[f"{name}.Count"] for name in ("One.P", "Two.P", "Two.Q")] == [4, 2, 2]
 
 
 def test_programs_without_a_task_and_on_an_edge(build: Builder) -> None:
-    wires = build(EDGES).configuration()
+    wires = start(build(EDGES))
     wires["Cpu.Always.Start"] = 10
     sums = []
     for go in (False, True, True, False, True):
@@ -186,22 +187,22 @@ def test_wires_of_programs_are_bad_c(build: Builder) -> None:
 
 
 def test_located_variables_have_places(build: Builder) -> None:
-    plant = build(LOCATED).configuration()
+    plant = start(build(LOCATED))
     plant["Cpu.P.Level"] = 41
     plant.run()
     assert (plant["Cpu.P.Lamp"], plant["Cpu.P.Seen"]) == (True, 42)
 
 
 def test_unknown_names(build: Builder) -> None:
-    plant = build(PLANT).configuration()
+    plant = start(build(PLANT))
     for path in ("Nothing", "Cpu", "Cpu.Nothing", "Cpu.Quick.Nothing", "Cpu.Quick.Count.X", "Totally"):
         with pytest.raises(KeyError, match=r"\w"):
             plant[path]
     with pytest.raises(KeyError, match="Other"):
-        build(PLANT).configuration("Other")
+        start(build(PLANT), "Other")
 
 
 def test_no_configuration(build: Builder) -> None:
     library = build("FUNCTION F : INT VAR_INPUT A : INT; END_VAR F := A; END_FUNCTION\n")
     with pytest.raises(KeyError, match="no configuration"):
-        library.configuration()
+        start(library)

@@ -6,19 +6,18 @@ from dataclasses import replace
 
 import pytest
 from tests.blocks.compare.pou import Pou, shipped
-from tests.host.compare.models import MODELS
 from tests.host.traces import library
 from tests.host.traces.library import AGAIN, Record, folders, head_of, path_of, read, replayed, same, scans, states
 
 from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Library, Overflow
+from driveblocks.host.engine import Library
 
 LARGEST_BYTES = 300_000
 
 
 @functools.cache
-def _compiled(model: Overflow) -> Library:
-    return EmbeddedEngine(model=model).build(shipped().sources)
+def _compiled() -> Library:
+    return EmbeddedEngine().build(shipped().sources)
 
 
 def _pous(folder: str) -> list[Pou]:
@@ -47,17 +46,16 @@ def test_a_changed_block_makes_its_record_stale() -> None:
 
 
 @pytest.mark.parametrize("folder", folders())
-@pytest.mark.parametrize("model", MODELS)
-def test_the_embedded_engine_replays_the_library(folder: str, model: Overflow) -> None:
-    """Every variable after every scan, in every model; in C's also what only matiec keeps."""
-    records, compiled = read(folder), _compiled(model)
+def test_the_embedded_engine_replays_the_library(folder: str) -> None:
+    """Every variable after every scan, but the copies of in-outs that only matiec keeps."""
+    records, compiled = read(folder), _compiled()
     fresh = [pou for pou in _pous(folder) if pou.name in records and records[pou.name].head == head_of(pou)]
-    assert [text for pou in fresh for text in _unlike(pou, records[pou.name], compiled, model == "c")] == []
+    assert [text for pou in fresh for text in _unlike(pou, records[pou.name], compiled)] == []
 
 
-def _unlike(pou: Pou, record: Record, compiled: Library, copies: bool) -> Iterator[str]:
+def _unlike(pou: Pou, record: Record, compiled: Library) -> Iterator[str]:
     """What differs first, with its scan."""
-    kept = [leaf.path for leaf in pou.leaves if copies or not leaf.handed_on]
+    kept = [leaf.path for leaf in pou.leaves if not leaf.handed_on]
     pairs = zip(states(pou, compiled, record.head.scans), record.changes, strict=True)
     for number, ((before, after), changes) in enumerate(pairs):
         wanted = replayed(before, changes)
@@ -71,11 +69,11 @@ def test_a_changed_record_is_seen() -> None:
     """One output of one scan recorded otherwise."""
     pou = shipped().pous["MB_Lrc"]
     record = read("modbus")["MB_Lrc"]
-    compiled = _compiled("c")
+    compiled = _compiled()
     at = next(number for number, changes in enumerate(record.changes) if changes.get("LRC"))
     changed = {**record.changes[at], "LRC": 257}
     wrong = Record(record.head, (*record.changes[:at], changed, *record.changes[at + 1 :]))
-    (told,) = _unlike(pou, wrong, compiled, True)
+    (told,) = _unlike(pou, wrong, compiled)
     assert told.startswith(f"MB_Lrc, scan {at}: [('LRC', ")
 
 

@@ -48,7 +48,7 @@ TERMS = {
     "载波": "carrier",
     "点动": "jog",
     "自由": "coast",
-    "断线": "disconnected|broken|disconnection|loss",
+    "断线": "disconnected|broken|disconnection|loss|wire break",
     "初始化": "initialization",
     "口令": "password",
     "累计": "cumulative",

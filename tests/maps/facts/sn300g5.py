@@ -359,6 +359,19 @@ FAULTS = """
 26 SVE 零伺服故障
 """
 
+CPF_FAULTS = """
+33 CPF02 CPF02 发生中
+34 CPF03 CPF03 发生中
+35 CPF04 CPF04 发生中
+36 CPF05 CPF05 发生中
+37 CPF06 CPF06 发生中
+41 CPF20 CPF20 发生中
+42 CPF21 CPF21 发生中
+43 CPF22 CPF22 发生中
+44 CPF23 CPF23 发生中
+"""
+"""Bits of 0017H and 0018H, which the table of fault numbers does not list: counted on by 16 x word + bit + 1."""
+
 PRINTED_CODES = {0x01: "01H01H", 0x0A: "OAH", 0x0B: "OBH", 0x0C: "OCH", 0x0D: "ODH", 0x0E: "OEF", 0x0F: "OFH"}
 
 REACTIONS = {0: "stop", 1: "quick_stop", 2: "coast_stop", 3: "runs_on"}
@@ -376,7 +389,7 @@ output_frequency | 0021H
 output_current | 0022H
 dc_bus_voltage | 0026H
 output_power | 0027H
-fault code | 0014H-0016H
+fault code | 0014H-0018H
 """
 """What the pins show: 运行中, 零速, 反转中, 速度一致中, 准备完了, 轻故障, 重故障 of 0010H; U1-02, U1-03, U1-07; U1-08,
 which prints 输出频率 a second time; the three words of 故障内容."""
@@ -417,6 +430,8 @@ ERRORS = {
 SETTINGS = {
     "B1-01": (0x0180, 0, 4, "1", ["键盘", "控制回路端子", "通讯", "保留"]),
     "B1-02": (0x0181, 0, 4, "1", ["键盘", "控制回路端子", "通讯", "保留"]),
+    "B1-03": (0x0182, None, None, None, []),
+    "O2-01": (0x0505, None, None, None, []),
     "H5-01": (0x041C, 0, 0x20, "1F", []),
     "H5-02": (0x041D, 0, 4, "3", ["1200BPS", "2400BPS", "4800BPS", "9600BPS"]),
     "H5-03": (0x041E, 0, 2, "1", ["无校验", "偶校验", "奇校验"]),

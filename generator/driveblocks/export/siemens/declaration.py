@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
-from driveblocks.export.siemens.words import ELEMENTARY, SYSTEM, quoted
+from driveblocks.export.siemens.words import ELEMENTARY, STANDARD_ACCESS, SYSTEM, quoted
 from driveblocks.st.library import fold
 from driveblocks.st.tree import (
     ArrayInitial,
@@ -168,6 +168,15 @@ def type_lines(part: Part, names: Names) -> Iterator[str]:
     yield ""
 
 
+def _hands_memory(pou: Pou) -> bool:
+    """Whether a block hands memory to an instruction that wants it without optimized access.
+
+    An optimized block would hand over a copy (S7-1200 System Manual V4.2, pp. 196-197).
+    """
+    specs = (one.spec for block in pou.blocks for one in block.variables)
+    return any(isinstance(each, NamedSpec) and each.name.upper() in STANDARD_ACCESS for each in specs)
+
+
 def opening(part: Part, names: Names) -> Iterator[str]:
     """The first lines of a block, as far as BEGIN. A program is a function block, which keeps its variables."""
     pou = part.element
@@ -177,7 +186,7 @@ def opening(part: Part, names: Names) -> Iterator[str]:
         yield f'FUNCTION "{pou.name}" : {returns}'
     else:
         yield f'FUNCTION_BLOCK "{pou.name}"'
-    yield "{ S7_Optimized_Access := 'TRUE' }"
+    yield f"{{ S7_Optimized_Access := '{'FALSE' if _hands_memory(pou) else 'TRUE'}' }}"
     yield "VERSION : 0.1"
     yield from head(part)
     yield from sections(part, names)

@@ -1,9 +1,10 @@
 """The embedded engine: Structured Text compiled to Python.
 
-    EmbeddedEngine(model="fail").build([Source(...)]).instance("Name").scan(now_ns)
+    EmbeddedEngine().build([Source(...)]).instance("Name").scan(now_ns)
 
-The way of a source: `st` parses and checks it; `compiler` makes one Python function of every POU, by `statements` and
-`expressions` over `ranges` of values; `runtime` holds what the functions call, model by model; `library` runs them.
+The way of a source: `st` parses and checks it; `compiler` makes one Python function of every POU, by the tables of
+`statements` and `expressions`, over `ranges` of values; `runtime` holds what these functions call; `library` runs them.
+Wherever compilers could differ, a scan fails rather than choose.
 """
 
 from driveblocks.host.embedded.engine import EmbeddedEngine

@@ -9,23 +9,24 @@ from typing import Any
 from driveblocks.host.embedded import standard_blocks
 from driveblocks.host.embedded.calls import function_name
 from driveblocks.host.embedded.certainty import present
+from driveblocks.host.embedded.expressions import TERMS
 from driveblocks.host.embedded.faults import Accesses
 from driveblocks.host.embedded.invocation import body_name
-from driveblocks.host.embedded.operands import c_moment
+from driveblocks.host.embedded.parts import body_of, stored
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.runtime import namespace
-from driveblocks.host.embedded.scope import GLOBALS, SELF, Options, Scope, UnsupportedError
+from driveblocks.host.embedded.scope import GLOBALS, SELF, Scope, UnsupportedError
 from driveblocks.host.embedded.shapes import Maker, Record, Shapes, is_scalar, record_class
 from driveblocks.host.embedded.standard_blocks import Run
-from driveblocks.host.embedded.statements import Statements
+from driveblocks.host.embedded.statements import STATEMENTS, returned_value
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import is_integral
 from driveblocks.host.embedded.usage import loops, touched
 from driveblocks.host.engine import Message
 from driveblocks.st import tree
 from driveblocks.st.tree import Block, Checked, EnumValue, VarKind
-from driveblocks.st.types import REAL, TEMPORAL, Kind, String, Type, plain
+from driveblocks.st.types import REAL, Kind, String, Type, plain
 
 Body = Callable[[Any], None]
 
@@ -33,22 +34,22 @@ Body = Callable[[Any], None]
 class Compiler:
     """Compiles a whole build into one namespace; `messages` holds what it could not."""
 
-    def __init__(self, checked: Checked, options: Options) -> None:
-        """Compile everything."""
+    def __init__(self, checked: Checked, coverage: bool = False) -> None:
+        """Compile everything; with `coverage`, so that it counts what runs."""
         self.checked = checked
-        self.options = options
-        self.shapes = Shapes(options.model)
+        self.coverage = coverage
+        self.shapes = Shapes()
         self.shapes.instances = self.instance
         self.shapes.evaluate = self.evaluate
         self.run = Run()
-        self.objects = namespace(options.model, options.line, self.run)
+        self.objects = namespace(self.run)
         self.accesses = Accesses()
         self.messages: list[Message] = []
         self.classes: dict[Block, type[Record]] = standard_blocks.classes()
         self.looping: set[tree.Function | Block] = set()
         self._makers: dict[Block, list[tuple[str, Maker]]] = {}
         self._constants: dict[int, Any] = {}
-        for name, body in standard_blocks.bodies(options.model, options.line, self.run).items():
+        for name, body in standard_blocks.bodies(self.run).items():
             self.objects[f"body_{name}"] = body
         for each in [*checked.callees_first, *checked.programs.values()]:
             self._attempt(each)
@@ -88,8 +89,6 @@ class Compiler:
             return bool(value)
         if kind.kind is Kind.REAL:
             return single(float(value)) if kind is REAL else float(value)
-        if kind.kind in TEMPORAL and self.options.model == "c":
-            return c_moment(literal, int(value))
         if isinstance(kind, String) and isinstance(value, bytes):
             return value[: kind.length]
         return value
@@ -98,7 +97,7 @@ class Compiler:
         if isinstance(expression, tree.Name | tree.Qualified) and isinstance(expression.symbol, EnumValue):
             return expression.symbol.number
         scope = self._scope(None, Pen(tree.Unit("", "", [], [], [0], [])))
-        node = Statements(scope).stored(expression, kind).node
+        node = stored(scope, expression, kind).node
         code = compile(ast.Expression(node), "<initial value>", "eval")
         return eval(code, self.objects, {})  # noqa: S307 - our own compiled code
 
@@ -118,8 +117,7 @@ class Compiler:
             self.messages.append(Message(unit.path, *unit.place(pou.name_at), text))
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
-        ranges = Ranges(trusted=self.options.model != "c")
-        return Scope(pou, self.options, pen, self.shapes, self.accesses, ranges, self.objects)
+        return Scope(pou, self.coverage, pen, self.shapes, self.accesses, Ranges(), self.objects, TERMS, STATEMENTS)
 
     def _note_loops(self, pou: tree.Pou, key: tree.Function | Block) -> None:
         if loops(pou.body, self.looping):
@@ -134,15 +132,14 @@ class Compiler:
         self._note_loops(function, function)
         pen = Pen(present(function.unit))
         scope = self._scope(function, pen)
-        statements = Statements(scope)
         written = touched(function.body)
         body: list[ast.stmt] = []
         for each in function.symbols.values():
             pen.move(each.at)
             body += self._prepared(scope, each, each in written)
-        body += statements.body(function.body)
+        body += body_of(scope, function.body)
         pen.move(function.at)
-        body.append(pen.leave(statements.returned_value()))
+        body.append(pen.leave(returned_value(scope)))
         inputs = (VarKind.INPUT, VarKind.IN_OUT)
         parameters = [each.name.upper() for each in function.symbols.values() if each.kind in inputs]
         self._define(pen, function_name(function), parameters, body)
@@ -191,7 +188,7 @@ class Compiler:
             pen.move(each.at)
             if each.kind is VarKind.TEMP:
                 body += self._prepared(scope, each, False)
-        body += Statements(scope).body(pou.body)
+        body += body_of(scope, pou.body)
         pen.move(pou.at)
         self._define(pen, body_name(block), [SELF], body)
 

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 from driveblocks.host.embedded.compiler import Compiler
 from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.embedded.scope import Options
-from driveblocks.host.engine import BuildError, Message, Overflow, Source
+from driveblocks.host.engine import BuildError, Message, Source
 from driveblocks.st.checker import check
 from driveblocks.st.parser import ParseError, parse
 from driveblocks.st.problems import Problem, SourceError
@@ -20,24 +19,16 @@ LOOP_LIMIT = 1_000_000
 class EmbeddedEngine:
     """Runs ST in this process.
 
-    `model`: what happens when an intermediate result leaves its type: `standard` wraps in the operand's type, `c`
-    goes on as C does after matiec, `fail` raises ScanError wherever the two could differ.
-    `line`: with model `c`, follow `beremiz` or `openplc` where the lines of matiec differ; empty: the standard.
+    Where compilers could differ, such as an intermediate result that leaves its type, a scan raises ScanError.
     `loop_limit`: turns of loops that one scan may take (the look that ends a WHILE counts as one).
     `coverage`: count the lines that run.
     """
 
     name = "embedded"
 
-    def __init__(
-        self, model: Overflow = "fail", *, line: str = "", loop_limit: int = LOOP_LIMIT, coverage: bool = False
-    ) -> None:
-        """Choose. ValueError for what there is not."""
-        if model not in ("standard", "c", "fail"):
-            raise ValueError(f"there is no model of overflow {model!r}; there are standard, c and fail")
-        if line not in ("", "beremiz", "openplc") or (line and model != "c"):
-            raise ValueError(f"line {line!r}: model c can follow beremiz or openplc")
-        self.options = Options(model, line, coverage)
+    def __init__(self, *, loop_limit: int = LOOP_LIMIT, coverage: bool = False) -> None:
+        """Choose."""
+        self.coverage = coverage
         self.loop_limit = loop_limit
 
     def build(self, sources: Sequence[Source]) -> EmbeddedLibrary:
@@ -47,7 +38,7 @@ class EmbeddedEngine:
             checked = check(units)
         except SourceError as error:
             raise BuildError([_message(each) for each in error.problems]) from error
-        compiler = Compiler(checked, self.options)
+        compiler = Compiler(checked, self.coverage)
         if compiler.messages:
             raise BuildError(compiler.messages)
         return EmbeddedLibrary(compiler, self.loop_limit)

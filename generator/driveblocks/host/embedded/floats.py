@@ -1,7 +1,7 @@
-"""REAL and LREAL expressions: rounded after every operation by the standard, only where C rounds by C's model.
+"""REAL and LREAL expressions: rounded after every operation by the standard, only at stores by C.
 
 A REAL literal without prefix is a double in C, and so is every operation on it until a store. Where the two readings
-are built differently, the `fail` model computes both and compares.
+are built differently, both are computed and compared.
 """
 
 from __future__ import annotations
@@ -11,16 +11,14 @@ import ast
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import Floating, Precision
-from driveblocks.host.engine import Overflow
 from driveblocks.st.types import REAL, Elementary
 
 
 class Floats:
     """Joins REAL and LREAL terms and brings them to values."""
 
-    def __init__(self, model: Overflow, pen: Pen) -> None:
-        """Write with `pen` under a model."""
-        self.model = model
+    def __init__(self, pen: Pen) -> None:
+        """Write with `pen`."""
         self.pen = pen
 
     def literal(self, value: float, kind: Elementary, typed: bool) -> Floating:
@@ -34,10 +32,10 @@ class Floats:
     def binary(self, left: Floating, operator: ast.operator, right: Floating, kind: Elementary) -> Floating:
         """Join two operands by + - * or /."""
         c: Precision = "double" if "double" in (left.c, right.c) else "single"
-        node = self._operation(self._standard(left), operator, self._standard(right))
+        node = self.pen.binary(self._standard(left), operator, self._standard(right))
         term = Floating(node, kind, c, pending=kind is REAL, c_pending=c == "single")
         if self._differs(left) or self._differs(right):
-            term.other = self._operation(self._c(left), operator, self._c(right))
+            term.other = self.pen.binary(self._c(left), operator, self._c(right))
         return term
 
     def negated(self, term: Floating) -> Floating:
@@ -51,18 +49,14 @@ class Floats:
         """The value as a variable or parameter of its type takes it."""
         if term.type is not REAL:
             return term
-        if self.model == "c":
-            return Floating(self._c_stored(term), REAL, "single")
-        if self.model == "standard" or term.other is None:
+        if term.other is None:
             return Floating(self._standard(term), REAL, "single")
         both = self.pen.call("agree", self._standard(term), self._c_stored(term))
         return Floating(both, REAL, "single")
 
     def double(self, term: Floating) -> ast.expr:
         """The value as an operand that is wanted as a double: not rounded first where C has a double already."""
-        if self.model == "c":
-            return self._c(term)
-        if self.model == "standard" or not self._differs(term):
+        if not self._differs(term):
             return self._standard(term)
         return self.pen.call("agree", self._standard(term), self._c(term))
 
@@ -70,15 +64,10 @@ class Floats:
         """The truth of a comparison."""
         pen = self.pen
         standard = pen.compare(self._standard(left), (operator, self._standard(right)))
-        if self.model == "standard" or not (self._differs(left) or self._differs(right)):
+        if not (self._differs(left) or self._differs(right)):
             return standard
         c = pen.compare(self._c(left), (operator, self._c(right)))
-        return c if self.model == "c" else pen.call("agree_truth", standard, c)
-
-    def _operation(self, left: ast.expr, operator: ast.operator, right: ast.expr) -> ast.expr:
-        if self.model == "c" and isinstance(operator, ast.Div):
-            return self.pen.call("divide_real", left, right)
-        return self.pen.binary(left, operator, right)
+        return pen.call("agree_truth", standard, c)
 
     def _differs(self, term: Floating) -> bool:
         """Whether the standard and C use different numbers from here on."""

@@ -22,25 +22,6 @@ def remainder(left: int, right: int) -> int:
     return left % right if left >= 0 and right > 0 else left - right * divide(left, right)
 
 
-def remainder_or_zero(left: int, right: int) -> int:
-    """MOD as table 24 defines it: zero for a divisor of zero."""
-    return remainder(left, right) if right else 0
-
-
-def c_divide(left: int, right: int, low: int) -> int:
-    """Divide as the processor does: a quotient that does not fit stops the program like a division by zero."""
-    if right == -1 and left == low:
-        raise FaultError(f"{left} / -1 does not fit: the processor traps")
-    return divide(left, right)
-
-
-def c_remainder(left: int, right: int, low: int) -> int:
-    """MOD as matiec has it: zero for a divisor of zero, and the processor's trap of `c_divide`."""
-    if right == -1 and left == low:
-        raise FaultError(f"{left} MOD -1 does not fit: the processor traps")
-    return remainder_or_zero(left, right)
-
-
 def leaves_type(number: int, name: str, width: int, signed: bool) -> int:
     """Fail: an intermediate result left its type and what comes next depends on it."""
     wrapped = wrap(number, width, signed)
@@ -106,16 +87,6 @@ def _defined(places: int, width: int) -> int:
     return places
 
 
-def c_shift_left(number: int, places: int, width: int) -> int:
-    """SHL on x86-64, which counts places modulo the register."""
-    return (number << places % max(width, 32)) & ((1 << width) - 1)
-
-
-def c_shift_right(number: int, places: int, width: int) -> int:
-    """SHR on x86-64."""
-    return number >> places % max(width, 32)
-
-
 def rotate_left(number: int, places: int, width: int) -> int:
     """ROL; negative places turn the other way."""
     places %= width
@@ -142,23 +113,17 @@ def careful_rotate_right(number: int, places: int, width: int) -> int:
 # ------------------------------------------------------------ BCD
 
 
-def from_bcd(number: int, width: int, strict: bool) -> int:
-    """BCD_TO: decimal digits of four bits each. A digit above nine: FaultError if `strict`, else 0 as on matiec."""
+def from_bcd(number: int, width: int) -> int:
+    """BCD_TO: decimal digits of four bits each. FaultError for a digit above nine."""
     digits = f"{number:0{width // 4}x}"
-    if digits.isdecimal():
-        return int(digits)
-    if strict:
+    if not digits.isdecimal():
         raise FaultError(f"16#{digits.upper()} is no BCD number")
-    return 0
+    return int(digits)
 
 
-def to_bcd(number: int, width: int, strict: bool) -> int:
-    """TO_BCD. A number with more digits than fit: FaultError if `strict`, else as on matiec.
-
-    There digits are shifted to their places on x86-64, which counts places modulo 64: the seventeenth digit falls on
-    the first.
-    """
+def to_bcd(number: int, width: int) -> int:
+    """TO_BCD. FaultError for a number with more digits than fit."""
     packed = int(str(number), 16)
-    if strict and packed >> width:
+    if packed >> width:
         raise FaultError(f"{number} does not fit into {width // 4} BCD digits")
-    return (packed | packed >> 64) & ((1 << width) - 1)
+    return packed

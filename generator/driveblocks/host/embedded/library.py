@@ -10,11 +10,11 @@ from typing import Any
 from driveblocks.host.coverage import Branches, Lines
 from driveblocks.host.embedded.calls import function_name, returned
 from driveblocks.host.embedded.compiler import Compiler
-from driveblocks.host.embedded.configuration import EmbeddedConfiguration, GlobalsView, globals_block, globals_of
 from driveblocks.host.embedded.faults import FAULTS, running, scan_error
+from driveblocks.host.embedded.global_variables import GlobalsView, globals_block, globals_of
 from driveblocks.host.embedded.invocation import body_name
 from driveblocks.host.embedded.paths import Paths
-from driveblocks.host.embedded.values import Values
+from driveblocks.host.embedded.values import read, written
 from driveblocks.host.engine import Message, Value
 from driveblocks.st import tree
 from driveblocks.st.standard import BLOCKS
@@ -69,7 +69,6 @@ class EmbeddedLibrary:
         """Take what the compiler has made; a scan may take `loop_limit` turns of loops."""
         self.compiler = compiler
         self.loop_limit = loop_limit
-        self.values = Values(compiler.options.model)
         self._paths: dict[Block, Paths] = {}
         self._globals = globals_block(compiler)
 
@@ -92,7 +91,7 @@ class EmbeddedLibrary:
     def paths(self, block: Block) -> Paths:
         """The paths of a block."""
         if block not in self._paths:
-            self._paths[block] = Paths(block, self.values)
+            self._paths[block] = Paths(block)
         return self._paths[block]
 
     def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
@@ -117,7 +116,7 @@ class EmbeddedLibrary:
             result = self.compiler.function(found)(*inner)
         except FAULTS as error:
             raise scan_error(error, self.compiler.accesses) from error
-        return self.values.read(found.type, result[0] if returned(found) else result)
+        return read(found.type, result[0] if returned(found) else result)
 
     def running(self, frame: FrameType | None) -> list[Message]:
         """Where a thread is in compiled ST, the innermost place first; each text is the name of a block or function.
@@ -132,16 +131,6 @@ class EmbeddedLibrary:
             Message(code.co_filename, line, column, names.get(code.co_name, code.co_name))
             for code, line, column in running(frame)
         ]
-
-    def configuration(self, name: str | None = None) -> EmbeddedConfiguration:
-        """Start the CONFIGURATION of that name, or the only one. KeyError."""
-        known = self.compiler.checked.configurations
-        if name is None and len(known) != 1:
-            raise KeyError(f"there are {len(known)} configurations: say which")
-        found = next(iter(known.values())) if name is None else known.get(name.upper())
-        if found is None:
-            raise KeyError(f"there is no configuration {name}")
-        return EmbeddedConfiguration(self.compiler, found, self.paths, self.loop_limit)
 
     def coverage(self) -> Lines:
         """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
@@ -167,7 +156,7 @@ class EmbeddedLibrary:
     def _argument(self, parameter: Any, given: dict[str, Value]) -> Any:
         value = self.compiler.shapes.maker(parameter.type, parameter.default)(None)
         name = parameter.name.upper()
-        return self.values.write(parameter.type, value, given[name]) if name in given else value
+        return written(parameter.type, value, given[name]) if name in given else value
 
     def _scanner(self, block: Block, root: Any) -> Callable[..., None]:
         """The `scan` of an instance: clock, budget, body, and the way from an exception to a ScanError."""

@@ -8,9 +8,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from driveblocks.host.embedded import times
 from driveblocks.host.embedded.shapes import is_scalar
-from driveblocks.host.embedded.values import Values, members
+from driveblocks.host.embedded.values import members, read, written
 from driveblocks.host.engine import Value
 from driveblocks.st.tree import Array, Block, Struct
 from driveblocks.st.types import Elementary, Kind, Type, plain
@@ -59,7 +58,7 @@ class Place:
         return getattr(holder, self.last) if isinstance(self.last, str) else holder[self.last]
 
     def set(self, root: Any, value: Any) -> None:
-        """Store what `Values.write` has made."""
+        """Store what `written` has made."""
         holder = self.holder(root)
         if isinstance(self.last, str):
             setattr(holder, self.last, value)
@@ -70,10 +69,9 @@ class Place:
 class Paths:
     """All places of the instances of one block."""
 
-    def __init__(self, block: Block, values: Values) -> None:
+    def __init__(self, block: Block) -> None:
         """Prepare for a block."""
         self.block = block
-        self.values = values
         self._places: dict[str, Place] = {}
         self._readers: dict[str, Callable[[Any], Value]] = {}
         self._writers: dict[str, Callable[[Any, Any], None]] = {}
@@ -87,7 +85,7 @@ class Paths:
         place.uses += 1
         if place.uses > OFTEN:
             self._readers[path] = self._reader(place)
-        return self.values.read(place.kind, place.get(root))
+        return read(place.kind, place.get(root))
 
     def write(self, root: Any, path: str, value: Value) -> None:
         """Write a variable. KeyError, ValueError."""
@@ -104,7 +102,7 @@ class Paths:
         if place.protected:
             raise ValueError(f"{path} is a CONSTANT")
         try:
-            place.set(root, self.values.write(place.kind, place.get(root), value))
+            place.set(root, written(place.kind, place.get(root), value))
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
 
@@ -112,8 +110,8 @@ class Paths:
         """What reads a variable, quickly if it is a scalar or an array of them that looks the same inside."""
         kind = plain(place.kind)
         element = plain(kind.element) if isinstance(kind, Array) and len(kind.bounds) == 1 else kind
-        if not is_scalar(element) or not self.values.is_same(element):
-            return lambda root: self.values.read(place.kind, place.get(root))
+        if not is_scalar(element):
+            return lambda root: read(place.kind, place.get(root))
         value = f"s{place.expression}"
         code = f"lambda s: {value}" if element is kind else f"lambda s: list({value})"
         made: Callable[[Any], Value] = eval(code)  # noqa: S307 - names that the parser took, and numbers
@@ -166,16 +164,13 @@ class Paths:
         """One Python function that reads everything at once, since tests call it after every scan."""
         keys: list[ast.expr | None] = []
         items: list[ast.expr] = []
-        for path, kind, node in leaves("", self.block, ast.Name("s", ast.Load())):
+        for path, _, node in leaves("", self.block, ast.Name("s", ast.Load())):
             keys.append(ast.Constant(path))
-            call = ast.Call(ast.Name("nanoseconds", ast.Load()), [node], [])
-            items.append(node if self.values.is_same(kind) else call)
+            items.append(node)
         arguments = ast.arguments([], [ast.arg("s")], None, [], [], None, [])
         tree = ast.fix_missing_locations(ast.Expression(ast.Lambda(arguments, ast.Dict(keys, items))))
         code = compile(tree, f"<state of {self.block.name}>", "eval")
-        snapshot: Callable[[Any], dict[str, Value]] = eval(  # noqa: S307 - our own compiled code
-            code, {"nanoseconds": times.nanoseconds}
-        )
+        snapshot: Callable[[Any], dict[str, Value]] = eval(code, {})  # noqa: S307 - our own compiled code
         return snapshot
 
 

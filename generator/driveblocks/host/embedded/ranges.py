@@ -20,11 +20,11 @@ _MIRROR = {"<": ">", ">": "<", "<=": ">=", ">=": "<=", "=": "=", "<>": "<>"}
 _OPPOSITE = {"<": ">=", ">": "<=", "<=": ">", ">=": "<", "=": "<>", "<>": "="}
 
 
-def declared(variable: tree.VarDecl, trusted: bool) -> Interval:
-    """The values that a variable can hold; a subrange is believed only where its stores are checked (`trusted`)."""
+def declared(variable: tree.VarDecl) -> Interval:
+    """The values that a variable can hold; every store into a subrange is checked."""
     kind = variable.type
     kind = known(kind, Elementary)
-    if isinstance(kind, Subrange) and trusted:
+    if isinstance(kind, Subrange):
         return kind.first, kind.last
     return kind.low, kind.high
 
@@ -33,17 +33,16 @@ def declared(variable: tree.VarDecl, trusted: bool) -> Interval:
 class Ranges:
     """Intervals by variable; a variable that is missing can hold all of its type. `dead`: nothing gets here."""
 
-    trusted: bool
     known: dict[tree.VarDecl, Interval] = field(default_factory=dict)
     dead: bool = False
 
     def copy(self) -> Ranges:
         """An independent copy."""
-        return Ranges(self.trusted, dict(self.known), self.dead)
+        return Ranges(dict(self.known), self.dead)
 
     def of(self, variable: tree.VarDecl) -> Interval:
         """What a variable can be."""
-        return self.known.get(variable) or declared(variable, self.trusted)
+        return self.known.get(variable) or declared(variable)
 
     def set(self, variable: tree.VarDecl, low: int, high: int) -> None:
         """Note an assignment. A global can change behind our back and is never tracked."""
@@ -81,7 +80,7 @@ class Ranges:
                 continue
             (low, high), (low2, high2) = self.of(each), after.of(each)
             if low2 < low or high2 > high:
-                lowest, highest = declared(each, self.trusted)
+                lowest, highest = declared(each)
                 self.known[each] = lowest if low2 < low else low, highest if high2 > high else high
                 moved = True
         return moved

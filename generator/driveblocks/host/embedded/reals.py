@@ -1,4 +1,4 @@
-"""REAL and LREAL at run time: rounding to IEEE single precision, and conversions to integers, model by model.
+"""REAL and LREAL at run time: rounding to IEEE single precision, and conversions to integers, by the standard and by C.
 
 C's conversions are those of x86-64, where a value that does not fit gives the "integer indefinite" (Intel SDM volume
 1, 4.8.2 and the entries of CVTTSS2SI and CVTTSD2SI): the most negative number of the register, cut to the target.
@@ -17,9 +17,7 @@ _CELL: memoryview[float] = memoryview(bytearray(4)).cast("f")
 _INDEFINITE_32 = -(1 << 31)
 _INDEFINITE_64 = -(1 << 63)
 # What x86-64 makes of an invalid operation: a NaN with its sign set.
-_INVALID = -math.nan
 # The functions of glibc that make a NaN without a sign.
-_POSITIVE_NAN = ("LOG", "ASIN", "ACOS")
 # Whole numbers up to this size are exact in single precision.
 EXACT_SINGLE = 1 << 24
 
@@ -95,35 +93,6 @@ def power(base: float, exponent: float) -> float:
         raise FaultError(f"{base} ** {exponent} has no value") from error
 
 
-def c_power(base: float, exponent: float) -> float:
-    """C's pow (ISO C F.10.4.4): NaN for a negative base with a fraction, infinity for a pole or an overflow."""
-    try:
-        return math.pow(base, exponent)
-    except ValueError:
-        if base != 0.0:
-            return _INVALID
-        odd = exponent == int(exponent) and int(exponent) % 2 == 1
-        return math.copysign(math.inf, base) if odd else math.inf
-    except OverflowError:
-        odd = math.isfinite(exponent) and exponent == int(exponent) and int(exponent) % 2 == 1
-        return -math.inf if base < 0 and odd else math.inf
-
-
-def c_abs(number: float) -> float:
-    """ABS as matiec has it, which leaves a negative zero alone."""
-    return -number if number < 0.0 else number
-
-
-def divide(left: float, right: float) -> float:
-    """C's division (IEC 60559): infinity or NaN for a divisor of zero."""
-    try:
-        return left / right
-    except ZeroDivisionError:
-        if left == 0.0 or math.isnan(left):
-            return left if left != 0.0 else _INVALID
-        return math.copysign(math.inf, left) * math.copysign(1.0, right)
-
-
 def guarded(name: str, function: Callable[[float], float]) -> Callable[[float], float]:
     """A function of the mathematical library that raises FaultError where it has no finite value."""
 
@@ -132,22 +101,6 @@ def guarded(name: str, function: Callable[[float], float]) -> Callable[[float], 
             return function(number)
         except (ValueError, OverflowError) as error:
             raise FaultError(f"{name}({number}) has no value") from error
-
-    return run
-
-
-def c_function(name: str, function: Callable[[float], float]) -> Callable[[float], float]:
-    """The same as C has it: NaN outside its domain, infinity at a pole or beyond the range."""
-
-    def run(number: float) -> float:
-        try:
-            return function(number)
-        except OverflowError:
-            return math.inf
-        except ValueError:
-            if name in ("LN", "LOG") and number == 0.0:
-                return -math.inf
-            return math.nan if name in _POSITIVE_NAN else _INVALID
 
     return run
 

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from driveblocks.host.coverage import Outcome
 from driveblocks.host.embedded.certainty import present
 from driveblocks.host.embedded.faults import Access, Accesses
+from driveblocks.host.embedded.floats import Floats
 from driveblocks.host.embedded.ranges import Ranges
 from driveblocks.host.embedded.shapes import Shapes
 from driveblocks.host.embedded.syntax import Pen
-from driveblocks.host.engine import Overflow
+from driveblocks.host.embedded.terms import Term
+from driveblocks.host.embedded.widths import Widths
 from driveblocks.st import tree
 from driveblocks.st.tree import VarKind
 
@@ -31,12 +34,17 @@ class UnsupportedError(Exception):
 
 
 @dataclass(slots=True)
-class Options:
-    """What the compiler is asked for."""
+class OpenLoop:
+    """A loop that is being compiled: what CONTINUE has to do first, and what is known at every EXIT and CONTINUE."""
 
-    model: Overflow = "fail"
-    line: str = ""
-    coverage: bool = False
+    before_continue: Callable[[], list[ast.stmt]]
+    exits: list[Ranges] = field(default_factory=list)
+    continues: list[Ranges] = field(default_factory=list)
+
+
+# How each kind of expression and of statement is compiled; the functions compile the parts by `parts`.
+Terms = Mapping[type[tree.Expression], Callable[["Scope", Any], Term]]
+Statements = Mapping[type[tree.Statement], Callable[["Scope", Any], list[ast.stmt]]]
 
 
 @dataclass(slots=True)
@@ -44,19 +52,24 @@ class Scope:
     """The state of compiling one POU."""
 
     pou: tree.Pou | None
-    options: Options
+    coverage: bool
     pen: Pen
     shapes: Shapes
     accesses: Accesses
     ranges: Ranges
     objects: dict[str, Any]
+    terms: Terms
+    statements: Statements
     hoisted: set[tree.VarDecl] = field(default_factory=set)
+    loops: list[OpenLoop] = field(default_factory=list)
     temporaries: int = 0
+    widths: Widths = field(init=False)
+    floats: Floats = field(init=False)
 
-    @property
-    def model(self) -> Overflow:
-        """The model of overflow."""
-        return self.options.model
+    def __post_init__(self) -> None:
+        """Prepare to bring terms to values."""
+        self.widths = Widths(self.pen, self.fresh)
+        self.floats = Floats(self.pen)
 
     def fresh(self) -> str:
         """A name for a temporary variable."""

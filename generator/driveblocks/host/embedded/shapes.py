@@ -1,6 +1,6 @@
 """How values of ST types look in Python: their initial values, their copies, and the classes that hold them.
 
-Scalars are Python's; TIME and the dates are nanoseconds, or pairs in C's model; an array is a list (one list per
+Scalars are Python's; TIME and the dates are nanoseconds; an array is a list (one list per
 dimension), a structure or instance an object with one slot per field. Arrays and structures keep their identity for
 life: assignments copy into them, so that references to them (in-outs) stay valid.
 """
@@ -11,8 +11,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from driveblocks.host.embedded.certainty import known, present
-from driveblocks.host.embedded.times import Span
-from driveblocks.host.engine import Overflow
 from driveblocks.st import tree
 from driveblocks.st.tree import Array, Block, Enum, Struct
 from driveblocks.st.types import TEMPORAL, Kind, Subrange, Type
@@ -46,9 +44,8 @@ def record_class(name: str, slots: Sequence[str]) -> type[Record]:
 class Shapes:
     """Makes and copies values of the types of one build."""
 
-    def __init__(self, model: Overflow) -> None:
-        """Values of time are pairs in C's model."""
-        self.model = model
+    def __init__(self) -> None:
+        """Start without any."""
         self.classes: dict[Struct, type[Record]] = {}
         self.globals: dict[tree.VarDecl, str] = {}
         self.makers: dict[Type, Maker] = {}
@@ -94,7 +91,7 @@ class Shapes:
             return 0.0
         if kind.kind is Kind.STRING:
             return b""
-        return Span(0, 0) if kind.kind in TEMPORAL and self.model == "c" else 0
+        return 0
 
     def _block_maker(self, kind: Block, initial: tree.Expression | None) -> Maker:
         settings = self._settings(initial, {name: each.type for name, each in _members(kind).items()})

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from datetime import datetime, timedelta
-
 from driveblocks.host.embedded.faults import FaultError
 from driveblocks.host.embedded.integers import wrap
 
@@ -17,57 +14,6 @@ def from_bool(number: bool) -> bytes:
 def from_whole(number: int) -> bytes:
     """INT_TO_STRING and its like."""
     return b"%d" % number
-
-
-def from_bits(number: int) -> bytes:
-    """BYTE_TO_STRING and its like, as a literal of the standard."""
-    return b"16#%X" % number
-
-
-def c_from_bits(number: int) -> bytes:
-    """The same as matiec writes it."""
-    return b"16#%x" % number
-
-
-def from_real(number: float) -> bytes:
-    """REAL_TO_STRING with ten significant digits, as matiec writes it."""
-    return b"%.10g" % number
-
-
-def c_from_real(number: float) -> bytes:
-    """The same by C's library, which shows the sign of a NaN."""
-    return b"-nan" if math.isnan(number) and math.copysign(1.0, number) < 0 else from_real(number)
-
-
-def from_time(seconds: int, nanoseconds: int) -> bytes:
-    """TIME_TO_STRING as matiec writes it: from days down to the last part that is not zero."""
-    parts = []
-    rest = abs(seconds)
-    sign = -1 if seconds < 0 else 1
-    for unit, size in ((b"d", 86_400), (b"h", 3_600), (b"m", 60), (b"s", 1)):
-        parts.append(b"%d%s" % (sign * (rest // size), unit))
-        rest %= size
-        if rest == 0 and nanoseconds == 0:
-            break
-    if nanoseconds:
-        parts.append(b"%gms" % (nanoseconds / 1_000_000))
-    return b"T#" + b"".join(parts)
-
-
-def c_from_time(seconds: int, nanoseconds: int) -> bytes:
-    """The same on matiec itself, which counts the seconds in 32 bits."""
-    return from_time(wrap(seconds, 32, True), nanoseconds)
-
-
-def from_date(kind: str, seconds: int, nanoseconds: int) -> bytes:
-    """DATE_TO_STRING and its like: a literal, with six decimals where there is a fraction of a second."""
-    moment = datetime(1970, 1, 1) + timedelta(seconds=seconds)
-    clock = f"{moment:%H:%M}:{moment.second:02}"
-    if nanoseconds:
-        clock = f"{moment:%H:%M}:{moment.second + nanoseconds / 1e9:09.6f}"
-    date = f"{moment.year}-{moment:%m-%d}"
-    texts = {"DATE": f"D#{date}", "TIME_OF_DAY": f"TOD#{clock}", "DATE_AND_TIME": f"DT#{date}-{clock}"}
-    return texts[kind].encode()
 
 
 _BASES = {b"2#": 2, b"8#": 8, b"16#": 16}
@@ -103,11 +49,6 @@ def to_bool(text: bytes) -> bool:
     if word not in (b"TRUE", b"FALSE", b"1", b"0"):
         raise FaultError(f"{text!r} is neither TRUE nor FALSE")
     return word in (b"TRUE", b"1")
-
-
-def c_to_bool(text: bytes) -> bool:
-    """The same as on matiec: all else is FALSE."""
-    return text.upper() in (b"TRUE", b"1")
 
 
 def c_to_whole(text: bytes) -> int:

@@ -1,6 +1,6 @@
 """The standard function blocks (IEC 61131-3 clause 2.5.2.3): bistables, edges, counters, timers.
 
-Where the standard and matiec disagree, the model decides: the standard's text, matiec's behaviour, or a fault.
+Where the standard and matiec disagree, a block raises FaultError.
 """
 
 from __future__ import annotations
@@ -8,11 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.faults import FaultError
 from driveblocks.host.embedded.shapes import Record
-from driveblocks.host.engine import Overflow
 from driveblocks.st.standard import BLOCKS
 from driveblocks.st.tree import Block
 from driveblocks.st.types import Elementary
@@ -60,17 +58,13 @@ def classes() -> dict[Block, type[Record]]:
     }
 
 
-def bodies(model: Overflow, line: str, run: Run) -> dict[str, Body]:
+def bodies(run: Run) -> dict[str, Body]:
     """The body of every standard block by upper-case name."""
-    table: dict[str, Body] = {"SR": _sr, "RS": _rs, "R_TRIG": _r_trig, "RTC": _rtc(model, run)}
-    table["F_TRIG"] = {"standard": _f_trig, "c": _f_trig, "fail": _careful_f_trig}[model]
-    if line == "openplc":
-        table["F_TRIG"] = _openplc_f_trig
-    table["SEMA"] = {"standard": _sema, "c": _c_sema, "fail": _careful_sema}[model]
-    table |= _timers(model, run)
+    table: dict[str, Body] = {"SR": _sr, "RS": _rs, "R_TRIG": _r_trig, "F_TRIG": _f_trig, "SEMA": _sema}
+    table |= {**_timers(run), "RTC": _rtc(run)}
     for name, block in BLOCKS.items():
         if name.startswith("CT"):
-            table[name] = _counter(name, block, model)
+            table[name] = _counter(name, block)
     return table
 
 
@@ -91,77 +85,48 @@ def _r_trig(s: Any) -> None:
 
 
 def _f_trig(s: Any) -> None:
-    """The standard's text: on a first call with CLK FALSE, Q is TRUE."""
+    """By the standard's text Q is TRUE on a first call with CLK FALSE; other compilers differ. FaultError."""
+    if s.memory is None and not s.CLK:
+        raise FaultError("compilers disagree on F_TRIG called with CLK FALSE at first: use R_TRIG of the negation")
     s.Q = not s.CLK and not s.memory
     s.memory = not s.CLK
 
 
-def _openplc_f_trig(s: Any) -> None:
-    s.Q = not s.CLK and bool(s.memory)
-    s.memory = s.CLK
-
-
-def _careful_f_trig(s: Any) -> None:
-    if s.memory is None and not s.CLK:
-        raise FaultError("compilers disagree on F_TRIG called with CLK FALSE at first: use R_TRIG of the negation")
-    _f_trig(s)
-
-
-def _sema(s: Any) -> None:
-    """The standard's text: BUSY is what was claimed before this call."""
-    s.BUSY = s.memory
-    if s.CLAIM:
-        s.memory = True
-    elif s.RELEASE:
-        s.BUSY = s.memory = False
-
-
-def _c_sema(s: Any) -> None:
-    s.memory = s.CLAIM or (s.memory and not s.RELEASE)
-    s.BUSY = s.memory
-
-
-def _careful_sema(_: Any) -> None:
+def _sema(_: Any) -> None:
     raise FaultError("SEMA grants at once on matiec and one call later by the standard: use a bistable")
 
 
 # ------------------------------------------------------------ counters
 
 
-def _counter(name: str, block: Block, model: Overflow) -> Body:
-    kind = block.parameters["CV"].type
-    kind = known(kind, Elementary)
-    up = _up(kind, model)
-    down = _down(kind, model)
+def _counter(name: str, block: Block) -> Body:
+    kind = known(block.parameters["CV"].type, Elementary)
+    up, down = _up(kind), _down(kind)
     if name.startswith("CTUD"):
         return _up_down(up, down)
     return _count_up(up) if name.startswith("CTU") else _count_down(down)
 
 
-def _up(kind: Elementary, model: Overflow) -> Callable[[Any], None]:
-    """Count up: by the standard to the end of the type, on matiec to PV."""
+def _up(kind: Elementary) -> Callable[[Any], None]:
+    """Count up to PV; the standard goes on to the end of the type, matiec does not. FaultError."""
 
     def count(s: Any) -> None:
         if s.CV < s.PV:
             s.CV += 1
-        elif model == "fail" and kind.high > s.CV:
+        elif kind.high > s.CV:
             raise FaultError("a counter at PV counts on by the standard and stops on matiec: reset it first")
-        elif model == "standard" and kind.high > s.CV:
-            s.CV += 1
 
     return count
 
 
-def _down(kind: Elementary, model: Overflow) -> Callable[[Any], None]:
-    """Count down: by the standard to the end of the type, on matiec to zero."""
+def _down(kind: Elementary) -> Callable[[Any], None]:
+    """Count down to zero; the standard goes on to the end of the type, matiec does not. FaultError."""
 
     def count(s: Any) -> None:
         if s.CV > 0:
             s.CV -= 1
-        elif model == "fail" and kind.low < s.CV:
+        elif kind.low < s.CV:
             raise FaultError("a counter at zero counts on by the standard and stops on matiec: load it first")
-        elif model == "standard" and kind.low < s.CV:
-            s.CV -= 1
 
     return count
 
@@ -209,43 +174,24 @@ def _up_down(up: Callable[[Any], None], down: Callable[[Any], None]) -> Body:
 # ------------------------------------------------------------ timers
 
 
-def _plain_reached(start: int, duration: int, now: int) -> bool:
-    return start + duration <= now
-
-
-def _plain_elapsed(start: int, now: int) -> int:
-    return now - start
-
-
-def _pair_reached(start: int, duration: times.Span, now: int) -> bool:
-    return times.c_order(times.c_add(times.pair(start), duration), times.pair(now)) <= 0
-
-
-def _pair_elapsed(start: int, now: int) -> times.Span:
-    return times.c_subtract(times.pair(now), times.pair(start))
-
-
-def _timers(model: Overflow, run: Run) -> dict[str, Body]:
+def _timers(run: Run) -> dict[str, Body]:
     """TP, TON and TOF. A timer is started by one call, and can only run out in a later one."""
-    reached: Any = _pair_reached if model == "c" else _plain_reached
-    elapsed: Any = _pair_elapsed if model == "c" else _plain_elapsed
-    zero: Any = times.Span(0, 0) if model == "c" else 0
 
     def start(s: Any) -> None:
-        if model == "fail" and s.PT <= 0:
+        if s.PT <= 0:
             raise FaultError("a timer with PT of zero runs out at once by the standard, one call later on matiec")
         s.state, s.start = _RUNNING, run.now
 
     def go_on(s: Any) -> bool:
         """Bring ET up to now; whether the time has just run out."""
-        if reached(s.start, s.PT, run.now):
+        if s.start + s.PT <= run.now:
             s.state, s.ET = _DONE, s.PT
             return True
-        s.ET = elapsed(s.start, run.now)
+        s.ET = run.now - s.start
         return False
 
     def reset(s: Any) -> None:
-        s.state, s.ET = _IDLE, zero
+        s.state, s.ET = _IDLE, 0
 
     return {"TP": _tp(start, go_on, reset), "TON": _ton(start, go_on, reset), "TOF": _tof(start, go_on, reset)}
 
@@ -293,17 +239,13 @@ def _tof(start: Body, go_on: Callable[[Any], bool], reset: Body) -> Body:
     return body
 
 
-def _rtc(model: Overflow, run: Run) -> Body:
+def _rtc(run: Run) -> Body:
     """The clock of the engine, or from the rising edge of IN on, what PDT said plus the time since."""
-    add: Any = times.c_add if model == "c" else int.__add__
-    subtract: Any = times.c_subtract if model == "c" else int.__sub__
-    clock: Any = times.pair if model == "c" else int
 
     def body(s: Any) -> None:
-        now = clock(run.now)
         if s.IN and not s.previous:
-            s.offset = subtract(s.PDT, now)
-        s.CDT = add(now, s.offset) if s.IN else now
+            s.offset = s.PDT - run.now
+        s.CDT = run.now + s.offset if s.IN else run.now
         s.Q = s.previous = s.IN
 
     return body

@@ -1,7 +1,7 @@
 """STRING at run time: bytes, cut at the length of the variable that takes them.
 
 The standard makes it an error to count below zero, to name a character that is not there, and to build a string
-longer than the maximum (IEC 61131-3 2.5.1.5.5); the `c_` functions clamp instead, as matiec's Beremiz line does.
+longer than the maximum (IEC 61131-3 2.5.1.5.5).
 """
 
 from __future__ import annotations
@@ -83,68 +83,7 @@ def careful_find(text: bytes, other: bytes) -> int:
     return found
 
 
-# ------------------------------------------------------------ as matiec
-
-
-def _count(*numbers: int) -> bool:
-    return min(numbers) < 0
-
-
-def c_left(text: bytes, count: int) -> bytes:
-    """LEFT; what is not there is left out."""
-    return b"" if _count(count) else text[:count]
-
-
-def c_right(text: bytes, count: int) -> bytes:
-    """RIGHT; what is not there is left out."""
-    return b"" if _count(count) else text[len(text) - min(count, len(text)) :]
-
-
-def c_mid(text: bytes, count: int, position: int) -> bytes:
-    """MID; what is not there is left out. Position 0 reads memory before the string on matiec. FaultError."""
-    if _count(count, position) or position > len(text):
-        return b""
-    if position == 0:
-        raise FaultError("MID at position 0 reads outside the string on matiec")
-    return text[position - 1 : position - 1 + count]
-
-
-def c_concat(*texts: bytes) -> bytes:
-    """CONCAT, cut at the maximum."""
-    return b"".join(texts)[:DEFAULT_STRING_LENGTH]
-
-
-def c_insert(text: bytes, other: bytes, position: int) -> bytes:
-    """INSERT, cut at the maximum."""
-    if _count(position):
-        return b""
-    place = min(position & 0xFF, len(text))
-    return (text[:place] + other + text[place:])[:DEFAULT_STRING_LENGTH]
-
-
-def c_delete(text: bytes, count: int, position: int) -> bytes:
-    """DELETE; lengths pass through 8 bits. Position 0 writes outside the string on matiec. FaultError."""
-    if _count(count, position):
-        return b""
-    place = _place("DELETE", text, position)
-    return text[:place] + text[place + (count & 0xFF) :]
-
-
-def c_replace(text: bytes, other: bytes, count: int, position: int) -> bytes:
-    """REPLACE by no more characters than are removed. Position 0 writes outside on matiec. FaultError."""
-    if _count(count, position):
-        return b""
-    count, place = count & 0xFF, _place("REPLACE", text, position)
-    rest = text[place + count :] if place + count <= 0xFF else text[(place + count) & 0xFF :]
-    return (text[:place] + other[:count] + rest)[:DEFAULT_STRING_LENGTH]
-
-
-def _place(name: str, text: bytes, position: int) -> int:
-    """How many characters stand before a position of 8 bits."""
-    position &= 0xFF
-    if position == 0:
-        raise FaultError(f"{name} at position 0 writes outside the string on matiec")
-    return len(text) if position > len(text) else position - 1
+# ------------------------------------------------------------ FIND as matiec has it
 
 
 def _naive_find(text: bytes, other: bytes) -> int:
@@ -171,15 +110,7 @@ def _scan(text: bytes, other: bytes) -> tuple[int, int]:
     return start, matched
 
 
-c_find = _naive_find
-
-
 # ------------------------------------------------------------ comparison
-
-
-def order(left_text: bytes, right_text: bytes) -> int:
-    """Negative, zero or positive, byte by byte; a beginning comes before the whole."""
-    return (left_text > right_text) - (left_text < right_text)
 
 
 def careful_order(left_text: bytes, right_text: bytes) -> int:

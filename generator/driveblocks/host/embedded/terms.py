@@ -100,7 +100,7 @@ class Floating:
 
 @dataclass(slots=True)
 class Plain:
-    """Anything that has one value under every model: BOOL, STRING, TIME, an array, a structure, an instance."""
+    """Anything that has one value on every compiler: BOOL, STRING, TIME, an array, a structure, an instance."""
 
     node: ast.expr
     type: Type

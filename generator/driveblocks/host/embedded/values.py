@@ -1,18 +1,17 @@
 """Values at the face of the engine: what a user reads, and what a user may write.
 
-Inside, TIME may be a pair and a structure an object; outside they are nanoseconds and dicts (see `host.engine`).
+Inside, a structure is an object; outside it is a dict (see `host.engine`).
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from driveblocks.host.embedded import times
 from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.compiler import kept
 from driveblocks.host.embedded.reals import single
 from driveblocks.host.embedded.shapes import is_scalar
-from driveblocks.host.engine import Overflow, Value
+from driveblocks.host.engine import Value
 from driveblocks.st.tree import Array, Block, Enum, Struct
 from driveblocks.st.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
 
@@ -28,95 +27,86 @@ def members(kind: Type) -> dict[str, Type]:
     return {}
 
 
-class Values:
-    """Converts values of the types of one build."""
+def read(kind: Type, value: Any) -> Value:
+    """The value as the user sees it."""
+    kind = plain(kind)
+    if isinstance(kind, Array):
+        return _read_list(value, kind, len(kind.bounds))
+    if isinstance(kind, Struct | Block):
+        return {name: read(each, getattr(value, name)) for name, each in members(kind).items()}
+    outside: Value = value
+    return outside
 
-    def __init__(self, model: Overflow) -> None:
-        """Times are pairs in C's model."""
-        self.pairs = model == "c"
 
-    # ------------------------------------------------------------ reading
+def _read_list(value: list[Any], kind: Array, dimensions: int) -> Value:
+    if dimensions > 1:
+        return [_read_list(each, kind, dimensions - 1) for each in value]
+    if is_scalar(kind.element):
+        return list(value)
+    return [read(kind.element, each) for each in value]
 
-    def is_same(self, kind: Type) -> bool:
-        """Whether a scalar looks the same inside and outside."""
-        return not (self.pairs and kind.kind in TEMPORAL)
 
-    def read(self, kind: Type, value: Any) -> Value:
-        """The value as the user sees it."""
-        kind = plain(kind)
-        if isinstance(kind, Array):
-            return self._read_list(value, kind, len(kind.bounds))
-        if isinstance(kind, Struct | Block):
-            return {name: self.read(each, getattr(value, name)) for name, each in members(kind).items()}
-        outside: Value = value if self.is_same(kind) else times.nanoseconds(value)
-        return outside
+def written(kind: Type, current: Any, value: Value) -> Any:
+    """What to store for a value of the user's. ValueError.
 
-    def _read_list(self, value: list[Any], kind: Array, dimensions: int) -> Value:
-        if dimensions > 1:
-            return [self._read_list(each, kind, dimensions - 1) for each in value]
-        if is_scalar(kind.element) and self.is_same(plain(kind.element)):
-            return list(value)
-        return [self.read(kind.element, each) for each in value]
-
-    # ------------------------------------------------------------ writing
-
-    def write(self, kind: Type, current: Any, value: Value) -> Any:
-        """What to store for a value of the user's. ValueError.
-
-        Arrays and structures are filled in place and given back; a list or bytes shorter than the array, or a dict
-        that lacks fields, leaves the rest.
-        """
-        if isinstance(kind, Array):
-            self._fill(kind, current, value, 0)
-            return current
-        if isinstance(kind, Struct | Block):
-            return self._write_members(kind, current, value)
-        return self._scalar(kind, value)
-
-    def _write_members(self, kind: Type, current: Any, value: Value) -> Any:
-        if not isinstance(value, dict):
-            raise ValueError(f"{kind} takes a dict, not {value!r}")
-        known = members(kind)
-        for name, each in value.items():
-            if name.upper() not in known:
-                raise ValueError(f"{kind} has no {name}")
-            slot = name.upper()
-            setattr(current, slot, self.write(known[slot], getattr(current, slot), each))
+    Arrays and structures are filled in place and given back; a list or bytes shorter than the array, or a dict
+    that lacks fields, leaves the rest.
+    """
+    if isinstance(kind, Array):
+        _fill(kind, current, value, 0)
         return current
+    if isinstance(kind, Struct | Block):
+        return _write_members(kind, current, value)
+    return _scalar(kind, value)
 
-    def _fill(self, kind: Array, current: list[Any], value: Value, dimension: int) -> None:
-        if not isinstance(value, list | tuple | bytes | bytearray):
-            raise ValueError(f"{kind} takes a list or bytes, not {value!r}")
-        if len(value) > len(current):
-            raise ValueError(f"{len(value)} values do not fit into the {len(current)} elements of {kind}")
-        last = dimension + 1 == len(kind.bounds)
-        # Checked first and stored afterwards, so that a wrong value in the middle leaves nothing half written.
-        made = [self.write(kind.element, current[place], each) for place, each in enumerate(value)] if last else []
-        current[: len(made)] = made
-        for place, each in enumerate(() if last else value):
-            self._fill(kind, current[place], each, dimension + 1)
 
-    def _scalar(self, kind: Type, value: Value) -> Any:
-        if kind.kind is Kind.BOOL:
-            return _bool(value)
-        if kind.kind is Kind.REAL:
-            return _real(kind, value)
-        if isinstance(kind, String):
-            return _string(kind, value)
-        if isinstance(kind, Enum):
-            return _enumerated(kind, value)
-        return self._whole(kind, value)
+def _write_members(kind: Type, current: Any, value: Value) -> Any:
+    if not isinstance(value, dict):
+        raise ValueError(f"{kind} takes a dict, not {value!r}")
+    known = members(kind)
+    for name, each in value.items():
+        slot = name.upper()
+        if slot not in known:
+            raise ValueError(f"{kind} has no {name}")
+        setattr(current, slot, written(known[slot], getattr(current, slot), each))
+    return current
 
-    def _whole(self, kind: Type, value: Value) -> Any:
-        kind = known(kind, Elementary)
-        if not isinstance(value, int):
-            raise ValueError(f"{kind} takes an int, not {value!r}")
-        low, high = (kind.first, kind.last) if isinstance(kind, Subrange) else (kind.low, kind.high)
-        if kind.kind in TEMPORAL:
-            low, high = -(1 << 63), (1 << 63) - 1
-        if not low <= value <= high:
-            raise ValueError(f"{value} does not fit {kind}, which is {low}..{high}")
-        return times.pair(value) if self.pairs and kind.kind in TEMPORAL else int(value)
+
+def _fill(kind: Array, current: list[Any], value: Value, dimension: int) -> None:
+    if not isinstance(value, list | tuple | bytes | bytearray):
+        raise ValueError(f"{kind} takes a list or bytes, not {value!r}")
+    if len(value) > len(current):
+        raise ValueError(f"{len(value)} values do not fit into the {len(current)} elements of {kind}")
+    last = dimension + 1 == len(kind.bounds)
+    # Checked first and stored afterwards, so that a wrong value in the middle leaves nothing half written.
+    made = [written(kind.element, current[place], each) for place, each in enumerate(value)] if last else []
+    current[: len(made)] = made
+    for place, each in enumerate(() if last else value):
+        _fill(kind, current[place], each, dimension + 1)
+
+
+def _scalar(kind: Type, value: Value) -> Any:
+    if kind.kind is Kind.BOOL:
+        return _bool(value)
+    if kind.kind is Kind.REAL:
+        return _real(kind, value)
+    if isinstance(kind, String):
+        return _string(kind, value)
+    if isinstance(kind, Enum):
+        return _enumerated(kind, value)
+    return _whole(kind, value)
+
+
+def _whole(kind: Type, value: Value) -> int:
+    kind = known(kind, Elementary)
+    if not isinstance(value, int):
+        raise ValueError(f"{kind} takes an int, not {value!r}")
+    low, high = (kind.first, kind.last) if isinstance(kind, Subrange) else (kind.low, kind.high)
+    if kind.kind in TEMPORAL:
+        low, high = -(1 << 63), (1 << 63) - 1
+    if not low <= value <= high:
+        raise ValueError(f"{value} does not fit {kind}, which is {low}..{high}")
+    return int(value)
 
 
 def _bool(value: Value) -> bool:

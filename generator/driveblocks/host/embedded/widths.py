@@ -1,4 +1,4 @@
-"""Where the exact value of an integer matters: wrapped, checked or left alone, by the model of overflow."""
+"""Where the exact value of an integer matters: wrapped, checked or left alone, whatever leaves its type fails."""
 
 from __future__ import annotations
 
@@ -9,25 +9,21 @@ from driveblocks.host.embedded.certainty import known
 from driveblocks.host.embedded.integers import c_name
 from driveblocks.host.embedded.syntax import Pen
 from driveblocks.host.embedded.terms import CInteger, Whole, promoted
-from driveblocks.host.engine import Overflow
 from driveblocks.st.types import Elementary, Subrange, Type, plain
 
 
 class Widths:
     """Turns raw integers into exact ones."""
 
-    def __init__(self, model: Overflow, pen: Pen, fresh: Callable[[], str]) -> None:
+    def __init__(self, pen: Pen, fresh: Callable[[], str]) -> None:
         """`fresh` makes names of temporary variables."""
-        self.model = model
         self.pen = pen
         self.fresh = fresh
 
     def exact(self, raw: Whole) -> Whole:
-        """The value for a use that depends on all of it: wrapped as the standard or as C does, or checked."""
-        if self.model == "c":
-            return self.wrapped(raw, raw.c)
+        """The value for a use that depends on all of it: wrapped where the standard and C agree, else checked."""
         kind = CInteger(raw.type.width, raw.type.signed)
-        if self.model == "standard" or (raw.c == kind and not kind.signed):
+        if raw.c == kind and not kind.signed:
             return self.wrapped(raw, kind)
         return self._checked(raw, kind)
 
@@ -37,11 +33,11 @@ class Widths:
         into = known(into, Elementary)
         if into.width > raw.type.width:
             raw = self.exact(raw)
-        if self.model == "fail" and raw.c.signed and not raw.within(raw.c.low, raw.c.high):
+        if raw.c.signed and not raw.within(raw.c.low, raw.c.high):
             raw = self._defined(raw)
         kept = self.wrapped(raw, CInteger(into.width, into.signed))
         kept = Whole(kept.node, kept.low, kept.high, into, promoted(into))
-        return self._in_range(kept, target) if isinstance(target, Subrange) and self.model != "c" else kept
+        return self._in_range(kept, target) if isinstance(target, Subrange) else kept
 
     def wrapped(self, raw: Whole, kind: CInteger) -> Whole:
         """The value modulo a width, unless its interval already fits."""
@@ -57,14 +53,10 @@ class Widths:
             node = pen.binary(moved, ast.Sub(), half)
         return Whole(node, kind.low, kind.high, raw.type, raw.c)
 
-    def converted(self, raw: Whole, kind: CInteger) -> Whole:
-        """An operand in the type that it has in common with the other one (C's model only)."""
-        return self.wrapped(self.exact(raw), kind) if self.model == "c" else self.exact(raw)
-
     def in_any_type(self, raw: Whole, bits: int) -> Whole:
         """Fail at run time if the value is negative or has more bits: the types that compilers choose then differ."""
         high = (1 << bits) - 1
-        if self.model != "fail" or raw.within(0, high):
+        if raw.within(0, high):
             return raw
         return self._guarded(raw, 0, high, "leaves_open", (self.pen.constant(high),))
 

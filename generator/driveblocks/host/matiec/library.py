@@ -1,4 +1,4 @@
-"""What a build gives: instances, function calls, and a configuration."""
+"""What a build gives: instances and function calls."""
 
 import ctypes
 from collections.abc import Callable, Iterator, Mapping
@@ -8,7 +8,6 @@ from functools import cached_property
 from driveblocks.host.coverage import Branches, Lines
 from driveblocks.host.engine import Message, ScanError, Value
 from driveblocks.host.matiec.binary import Built, cause
-from driveblocks.host.matiec.configuration import MatiecConfiguration
 from driveblocks.host.matiec.counters import COUNTS, Counters
 from driveblocks.host.matiec.declarations import Unit
 from driveblocks.host.matiec.layout import Memory, RecordNode, Snapshot
@@ -108,17 +107,17 @@ class MatiecLibrary:
         """Take what the engine has loaded."""
         self.warnings = built.warnings
         self.folder = built.folder
-        self._built = built
+        self.built = built
         self._binary = built.binary
         self._types: dict[str, BlockType] = {}
         self._clock = Clock()
         size = len(built.counters.lines) if built.counters else 0
         self._before = {table: built.binary.counts(table, size) if size else [] for table in COUNTS}
-        self._counting = [built.binary]
+        self.counting = [built.binary]
 
     def blocks(self) -> Iterator[str]:
         """The function blocks and programs, spelled as declared."""
-        for unit in self._built.declared.units.values():
+        for unit in self.built.declared.units.values():
             if unit.kind in ("FUNCTION_BLOCK", "PROGRAM"):
                 yield unit.name
 
@@ -128,19 +127,19 @@ class MatiecLibrary:
 
     def _type(self, name: str) -> BlockType:
         if name not in self._types:
-            node = self._built.plan.blocks.get(name)
+            node = self.built.plan.blocks.get(name)
             if node is None:
                 raise KeyError(f"there is no function block or program {name}")
             self._types[name] = self._bind(name, node)
         return self._types[name]
 
     def _bind(self, name: str, node: RecordNode) -> BlockType:
-        unit = self._built.declared.units.get(name)
+        unit = self.built.declared.units.get(name)
         pointer, number = ctypes.c_void_p, ctypes.c_int64
         return BlockType(
             unit.name if unit else name,
             node,
-            *self._built.place(name),
+            *self.built.place(name),
             self._binary.function(f"dbk_init_{name}", pointer),
             self._binary.function(f"dbk_scan_{name}", pointer, number),
             self._binary.function(f"dbk_many_{name}", pointer, number, number, number),
@@ -149,7 +148,7 @@ class MatiecLibrary:
     def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
         """Call a function by its formal parameters; one that is left out has its default."""
         name = function.upper()
-        signature = self._built.plan.functions.get(name)
+        signature = self.built.plan.functions.get(name)
         if signature is None:
             raise KeyError(f"there is no function {function}")
         given = {each.upper(): value for each, value in arguments.items()}
@@ -160,26 +159,26 @@ class MatiecLibrary:
         cells = (ctypes.c_void_p * (len(memories) + 1))(*map(ctypes.addressof, (result, *memories)))
         trap = self._binary.function(f"dbk_call_{name}", ctypes.c_void_p)(ctypes.addressof(cells))
         if trap:
-            path, line = self._built.place(name)
+            path, line = self.built.place(name)
             raise ScanError(Message(path, line, 0, f"{function}: the call was stopped by {cause(trap)}"))
         return signature.result.read(result, 0)
 
     def _arguments(self, name: str, signature: Signature, given: Mapping[str, Value]) -> list[Memory]:
-        unit = self._built.declared.units.get(name) or Unit("FUNCTION", name)
+        unit = self.built.declared.units.get(name) or Unit("FUNCTION", name)
         memories: list[Memory] = []
         for each, node in signature.parameters.items():
             memory: Memory = ctypes.create_string_buffer(node.size)
             variable = unit.variables.get(each)
             if each in given:
                 node.write(memory, 0, given[each])
-            elif variable is not None and (initial := self._built.declared.initial(variable)) is not None:
+            elif variable is not None and (initial := self.built.declared.initial(variable)) is not None:
                 node.write(memory, 0, constant(initial))
             memories.append(memory)
         return memories
 
     def coverage(self) -> Lines:
         """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
-        counters = self._built.counters
+        counters = self.built.counters
         return {} if counters is None else counters.hits(self._counts(counters, "dbk_hits"))
 
     def branches(self) -> Branches:
@@ -187,7 +186,7 @@ class MatiecLibrary:
 
         Raises EngineError where the statements of the C are not those of the ST.
         """
-        counters = self._built.counters
+        counters = self.built.counters
         if counters is None:
             return {}
         hits, begun = (self._counts(counters, table) for table in COUNTS)
@@ -195,14 +194,5 @@ class MatiecLibrary:
 
     def _counts(self, counters: Counters, table: str) -> list[int]:
         """Counts since this library was built: the C has one set for all that load the same file."""
-        tables = [each.counts(table, len(counters.lines)) for each in self._counting]
+        tables = [each.counts(table, len(counters.lines)) for each in self.counting]
         return [sum(counts) - before for before, *counts in zip(self._before[table], *tables, strict=True)]
-
-    def configuration(self, name: str | None = None) -> MatiecConfiguration:
-        """Start the CONFIGURATION with variables of its own. KeyError."""
-        found = self._built.configuration
-        if found is None or (name is not None and name.upper() != found.name):
-            raise KeyError(f"there is no configuration {name}" if name else "there is no configuration")
-        made = MatiecConfiguration(self._built, found)
-        self._counting.append(made.binary)
-        return made

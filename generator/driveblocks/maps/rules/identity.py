@@ -95,4 +95,6 @@ def _own_maximum(drive: Drive, maximum: OwnMaximum, report: Report) -> None:
         report.add(place, f"{where} changes while the drive is in use", "name the register that holds the limit")
     elif parameter is not None and row.id is not None and row.id != parameter:
         wrong = f"{where} is {row.id}, but 100 % of the reference is {parameter}"
-        report.add(place, wrong, f"name the register of {parameter}, or correct `maximum`")
+        listed = any(each.id == parameter for _, each in drive.registers())
+        there = "name the register" if listed else "add the row"
+        report.add(place, wrong, f"{there} of {parameter}, or correct `maximum`")

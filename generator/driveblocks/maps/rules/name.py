@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 
-from driveblocks.maps.model import Bit, Drive, Entry, Manual, Named, Register, Returned, Short, Text
+from driveblocks.maps.model import Bit, Drive, Entry, Fault, Manual, Named, Register, Returned, Short, Text
 from driveblocks.maps.problem import Place, Report
 
 LONGEST = 80
@@ -29,8 +29,9 @@ def check(drive: Drive, report: Report) -> None:
             if isinstance(entry, Named) or (isinstance(entry, Text) and _translated(drive, entry)):
                 worded(drive.manual, entry, f"`{english}`", report)
     for returned in _returned(drive):
+        lead = f"{returned.id} " if isinstance(returned, Fault) and returned.id else ""
         for language, text, place in _wordings(returned):
-            _fits(language, text, place, report)
+            _fits(language, lead + text, place, report)
 
 
 def _returned(drive: Drive) -> Iterator[Returned | Bit]:

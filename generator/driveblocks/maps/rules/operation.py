@@ -92,7 +92,8 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
     unit = "Hz" if reference.means == "frequency" else "%"
     if row.unit not in (None, unit):
         wrong = f"the reference means {reference.means}, but {address_text(reference.register)} has the unit {row.unit}"
-        report.add(reference.place("means"), wrong, "correct one of them")
+        other = f"blocks command Hz or %: a reference in {row.unit} has no block; look for one of these in the manual"
+        report.add(reference.place("means"), wrong, "correct one of them" if row.unit in ("Hz", "%") else other)
     when = row.scale.when if row.scale else None
     if when is not None and when not in reference.verify:
         wrong = f"the scale of {address_text(reference.register)} has a condition that nobody verifies"

@@ -69,7 +69,8 @@ def _numbers(setting: Setting, report: Report) -> None:
     if default is not None:
         wrong = _impossible(setting, default)
         if wrong:
-            report.miss(setting.place("default"), f"default is {default}, but {wrong}", "correct one of them")
+            right = "correct one of them; where the manual prints both, leave `default` out and add an erratum"
+            report.miss(setting.place("default"), f"default is {default}, but {wrong}", right)
 
 
 def _impossible(setting: Setting, number: int) -> str:
@@ -92,7 +93,9 @@ def _register(drive: Drive, setting: Setting, listed: int | None, report: Report
     if row is None or row.id != setting.id:
         held = f"belongs to {row.id or 'a register without id'}" if row else "is in no register table"
         wrong = f"{address_text(setting.register)} {held}"
-        report.miss(setting.place("register"), wrong, f"name the register of {setting.id}")
+        there = f"name the register of {setting.id}, {address_text(listed)}" if listed is not None else ""
+        none = f"add a row with `id: {setting.id}` to its register table, or leave `register` out"
+        report.miss(setting.place("register"), wrong, there or none)
 
 
 def _list(numbers: Sequence[int]) -> str:

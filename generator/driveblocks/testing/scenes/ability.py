@@ -45,6 +45,13 @@ class Ability:
         return not forward.first and forward.register != operation.reference.register
 
     @property
+    def feeds(self) -> str:
+        """What feeds its watchdog, which a drive block takes for the reference unless the map says more."""
+        watchdog = self.drive.watchdog
+        named = watchdog.feeds if watchdog else None
+        return {None: "reference", "any": "read"}.get(named, named or "reference")
+
+    @property
     def motions(self) -> tuple[str, ...]:
         """Its motions."""
         return tuple(each for each in MOTIONS if self.can(each))

@@ -104,7 +104,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     pin, jog, back = PINS[does], does.startswith("jog"), does.endswith("reverse")
     hertz = 5.0 if jog else 30.0
     opposite = "+" if back else "-"
-    pace = why("RAMPING" if can.measures("output_frequency") else "RUNS")
+    pace = why("RAMPING" if can.measures("output_frequency") and not jog else "RUNS")
     yield Step("the pin", {pin: True}, ms=20, shows={
         "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
     })  # fmt: skip
@@ -116,7 +116,7 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
     }  # fmt: skip
     yield Step("it reaches its speed", {}, until, 3000, shows)
-    shows = {} if jog else {"Reason": "RUNS"}
+    shows = {"Reason": "RUNS"}
     if can.shows("reverse"):
         shows["Reverse"] = back
     if not jog:
@@ -124,7 +124,9 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     if can.measures("output_current"):
         shows["OutputCurrentA"] = 5.0
     shows |= {f"Motor.Diagnosis.{name}": value for name, value in _measured(can, jog=jog).items()}
-    yield Step("and stays there", ms=1500, shows={"Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1})
+    yield Step(
+        "and stays there", ms=1500, shows={"Reason": "RUNS", "Seen.Starts": 1} if jog else shows | {"Seen.Starts": 1}
+    )
     yield Step("the pin falls", {pin: False}, TOLD, 300, {"StopConfirmed": False})
     yield stand({"Reason": "READY"})
 
@@ -696,7 +698,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     yield scene("a setting that is missing", POWER, *_missing())
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
-    yield scene("the drive's watchdog", POWER, run(), *_heartbeat())
+    yield scene("the drive's watchdog", POWER, run(), *_heartbeat(can))
     if can.drive.manual.second_hand:
         yield scene("a map that nobody has checked", *_unchecked())
     if can.drive.operation.reference.verify:
@@ -774,10 +776,17 @@ def _address(can: Ability) -> Iterator[Step]:
     )
 
 
-def _heartbeat() -> Iterator[Step]:
+def _heartbeat(can: Ability) -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.WatchdogMs": 1000, "Pins.Settings.RefreshMs": 65535}
-    yield Step("the reference is refreshed for it", sets, ms=3000, shows=RUNNING | {"Seen.References >= 4": True})
-    yield Step("too short for the line", {"Pins.Settings.WatchdogMs": 30}, why("HEARTBEAT"), 1500, {"Running": True})
+    fed: dict[str, tuple[str, Shows]] = {
+        "reference": ("the reference is refreshed for it", {"Seen.References >= 4": True}),
+        "read": ("the reads feed it", {"Seen.References < 4": True}),
+        "run": ("run is sent again for it, and starts nothing", {"Seen.Starts": 1}),
+    }
+    name, shows = fed[can.feeds]
+    yield Step(name, sets, ms=3000, shows=RUNNING | shows)
+    rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
+    yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 
 
 def _unchecked() -> Iterator[Step]:

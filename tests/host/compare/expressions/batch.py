@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tests.host.compare.draws import Draws, single
 from tests.host.compare.expressions.grammar import (
@@ -185,23 +185,17 @@ def evaluate(engine: Engine, batch: Batch) -> list[list[Value]]:
     return results
 
 
-def without_traps(engine: Engine, batch: Batch) -> tuple[Batch, list[list[Value]]]:
-    """The batch less the expressions at which the embedded engine stops, and the values of the others."""
-    while True:
-        try:
-            return batch, evaluate(engine, batch)
-        except Trap as trap:
-            kept = batch.terms[: trap.number] + batch.terms[trap.number + 1 :]
-            batch = Batch(kept, batch.vectors)
-
-
-def evaluate_alone(engine: Engine, batch: Batch) -> list[list[Value | None]]:
-    """The values of all expressions of a batch of blocks of one, one list per vector; None where the engine fails."""
-    library = engine.build([Source("expressions.st", batch.text)])
-    return [
+def where_all_agree(embedded: Engine, batch: Batch) -> tuple[Batch, list[list[Value]]]:
+    """The expressions to which the embedded engine gives a value with all inputs, and these; at others it stops."""
+    library = embedded.build([Source("expressions.st", replace(batch, per_block=ALONE).text)])
+    values = [
         [_alone(library.instance(f"E{number}"), vector) for number in range(len(batch.terms))]
         for vector in batch.vectors
     ]
+    kept = [number for number in range(len(batch.terms)) if all(each[number] is not None for each in values)]
+    terms = tuple(batch.terms[number] for number in kept)
+    given = [[value for number in kept if (value := each[number]) is not None] for each in values]
+    return replace(batch, terms=terms), given
 
 
 def _alone(instance: Instance, vector: Inputs) -> Value | None:

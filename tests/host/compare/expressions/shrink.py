@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from tests.host.compare.expressions.batch import Batch, Inputs, Mismatch, Trap, evaluate, mismatches, without_traps
+from tests.host.compare.expressions.batch import Batch, Inputs, Mismatch, Trap, evaluate, mismatches, where_all_agree
 from tests.host.compare.expressions.grammar import TYPES, variable
 from tests.host.compare.expressions.terms import Term, atom
 
@@ -30,7 +30,7 @@ def _first_failing(terms: list[Term], inputs: Inputs, embedded: Engine, other: E
     if not terms:
         return None
     try:
-        batch, values = without_traps(embedded, Batch(tuple(terms), (inputs,)))
+        batch, values = where_all_agree(embedded, Batch(tuple(terms), (inputs,)))
         found = mismatches(batch, (embedded.name, other.name), values, evaluate(other, batch))
     except (BuildError, Trap):
         if len(terms) == 1:

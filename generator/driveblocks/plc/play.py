@@ -1,0 +1,53 @@
+"""What happens to the simulated drives of a run: a scenario, and what a person types meanwhile."""
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.plc import scenario
+from driveblocks.plc.scenario import Happening
+
+WORDS = frozenset(verb.word for verb in scenario.VERBS)
+_KEY = re.compile(r"(?P<key>[tdr]) (?P<unit>[0-9]{1,3})")
+
+
+class Play:
+    """Happenings in the order of their times, which count from the first scan."""
+
+    def __init__(self, drives: Mapping[int, Drive], happenings: Sequence[Happening] = ()) -> None:
+        """For drives at these units; whoever simulates them sets `act`."""
+        self._drives, self._waiting = drives, list(happenings)
+        self.act: Callable[[Happening], None]
+
+    def due(self, at_us: int) -> Iterator[str]:
+        """Let happen what is due, and say what it is."""
+        while self._waiting and self._waiting[0].at_us <= at_us:
+            happening = self._waiting.pop(0)
+            self.act(happening)
+            yield happening.says
+
+    def takes(self, line: str) -> bool:
+        """Whether a line says that something happens, right or wrong."""
+        return bool(_KEY.fullmatch(line)) or line.split(" ", maxsplit=1)[0] in WORDS
+
+    def typed(self, line: str, at_us: int) -> None:
+        """Let it happen from now on. Raises ValueError, which says what would be right."""
+        for text in self._sentences(line):
+            try:
+                found = scenario.said(text, self._drives)
+            except MapError as error:
+                raise ValueError("; ".join(f"{each.wrong}; {each.right}" for each in error.problems)) from None
+            self._waiting += [Happening(at_us + each.at_us, each.says, each.act) for each in found]
+        self._waiting.sort(key=lambda each: each.at_us)
+
+    def _sentences(self, line: str) -> list[str]:
+        """What a key stands for, or the line itself."""
+        found = _KEY.fullmatch(line)
+        if found is None:
+            return [line]
+        unit = int(found["unit"])
+        drive = self._drives.get(unit)
+        fault = next((each.code for each in drive.faults.codes if each.code), 1) if drive else 1
+        texts = {"t": (f"trip {fault}",), "d": ("power off",), "r": ("clear", "power on", "reset")}[found["key"]]
+        return [f"{text} {unit}" for text in texts]

@@ -1,0 +1,191 @@
+"""What the rules of a drive block take from its map: the frames of every command, and what proves standstill.
+
+Taken from the map itself, not from what the generator made of it.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from driveblocks.maps.model import Bits, Command, Condition, Drive, Step
+from driveblocks.maps.plan import plan
+from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
+from driveblocks.maps.view import error_number
+from driveblocks.render.context import reply, word_input
+from driveblocks.render.decoded import Decoded
+from driveblocks.st.writing import word
+
+PINS = {
+    "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
+    "fault": "Fault",
+}  # fmt: skip
+"""What a drive can show -> the pin."""
+MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
+STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
+ALL = 0xFFFF
+
+
+def facts(drive: Drive) -> dict[str, str]:
+    """The facts of a family by the names under which the rules have them, as ST."""
+    commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
+    stop = commands["stop"]
+    found = {
+        "P": drive.prefix,
+        "lowest": str(drive.serial.unit.min),
+        "highest": str(drive.serial.unit.max),
+        "write": "6" if 6 in plan(drive).functions else "16",
+        "reference": word(drive.operation.reference.register),
+        "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
+        "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
+        **_read(drive),
+        **_shown(drive),
+        "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
+        "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
+    }
+    shown = {one.shows for one in drive.operation.status}
+    measured = {one.shows for one in drive.operation.measures}
+    for pin in ("reverse", "fault", "warning", "at_speed", "zero_speed"):
+        computed = pin.endswith("speed") and "output_frequency" in measured
+        found[f"shows_{pin}"] = str(pin in shown or computed).upper()
+    for name, member in (("may_stop", "MayStop"), ("known", "Known"), ("wrong", "Wrong")):
+        found[name] = f"Identity.{member}" if drive.identity else str(name != "wrong").upper()
+    running = next(one for one in drive.operation.status if one.shows == "running")
+    found["running"] = _any(_holds(drive, each) for each in running.any)
+    found["says_running"] = _any(Decoded(drive).holds(each) for each in running.any)
+    for does in (*MOTIONS, *STOPS, "fault_reset"):
+        one = commands.get(does)
+        ask = "Slot.Ask[0]" if does in STOPS else "Slot.Ask[1]"
+        found[does] = _any(_frames(drive, one, stop, ask)) if one else "FALSE"
+        found[f"last_{does}"] = list(_frames(drive, one, stop, ask))[-1] if one else "FALSE"
+        found[f"can_{does}"] = str(one is not None).upper()
+    copies = {"copy_stop": ("stop", "Slot.Stop"), "copy_jog_stop": ("jog_stop", "Slot.JogStop")}
+    for name, (does, copy) in copies.items():
+        frame = found[f"last_{does}"].replace("Slot.Ask[0].Address", f"{copy}Register")
+        found[name] = frame.replace("Slot.Ask[0].Words[0]", f"{copy}Word") if does in commands else "TRUE"
+    found["quick_or_stop"] = found["quick_stop"] if "quick_stop" in commands else found["stop"]
+    found["coast_or_stop"] = found["coast_stop"] if "coast_stop" in commands else found["stop"]
+    return found
+
+
+def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str]:
+    """Each write of a command as a condition on a request: its register, and its word with the bits that are kept."""
+    image = {stop.register: _mask(stop.set)} if one.does == "fault_reset" else {}
+    for write in one.writes:
+        keep = 0 if write.value is not None else _kept(drive, write)
+        before = image.get(write.register, 0) & ~_mask(write.clear)
+        image[write.register] = write.value if write.value is not None else before | _mask(write.set)
+        value = word(image[write.register])
+        held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
+        yield f"({ask}.Address = {word(write.register)}) AND ({held})"
+
+
+def _kept(drive: Drive, write: Command | Step) -> int:
+    """The bits of a command register that the manual gives a use and that no command touches."""
+    row = drive.register_at(write.register)
+    used = {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
+    writes = [each for one in drive.operation.commands for each in one.writes if each.register == write.register]
+    touched = {bit for each in writes for span in (*each.set, *each.clear) for bit in span}
+    return 0 if write.value is not None else sum(1 << bit for bit in used - touched)
+
+
+def _mask(spans: Iterable[Bits]) -> int:
+    return sum(1 << bit for bit in {bit for span in spans for bit in span})
+
+
+def _holds(drive: Drive, one: Condition) -> str:
+    """A condition of the map on the word that the drive block has read."""
+    name = f"Reads.{word_input(drive, one.register)['name']}"
+    if one.mask is not None:
+        return f"({name} AND {word(one.mask)}) = {word(one.equals & one.mask)}"
+    if one.bit is None:
+        return f"{name} = {word(one.equals)}"
+    bits = list(one.bit)
+    return f"({name} AND {word(_mask([one.bit]))}) = {word(one.equals << min(bits))}"
+
+
+def _read(drive: Drive) -> dict[str, str]:
+    """What the block that reads owes: which word of a poll is which, whose turn it is, what ages, and what is proof."""
+    reads = polls(drive)
+    taken: list[str] = []
+    for number, poll in enumerate(reads, 1):
+        come = f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
+        words = range(poll.address, poll.address + poll.words)
+        for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
+            name = word_input(drive, address)["name"]
+            taken.append(
+                f"({come}) AND ({name} = Words[{address - poll.address}]) OR NOT ({come}) AND ({name} = Was.{name})"
+            )
+    turns = [
+        f"(Turn <> {turn}) OR (NextEntry = {index + 1}) AND (Register = {word(reads[index].address)}) "
+        f"AND (Quantity = {reads[index].words})"
+        for turn, index in enumerate(schedule(reads))
+    ]
+    fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
+    return {
+        "words_taken": _every(taken),
+        "turns": _every(turns),
+        "oldest": _every(f"StatusAgeMs >= Age{number}" for number in fast),
+        "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
+        "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
+        + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
+        "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
+        "ages": _every(
+            f"(Age{number} = 65535) OR (Age{number} = Was.Age{number} + PassedMs) "
+            f"OR Fresh AND (Entry = {number}) AND (Age{number} = 0)"
+            for number in range(1, len(reads) + 1)
+        ),
+        "since": _every(
+            f"NOT Since{number} OR Was.Since{number} OR Fresh AND (Entry = {number})"
+            for number in range(1, len(reads) + 1)
+        ),
+        "none_since": _every(
+            f"NOT Since{number} OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
+        ),
+        "all_old": _every(
+            f"(Age{number} = 65535) OR Fresh AND (Entry = {number})" for number in range(1, len(reads) + 1)
+        ),
+    }
+
+
+def _shown(drive: Drive) -> dict[str, str]:
+    """That the pins show what the map says of the words that were read, and what the line is told of the drive."""
+    said, pins = [], []
+    manners, silence = reply(drive)["form"], drive.serial.silence
+    busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
+    for one in drive.operation.status:
+        holds = _any(_holds(drive, each) for each in one.any)
+        said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
+        if one.shows in PINS:
+            pins.append(f"{PINS[one.shows]} = ({holds})")
+    told = [
+        f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
+        f"Slot.ExceptionAdd = {manners['add']}",
+        f"Slot.ErrorFunction = {manners['function']}",
+        f"Slot.ErrorAddress = {word(manners['address'])}",
+        f"Slot.BusyReason = {busy}",
+    ]
+    return {"said": _every(said), "pins": _every(pins), "told": _every(told)}
+
+
+def _proof_reads(drive: Drive) -> list[int]:
+    """The numbers of the polls that bring what proves standstill."""
+    wanted = {one.register for one in drive.operation.standstill.all}
+    numbered = enumerate(polls(drive), 1)
+    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+
+
+def _command_registers(drive: Drive) -> set[int]:
+    written = {write.register for one in drive.operation.commands for write in one.writes}
+    return written | {drive.operation.reference.register}
+
+
+def _beside(register: int) -> str:
+    """That a parameter request does not touch a register."""
+    first = "WORD_TO_UDINT(Slot.Ask[2].Address)"
+    return f"({register} < {first}) OR ({register} >= {first} + USINT_TO_UDINT(Slot.Ask[2].Quantity))"
+
+
+def _every(conditions: Iterable[str]) -> str:
+    return " AND ".join(f"({each})" for each in conditions) or "TRUE"
+
+
+def _any(conditions: Iterable[str]) -> str:
+    return " OR ".join(f"({each})" for each in conditions) or "FALSE"

@@ -1,0 +1,111 @@
+"""All proofs: of the blocks that every drive shares, and of each drive."""
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import z3
+
+from driveblocks.host.engine import Source as Text
+from driveblocks.maps.collection import Source
+from driveblocks.prove import rules
+from driveblocks.prove.example import Values, least
+from driveblocks.prove.facts import facts
+from driveblocks.prove.model import Model, models
+from driveblocks.prove.operations import FREE
+from driveblocks.prove.proof import Answer, Verdict, answers, questions
+from driveblocks.prove.replay import Call, Replay
+from driveblocks.prove.rules import Subject
+from driveblocks.render import library
+from driveblocks.render.text import languages
+
+GENERIC = "every drive"
+"""How the blocks are called that every drive shares."""
+LARGE = ("Line8", "Line32")
+"""What the names of blocks end with that run all slots of a line in loops, of which nothing is proved."""
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What became of a question; `call`: the call that breaks it or comes to it, as the embedded engine ran it.
+
+    `values`: of what that call depends on, by name.
+    """
+
+    answer: Answer
+    call: Call | None = None
+    values: Values = field(default_factory=dict)
+
+    @property
+    def free(self) -> bool:
+        """Whether the call rests on values of REALs that the engine need not reckon."""
+        return any(name.startswith(FREE) for name in self.values)
+
+    @property
+    def good(self) -> bool:
+        """Whether it is proved, and the call that comes to it does so on the engine, too."""
+        if self.answer.verdict is not Verdict.PROVED or self.call is None:
+            return self.answer.verdict is Verdict.PROVED
+        return self.call.then if self.call.when else self.free
+
+    @property
+    def replayed(self) -> bool:
+        """Whether the engine comes to what the solver found."""
+        broken = self.answer.verdict is Verdict.BROKEN
+        return self.call is not None and self.call.when and self.call.then != broken
+
+
+@dataclass(frozen=True)
+class Proved:
+    """All proofs of a block, and how long they took."""
+
+    unit: str
+    model: Model
+    proofs: tuple[Proof, ...]
+    seconds: float
+
+
+def run(sources: Sequence[Source]) -> Iterator[Proved]:
+    """The shared blocks, then those of each drive. UnsupportedError, CheckError."""
+    subjects = {each.path.stem: rules.family(facts(each.drive)) for each in sources}
+    for unit, made in texts(sources):
+        yield from proved(unit, made, subjects.get(unit) or rules.shared())
+
+
+def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:
+    """The blocks that every drive shares, then each drive with the shared blocks before its own."""
+    spoken = languages(["en", "zh"], "utf-8")
+    generic = [Text(each.path, each.text) for each in library.generic(spoken) if not each.name.endswith(LARGE)]
+    yield GENERIC, generic
+    for source in sources:
+        own = library.drive(source.path.stem, source.drive, spoken)
+        yield source.path.stem, [*generic, *(Text(each.path, each.text) for each in own)]
+
+
+def proved(unit: str, sources: Sequence[Text], subjects: Sequence[Subject]) -> Iterator[Proved]:
+    """The proofs of some subjects; the parts that they name are proved elsewhere. UnsupportedError, CheckError."""
+    named = {name for subject in subjects for name in subject.inside.values()} - {each.block for each in subjects}
+    parts = [each for each in rules.shared() if each.block in named]
+    made = models(sources, [*parts, *subjects])
+    replay = Replay(sources, made)
+    by_name = {each.pou.name: each for each in made}
+    for model in made[len(parts) :]:
+        begin = time.perf_counter()
+        known = model.pou.symbols
+        inside = {name: by_name[block] for name, block in model.subject.inside.items() if name.upper() in known}
+        asked = answers(questions(model, inside), exact=model.subject.exact)
+        proofs = tuple(_replayed(replay, model, each) for each in asked)
+        yield Proved(unit, model, proofs, time.perf_counter() - begin)
+
+
+def _replayed(replay: Replay, model: Model, answer: Answer) -> Proof:
+    """Run on the engine what the solver found; a counterexample is made as small as can be before."""
+    asked = answer.question
+    if answer.example is None:
+        return Proof(answer)
+    if answer.verdict is Verdict.BROKEN:
+        values: Values = least([*asked.known, asked.when, z3.Not(asked.then)])
+    else:
+        found = answer.example
+        values = {each.name(): found[each] for each in found.decls() if each.arity() == 0}
+    return Proof(answer, replay.call(model, asked, values), values)

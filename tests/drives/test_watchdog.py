@@ -1,0 +1,111 @@
+"""A drive that notices a silent line: what feeds its watchdog is sent three times within its time, and no more."""
+
+from itertools import pairwise
+
+import pytest
+from tests.drives.bench import OFF, Bench
+from tests.drives.rules import sent, watched
+from tests.drives.test_start import motions
+from tests.drives.test_stop import stops
+
+from driveblocks.simulator.habits import Habits
+
+TIME_MS = 600
+SLOW = Habits(ramp=5)
+"""25 Hz take 5 s."""
+
+
+def fed(kind: str) -> Bench:
+    """A motor that runs, with a watchdog and no other refresh."""
+    return watched(kind, habits=SLOW).put(RefreshMs=OFF, WatchdogMs=TIME_MS).running()
+
+
+@pytest.mark.parametrize("kind", ["PUL", "CIA"])
+def test_polls_feed_it_where_the_map_says_so(kind: str) -> None:
+    bench = fed(kind)
+    frames = bench.run(4000)
+    assert not [each for each in frames if not each.read]
+    assert bench.reason() == "RUNS"
+    assert max(b.ms - a.ms for a, b in pairwise(frames)) < TIME_MS / 3
+
+
+@pytest.mark.parametrize("kind", ["PUL", "CIA"])
+def test_a_line_that_does_not_feed_it_says_so(kind: str) -> None:
+    bench = fed(kind)
+    bench.spoil = lambda *_: None
+    bench.until(lambda: bench.reason() == "HEARTBEAT", 2 * TIME_MS)
+
+
+@pytest.mark.parametrize("kind", ["CHF", "JSCC", "SN300G5", "PRO"])
+def test_a_reference_of_0_feeds_it_while_the_motor_ramps_down(kind: str) -> None:
+    bench = fed(kind).put(RunForward=False)
+    bench.until(lambda: stops(bench, bench.frames[-1:]))
+    begun = len(bench.frames)
+    bench.until(lambda: not bench.shows("Running"), 9000)
+    frames = bench.frames[begun:]
+    references = sent(bench, frames, "reference")
+    assert {each.word for each in references} == {0}
+    assert max(b.ms - a.ms for a, b in pairwise(references)) <= TIME_MS / 2
+    apart = [b.ms - a.ms for a, b in pairwise(stops(bench, frames))]
+    assert min(apart) >= 500
+    assert max(apart) <= 700
+    bench.until(lambda: bench.shows("StopConfirmed"), 1000)
+    assert not sent(bench, bench.run(3000), "reference")
+
+
+def test_a_drive_that_does_not_stop_in_time_is_left_to_its_watchdog() -> None:
+    bench = fed("CHF")
+    bench.drives[0].keeps_running = True
+    bench.put(RunForward=False, StopWithinMs=3000)
+    bench.until(lambda: bench.shows("StopOverdue"), 5000).run(300)
+    assert not sent(bench, bench.run(3000), "reference")
+
+
+def test_without_a_watchdog_nothing_is_sent_in_a_ramp_down_but_stops() -> None:
+    bench = watched("CHF", habits=SLOW).running().put(RunForward=False)
+    assert not sent(bench, bench.run(3000), "reference")
+
+
+def test_run_is_sent_again_where_it_alone_feeds_it() -> None:
+    bench = fed("TWO")
+    frames = bench.run(4000)
+    runs = motions(bench, frames)
+    assert {(each.address, each.word) for each in runs} == {(0x1002, 1)}
+    assert max(b.ms - a.ms for a, b in pairwise(runs)) <= TIME_MS / 2
+    assert not sent(bench, frames, "reference")
+    bench.put(SpeedReferenceHz=10.0)
+    runs = motions(bench, bench.run(3000))
+    assert max(b.ms - a.ms for a, b in pairwise(runs)) <= TIME_MS / 2
+    bench.put(SpeedReferenceHz=40.0)
+    runs = motions(bench, bench.run(5000))
+    assert max(b.ms - a.ms for a, b in pairwise(runs)) <= TIME_MS / 2
+    bench.put(RunForward=False)
+    assert not motions(bench, bench.run(9000)[2:])
+
+
+@pytest.mark.parametrize("hz", [25.0, 50.0])
+def test_run_is_not_sent_again_after_a_stop_key(hz: float) -> None:
+    """The drive says that it runs until it stands; its frequency falls."""
+    bench = fed("TWO").put(SpeedReferenceHz=hz)
+    bench.run(7000)
+    bench.drives[0].keypad_stop()
+    bench.run(300)
+    assert bench.drives[0].mode == "ramping down"
+    assert not motions(bench, bench.run(12_000))
+    assert bench.drives[0].mode == "standing"
+
+
+def test_a_run_that_stays_unanswered_once_is_sent_again_after_a_read() -> None:
+    bench = fed("TWO")
+    lost: list[int] = []
+
+    def lose(frame: object, reply: bytes | None) -> bytes | None:
+        if not lost and motions(bench, [frame]):  # type: ignore[list-item]  # a frame
+            lost.append(bench.now)
+            return None
+        return reply
+
+    bench.spoil = lose
+    bench.until(lambda: lost)
+    assert motions(bench, bench.run(1500))
+    assert bench.reason() == "RUNS"

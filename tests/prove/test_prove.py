@@ -1,0 +1,113 @@
+"""`driveblocks prove`: the shipped families, a planted mistake with its call, and what the command says of both."""
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+from lxml import etree
+from tests.prove import agreement, mutants
+from typer.testing import CliRunner
+
+from driveblocks.cli import app
+from driveblocks.host.embedded.engine import EmbeddedEngine
+from driveblocks.maps import catalog, collection
+from driveblocks.prove import prover, report, rules
+from driveblocks.prove.proof import Verdict
+from driveblocks.prove.prover import Proved
+from driveblocks.st.tree import Function
+
+FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")
+PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
+
+
+def planted(old: str, new: str, block: str = "VFD_HardStop") -> Proved:
+    """What becomes of a shared block with a change."""
+    texts = [
+        each if each.path != f"vfd/{block}.st" else type(each)(each.path, each.text.replace(old, new, 1))
+        for each in mutants.texts()[prover.GENERIC]
+    ]
+    chosen = [each for each in rules.shared() if each.block in (block, "VFD_Control")]
+    found = [each for each in prover.proved(prover.GENERIC, texts, chosen) if each.model.pou.name != "VFD_Control"]
+    return found[0] if found else next(prover.proved(prover.GENERIC, texts, chosen))
+
+
+@cache
+def everything() -> list[Proved]:
+    """All proofs of what ships."""
+    return list(prover.run(collection.read(catalog.shipped())))
+
+
+def proofs() -> Iterator[tuple[str, prover.Proof]]:
+    for proved in everything():
+        for each in proved.proofs:
+            yield f"{proved.model.pou.name}: {each.answer.question.words}: {report.told(each)}", each
+
+
+def test_the_rules_hold_in_every_call_of_every_family() -> None:
+    assert {each.unit for each in everything()} == {prover.GENERIC, *FAMILIES}
+    assert not [words for words, each in proofs() if not each.good]
+
+
+def test_premises_are_reached_on_the_engine() -> None:
+    calls = [each for _, each in proofs() if each.call is not None]
+    free = [each for each in calls if not each.replayed]
+    assert len(calls) > 150
+    assert len(free) < 0.05 * len(calls)
+
+
+@pytest.mark.parametrize("family", agreement.sources())
+def test_the_terms_say_what_the_engine_does(family: str) -> None:
+    library = EmbeddedEngine().build(agreement.sources()[family])
+    for model in agreement.subjects(family):
+        if not isinstance(model.pou, Function) and not model.subject.exact:
+            score = agreement.compared(model, library, 20)
+            assert score.wrong == ()
+            assert score.free < 0.01 * score.compared
+
+
+def test_a_planted_mistake_comes_with_its_call() -> None:
+    proved = planted("Overdue OR Restart", "Restart")
+    bad = [each for each in proved.proofs if not each.good]
+    assert {each.answer.verdict for each in bad} == {Verdict.BROKEN}
+    assert all(each.replayed for each in bad)
+    first = next(each for each in bad if each.answer.question.words.startswith("the contact is open"))
+    assert report.told(first) == "call by call: counterexample, replayed on the embedded engine"
+    table = "\n".join(report.table(proved, first))
+    assert "Overdue (input)          TRUE" in table
+    written = report.written([proved])
+    assert not written.passed
+    assert any("Overdue (input)" in each.message for each in written.results[0].bad)
+
+
+def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(prover, "run", lambda _: iter([planted("Overdue OR Restart", "Restart")]))
+    xml = tmp_path / "proofs.xml"
+    done = CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml), "--rules"])
+    assert done.exit_code == 1
+    assert "NOT PROVED: the contact is open while a stop is overdue" in done.output
+    assert "proved: such an edge closes it (A16)" in done.output
+    root = etree.parse(xml).getroot()
+    assert int(root.attrib["failures"]) > 0
+    monkeypatch.setattr(prover, "run", lambda _: iter([planted("nothing", "")]))
+    assert CliRunner().invoke(app, ["prove", "jscc"]).exit_code == 0
+
+
+def test_without_the_solver_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("driveblocks.commands.prove.find_spec", lambda _: None)
+    done = CliRunner().invoke(app, ["prove", "jscc"])
+    assert done.exit_code == 2
+    assert "driveblocks[prove]" in done.output
+
+
+def test_a_mistake_in_a_part_breaks_a_rule_of_the_whole() -> None:
+    proved = planted("Seen.FaultCode <> Code", "Seen.FaultCode = Code", "VFD_FaultReset")
+    bad = [each for each in proved.proofs if not each.good]
+    assert any(each.answer.question.words.startswith("a fault reset is sent only while the same fault") for each in bad)
+    assert all(each.replayed for each in bad)
+
+
+def test_the_page_names_every_rule_of_the_design() -> None:
+    page = PAGE.read_text("utf-8")
+    named = [*range(9), *(f"A{number}" for number in range(1, 18)), *(f"B{number}" for number in range(1, 17))]
+    assert not [each for each in named if f"| {each} |" not in page]
