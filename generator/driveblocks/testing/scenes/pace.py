@@ -200,9 +200,10 @@ def _one_silent(can: Ability) -> Iterator[Step]:
     """Its stop is overdue after its attempts and its longest time."""
     other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
     yield Step("two drives", other | {"Pins.Settings.LongestMs": 1500}, "Other.Ready", 4000)
-    yield Step("one is cut off", {"Fate.Cut": True}, why("OFFLINE"), 6000, {"Other.CommOk": True, "StopOverdue": False})
+    cut: Shows = {"Fate.Cut": True, "StopWithinMs": 20000}
+    yield Step("one is cut off", cut, why("OFFLINE"), 6000, {"Other.CommOk": True, "StopOverdue": False})
     yield Step("its stop is sent, and not overdue yet", ms=1300, shows={"StopOverdue": False})
-    yield Step("now it is", {}, "Motor.StopOverdue", 12000, {"Other.StopOverdue": False, "Other.CommOk": True})
+    yield Step("now it is", {}, "Motor.StopOverdue", 8000, {"Other.StopOverdue": False, "Other.CommOk": True})
 
 
 def _flaps() -> Iterator[Step]:

@@ -35,6 +35,7 @@ BLOCKS = {
     "Minimum": ("UINT", "its pin MinimumS"),
     "Stores": ("UDINT", "times that the drive was told to store"),
     "Upset": ("BOOL", "one of the rivals has not got its answer"),
+    "Hastes": ("BOOL", "Reader begins anew in the call after a failure"),
     "Slips": ("BOOL", "the port takes characters in the scan in which the writer gives up"),
     "Clash": ("BOOL", "Busy, Done and Error of a block have not excluded each other"),
 }
@@ -42,6 +43,7 @@ _RIVAL = "(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Plac
 CALLS = (
     f"Rival{_RIVAL.format('Rival')}",
     f"Rival2{_RIVAL.format('Rival2')}",
+    "Reading := Reading OR (Hastes AND Reader.Error);",
     "IF NOT Rests THEN",
     "  Reader(Execute := Reading, Address := Place, Quantity := Count, AllowUnknown := Unknown, WithinMs := Within,",
     "    Slot := Slots[0]);",
@@ -65,7 +67,7 @@ WITHIN_MS = 1500
 IDLE: Shows = {
     ".Reading": False, ".Writing": False, ".Storing": False, ".Count": 1, ".Unknown": False, "Pins.Others": 100,
     "Pins.Stores": 100, ".Within": WITHIN_MS, ".Rivals": False, ".Rests": False, ".Minimum": 0, ".Clash": False,
-    ".Upset": False, ".Presses": False, ".Slips": False,
+    ".Upset": False, ".Presses": False, ".Slips": False, ".Hastes": False,
 }  # fmt: skip
 
 

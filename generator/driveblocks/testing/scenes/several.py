@@ -241,6 +241,14 @@ def _pulse(place: int) -> Iterator[Step]:
     yield Step("and is done", {}, "Reader.Done", 2000, {"Reader.Error": False, "Clash = FALSE": True})
     yield Step("as long as Execute is held", ms=200, shows={"Reader.Done": True, "Reader.Busy": False})
     yield Step("released", {".Reading": False}, ms=20, shows={"Reader.Done": False})
+    hastes: Shows = {"Fate.RefusesReads": True, ".Reading": True, ".Hastes": True}
+    yield Step("another one that is refused", hastes, ms=20, shows={"Reader.Busy": True})
+    yield Step("fails", {".Reading": False}, "Reader.Error", 1000, error("Reader", "REFUSED"))
+    yield Step("the next begins in the very next call", {".Hastes": False, "Fate.RefusesReads": False}, ms=20, shows={
+        "Reader.Busy": True, "Reader.Error": False, "Reader.ErrorID": 0,
+    })  # fmt: skip
+    yield Step("and is done", {}, "Reader.Done", 2000, {"Reader.Error": False})
+    yield Step("released", {".Reading": False}, ms=40, shows={"Reader.Done": False})
 
 
 def _not_called(place: int) -> Iterator[Step]:

@@ -108,7 +108,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "StopConfirmed": False, "Seen.Others": 0,
     })  # fmt: skip
     yield Step("nothing of it counts", {}, "Motor.Ready", 2000, STANDS | NOTHING_STARTED | _slot({
-        "Ask[0].Number > 12": True,
+        "Ask[0].Number > 12": True, "Answer[0].Tries >= 1": True,
         "Varied": False, "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
         "Shared": False, "Ascii": "rtu" not in drive.serial.mode.modes, "StopConfirmed": True, "ProvedStill": True,
         "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
