@@ -34,8 +34,8 @@ FROM_HERE: Shows = {
 }  # fmt: skip
 LATE = 4 * SCAN_MS
 """How much later than said something may be seen."""
-SLOW: Shows = {"Pins.ElapsedMs": 2 * SCAN_MS}
-"""Long scans, so that a long time takes few of them; steps then last twice as long."""
+SLOW: Shows = {"Pins.ElapsedMs": 5 * SCAN_MS, "Pins.MaxScanMs": 5 * SCAN_MS}
+"""Long scans, so that a long time takes few of them; steps then last five times as long."""
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
@@ -139,8 +139,8 @@ def _silent() -> Iterator[Step]:
 def _standing() -> Iterator[Step]:
     """A fan whose isolator is open must not trip the others."""
     yield Step("the cable is cut", {"Fate.Cut": True}, why("OFFLINE"), 4000, {"StopOverdue": False})
-    yield Step("for long", SLOW, ms=4000, shows={"StopOverdue": False, "Bus.StopOverdue": False, "CommOk": False})
-    yield Step("not if it is to stop, either", {"Enable": False}, ms=1500, shows={"StopOverdue": False})
+    yield Step("for long", SLOW, ms=1600, shows={"StopOverdue": False, "Bus.StopOverdue": False, "CommOk": False})
+    yield Step("not if it is to stop, either", {"Enable": False}, ms=600, shows={"StopOverdue": False})
     back: Shows = {"Fate.Cut": False, "Enable": True, "Pins.ElapsedMs": SCAN_MS}
     yield Step("it is whole", back, "Motor.Ready", 12000, STANDS | NOTHING_STARTED)
 
@@ -148,8 +148,8 @@ def _standing() -> Iterator[Step]:
 def _probes() -> Iterator[Step]:
     """After one, two, four and eight seconds, then every eight."""
     yield Step("its answers are lost", {"Fate.Dumb": True}, why("OFFLINE"), 4000)
-    yield Step("for 16 s", SLOW | FROM_HERE, ms=8000, shows={".Reads": (3, 6), ".Writes": (0, 18)})
-    yield Step("for 24 s more", SLOW | FROM_HERE, ms=12000, shows={".Reads": (2, 4), ".Writes": (0, 26)})
+    yield Step("for 16 s", SLOW | FROM_HERE, ms=3200, shows={".Reads": (3, 6), ".Writes": (0, 18)})
+    yield Step("for 24 s more", SLOW | FROM_HERE, ms=4800, shows={".Reads": (2, 4), ".Writes": (0, 26)})
     back: Shows = {"Fate.Dumb": False, "Pins.ElapsedMs": SCAN_MS}
     yield Step("it answers: read as ever", back, "Motor.Ready", 12000, NOTHING_STARTED | {"Bus.AllOnline": True})
     yield Step("no pause is left", FROM_HERE, ms=1000, shows={"Reads >= 8": True})
@@ -170,7 +170,7 @@ def _no_supply() -> Iterator[Step]:
     yield Step("it is stopped", {"SupplyOff": True}, "Motor.StopConfirmed", 4000, STANDS)
     yield Step("its answers are lost", {"Fate.Dumb": True}, "NOT Slots[0].Online", 4000, {"StopOverdue": False})
     begin: Shows = SLOW | FROM_HERE | {".Mark": "Bus.Timeouts"}
-    yield Step("one read in ten seconds, and no stop", begin, ms=15000, shows={
+    yield Step("one read in ten seconds, and no stop", begin, ms=6000, shows={
         ".Reads": (2, 4), ".Writes": 0, ".Stops": 0, "StopOverdue": False, "Bus.AllOnline": False, "Bus.OnlineCount": 0,
         "Bus.Timeouts": "Mark",
     })  # fmt: skip

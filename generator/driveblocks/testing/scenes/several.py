@@ -105,10 +105,10 @@ def _read_again(drive: Drive, place: int, count: int) -> Iterator[Step]:
 def _not_all(drive: Drive) -> Iterator[Step]:
     """Of the registers of one write the first that may not be written says why."""
     judge = Judge(drive)
-    results = {each: judge.result(Write(each, GIVEN[0])) for each in range(0x10000)}
+    near = {each + step for each in writable(drive) for step in range(-MOST_WRITTEN, MOST_WRITTEN + 1)}
+    results = {each: judge.result(Write(each, GIVEN[0])) for each in sorted(near) if 0 <= each <= 0xFFFF}
     for bad in range(_most_written(drive)):
-        places = (each for each in results if each + bad <= 0xFFFF and _fails_at(results, each, bad))
-        place = next(places, None)
+        place = next((each for each in results if each + bad in results and _fails_at(results, each, bad)), None)
         if place is not None:
             refused = error("Writer", results[place + bad]) | {"Seen.Others": 0, "Seen.Stores": 0}
             same = {name: word(GIVEN[0]) for name in ("Given", "Given2", "Given3")}
