@@ -114,8 +114,9 @@ def _fault(can: Ability) -> Iterator[Step]:
     if can.can("fault_reset"):
         refused: Shows = {"Fate.RefusesWrites": True, "FaultReset": True}
         yield Step("a reset is asked for", refused, ms=200, shows={"Seen.Resets": 0, "Fault": True})
-    yield Step("Restart", {"Pins.Restart": True, "Fate.RefusesWrites": False}, ms=40, shows={"Reason": "RESTARTED"})
-    yield Step("the reset is forgotten, its pin held", {"Pins.Restart": False}, ms=2000, shows={
+    yield Step("Restart", {"Pins.Restart": True}, ms=40, shows={"Reason": "RESTARTED"})
+    over: Shows = {"Pins.Restart": False, "Fate.RefusesWrites": False}
+    yield Step("the reset is forgotten, its pin held", over, ms=2000, shows={
         "Fault": True, "Seen.Resets": 0, "Reason": "FAULT", "Ready": False, "Seen.Stops >= 1": True,
         "FaultCode": can.code, "Motor.Diagnosis.FirstFaultCode": can.code, "StopOverdue": False,
         "Motor.Diagnosis.FaultBack1": can.code,

@@ -131,7 +131,8 @@ def _by_hand(drive: Drive) -> Iterator[Step]:
             "Seen.Others": 0,
         })  # fmt: skip
     answered = "Slots[0].Answer[2].Number = Slots[0].Ask[2].Number"
-    read: Shows = {"Slots[0].Answer[2].ErrorID = 0": True, "Slots[0].Ask[2].FunctionCode = 3": True}
+    reads = 3 if any(each.code == 3 for each in drive.functions) else 4
+    read: Shows = {"Slots[0].Answer[2].ErrorID = 0": True, f"Slots[0].Ask[2].FunctionCode = {reads}": True}
     yield Step("a read", _asks(3, place, 1), answered, 500, read)
     marked: Shows = {"Slots[0].Ask[2].Words[3]": word(0x3400)}
     before: Shows = {".Count": "Seen.Reads"}
