@@ -382,7 +382,7 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step("the motor stands", {}, "Seen.Milli = 0", 4000, {"Reason": "FAULT", "Seen.Starts": 1})
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
-        "Motor.Diagnosis.FirstFaultMs > 500": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
+        "Motor.Diagnosis.FirstFaultMs > 200": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
         "Motor.Diagnosis.FirstFaultState": 4,
     } | _measured_at_fault(can))  # fmt: skip
     yield from _gone(can)

@@ -9,7 +9,7 @@ from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED
-from driveblocks.testing.scenes.parameter import BLOCKS, CALLS, WITHIN_MS, does, error, idle, place_of
+from driveblocks.testing.scenes.parameter import BLOCKS, CALLS, WITHIN_MS, does, error, idle, meant, place_of
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
 
@@ -76,7 +76,8 @@ def _most_written(drive: Drive) -> int:
 
 def _written(drive: Drive) -> Iterator[Step]:
     judge = Judge(drive)
-    free = frozenset(each for each in writable(drive) if all(judge.result(Write(each, one)) == "OK" for one in GIVEN))
+    harmless = writable(drive) - meant(drive)
+    free = frozenset(each for each in harmless if all(judge.result(Write(each, one)) == "OK" for one in GIVEN))
     given = {f"Given{at or ''}": word(each) for at, each in zip((0, 2, 3), GIVEN, strict=True)}
     for count in range(1, MOST_WRITTEN + 1):
         place = next(_runs(free, count), None)
