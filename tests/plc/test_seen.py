@@ -117,7 +117,7 @@ def test_frames_that_were_not_sent_stand_in_the_table() -> None:
     view = View(0, (), {}, {}, dropped=7, port_error="No such device")
     parts = screen._parts(screen.Heading("REAL PORT", "my.st", True), view, screen.Plots(Console(width=80)))
     text = "\n".join(map(str, parts))
-    assert "7 frames not sent: only reads and stops leave" in text
+    assert "7 frames not sent: only reads and stops are" in text
     assert "the port does not work: No such device" in text
 
 

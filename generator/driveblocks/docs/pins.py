@@ -62,7 +62,7 @@ def _pin(one: VarDecl, ranges: dict[str, str]) -> Pin:
     unit = unit_of(one.name)
     idle = _IDLE.fullmatch(said) is not None
     bounds = BOUNDS.get(type_, "") if one.kind is VarKind.INPUT else ""
-    # a unit address of 0 is none, and a slot is no wish
+    # a unit address of 0 is none, and a slot is no request
     required = said.startswith(_MUST) or one.name in {"Address", "Slot"}
     return Pin(
         name=one.name,
