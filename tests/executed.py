@@ -81,6 +81,7 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
         yield ("explain", *frame), ""
     for topic in ((), ("0026H",), ("1EH",), ("faults",), ("errors",), ("frames",), ("errata",), ("registers",)):
         yield ("show", "sn300g5", *topic), ""
+    yield ("prove", "jscc", "--junit", str(folder / "proofs.xml")), ""
     for words in ("show chf --json", "list", "counts", "schema", "doctor", "simulate --schema"):
         yield tuple(words.split()), ""
     picture = ("--trace", str(folder / "run.csv"), "--picture", str(folder / "run.svg"))

@@ -181,8 +181,20 @@ def drawn(seed: int) -> Iterator[Mutant]:
                 yield by_kind[kind].pop()
 
 
+def _idle(one: Mutant) -> bool:
+    """Whether a statement is left out that gives a variable what it has from the beginning, as all others do."""
+    text = next(source.text for unit in made().values() for source in unit.blocks if source.path == one.path)
+    plain = _COMMENT.sub("", text)
+    given = {found[2] for found in _STATEMENT.finditer(plain) if found[1] == one.new}
+    declared = re.search(rf"^  {re.escape(one.new)} : \w+;", plain, re.MULTILINE)
+    handed = re.search(rf":= {re.escape(one.new)}\s*[,)]", plain)
+    return one.kind == "reset" and given == {one.old} and declared is not None and handed is None
+
+
 def judged(one: Mutant, most: int = 99) -> str | None:
     """The first check that fails, of `most` families; empty: none does. None: it does not build, or is no change."""
+    if _idle(one):
+        return None
     families = [family for family in (*FAMILIES, MORE) if _programs(family, one.path)]
     by: str | None = None
     for family in families[:most]:

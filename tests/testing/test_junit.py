@@ -124,7 +124,7 @@ def test_no_attribute_and_no_text_holds_what_xml_cannot() -> None:
 
 def test_chinese_stays_chinese(real: Run) -> None:
     (failure,) = ElementTree.fromstring(junit.text(real)).iter("failure")  # noqa: S314  (our own text)
-    assert failure.attrib["message"] == "expected `过流`, found `过压`"
+    assert failure.attrib["message"] == "expected `OC 过流`, found `OC 过压`"
 
 
 def test_only_times_differ_from_run_to_run(example: Unit) -> None:

@@ -48,7 +48,7 @@ DRIVE = [
     ("EX100_Reference", "AND (MaximumHz <= MOST)", "", "Reference"),
     ("EX100_Standstill", "AND (OutputFrequencyWord = WORD#16#0000)", "", "Standstill"),
     ("EX100_FaultNumber", "Number := 17;", "Number := 16;", "FaultNumber"),
-    ("EX100_FaultTextEn", "'Overspeed'", "'Overspeeding'", "FaultTextEn"),
+    ("EX100_FaultTextEn", "'OS Overspeed'", "'OS Overspeeding'", "FaultTextEn"),
     ("EX100_FaultTextZh", "$E8$BF$87$E6$B5$81", "$E8$BF$87$E5$8E$8B", "FaultTextZh"),
     ("EX100_ErrorTextEn", "    5:", "    6:", "ErrorTextEn"),
     ("EX100_BitTextEn", "    20:", "    19:", "BitTextEn"),
@@ -113,12 +113,13 @@ def test_names_of_outputs_stand_for_bits(example: Unit) -> None:
 
 
 def test_one_failure_hides_no_other(example: Unit) -> None:
-    unit = only(changed(example, "EX100_FaultTextEn", "'Overcurrent'", "'Undercurrent'"), "FaultTextEn", "FaultNumber")
-    unit = changed(unit, "EX100_FaultTextEn", "'Overspeed'", "'Underspeed'")
+    unit = only(example, "FaultTextEn", "FaultNumber")
+    unit = changed(unit, "EX100_FaultTextEn", "'OC Overcurrent'", "'OC Undercurrent'")
+    unit = changed(unit, "EX100_FaultTextEn", "'OS Overspeed'", "'OS Underspeed'")
     unit = changed(unit, "EX100_FaultNumber", "Number := 17;", "Number := 18;")
     found = reds(unit)
     texts = [(outcome.expected, outcome.actual) for outcome in found if "text" in outcome.words]
-    assert texts == [("Overcurrent", "Undercurrent"), ("Overspeed", "Underspeed")]
+    assert texts == [("OC Overcurrent", "OC Undercurrent"), ("OS Overspeed", "OS Underspeed")]
     assert len(found) > len(texts)
 
 

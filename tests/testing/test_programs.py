@@ -99,7 +99,7 @@ def test_a_language_that_is_left_out_is_not_tested() -> None:
 
 def test_chinese_is_expected_in_the_encoding_that_was_built() -> None:
     files = programs(collection.read([EXAMPLE]), languages(["zh"], "gb18030"))
-    escaped = "".join(f"${octet:02X}" for octet in "过流".encode("gb18030"))
+    escaped = "".join(f"${octet:02X}" for octet in "OC 过流".encode("gb18030"))
     assert f"'{escaped}'" in files["tests/iec61131/example/EX100_TestFaultTextZh.st"]
 
 

@@ -16,4 +16,6 @@ def paused() -> Iterator[None]:
         yield
     finally:
         if running:
+            gc.freeze()
+            gc.unfreeze()  # what was made meanwhile counts as old at once: a walk over all of it would find nothing
             gc.enable()

@@ -22,7 +22,7 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.scenes import again, count, exact, line, manual, motor, others, told
+from driveblocks.testing.scenes import again, count, exact, line, manual, motor, others, pace, several, told
 from driveblocks.testing.scenes import drive as simulated
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
@@ -38,9 +38,11 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Line": line.scripts,
     "Figures": count.scripts,
     "What else is heard": others.scripts,
+    "Pace": pace.scripts,
     "Restart": again.scripts,
     "To the millisecond": exact.scripts,
     "Parameters": parameters.scripts,
+    "Several parameters": several.scripts,
     "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,
     "What may be read": access.scripts,

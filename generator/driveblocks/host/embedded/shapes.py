@@ -49,6 +49,7 @@ class Shapes:
         self.classes: dict[Struct, type[Record]] = {}
         self.globals: dict[tree.VarDecl, str] = {}
         self.makers: dict[Type, Maker] = {}
+        self.copiers: dict[Struct, Copier] = {}
         self.instances: Callable[[Block, Any], Any] | None = None
         self.evaluate: Evaluator | None = None
 
@@ -164,7 +165,9 @@ class Shapes:
     def copier(self, kind: Type) -> Copier:
         """A function `copy(into, source)` for an array or structure."""
         if isinstance(kind, Struct):
-            return self._struct_copier(kind)
+            if kind not in self.copiers:
+                self.copiers[kind] = self._struct_copier(kind)
+            return self.copiers[kind]
         kind = known(kind, Array)
         element = None if is_scalar(kind.element) else self.copier(kind.element)
         return nested_copier(element, len(kind.bounds))

@@ -112,7 +112,7 @@ def _places(drive: Drive, made: Table) -> dict[int, int]:
     words = {move.pattern.register: 0 for move in made.moves}
     words |= {need.pattern.register: 0 for move in made.moves for need in move.needs}
     words.setdefault(made.reference.register, 0)
-    for one in _settled(drive):
+    for one in settled(drive):
         pattern = of_condition(one)
         words[pattern.register] = words.get(pattern.register, 0) & ~pattern.mask | pattern.value
     if drive.operation.own_maximum:
@@ -120,7 +120,7 @@ def _places(drive: Drive, made: Table) -> dict[int, int]:
     return words
 
 
-def _settled(drive: Drive) -> tuple[Condition, ...]:
+def settled(drive: Drive) -> tuple[Condition, ...]:
     """What registers of settings and identity hold where everything is as it should be."""
     operation = drive.operation
     who = drive.identity.all if drive.identity else ()

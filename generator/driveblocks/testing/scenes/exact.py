@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
+from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import POWER, STANDS, run
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
@@ -16,6 +17,14 @@ MORE = More(
         "Stage1": ("UINT", "the state that it is told"),
         "Answers": ("UINT", "Number that is answered"),
         "Anew": ("BOOL", "its command has just been posted"),
+        "GoodSeen": ("UDINT", "replies of the last call"),
+        "RequestsSeen": ("UDINT", "requests of the last call"),
+        "SinceGood": ("UINT", "up to the last call: since a reply, ms"),
+        "SinceRequest": ("UINT", "... since a request, ms"),
+        "ReferencesSeen": ("UINT", "references of the last call"),
+        "SinceReference": ("UINT", "... since one, ms"),
+        "Period": ("UINT", "from the one before to the last one, ms"),
+        "Youngest": ("UINT", "the lowest age of a measure since, ms"),
     },
     calls=(
         "Command(Seen := Known, Asked := Wish, CommLost := FALSE, State := Stage1, Order := 5, Sent := 5,",
@@ -23,6 +32,23 @@ MORE = More(
         "  AskNumber := 7, Answer := Answers, AnswerErrorID := 20, KnowsDirection := FALSE, FollowWithinMs := 1000,",
         "  StepLast := 0, StepReached := TRUE, StepHoldMs := 0);",
         "Anew := FALSE;",
+        "SinceGood := SinceGood + Pins.ElapsedMs;",
+        "IF Bus.Good <> GoodSeen THEN",
+        "  SinceGood := 0;",
+        "END_IF;",
+        "GoodSeen := Bus.Good;",
+        "SinceRequest := SinceRequest + Pins.ElapsedMs;",
+        "IF Bus.Requests <> RequestsSeen THEN",
+        "  SinceRequest := 0;",
+        "END_IF;",
+        "RequestsSeen := Bus.Requests;",
+        "SinceReference := SinceReference + Pins.ElapsedMs;",
+        "IF Seen.References <> ReferencesSeen THEN",
+        "  Period := SinceReference;",
+        "  SinceReference := 0;",
+        "END_IF;",
+        "ReferencesSeen := Seen.References;",
+        "Youngest := MIN(Youngest, Motor.Diagnosis.MeasuresAgeMs);",
     ),
 )
 MS: Shows = {"Pins.ElapsedMs": 1}
@@ -41,8 +67,15 @@ def _after(least: int, most: int) -> tuple[int, int]:
 
 def scenes(drive: Drive) -> Iterator[Scene]:
     """All of them."""
+    can = Ability(drive)
     yield scene("how often the reference is sent", POWER, run(), *_refresh(drive))
     yield scene("when the line stops a motor by itself", POWER, run(), *_attend())
+    yield scene("when it does after a restart", POWER, run(), *_attend_anew())
+    yield scene("when a drive is dead", POWER, *_dead())
+    yield scene("when a request is withdrawn", POWER, *_mailbox())
+    if can.drive.operation.measures:
+        yield scene("how old a measure is", POWER, *_young())
+    yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())
     yield scene("when a status is too old", POWER, run(), *_stale())
     yield scene("when a start is not followed", POWER, *_follow())
@@ -53,20 +86,53 @@ def scenes(drive: Drive) -> Iterator[Scene]:
 def _refresh(drive: Drive) -> Iterator[Step]:
     slow = drive.serial.silence is not None  # whose silence takes longer than that
     often: Shows = {"Pins.Settings.RefreshMs": 20}
-    yield Step("every 20 ms", MS | often, ms=30 * SCAN_MS, shows={"Running": True})
-    yield Step("for 840 ms", {".Mark": "Seen.References"}, ms=840 * SCAN_MS, shows={
-        "Seen.References - Mark": (30, 43) if slow else (42, 43), "Running": True,
+    yield Step("every 20 ms", MS | often, ms=100 * SCAN_MS, shows={
+        ".Period": (20, 40) if slow else 20, "Running": True,
     })  # fmt: skip
+    if drive.watchdog and drive.watchdog.feeds != "reference":
+        return
     fed: Shows = {"Pins.Settings.RefreshMs": 65535, "Pins.Settings.WatchdogMs": 60}
-    yield Step("three times in the time of a watchdog", fed, ms=30 * SCAN_MS, shows={"Running": True})
-    yield Step("for 840 ms", {".Mark": "Seen.References"}, ms=840 * SCAN_MS, shows={
-        "Seen.References - Mark": (30, 42) if slow else (40, 42), "Running": True,
+    yield Step("three times in the time of a watchdog", fed, ms=100 * SCAN_MS, shows={
+        ".Period": (20, 40) if slow else 21, "Running": True,
     })  # fmt: skip
 
 
 def _attend() -> Iterator[Step]:
     nobody: Shows = {"Pins.AttendMs": 50, "Pins.NoDrive": True}
     yield Step("its block is not called", MS | nobody, "Slots[0].Unattended", 2000, {".WaitedMs": _after(51, 52)})
+
+
+def _attend_anew() -> Iterator[Step]:
+    """A restart gives its block all of the time."""
+    nobody: Shows = {"Pins.AttendMs": 50, "Pins.NoDrive": True}
+    yield Step("its block is not called", MS | nobody, ms=40 * SCAN_MS, shows={"Slots[0].Unattended": False})
+    yield Step("Restart", {"Pins.Restart": True}, ms=SCAN_MS)
+    yield Step("after 51 calls", {"Pins.Restart": False}, "Slots[0].Unattended", 2000, {".WaitedMs": _after(51, 51)})
+
+
+def _dead() -> Iterator[Step]:
+    yield Step("it answers", MS | {"Pins.OfflineMs": 300}, ms=50 * SCAN_MS, shows={"Slots[0].Online": True})
+    yield Step("the cable is cut", {"Fate.Cut": True}, "NOT Slots[0].Online", 9000, {".SinceGood": 299})
+
+
+def _mailbox() -> Iterator[Step]:
+    """What the port does not take is withdrawn after more than a second."""
+    yield Step("scans of 13 ms", {"Pins.ElapsedMs": 13}, ms=200)
+    stuck: Shows = {"Pins.TxBusy": True, ".Mark": "Bus.Timeouts"}
+    yield Step("the port takes nothing", stuck, "Bus.Timeouts > Mark", 3000, {".SinceRequest": 1001 - 13})
+
+
+def _young() -> Iterator[Step]:
+    yield Step("measures", {".Youngest": 65535}, ms=400, shows={".Youngest": 0})
+
+
+def _quiet(drive: Drive) -> Iterator[Step]:
+    """After a restart the line keeps silence before its first request, whatever was before."""
+    slow: Shows = {"Pins.BitRate": 9600, "Pins.KeepsSilence": False, "Pins.Restart": True}
+    yield Step("a slow line", MS | slow, ms=SCAN_MS)
+    yield Step("its first request", {"Pins.Restart": False}, "TxCount > 0", 2000, {
+        ".WaitedMs": _after(4, 80 if drive.identity else 14),
+    })  # fmt: skip
 
 
 def _overdue() -> Iterator[Step]:

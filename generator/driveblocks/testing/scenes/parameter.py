@@ -7,7 +7,7 @@ from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import codes
+from driveblocks.testing.scenes.drive import codes, settled
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -35,13 +35,17 @@ BLOCKS = {
     "Minimum": ("UINT", "its pin MinimumS"),
     "Stores": ("UDINT", "times that the drive was told to store"),
     "Upset": ("BOOL", "one of the rivals has not got its answer"),
+    "Hastes": ("BOOL", "Reader begins anew in the call after a failure"),
     "Slips": ("BOOL", "the port takes characters in the scan in which the writer gives up"),
     "Clash": ("BOOL", "Busy, Done and Error of a block have not excluded each other"),
 }
-_RIVAL = "(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Place, WithinMs := 5000, Slot := Slots[0]);"
+_RIVAL = (
+    "{0}(Execute := Rivals AND NOT {0}.Done AND NOT {0}.Error, Address := Place, WithinMs := 5000,",
+    "  Slot := Slots[0]);",
+)
 CALLS = (
-    f"Rival{_RIVAL.format('Rival')}",
-    f"Rival2{_RIVAL.format('Rival2')}",
+    *(line.format(name) for name in ("Rival", "Rival2") for line in _RIVAL),
+    "Reading := Reading OR (Hastes AND Reader.Error);",
     "IF NOT Rests THEN",
     "  Reader(Execute := Reading, Address := Place, Quantity := Count, AllowUnknown := Unknown, WithinMs := Within,",
     "    Slot := Slots[0]);",
@@ -65,7 +69,7 @@ WITHIN_MS = 1500
 IDLE: Shows = {
     ".Reading": False, ".Writing": False, ".Storing": False, ".Count": 1, ".Unknown": False, "Pins.Others": 100,
     "Pins.Stores": 100, ".Within": WITHIN_MS, ".Rivals": False, ".Rests": False, ".Minimum": 0, ".Clash": False,
-    ".Upset": False, ".Presses": False, ".Slips": False,
+    ".Upset": False, ".Presses": False, ".Slips": False, ".Hastes": False,
 }  # fmt: skip
 
 
@@ -96,8 +100,14 @@ def scenes(can: Ability) -> Iterator[Scene]:
 def place_of(drive: Drive) -> int | None:
     """A register that may be written with a small word at standstill, and read."""
     judge = Judge(drive)
-    both = sorted(readable(drive) & writable(drive))
+    both = sorted((readable(drive) & writable(drive)) - meant(drive))
     return next((each for each in both if judge.result(Write(each, 3)) == "OK"), None)
+
+
+def meant(drive: Drive) -> frozenset[int]:
+    """Registers whose words the drive block looks at."""
+    own = drive.operation.own_maximum
+    return frozenset(each.register for each in settled(drive)) | ({own.register} if own else frozenset())
 
 
 def idle() -> Step:

@@ -24,6 +24,7 @@ RULES = (
     "nothing stored unasked", "no register written unasked", "not Running and StopConfirmed", "the right way round",
     "Reason 0 only while it runs", "FaultCode only with Fault", "no closed contact while a stop is overdue",
     "an answer to each command", "no StopConfirmed without its proof", "no fewer registers than are shown",
+    "no request that a line cannot send",
 )  # fmt: skip
 """What VFD_TestWatch sees broken, by bit."""
 
@@ -62,11 +63,15 @@ def scene(words: str, *steps: Step | Iterable[Step]) -> Scene:
 
 @dataclass(frozen=True)
 class More:
-    """What a program has beside one motor: a second one; blocks, as name -> type and comment, and their calls."""
+    """What a program has beside one motor: a second one; blocks, as name -> type and comment, and their calls.
+
+    `calls` come before that of the line, `after` come after it.
+    """
 
     other: bool = False
     blocks: Mapping[str, tuple[str, str]] = field(default_factory=dict)
     calls: tuple[str, ...] = ()
+    after: tuple[str, ...] = ()
 
 
 def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its scenes, and what more it has
@@ -202,5 +207,6 @@ def _plant(drive: Drive, more: More) -> str:
             scales=[(key, real(value)) for key, value in scales.items()],
             other=more.other,
             calls=more.calls,
+            after=more.after,
         )
     )

@@ -8,7 +8,7 @@ from driveblocks.st.writing import word
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, manners
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
-from driveblocks.testing.scenes.scene import Scene, Shows, Step, Value, scene, script
+from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
 
 KEPT = 0x5A5A
@@ -20,9 +20,17 @@ USUAL: dict[str, int] = {"LongestMs": 500, "BootMs": 10000}
 """What stands in for settings that are 0, where neither map nor drive says it."""
 
 
+MORE = More(
+    blocks={"Learned": ("UINT", "twice the longest reply, and 20 ms")},
+    calls=("Learned := 2 * Slots[0].LongestReplyMs + 20;",),
+)
+
+
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program."""
-    yield script(drive, stem, "MotorSlot", "what the line gets to know, and memory that is not blank", scenes(drive))
+    yield script(
+        drive, stem, "MotorSlot", "what the line gets to know, and memory that is not blank", scenes(drive), MORE
+    )
 
 
 def scenes(drive: Drive) -> Iterator[Scene]:
@@ -108,7 +116,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "StopConfirmed": False, "Seen.Others": 0,
     })  # fmt: skip
     yield Step("nothing of it counts", {}, "Motor.Ready", 2000, STANDS | NOTHING_STARTED | _slot({
-        "Ask[0].Number > 12": True,
+        "Ask[0].Number > 12": True, "Answer[0].Tries >= 1": True,
         "Varied": False, "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
         "Shared": False, "Ascii": "rtu" not in drive.serial.mode.modes, "StopConfirmed": True, "ProvedStill": True,
         "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
@@ -118,7 +126,8 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     reference = drive.operation.reference.register
     yield Step("it runs as ever", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(run.register): True,
-    } | _slot(known(drive) | {
+    })  # fmt: skip
+    yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
         "Once": run.register != reference, "ResetAsked": False, "Ask[1].FunctionCode": _write(drive),
         "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
@@ -165,7 +174,7 @@ def _diagnosis(can: Ability) -> Shows:
 
 def _unset(can: Ability) -> Iterator[Step]:
     sets: Shows = {f"Pins.Settings.{key}": 0 for key in SETTINGS}
-    learned = "Slots[0].TurnRoundMs = MAX(50, 2 * (Slots[0].LongestReplyMs MOD 9999) + 20)"
+    learned = "Slots[0].TurnRoundMs = MAX(50, Learned)"
     yield Step("none is set", sets, ms=100, shows=_slot({**USUAL, "TurnRoundMs": 500}))
     yield Step("it learns how fast the drive is", {}, "Slots[0].Replies >= 20", 4000)
     yield Step("from then on", {}, "Motor.Ready", 4000, {learned: True} | _slot(USUAL) | _diagnosis(can))
