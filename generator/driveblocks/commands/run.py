@@ -88,13 +88,13 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 ) -> None:
     """Run a program: a soft PLC on this computer, at simulated drives or at a real line.
 
-        On a REAL PORT only reads and the maps' stops are sent, unless --allow-run. Whatever ends the run, every drive is
-    stopped first, and those that could not be confirmed are named: at Ctrl-C and every signal that can be caught, and by
-        a watchdog if a scan does not end. No program can do so after kill -9, while the computer sleeps, or over an
-        unplugged cable: wire a hard stop. The exit status is 0 if all drives came to standstill, 1 if one could not be
-        confirmed or the program failed, and 2 for bad input or a file that cannot be written.
+    On a REAL PORT only reads and the maps' stops are sent, unless --allow-run. Whatever ends the run, every drive is
+    stopped first, and those that could not be confirmed are named: at Ctrl-C and every signal that can be caught,
+    and by a watchdog if a scan does not end. No program can do so after kill -9, while the computer sleeps, or over
+    an unplugged cable: wire a hard stop. The exit status is 0 if all drives came to standstill, 1 if one could not
+    be confirmed or the program failed, and 2 for bad input or a file that cannot be written.
 
-        Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
+    Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """
     from driveblocks.plc.keyboard import Keyboard
     from driveblocks.plc.options import Options, Refused
