@@ -143,6 +143,22 @@ def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
     assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
 
 
+def test_a_picture_brings_its_background_and_keeps_numbers_apart_from_names() -> None:
+    long = "Pump1.OutputFrequencyHz.Which.Is.Long"
+    timing = Timing(("A", long), "SIMULATED, my.st")
+    timing.add(0, {"A": False, long: 123456.0})
+    timing.add(1_000_000, {"A": True, long: 0.0})
+    root = ElementTree.fromstring(timing.svg())  # noqa: S314 - our own
+    space = "{http://www.w3.org/2000/svg}"
+    box = [float(each) for each in root.get("viewBox", "").split()]
+    (page,) = root.iter(f"{space}rect")
+    assert [page.get("width"), page.get("height"), page.get("fill")] == [f"{box[2]:g}", f"{box[3]:g}", "#fff"]
+    assert root.get("fill") == "#222", "without a style sheet, which not every viewer reads"
+    places = {each.text: float(each.get("x", "")) for each in root.iter(f"{space}text")}
+    end = places["123456"] - 8 * len("123456")  # it ends at its place
+    assert places[long] + 7 * len(long) <= end
+
+
 def test_a_picture_forgets_what_is_too_much(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(record, "MOST_CHANGES", 10)
     timing = Timing(("A",), "SIMULATED")
