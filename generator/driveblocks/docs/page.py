@@ -213,9 +213,9 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     rows = {words: [_yes(can(drive, does)) for drive in drives] for does, words in ABILITIES.items()}
     for shows in ("at_speed", "ready", "warning"):
         having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
-        rows[f"say itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
+        rows[f"report by itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
     rows["be recognised over the bus"] = [_yes(drive.identity is not None) for drive in drives]
-    rows["say whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
+    rows["report whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
     rows["report its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
     for shows in MEASURES:
         rows[f"show `{pin_of(shows)['pin']}`"] = [_shows(drive, shows) for drive in drives]
