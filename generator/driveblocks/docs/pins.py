@@ -28,7 +28,7 @@ _MUST = "required: "
 _UNIT = re.compile(r"[a-z](Hz|Ms|A|V|KW)$")
 _SAID = re.compile(r"^required: |, [\d.]+ to [\d.]+(?= Hz| ms|;)|,? (?:ms|Hz|A|V|kW)(?=$|;)")
 """What has a column of its own: whether it is required, its range, its unit."""
-SAYS = {"SpeedReferenceHz": "how fast it is to turn"}
+SAYS = {"SpeedReferenceHz": "requested speed"}
 """Where the range is all that the block says."""
 _IDLE = re.compile(r"not needed here|not needed: .*|always FALSE.*|the drive does not show it")
 
