@@ -16,7 +16,7 @@ counts:               ## the tables of drives in the READMEs, from the maps
 schema:               ## vendor_maps/schema.json and keys.md from the model, and the smallest map in the guide
 	$(DB) schema vendor_maps
 
-fuzz:                 ## by chance: maps, texts for both YAML parsers, every property of the suite, damaged replies; hostile files
+fuzz:                 ## random maps, texts for both YAML parsers, every property of the suite, damaged replies; hostile files
 	@echo "again: make fuzz SEED=$(strip $(SEED))"
 	$(PY) tests/maps/fuzz.py --seed $(SEED)
 	$(PY) -m tests.maps.agreement --seed $(SEED)

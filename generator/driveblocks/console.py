@@ -45,7 +45,7 @@ class Shown:
 
 
 def use_safe_utf8() -> None:
-    """Make both standard streams UTF-8, and what goes there visible.
+    """Make both standard streams UTF-8, and what is written there visible.
 
     Under a C locale Python may choose ASCII, and the manuals are Chinese.
     """

@@ -150,7 +150,7 @@ def test_another_address_ends_it() -> None:
     assert one.reason() == "OTHER_DRIVE"
     one.drives[0].unit = 5
     one.put(Address=5).stopped()
-    assert one.drives[0].mode == "standing"
+    assert one.drives[0].mode == "standstill"
 
 
 def test_a_drive_that_was_silent_is_looked_at_again_and_goes_on() -> None:

@@ -73,7 +73,7 @@ def alike(kind: str, stations: Library) -> None:
             for bench in both:
                 bench.scan()
             assert both[0].seen == both[1].seen
-        assert both[0].drives[0].mode == ("running" if run else "standing")
+        assert both[0].drives[0].mode == ("running" if run else "standstill")
         assert both[0].frames == both[1].frames
 
 
@@ -106,7 +106,7 @@ def test_without_a_full_scale_a_fraction_is_no_reference() -> None:
     bench.run(1000)
     bench.put(RunForward=True).run(2000)
     assert (bench.reason(), bench.out("ErrorID")) == ("REFERENCE", 19)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 @pytest.mark.parametrize("name", ["TurnRoundMs", "LongestMs", "BootMs", "FollowWithinMs", "StaleMs", "StopWithinMs"])

@@ -36,7 +36,7 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None
     assert abs(bench.number("OutputFrequencyHz") - 25.0) < 0.2
     assert bench.out("OutputFrequencyValid")
     bench.put(RunForward=False).stopped()
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.block["TheLine.Timeouts"] == 0
     assert bench.block["TheLine.Refusals"] == 0
 
@@ -186,7 +186,7 @@ def test_what_stops_a_motor_needs_a_release_and_a_new_edge(what: str) -> None:
     ends(bench)
     frames += bench.run(6000)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.stopped()
     assert bench.reason() == "HELD"
     edge(bench)
@@ -246,7 +246,7 @@ def test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed() -> None:
     last = frames.index(motions(bench, frames)[-1])
     assert sent(bench, frames[last:], "stop")
     assert bench.shows("StopConfirmed")
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.reason() == "NO_RUN"
 
 
@@ -346,7 +346,7 @@ def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
     bench.drives[0].keypad_stop()
     frames = bench.run(9000)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.shows("StopConfirmed")
     assert bench.reason() == "BY_ITSELF"
 

@@ -48,7 +48,7 @@ def test_a_fault_posts_a_stop(kind: str) -> None:
     bench.until(lambda: not bench.drives[0].motor.shaft, 9000)
     bench.drives[0].reset()
     bench.run(3000)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.drives[0].trip(4)
     assert stops(bench, bench.run(300))
 
@@ -170,7 +170,7 @@ def test_a_plc_that_starts_warm_stops_a_running_motor(kind: str) -> None:
     assert stops(bench, frames)
     assert not motions(bench, frames)
     assert bench.shows("StopConfirmed")
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 @pytest.mark.parametrize("kind", FAMILIES)
@@ -218,7 +218,7 @@ def test_a_drive_block_that_is_no_longer_called_is_stopped_by_the_line() -> None
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, stops(bench, frames))
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.leave("Skip0", on=False)
     assert not motions(bench, bench.run(4000))
     edge(bench)

@@ -109,7 +109,7 @@ END_VAR
   A := 1;
 END_FUNCTION_BLOCK
 """
-NO_OWNER = "a comment that belongs to no declaration would be lost; put it behind one"
+NO_OWNER = "a comment that belongs to no declaration would be lost; put it after one"
 MARK = "has no form in this XML; write it with a blank in it"
 
 

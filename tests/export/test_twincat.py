@@ -203,6 +203,6 @@ def test_what_the_format_cannot_say_is_refused_with_its_place() -> None:
     with pytest.raises(ExportError) as refusal:
         twincat.files(Shelf((Part("types", parse(text, "types/MB_Adu.st")),), {}, ()))
     assert [str(problem) for problem in refusal.value.problems] == [
-        "types/MB_Adu.st:3:15: the character 000CH cannot stand in a file of TwinCAT: leave it out",
+        "types/MB_Adu.st:3:15: the character 000CH cannot be in a file of TwinCAT: leave it out",
         "types/MB_Adu.st:7:38: `]]>` ends the text in a file of TwinCAT: put a blank between the brackets",
     ]

@@ -47,7 +47,7 @@ PLANTED = (
         "      IF NOT Stop.Accepted THEN\n",
     ),
     Planted(
-        "a stop is acknowledged when it leaves",
+        "a stop is acknowledged when it is sent",
         "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
         "      Slots[Chosen].Answer[0].Number := Asked;\n"
         "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
@@ -101,7 +101,7 @@ PLANTED = (
         "timing",
     ),
     Planted(
-        "a parameter leaves without its drive block",
+        "a parameter is sent without its drive block",
         "Passes := ParameterCleared AND ",
         "Passes := ",
     ),

@@ -121,12 +121,12 @@ def test_no_reset_passes_through_a_run(name: str, value: int) -> None:
 def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
     drive = shapes()["active_low"]
     wrong = judged(drive, replace(command(drive, "stop"), set=()))
-    assert "`stop` leaves bit 0 as it is, which `run_forward` sets" in wrong
+    assert "`stop` does not change bit 0, which `run_forward` sets" in wrong
 
 
 def test_a_start_pulse_is_cleared_by_the_stop() -> None:
     drive = shapes()["pulse"]
-    assert "`stop` leaves bit 1 as it is, which `run_reverse` sets" in judged(
+    assert "`stop` does not change bit 1, which `run_reverse` sets" in judged(
         drive, replace(command(drive, "stop"), clear=(command(drive, "stop").set[0],), set=())
     )
 

@@ -142,7 +142,7 @@ def long(seconds: float) -> dict[str, float]:
             figures["wrong values"] += before != 0 or desk.drive.hertz != 20 or soft.seen["hertz"] > 20.01
             soft.set("start", on=False)
             soft.until(lambda seen: seen["confirmed"] == 1)
-            figures["lost stops"] += desk.drive.mode != "standing"
+            figures["lost stops"] += desk.drive.mode != "standstill"
             figures["rounds"] += 1
         last = dict(soft.seen)
     desk.stop()

@@ -10,16 +10,16 @@ if TYPE_CHECKING:
 
 Files = Annotated[
     list[Path] | None,
-    typer.Argument(metavar="FILE", help="ST sources that belong together; a folder stands for every .st file in it."),
+    typer.Argument(metavar="FILE", help="ST sources that belong together; a folder means every .st file in it."),
 ]
 Select = Annotated[
     list[str] | None,
-    typer.Option(help="Tell only this rule, by name, code or beginning of a code (ST3); may be repeated."),
+    typer.Option(help="Report only this rule, by name, code or beginning of a code (ST3); may be repeated."),
 ]
-Ignore = Annotated[list[str] | None, typer.Option(help="Do not tell this rule; may be repeated.")]
+Ignore = Annotated[list[str] | None, typer.Option(help="Do not report this rule; may be repeated.")]
 For = Annotated[
     list[str] | None,
-    typer.Option("--for", metavar="TARGET", help="Also tell names that these targets of build, or all, cannot take."),
+    typer.Option("--for", metavar="TARGET", help="Also report names that these targets of build, or all, cannot take."),
 ]
 Maps = Annotated[
     list[str] | None, typer.Option("--map", metavar="MAP", help="A map of your own, whose blocks the sources use.")
@@ -41,10 +41,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     A finding is one line, `file:line:col: CODE rule: why; what to write instead`. The files are taken as one text:
     each may use what another declares, and the types and blocks of the installed library. Of a file that cannot be
-    read or parsed only that is told, and the others are judged all the same. The exit status is 0 without findings,
+    read or parsed only that is reported; the others are checked all the same. The exit status is 0 without findings,
     1 with findings, and 2 if a file could not be judged; standard error names it. docs/lint.md explains every rule.
 
-    With --for, also names that the targets of build keep for themselves are told.
+    With --for, also names that the targets of build reserve are reported.
 
     Example: driveblocks lint --ignore case-without-else types.st blocks.st
     """

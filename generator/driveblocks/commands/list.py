@@ -74,4 +74,4 @@ def _print_table(loaded: "dict[Path, Drive]") -> None:
     for path, drive in loaded.items():
         if not drive.frames:
             console.write(f"\n{path.stem}: {view.UNPROVED}")
-    console.write("\n`driveblocks show DRIVE` tells everything about one of them.")
+    console.write("\n`driveblocks show DRIVE` prints everything about one of them.")

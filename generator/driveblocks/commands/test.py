@@ -32,7 +32,7 @@ Least = Annotated[
         metavar="PERCENT",
         min=0.0,
         max=100.0,
-        help="Fail below so many percent of the lines or of the branches that can be reached; measures, too.",
+        help="Fail below this percentage of the lines or of the branches that can be reached; measures, too.",
     ),
 ]
 
@@ -86,7 +86,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 
 def _read(maps: list[str] | None) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are told before it ends with status 2."""
+    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
     from driveblocks.maps import catalog, collection
     from driveblocks.maps.problem import MapError
 

@@ -50,7 +50,7 @@ class Part:
 
     @cached_property
     def body(self) -> str:
-        """What stands behind the last END_VAR, as written; empty for a type."""
+        """What follows the last END_VAR, as written; empty for a type."""
         return body(self.text).strip("\n")
 
     @cached_property

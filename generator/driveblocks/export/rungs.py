@@ -59,7 +59,7 @@ class _Networks:
         return self.last
 
     def begin(self) -> None:
-        """What stands at the top of each network."""
+        """What is at the top of each network."""
         self.put("comment", {"height": "0", "width": "0"}, element("content", {}, CODESYS.text("")))
         title = vendor("fbdelementtype", Element("ElementType", {"xmlns": ""}, text="networktitle"), keep=True)
         self.put("vendorElement", {}, element("alternativeText", {}, CODESYS.text("")), element("addData", {}, title))

@@ -31,7 +31,7 @@ KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
 
 @dataclass(frozen=True)
 class Manners:
-    """How a drive refuses, and what is tolerated. As it stands: what the standard says."""
+    """How a drive refuses, and what is tolerated. By default: what the standard says."""
 
     add: int | None = 0x80
     """A refusal is function code + add with one byte of reason."""
@@ -61,7 +61,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Layout:
-    """A body taken apart in one direction, as far as it goes."""
+    """A body taken apart in one direction, as far as possible."""
 
     direction: Direction
     body: bytes

@@ -16,7 +16,7 @@ PORT_FAILS = 1
 
 
 class Controller:
-    """A program at a port. Without a guard everything leaves."""
+    """A program at a port. Without a guard everything is sent."""
 
     def __init__(
         self,

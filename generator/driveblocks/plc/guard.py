@@ -1,4 +1,4 @@
-"""What may leave on a real port: reads, and the stops of the maps; all else only to drives that a person let run."""
+"""What may be sent on a real port: reads, and the stops of the maps; all else only to drives that a person let run."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -47,17 +47,17 @@ class Guard:
         self._stops = {unit: frozenset(stops(drive)) for unit, drive in units.items()}
         self._free = free
         self.dropped: Counter[str] = Counter() if dropped is None else dropped
-        """How many frames did not leave, by what they were."""
+        """How many frames were not sent, by what they were."""
 
     def passes(self, frame: bytes) -> bool:
-        """Whether a frame may leave; what is no whole, good request never does."""
+        """Whether a frame may be sent; what is no whole, good request never is."""
         what = self._judge(frame)
         if what:
             self.dropped[what] += 1
         return not what
 
     def _judge(self, frame: bytes) -> str:
-        """Why a frame must not leave; empty if it may."""
+        """Why a frame must not be sent; empty if it may."""
         body = opened(frame, ascii_mode=True) or opened(frame, ascii_mode=False)
         if body is None:
             return "what is no request"

@@ -11,7 +11,7 @@ MOST_BYTES = 255
 
 
 class Mailbox:
-    """Hands received bytes to a program before its scan, and takes what it sends behind it."""
+    """Hands received bytes to a program before its scan, and takes what it sends after it."""
 
     def __init__(self, instance: EmbeddedInstance, wiring: Wiring) -> None:
         """For an instance of the program."""

@@ -241,7 +241,7 @@ def _names(controller: Controller) -> dict[int, list[str]]:
 
 
 def _within_us(controller: Controller) -> int:
-    """The longest time within which a motor of the program has to stand."""
+    """The longest time within which a motor of the program has to be at standstill."""
     longest = max((controller.number(f"{each.path}.StopWithinMs") for each in controller.wiring.drives), default=0)
     return max(LEAST_US, longest * 1000) if longest else WITHIN_US
 

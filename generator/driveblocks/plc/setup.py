@@ -38,11 +38,11 @@ SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
 RECKONED_WATCHDOG_US = 30_000_000
 """With --fast, which keeps no motor waiting; a busy computer must not spoil it."""
 LEAVE_S = 1.5
-"""How long the process may take to end when it is known whether the drives stand."""
+"""How long the process may take to end when it is known whether the drives are at standstill."""
 FILES_S = 1.0
 """How much of this its files may take."""
 PATIENT = 10
-"""With --fast, so many times as long."""
+"""With --fast, this many times as long."""
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -152,7 +152,7 @@ class Setup:
         bits = self._line("CharacterBits")
         found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
         if found is None:
-            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves the format open; write --format")
+            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves no format; write --format")
         return found
 
     def _simulates(self) -> list[Wanted]:
@@ -283,7 +283,7 @@ class Setup:
             for note in self._session.controller.wiring.notes:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not self._free:
-                self._session.told.put("only reads and stops leave; if a simulator is there, add --simulated")
+                self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
             for one in self._wanted:
                 for line in one.told():
                     self._session.told.put(line)
@@ -333,7 +333,7 @@ class Setup:
         self._departure.begin(self._status(result), f"{self.label}  {result.reason}\n{self._verdict(result)}")
 
     def _verdict(self, result: Result) -> str:
-        """Which drives stand, and which perhaps do not."""
+        """Which drives are at standstill, and which perhaps are not."""
         return "".join(f"{self.label}  {line}\n" for line in (*_stands(result), *self._untrue()))
 
     def _untrue(self) -> list[str]:
@@ -343,7 +343,7 @@ class Setup:
         return 1 if result.crashed or result.unconfirmed or self._untrue() else 0
 
     def _report(self, result: Result) -> int:
-        """Say how it went, first whether the drives stand; the exit status."""
+        """Say how it went, first whether the drives are at standstill; the exit status."""
         _print(self._verdict(result))
         self._departure.printed()
         dropped = sorted(self._session.controller.dropped.items())

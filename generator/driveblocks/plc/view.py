@@ -77,7 +77,7 @@ def _state(pin: dict[str, Value]) -> str:
         way = "reverse" if pin["Reverse"] else "forward"
         return f"{way}, at speed" if pin["AtSpeed"] else f"{way}"
     if pin["StopConfirmed"]:
-        return "stands"
+        return "standstill"
     return "starting" if pin["Reason"] in _STARTING else "stopping"
 
 

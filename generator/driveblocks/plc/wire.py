@@ -14,7 +14,7 @@ _MOST_WAITING = 2 * _LONGEST
 _LENGTHS = {3: 8, 4: 8, 6: 8, 8: 8}
 """Bytes of an RTU request by its function; of 10H its byte count says, of others their checksum."""
 _PATIENCE_US = 50_000
-"""Behind this silence a request that has begun is given up."""
+"""After this silence a request that has begun is given up."""
 
 
 class Wire:
@@ -102,7 +102,7 @@ class Wire:
 
 
 def _beginnings(text: bytes, *, ascii_mode: bool) -> Iterator[int]:
-    """Where a request may begin that ends here; other units' frames may stand before it."""
+    """Where a request may begin that ends here; other units' frames may come before it."""
     yield 0
     if ascii_mode:
         yield max(0, text.rfind(b":"))

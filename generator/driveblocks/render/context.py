@@ -157,7 +157,7 @@ def _elsewhere(text: str) -> str:
 
 
 def _inside_a_sentence(name: str) -> str:
-    """A name as it stands inside a sentence; an abbreviation such as CPF stays as it is."""
+    """A name as it is inside a sentence; an abbreviation such as CPF stays as it is."""
     return name if name[1:2].isupper() else name[:1].lower() + name[1:]
 
 

@@ -52,7 +52,7 @@ def _results(files: list[File]) -> str:
 
 
 def _heading(folder: str, known: dict[str, context.Identity], files: list[File]) -> str:
-    """The family whose blocks stand in a folder, by the prefix of their names."""
+    """The family whose blocks are in a folder, by the prefix of their names."""
     if folder == "line":
         return "The line: one block per RS-485 port"
     if folder == "vfd":

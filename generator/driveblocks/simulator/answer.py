@@ -19,7 +19,7 @@ class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of th
 
 
 def answer(machine: Machine, request: bytes) -> bytes | None:
-    """The reply; None where nobody listens, the request is cut short, or all are told."""
+    """The reply; None where nobody listens, the request is cut short, or it is a broadcast."""
     called = request[:1] == bytes([machine.unit])
     everyone = machine.table.broadcast is not None and request[:1] == bytes([machine.table.broadcast])
     if not machine.powered or not (called or everyone) or not _whole(machine, request):

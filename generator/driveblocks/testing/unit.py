@@ -10,7 +10,7 @@ from structured_text.engines.engine import Source
 
 @dataclass(frozen=True)
 class Unit:
-    """A suite and the library that it tests, each behind what it uses."""
+    """A suite and the library that it tests, each after what it uses."""
 
     suite: Suite
     blocks: tuple[Source, ...]

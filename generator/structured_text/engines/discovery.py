@@ -47,7 +47,7 @@ class Survey:
     examined: list[Examined] = field(default_factory=list)
 
     def candidates(self) -> list[Candidate]:
-        """The embedded engine, then each line of matiec; the first installation of a line stands for it."""
+        """The embedded engine, then each line of matiec; the first installation of a line represents it."""
         return [self.embedded, *(self._line(name) for name in MATIEC_NAMES)]
 
     def _line(self, name: str) -> Candidate:

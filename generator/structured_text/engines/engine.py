@@ -51,7 +51,7 @@ class BuildError(EngineError):
 
 
 class ScanError(EngineError):
-    """A scan went wrong at a line: an index out of bounds, an overflow, a loop that does not end."""
+    """A scan went wrong at a line: an index out of bounds, an overflow, an endless loop."""
 
     def __init__(self, message: Message) -> None:
         """Keep the place; the text of the error is the message."""
@@ -66,10 +66,10 @@ class Instance(Protocol):
         """Read a variable: input, output, in-out, internal, or one of a nested instance. KeyError if unknown."""
 
     def __setitem__(self, path: str, value: Value) -> None:
-        """Write a variable; bytes and lists fill arrays (a shorter one leaves the rest). KeyError, ValueError."""
+        """Write a variable; bytes and lists fill arrays (a shorter one keeps the rest). KeyError, ValueError."""
 
     def scan(self, now_ns: int | None = None) -> None:
-        """Run the body once with the clock at `now_ns` nanoseconds (None: as it stands). Raises ScanError."""
+        """Run the body once with the clock at `now_ns` nanoseconds (None: as it is). Raises ScanError."""
 
     def state(self) -> dict[str, Value]:
         """Every scalar of the instance and of all inside it, path in upper case -> value, in declaration order."""

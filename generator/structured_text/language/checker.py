@@ -70,7 +70,7 @@ def _analysed(units: Sequence[Unit]) -> Analysis | None:
 
 
 def _checked(library: Library, report: Report) -> Checked:
-    """Check everything: first what is declared, then what stands in it."""
+    """Check everything: first what is declared, then what is in it."""
     checked, resolver = Checked(units=library.units), Resolver(library)
     _sort_elements(checked, resolver)
     pous: list[Pou] = [*checked.functions.values(), *checked.blocks.values(), *checked.programs.values()]
@@ -89,7 +89,7 @@ def _checked(library: Library, report: Report) -> Checked:
 
 
 def _sort_elements(checked: Checked, resolver: Resolver) -> None:
-    """Fill the tables; resolve the types; tell of what is unsupported."""
+    """Fill the tables; resolve the types; report what is unsupported."""
     for unit in checked.units:
         resolver.report.unit = unit
         for element in unit.elements:
@@ -109,7 +109,7 @@ def _sort_elements(checked: Checked, resolver: Resolver) -> None:
 
 
 def _unsupported(report: Report, element: Unsupported) -> None:
-    """Tell of METHOD, NAMESPACE and the like."""
+    """Report METHOD, NAMESPACE and the like."""
     text = f"{element.word} {element.name} is not in the Structured Text of the second edition: {_INSTEAD}"
     report.add(element.at, "unsupported", text)
 

@@ -1,7 +1,7 @@
 """What a body says, apart from how it is laid out: its tokens, and a short hash of them.
 
 Words are in upper case, comments and white space are gone, literals are as written. Every form in which a block is
-handed out has the same tokens, so that the hash in its head tells whether a copy is whole.
+handed out has the same tokens, so that the hash in its head shows whether a copy is whole.
 """
 
 import hashlib
@@ -16,7 +16,7 @@ _CLOSE = re.compile(r"^[ \t]*(?:END_FUNCTION_BLOCK|END_FUNCTION|END_PROGRAM)\b",
 
 
 def body(text: str) -> str:
-    """What stands between the last END_VAR of a function, block or program and its end; empty for a type."""
+    """What is between the last END_VAR of a function, block or program and its end; empty for a type."""
     close = _CLOSE.search(text)
     if close is None:
         return ""

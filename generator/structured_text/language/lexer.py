@@ -34,11 +34,11 @@ _SPACE = re.compile(r"\s*+")
 _NUMBER_LIKE = re.compile(r"\d[\w#.]*")
 _COMMENT_MARK = re.compile(r"\(\*|\*\)")
 _LITERAL_KINDS = {2: "number", 4: "typed", 5: "string", 6: "wstring", 7: "direct"}
-# After so many a file is no Structured Text, and more of them help nobody.
+# After this number a file is no Structured Text, and more of them help nobody.
 MOST_PROBLEMS = 50
 # An end of file that is never reached by accident: every list of tokens ends with it.
 END = "end of file"
-# So many of them, so that a parser may look ahead without asking whether there is anything.
+# Enough of them for a parser to look ahead without asking whether there is anything.
 LOOKAHEAD = 4
 
 
@@ -72,7 +72,7 @@ class Tokens:
 
 
 def tokenize(text: str) -> Tokens:
-    """Split a whole file. Never raises: what is no token is skipped and told in `problems`."""
+    """Split a whole file. Never raises: what is no token is skipped and listed in `problems`."""
     tokens = Tokens()
     here: int | None = _skip_space(text, 0)
     while here is not None:
@@ -105,7 +105,7 @@ def _run(text: str, start: int, tokens: Tokens) -> int | None:
 
 
 def _other(text: str, group: int, at: int, word: str, tokens: Tokens) -> int | None:
-    """Keep a comment or tell of a character that is no token; the offset to go on at, if not right behind it."""
+    """Keep a comment or report a character that is no token; the offset to continue at, if not right after it."""
     if group == 3:
         return _comment(text, at, word, tokens)
     if group == 8:

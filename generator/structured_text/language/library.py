@@ -34,7 +34,7 @@ class Library:
     __slots__ = ("configurations", "enum_values", "global_variables", "names", "report", "units")
 
     def __init__(self, units: list[Unit], report: Report) -> None:
-        """Collect what the files declare at the outermost level; duplicates are told."""
+        """Collect what the files declare at the outermost level; duplicates are reported."""
         self.units = units
         self.report = report
         self.names: dict[str, tuple[Named, Unit]] = {}
@@ -74,7 +74,7 @@ class Library:
         return found[0] if found else None
 
     def type_names(self) -> list[str]:
-        """Every name that may stand behind the colon of a declaration, for suggestions."""
+        """Every name that may follow the colon of a declaration, for suggestions."""
         return [*ELEMENTARY_NAMES, *(named.name for named, _ in self.names.values())]
 
 

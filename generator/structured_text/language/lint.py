@@ -47,7 +47,7 @@ class Selection:
         )
 
     def takes(self, rule: str) -> bool:
-        """Whether problems of this rule are told."""
+        """Whether problems of this rule are reported."""
         return rule not in self.ignore and (rule in self.select or (not self.select and rule not in ON_REQUEST))
 
 
@@ -89,8 +89,8 @@ def lint_sources(
 ) -> list[Problem]:
     """As `lint`, from (path, text).
 
-    Of a file that cannot be parsed the syntax errors are told, whatever the selection, and no more. The others are
-    judged with what stands whole in it; a name that only its broken parts may declare is not told as unknown.
+    Of a file that cannot be parsed the syntax errors are reported, whatever the selection, and no more. The others are
+    judged with what is whole in it; a name that only its broken parts may declare is not reported as unknown.
     """
     units: list[Unit] = []
     broken: dict[str, ParseError] = {}
@@ -109,7 +109,7 @@ def lint_sources(
 
 
 def _may_be_known(problem: Problem, words: set[str]) -> bool:
-    """Whether a name that is told as unknown is one of these words."""
+    """Whether a name that is reported as unknown is one of these words."""
     name = _FOUND.search(problem.text) if problem.rule in ("undeclared-name", "unknown-type") else None
     return name is not None and name[1].upper() in words
 

@@ -45,7 +45,7 @@ def call(scope: Scope, value: Call) -> None:
 
 
 def _order(scope: Scope, value: Call) -> None:
-    """A function stands before what calls it."""
+    """A function comes before what calls it."""
     target = value.target
     if isinstance(target, Function) and target.unit is scope.pou.unit and target.at > scope.pou.at:
         text = f"{target.name} is declared further down: order types, functions, inner blocks, outer blocks, programs"
@@ -61,7 +61,7 @@ def _builtin(scope: Scope, value: Call, target: Builtin) -> None:
     elif target.family in ("SHR", "ROR", "ROL") and value.bindings[0].value is not None:
         tell_loose(scope, value.bindings[0].value, target.name)
     if value.open:
-        text = f"nothing tells which type {target.name} gives here, and compilers choose as they like: store it first"
+        text = f"nothing says which type {target.name} gives here, and compilers choose differently: store it first"
         scope.add(value.at, "open-type", text)
     kinds = {parameter.type.kind for parameter in target.parameters}
     _ordering(scope, value, target, kinds)
@@ -136,7 +136,7 @@ def _fitting_literal(value: Expression, target: Type) -> bool:
 
 
 def _compared(scope: Scope, value: Name) -> set[str]:
-    """In which directions a variable is compared in this POU: `<` and `>` as if it stood on the left."""
+    """In which directions a variable is compared in this POU: `<` and `>` as if it were on the left."""
     mirrored = {"<": ">", "<=": ">", ">": "<", ">=": "<"}
     straight = {"<": "<", "<=": "<", ">": ">", ">=": ">"}
     made: set[str] = set()

@@ -173,7 +173,7 @@ def _kept(body: list[Statement], own: set[str]) -> set[str]:
 
 
 def _definite(body: list[Statement], known: set[str], own: set[str], kept: set[str]) -> set[str]:
-    """What is surely assigned after the statements; what was read without goes to `kept`."""
+    """What is surely assigned after the statements; what was read unassigned is added to `kept`."""
     for statement in body:
         if isinstance(statement, Assign):
             _miss([statement.value], known, kept)

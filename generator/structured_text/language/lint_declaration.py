@@ -43,7 +43,7 @@ _PARAMETERS = frozenset([VarKind.INPUT, VarKind.OUTPUT, VarKind.IN_OUT])
 
 
 def unit(unit: Unit, report: Report) -> None:
-    """All rules about the declarations of one file that stand outside of POUs."""
+    """All rules about the declarations of one file outside of POUs."""
     _order(unit, report)
     for element in unit.elements:
         if isinstance(element, TypeDecl):
@@ -97,7 +97,7 @@ def _type(declared: TypeDecl, report: Report) -> None:
     """A TYPE declaration."""
     _spec(declared.spec, report)
     if isinstance(declared.spec, NamedSpec) and declared.spec.type.kind is not Kind.NONE:
-        text = f"IronPLC refuses another name for a type: write {declared.spec.name} where {declared.name} stands"
+        text = f"IronPLC refuses another name for a type: write {declared.spec.name} in place of {declared.name}"
         report.add(declared.at, "alias-type", text)
     if declared.initial is not None:
         text = "STruC++ refuses initial values in TYPE: give them where the variable is declared"
@@ -106,7 +106,7 @@ def _type(declared: TypeDecl, report: Report) -> None:
 
 
 def _spec(spec: Spec, report: Report) -> None:
-    """What stands behind a colon."""
+    """What follows a colon."""
     if isinstance(spec, StringSpec):
         if spec.length is not None:
             report.add(spec.at, "sized-string", "STRING with a length is refused by matiec: write STRING")
@@ -187,7 +187,7 @@ def _block(block: VarBlock, report: Report) -> None:
 
 
 def _qualifiers(block: VarBlock, report: Report) -> None:
-    """What stands behind VAR."""
+    """What follows VAR."""
     if block.kind in (VarKind.STAT, VarKind.INSTANCE):
         report.add(block.at, "var-qualifier", f"{block.kind.value} is refused by matiec: write VAR")
     for word in block.qualifiers:
@@ -309,12 +309,12 @@ def _function(scope: Scope, pou: Function) -> None:
 
 
 def _first(pou: Pou, kind: VarKind) -> int:
-    """Where the first block of a kind stands."""
+    """Where the first block of a kind is."""
     return next(block.at for block in pou.blocks if block.kind is kind)
 
 
 def _constants_last(scope: Scope, pou: Function) -> None:
-    """VAR behind VAR CONSTANT becomes constant in a FUNCTION."""
+    """VAR after VAR CONSTANT becomes constant in a FUNCTION."""
     constant = False
     for block in pou.blocks:
         if block.kind is not VarKind.LOCAL:
@@ -322,12 +322,12 @@ def _constants_last(scope: Scope, pou: Function) -> None:
         if "CONSTANT" in block.qualifiers:
             constant = True
         elif constant:
-            text = "behind VAR CONSTANT, matiec takes a FUNCTION's VAR for constant too: put VAR first"
+            text = "after VAR CONSTANT, matiec takes a FUNCTION's VAR for constant too: put VAR first"
             scope.add(block.at, "constant-before-var", text)
 
 
 def _order(unit: Unit, report: Report) -> None:
-    """Types, functions, inner blocks and outer blocks stand before what uses them."""
+    """Types, functions, inner blocks and outer blocks come before what uses them."""
     places: dict[str, int] = {}
     for element in unit.elements:
         if isinstance(element, TypeDecl | Function | FunctionBlock | Program):

@@ -52,9 +52,9 @@ def pou(scope: Scope) -> None:
 
 
 def _sign(scope: Scope, value: Unary) -> None:
-    """Signs and NOT stand alone."""
+    """Signs and NOT are used alone."""
     if isinstance(value.operand, Unary) and not value.operand.parentheses:
-        text = f"matiec refuses {value.operand.op} right behind {value.op}: write parentheses, or leave both out"
+        text = f"matiec refuses {value.operand.op} right after {value.op}: write parentheses, or leave both out"
         scope.add(value.at, "stray-sign", text)
     elif value.op == "+" and not isinstance(value.operand, Literal):
         scope.add(value.at, "stray-sign", "matiec refuses + in front of anything but a number: leave it out")
@@ -156,7 +156,7 @@ def _internal(variable: VarDecl) -> bool:
 
 
 def _shifts(scope: Scope) -> None:
-    """Every SHR that no mask and no narrowing conversion stands around."""
+    """Every SHR without a mask or a narrowing conversion around it."""
     for head in scope.heads:
         _shift_in(scope, head, None)
 

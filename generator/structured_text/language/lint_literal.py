@@ -9,7 +9,7 @@ from structured_text.language.tree import Case, Literal, LiteralKind
 from structured_text.language.types import BOOL, Elementary, Kind, Type, plain
 from structured_text.language.walk import heads
 
-# Behind these a digit or letter is taken into the escape by the C that matiec writes.
+# After these a digit or letter is taken into the escape by the C that matiec writes.
 _HEX_ESCAPE = re.compile(r"\$[0-9A-Fa-f]{2}[0-9A-Za-z]")
 _ESCAPED = re.compile(r"\$(?:[0-9A-Fa-f]{2}|.)")
 # The range of normal IEEE singles.
@@ -57,7 +57,7 @@ def _string(scope: Scope, value: Literal) -> None:
         text = "matiec refuses characters beyond ASCII in a string: write their bytes as $xx"
         scope.add(value.at, "string-encoding", text)
     if _loses_bytes(value.text):
-        text = "matiec's C reads the digit or letter behind $xx into the escape: escape it too ('$96$33')"
+        text = "matiec's C reads the digit or letter after $xx into the escape: escape it too ('$96$33')"
         scope.add(value.at, "string-escape", text)
     if "$L" in _escapes(value.text):
         scope.add(value.at, "string-escape", "matiec writes C that does not compile for $L: write $N or $0A")
@@ -69,7 +69,7 @@ def _escapes(text: str) -> list[str]:
 
 
 def _loses_bytes(text: str) -> bool:
-    """Whether a hexadecimal escape has a digit or letter behind it."""
+    """Whether a hexadecimal escape has a digit or letter after it."""
     here = 0
     while (found := _ESCAPED.search(text, here)) is not None:
         if _HEX_ESCAPE.match(text, found.start()):

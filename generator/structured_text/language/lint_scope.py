@@ -37,7 +37,7 @@ class Scope:
         return self._ranges
 
     def add(self, at: int, rule: str, text: str) -> None:
-        """Tell a finding."""
+        """Report a finding."""
         self.report.add(at, rule, text)
 
     def initials(self) -> Iterator[Expression]:

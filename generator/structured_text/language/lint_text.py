@@ -44,7 +44,7 @@ def _types(unit: Unit, report: Report) -> None:
             report.add(element.at, "several-types", text)
         last = element.block
         if not element.terminated:
-            report.add(element.at, "missing-semicolon", "matiec wants a semicolon behind END_STRUCT")
+            report.add(element.at, "missing-semicolon", "matiec wants a semicolon after END_STRUCT")
 
 
 def _configuration(unit: Unit, report: Report) -> None:

@@ -88,13 +88,13 @@ def _elementary(at: int, text: str, wanted: Elementary, rest: str) -> Literal:
         return Literal(at, text, LiteralKind.BOOL, _boolean(rest), wanted.name)
     if wanted.kind is Kind.REAL:
         if not _REAL.fullmatch(rest):
-            raise LiteralError(f"expected a real number behind {wanted.name}#, found {rest}")
+            raise LiteralError(f"expected a real number after {wanted.name}#, found {rest}")
         return Literal(at, text, LiteralKind.REAL, _float(rest), wanted.name)
     if "#" in rest:
         base, value = _based(rest)
         return Literal(at, text, LiteralKind.INTEGER, value, wanted.name, base)
     if not _INTEGER.fullmatch(rest):
-        raise LiteralError(f"expected an integer behind {wanted.name}#, found {rest}")
+        raise LiteralError(f"expected an integer after {wanted.name}#, found {rest}")
     return Literal(at, text, LiteralKind.INTEGER, _whole(rest), wanted.name)
 
 
@@ -102,7 +102,7 @@ def _boolean(rest: str) -> bool:
     """TRUE, FALSE, 1 or 0."""
     upper = rest.upper()
     if upper not in ("TRUE", "FALSE", "0", "1"):
-        raise LiteralError(f"expected TRUE, FALSE, 0 or 1 behind BOOL#, found {rest}")
+        raise LiteralError(f"expected TRUE, FALSE, 0 or 1 after BOOL#, found {rest}")
     return upper in ("TRUE", "1")
 
 
@@ -214,7 +214,7 @@ def _unescape(text: str, pattern: re.Pattern[str], digits: int) -> str:
 
 
 def _escaped(letter: str) -> str:
-    """What `$` and a letter stand for."""
+    """What `$` and a letter mean."""
     upper = letter.upper()
     if upper not in _ESCAPES:
         raise LiteralError(f"expected $$ $' $L $N $P $R $T or $ and two hexadecimal digits, found ${letter}")

@@ -12,12 +12,12 @@ from structured_text.language.ranges import whole
 from structured_text.language.tree import Binary, Builtin, Call, Expression, Literal, Unary
 from structured_text.language.types import Elementary, Kind, plain
 
-# `i + 1` at the very end of a type's range is what people check by other means; telling of each would bury the rest.
+# `i + 1` at the very end of a type's range is what people check by other means; reporting each would bury the rest.
 _SMALL_STEP = 256
 
 
 def loose(value: Expression, scope: Scope) -> Expression | None:
-    """The part of an expression that can leave its type before it is stored; None if no part can."""
+    """The part of an expression that can overflow its type before it is stored; None if no part can."""
     made = plain(value.type)
     if not isinstance(made, Elementary) or made.kind not in (Kind.INTEGER, Kind.BITS):
         return None
@@ -80,7 +80,7 @@ def tell_loose(scope: Scope, value: Expression, user: str) -> None:
         scope.add(culprit.at, "unstored-shift", text)
     else:
         text = (
-            f"this can leave {plain(culprit.type)}, and compilers differ on when it is cut before {user}: store it, "
+            f"this can overflow {plain(culprit.type)}, and compilers differ on when it is cut before {user}: store it, "
             "widen the operands first, or take MOD on the way"
         )
         scope.add(culprit.at, "intermediate-overflow", text)

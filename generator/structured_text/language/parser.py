@@ -1,4 +1,4 @@
-"""A source file -> its tree; everything that is wrong is told at once."""
+"""A source file -> its tree; everything that is wrong is reported at once."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _parsed(text: str, path: str) -> Unit:
 
 
 def _whole(elements: list[Element], wrong: list[int], ats: list[int]) -> list[Element]:
-    """The elements without a mistake, which may also be noticed at the token behind them."""
+    """The elements without a mistake, which may also be noticed at the token after them."""
 
     def torn(element: Element) -> bool:
         behind = ats[min(bisect_left(ats, element.end), len(ats) - 1)]

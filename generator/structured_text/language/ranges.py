@@ -1,4 +1,4 @@
-"""What values an integer or bit string can take, as far as a glance at one POU tells.
+"""What values an integer or bit string can take, as far as a glance at one POU shows.
 
 Not a proof: a variable has the range of all that is ever assigned to it in its POU, whatever the order. Inputs,
 in-outs, what is passed by reference and what nobody assigns to may be anything of their type.

@@ -10,7 +10,7 @@ from structured_text.language.tree import Unit
 
 
 class Report:
-    """Problems by place; the same rule at the same place is told once."""
+    """Problems by place; the same rule at the same place is reported once."""
 
     __slots__ = ("found", "unit")
 

@@ -63,7 +63,7 @@ STANDARD_NAMES = _words(
     """
 )
 
-# What the C headers behind matiec define without an underscore in front, and names it puts into every structure.
+# What the C headers that matiec includes define without an underscore in front, and names it puts into every structure.
 C_MACROS = _words(
     """
     BIG_ENDIAN BUFSIZ BYTE_ORDER CHAR_BIT DECIMAL_DIG EN_ENO EN_ENO_PARAMS EOF EPOCH_YEAR EXIT_FAILURE EXIT_SUCCESS

@@ -29,7 +29,7 @@ from structured_text.language.tree import (
 )
 from structured_text.language.types import ELEMENTARY, UNKNOWN, VOID, Elementary, Kind, Pointer, String, Subrange, Type
 
-# An array of more elements is an accident, and would stop every tool behind the checker.
+# An array of more elements is an accident, and would stop every tool after the checker.
 MOST_ELEMENTS = 1 << 24
 MOST_CHARACTERS = 65535
 # Structures in structures in structures: more levels are an accident.
@@ -50,7 +50,7 @@ class Resolver:
         self.starts: dict[str, Expression | None] = {}
 
     def declaration(self, declared: TypeDecl) -> Type:
-        """The type that a TYPE declaration makes; told if it contains itself."""
+        """The type that a TYPE declaration makes; reported if it contains itself."""
         key = declared.name.upper()
         if key in self.declared:
             return self.declared[key]
@@ -114,7 +114,7 @@ class Resolver:
         return self.subrange(spec, name) if isinstance(spec, SubrangeSpec) else UNKNOWN
 
     def pointer(self, spec: PointerSpec) -> Type:
-        """A pointer or reference, which is told."""
+        """A pointer or reference, which is reported."""
         self.report.add(spec.at, "pointer", f"{spec.word} is not in the second edition: pass a VAR_IN_OUT instead")
         target = self.spec(spec.target)
         return Pointer(f"{spec.word} TO {target.name}", Kind.POINTER, target)
@@ -160,7 +160,7 @@ class Resolver:
         return String(f"{base.name}[{length}]", Kind.STRING, length, spec.wide)
 
     def constant(self, value: Expression, what: str) -> int | None:
-        """The value of a constant integer expression; told if it is none."""
+        """The value of a constant integer expression; reported if it is none."""
         found = fold(value, self.initial_of)
         if found is None:
             self.report.add(value.at, "type-mismatch", f"expected an integer literal for {what}")
@@ -175,7 +175,7 @@ class Resolver:
         return variable.initial if variable and variable.constant else None
 
     def array(self, spec: ArraySpec, name: str) -> Type:
-        """An array; an empty or conformant range is told."""
+        """An array; an empty or conformant range is reported."""
         element = self.spec(spec.element)
         bounds = [self.bound(each, spec.at) for each in spec.ranges]
         shown = ", ".join("*" if each is None else f"{each[0]}..{each[1]}" for each in bounds)

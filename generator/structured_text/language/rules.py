@@ -20,7 +20,7 @@ class Rule:
 
 
 # 0xx: no Structured Text of the second edition. 1xx: text and names. 2xx: declarations and types.
-# 3xx: legal, and compiled to something else somewhere. 4xx: what the canonical text leaves out.
+# 3xx: legal, and compiled to something else somewhere. 4xx: what the canonical text does without.
 # 5xx: no question of portability, found only where it is selected.
 _ERRORS = """
 001 syntax                 the text cannot be parsed
@@ -103,7 +103,7 @@ _REMARKS = """
 205 function-in-out        a FUNCTION with VAR_IN_OUT
 206 function-output        a FUNCTION with VAR_OUTPUT
 207 function-no-input      a FUNCTION without VAR_INPUT
-208 constant-before-var    VAR behind VAR CONSTANT in a FUNCTION
+208 constant-before-var    VAR after VAR CONSTANT in a FUNCTION
 209 temp-struct            VAR_TEMP of a structure or array
 210 sized-string           STRING[n]
 211 wide-string            WSTRING
@@ -117,7 +117,7 @@ _REMARKS = """
 219 alias-type             another name for a type
 220 grouped-fields         two names in one line of a structure
 221 negated-output         NOT Q => x
-222 var-qualifier          PERSISTENT, VAR_STAT, CONSTANT behind VAR_INPUT
+222 var-qualifier          PERSISTENT, VAR_STAT, CONSTANT after VAR_INPUT
 223 anonymous-type         a structure or enumeration written out for a variable
 224 array-of-array         an array whose elements are arrays
 225 program-task           a program without a task
@@ -127,7 +127,7 @@ _REMARKS = """
 303 unmasked-shr           SHR without a mask
 304 bit-string-order       < and > on bit strings
 305 unstored-shift         SHL inside a comparison or conversion
-306 intermediate-overflow  a sum, difference or product that can leave its type before it is used
+306 intermediate-overflow  a sum, difference or product that can overflow its type before it is used
 307 time-arithmetic        + - * / and comparisons of TIME
 308 time-conversion        TIME_TO_DINT and its kind
 309 real-to-int            a conversion from REAL whose range nobody checked
@@ -135,7 +135,7 @@ _REMARKS = """
 311 empty-string           comparison with ''
 312 in-out-alias           one variable bound twice in a call
 313 short-circuit          AND and OR whose right side needs the left one
-314 open-type              LEN, FIND, TRUNC or a function of literals where nothing tells its type
+314 open-type              LEN, FIND, TRUNC or a function of literals where nothing gives its type
 401 case-without-else      a CASE without ELSE
 402 continue               CONTINUE
 403 en-eno                 EN and ENO

@@ -106,7 +106,7 @@ def _time_functions() -> dict[str, Signature]:
     return {name: Signature(ANY, (("IN1", left), ("IN2", right)), result) for name, left, right, result in rows}
 
 
-# Every overloaded or time function by upper-case name; the conversions are told apart by `conversion_of`.
+# Every overloaded or time function by upper-case name; the conversions are distinguished by `conversion_of`.
 FUNCTIONS: dict[str, Signature] = _functions() | _string_functions() | _time_functions()
 _CONVERTIBLE: dict[str, Type] = {**ELEMENTARY, "STRING": STRING, "WSTRING": WSTRING}
 _BCD_BITS = ("BYTE", "WORD", "DWORD", "LWORD")

@@ -3,7 +3,7 @@
 Declarations make types and types know their declarations, so both are here; `types` has those that need no source.
 
 Positions: `at` is the offset of the node's first character in `Unit.text`, `end` (declarations and statements) the
-offset behind its last. `unit.place(node.at)` gives the 1-based (line, column), `unit.line(node.at)` the line alone.
+offset after its last. `unit.place(node.at)` gives the 1-based (line, column), `unit.line(node.at)` the line alone.
 
 Names are kept as written; every table (`symbols`, `fields` ...) is keyed in upper case, since ST ignores case.
 
@@ -28,9 +28,9 @@ LiteralValue = bool | int | float | bytes | str
 
 @dataclass(slots=True, eq=False)
 class Comment:
-    """A comment or pragma. `text` is what stands between its marks, stripped; `style` is `(*`, `//`, `/*` or `{`.
+    """A comment or pragma. `text` is what is between its marks, stripped; `style` is `(*`, `//`, `/*` or `{`.
 
-    `own_line` if nothing but white space stands before it on its line.
+    `own_line` if nothing but white space comes before it on its line.
     """
 
     at: int
@@ -173,7 +173,7 @@ class Binary(Expression):
 class Argument(Node):
     """`name := value`, `name => value` (`output`), `NOT name => value` (`negated`), or positional (`name` None).
 
-    `value` is None for `name :=` or `name =>` with nothing behind it.
+    `value` is None for `name :=` or `name =>` with nothing after it.
     """
 
     name: str | None
@@ -199,7 +199,7 @@ class Call(Expression):
     that the call does not mention have value None and keep what they had; of a function they take their default.
     `en`, `eno`: what the implicit parameters are bound to. `type` is the function's result, VOID for a block.
     The `callee` of a function is its bare Name, which has neither type nor symbol; that of a block is the instance.
-    `open` is not 0 where nothing tells the type that an overloaded function gives, as in `LEN(s) < 5`, and the checker
+    `open` is not 0 where nothing says which type an overloaded function gives, as in `LEN(s) < 5`, and the checker
     chose one: how many bits a positive number has in the least type that compilers choose.
     """
 
@@ -239,7 +239,7 @@ class StructInitial(Expression):
 
 @dataclass(slots=True, eq=False)
 class Statement(Node):
-    """A statement. `leading`: comments on lines of their own before it; `trailing`: the one behind it on its line."""
+    """A statement. `leading`: comments on lines of their own before it; `trailing`: the one after it on its line."""
 
     end: int = field(default=0, init=False)
     leading: tuple[Comment, ...] = field(default=(), init=False)
@@ -359,7 +359,7 @@ class Empty(Statement):
 
 @dataclass(slots=True, eq=False)
 class Spec(Node):
-    """What stands behind the colon of a declaration; `type` is set by the checker.
+    """What follows the colon of a declaration; `type` is set by the checker.
 
     So is `start`: the initial value that the named TYPE declares, None if it is the one that `type` itself has.
     """
@@ -466,7 +466,7 @@ class VarKind(PythonEnum):
 class VarDecl(Node):
     """One name of a declaration: `a, b : INT := 1;` makes two that share `spec` and `initial`.
 
-    `grouped` if it shares them with the name before it. `address` is the text behind AT. `edge` is R_EDGE, F_EDGE or
+    `grouped` if it shares them with the name before it. `address` is the text after AT. `edge` is R_EDGE, F_EDGE or
     empty. `target` of an EXTERNAL is the global that it means. `path` is the left side of a VAR_CONFIG or VAR_ACCESS.
     """
 
@@ -493,7 +493,7 @@ class VarDecl(Node):
 
 @dataclass(slots=True, eq=False)
 class VarBlock(Node):
-    """`VAR_INPUT ... END_VAR`; `qualifiers` are the words behind it in upper case (CONSTANT, RETAIN, ...)."""
+    """`VAR_INPUT ... END_VAR`; `qualifiers` are the words after it in upper case (CONSTANT, RETAIN, ...)."""
 
     end: int
     kind: VarKind
@@ -504,7 +504,7 @@ class VarBlock(Node):
 
 @dataclass(slots=True, eq=False)
 class TypeDecl(Node):
-    """One `Name : spec := initial;` of a TYPE block; `block` numbers the TYPE...END_TYPE in which it stands.
+    """One `Name : spec := initial;` of a TYPE block; `block` numbers the TYPE...END_TYPE in which it is.
 
     `terminated` is False if `END_STRUCT` lacks its semicolon, which some compilers allow.
     """
@@ -649,7 +649,7 @@ Element = TypeDecl | Function | FunctionBlock | Program | Configuration | VarBlo
 class Unit:
     """One source file. `elements` in source order; `comments` holds every comment and pragma, attached or not.
 
-    `starts` holds the offset of each line. `notes` are spellings that leave no trace in the tree but matter to a
+    `starts` holds the offset of each line. `notes` are spellings that have no trace in the tree but matter to a
     portability rule, as (name, offset): a missing semicolon, a byte order mark. `analysis` is what the checker made
     of the unit and those beside it: a tree is completed once.
     """
@@ -775,7 +775,7 @@ class Block(Type):
     """A function block or program as a type. `declaration` is None for a standard block (then `name` says which).
 
     `parameters` (inputs, outputs, in-outs) by upper-case name in the order of declaration; the variables that are no
-    parameters are in `declaration.symbols`. `size` counts all of its variables, an in-out as the thing it stands for.
+    parameters are in `declaration.symbols`. `size` counts all of its variables, an in-out as the thing it refers to.
     """
 
     parameters: dict[str, Parameter] = field(default_factory=dict)
@@ -813,7 +813,7 @@ class Checked:
     """Sources whose every expression has its type. All tables are keyed by upper-case name, in source order.
 
     `types` holds the declared types only (not the elementary ones, not the blocks). `callees_first` lists the
-    functions and function blocks so that each stands behind all that it calls or contains; recursion is an error.
+    functions and function blocks so that each comes after all that it calls or contains; recursion is an error.
     """
 
     units: list[Unit] = field(default_factory=list)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-# The length of a STRING without `[n]`. The standard leaves it to the implementation; 126 is what matiec's runtime has.
+# The length of a STRING without `[n]`. The standard lets the implementation choose; 126 is what matiec's runtime has.
 DEFAULT_STRING_LENGTH = 126
 # An enumeration is held in an INT; the standard leaves it to the implementation.
 ENUM_BITS = 16
@@ -142,7 +142,7 @@ def plain(each: Type) -> Type:
 
 
 def same(left: Type, right: Type) -> bool:
-    """Whether a value of `right` may stand where `left` is wanted, without any conversion.
+    """Whether a value of `right` may be used where `left` is wanted, without any conversion.
 
     Arrays are the same by their declaration only, as on matiec: two that are written out alike are two types.
     """
@@ -154,7 +154,7 @@ def same(left: Type, right: Type) -> bool:
     return False
 
 
-# What a number without prefix has until its context gives it a type; never left behind by a check without errors.
+# What a number without prefix has until its context gives it a type; never left over by a check without errors.
 UNTYPED_INTEGER = Type("an integer literal", Kind.NONE)
 UNTYPED_REAL = Type("a real literal", Kind.NONE)
 _ELEMENTARY_KINDS = frozenset(

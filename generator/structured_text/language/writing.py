@@ -43,7 +43,7 @@ def real(value: float) -> str:
 
 def string(data: bytes) -> str:
     """A STRING literal of bytes. Bytes beyond printable ASCII are escaped, and then all: two compilers swallow the
-    digit behind an escape.
+    digit after an escape.
     """
     if all(0x20 <= octet < 0x7F for octet in data):
         return "'" + data.decode("ascii").replace("$", "$$").replace("'", "$'") + "'"
@@ -51,7 +51,7 @@ def string(data: bytes) -> str:
 
 
 def comment(text: str) -> str:
-    """A text that can stand in a comment: it neither ends it nor opens another."""
+    """A text that can be in a comment: it neither ends it nor opens another."""
     return " ".join(text.replace("(*", "( *").replace("*)", "* )").split())
 
 
@@ -83,7 +83,7 @@ def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
 
 
 def remarked(statement: str, words: str, indent: str, width: int = WIDTH) -> list[str]:
-    """A statement and a remark behind it, or before it where both together are too long."""
+    """A statement and a remark after it, or before it where both together are too long."""
     lines, remark = broken(statement, indent, width), f"(* {comment(words)} *)"
     if len(lines[-1]) + 1 + len(remark) <= width + 10:
         return [*lines[:-1], f"{lines[-1]} {remark}"]
@@ -91,7 +91,7 @@ def remarked(statement: str, words: str, indent: str, width: int = WIDTH) -> lis
 
 
 def aligned(text: str) -> str:
-    """The text with the comments behind consecutive declarations in one column, and no line too long for a comment."""
+    """The text with the comments after consecutive declarations in one column, and no line too long for a comment."""
     lines: list[str] = []
     for declared, group in itertools.groupby(text.split("\n"), lambda line: bool(_DECLARED.fullmatch(line))):
         run = list(group)
@@ -106,7 +106,7 @@ def _column(lines: list[str]) -> list[str]:
 
 
 def _wrapped(lead: str, comment: str) -> str:
-    """A declaration whose comment goes on below itself where the line ends."""
+    """A declaration whose comment continues below itself where the line ends."""
     lines = textwrap.wrap(comment, max(MOST - len(lead), 40), break_long_words=False, break_on_hyphens=False)
     return lead + f"\n{' ' * (len(lead) + 3)}".join(lines)
 

@@ -199,7 +199,7 @@ REFUSED = [
     "Caller.st:16:3: expected a plain (* comment *); SCL would read it as something else",
     "Colour.st:3:3: Colour: SCL has types of structures alone, without an initial value",
     "Grid.st:3:10: SCL has no arrays of arrays; a structure around the inner one can be written",
-    "Half.st:2:10: Half: SCL gives no value to a result that a path leaves out",
+    "Half.st:2:10: Half: SCL gives no value to a result that a path does not set",
     "Half.st:7:3: Kept: a function has no initial values in SCL; assign it in the body",
     "Half.st:10:13: DWORD_TO_REAL: SCL has no such function, or means something else by it",
     "Plain.st:5:12: LWORD: an S7-1200 has no such type",

@@ -233,7 +233,7 @@ def test_every_conversion_between_elementary_types() -> None:
         ("FOR i := 1 TO 9 BY 0 DO n := 1; END_FOR;", "literal-range: expected a step other than 0"),
         (
             "CASE r OF 1: i := 1; END_CASE;",
-            "type-mismatch: expected an integer or an enumeration behind CASE, found REAL",
+            "type-mismatch: expected an integer or an enumeration after CASE, found REAL",
         ),
         ("CASE i OF 70000: i := 1; END_CASE;", "literal-range: expected a value of INT, -32768..32767, found 70000"),
         ("CASE i OF 5..1: i := 1; END_CASE;", "literal-range: expected the lower limit first, found 5..1"),

@@ -80,7 +80,7 @@ def _section(part: Part, one: VarDecl, names: Names) -> str:
 
 
 def lines(part: Part, variables: Iterable[VarDecl], names: Names) -> Iterator[str]:
-    """Declarations, each with its comment behind it."""
+    """Declarations, each with its comment after it."""
     for one in variables:
         first, *rest = _initial(part, one.initial, names) if one.initial is not None else [""]
         made = [f"      {quoted(one.name)} : {spelled(part, one.spec, names)}{first}", *rest]

@@ -52,7 +52,7 @@ def _shared(shelf: Shelf) -> Iterator[tuple[str, str, str, Sequence[Part]]]:
 
 
 def _types(parts: Iterable[Part], names: Names) -> str:
-    """The structures; what arrays stand for is told at the top, since SCL gives them no name."""
+    """The structures; a list at the top says what each array is, since SCL gives them no name."""
     made: list[str] = []
     for part, spec in _specs(parts):
         if isinstance(spec, ArraySpec):

@@ -20,7 +20,7 @@ from structured_text.language.types import Kind
 
 
 def returned(function: tree.Function) -> list[Parameter]:
-    """The parameters whose values a function hands back behind its result."""
+    """The parameters whose values a function hands back after its result."""
     return [
         each
         for each in function.parameters.values()
@@ -68,7 +68,7 @@ def _argument(scope: Scope, binding: Binding) -> ast.expr:
 
 
 def default(scope: Scope, parameter: Parameter) -> ast.expr:
-    """The value of an input that a call leaves out."""
+    """The value of an input that a call omits."""
     pen = scope.pen
     if is_scalar(parameter.type):
         return pen.constant(scope.shapes.scalar(parameter.type, parameter.default))

@@ -19,7 +19,7 @@ LOOP_LIMIT = 1_000_000
 class EmbeddedEngine:
     """Runs ST in this process.
 
-    Where compilers could differ, such as an intermediate result that leaves its type, a scan raises ScanError.
+    Where compilers could differ, such as an intermediate result that overflows its type, a scan raises ScanError.
     `loop_limit`: turns of loops that one scan may take (the look that ends a WHILE counts as one).
     `coverage`: count the lines that run.
     """
@@ -45,7 +45,7 @@ class EmbeddedEngine:
 
 
 def _parsed(sources: Sequence[Source]) -> list[Unit]:
-    """Parse all sources, so that the errors of all are told at once. Raises BuildError."""
+    """Parse all sources, so that the errors of all are reported at once. Raises BuildError."""
     units: list[Unit] = []
     problems: list[Problem] = []
     for source in sources:

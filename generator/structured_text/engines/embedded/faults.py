@@ -53,7 +53,7 @@ def scan_error(error: BaseException, accesses: Accesses) -> ScanError:
     """Turn an exception of compiled ST into a ScanError at the innermost ST expression of its traceback."""
     found = _innermost(error.__traceback__)
     if found is None:
-        if isinstance(error, FaultError):  # a standard block on its own, which stands in no source
+        if isinstance(error, FaultError):  # a standard block on its own, which is in no source
             return ScanError(Message("(standard block)", 0, 0, str(error)))
         raise error
     frame, line, column = found

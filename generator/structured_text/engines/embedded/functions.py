@@ -145,7 +145,7 @@ def _shift(scope: Scope, target: Builtin, arguments: list[Term]) -> Term:
 
 
 def _constant_shift(scope: Scope, family: str, value: Whole, places: int, kind: Elementary) -> Whole:
-    """A shift by a literal: Python's own, and wrapped only if bits can leave."""
+    """A shift by a literal: Python's own, and wrapped only if bits can be lost."""
     pen = scope.pen
     c = promoted(kind)
     if family == "SHR":
@@ -156,7 +156,7 @@ def _constant_shift(scope: Scope, family: str, value: Whole, places: int, kind: 
 
 
 def _shifted_bool(scope: Scope, target: Builtin, value: Plain, places: Term) -> Plain:
-    """One bit: a shift by anything but 0 empties it, a rotation leaves it."""
+    """One bit: a shift by anything but 0 clears it, a rotation keeps it."""
     pen = scope.pen
     if target.family in ("ROL", "ROR"):
         return value

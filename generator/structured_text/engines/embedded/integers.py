@@ -18,7 +18,7 @@ def divide(left: int, right: int) -> int:
 
 
 def remainder(left: int, right: int) -> int:
-    """What `divide` leaves, with the sign of the dividend. ZeroDivisionError."""
+    """The remainder of `divide`, with the sign of the dividend. ZeroDivisionError."""
     return left % right if left >= 0 and right > 0 else left - right * divide(left, right)
 
 
@@ -26,20 +26,20 @@ def leaves_type(number: int, name: str, width: int, signed: bool) -> int:
     """Fail: an intermediate result left its type and what comes next depends on it."""
     wrapped = wrap(number, width, signed)
     raise FaultError(
-        f"the intermediate result {number} leaves {name}: the standard goes on with {wrapped}, C with {number};"
+        f"the intermediate result {number} exceeds {name}: the standard continues with {wrapped}, C with {number};"
         " store it first, or compute in a wider type"
     )
 
 
 def leaves_c(number: int, name: str) -> int:
     """Fail: a signed result left the type in which C computes it."""
-    raise FaultError(f"the result {number} leaves {name}: C does not define what happens then")
+    raise FaultError(f"the result {number} exceeds {name}: C does not define what happens then")
 
 
 def leaves_open(number: int, high: int) -> int:
-    """Fail: nothing tells the type of a number that is not the same in every type that compilers choose."""
+    """Fail: nothing gives the type of a number that is not the same in every type that compilers choose."""
     raise FaultError(
-        f"nothing tells the type of this number, and {number} is outside 0..{high}, where all compilers agree:"
+        f"nothing gives the type of this number, and {number} is outside 0..{high}, where all compilers agree:"
         " store it in a variable first"
     )
 
@@ -72,7 +72,7 @@ def shift_right(number: int, places: int, width: int) -> int:
 
 
 def careful_shift_left(number: int, places: int, width: int) -> int:
-    """SHL where C and the standard agree: C leaves a shift by its own width or more undefined. FaultError."""
+    """SHL where C and the standard agree: in C a shift by the full width or more is undefined. FaultError."""
     return shift_left(number, _defined(places, width), width)
 
 

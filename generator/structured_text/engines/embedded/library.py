@@ -164,7 +164,7 @@ class EmbeddedLibrary:
         limit = self.loop_limit if block in self.compiler.looping else 0
 
         def scan(now_ns: int | None = None) -> None:
-            """Run the body once with the clock at `now_ns` nanoseconds (None: as it stands). Raises ScanError."""
+            """Run the body once with the clock at `now_ns` nanoseconds (None: as it is). Raises ScanError."""
             if now_ns is not None:
                 run.now = now_ns
             if limit:

@@ -33,7 +33,7 @@ from structured_text.language.tree import VarKind
 # Deeper than this, variables that a loop writes are taken to hold anything: analysis would cost a power of the depth.
 _ANALYSED_DEPTH = 2
 _ROUNDS = 6
-# CPython has room for 20 loops and `try` in one another; around the outermost loop stands a `try`.
+# CPython has room for 20 loops and `try` in one another; around the outermost loop there is a `try`.
 DEEPEST_LOOPS = 19
 _HOISTED = (VarKind.LOCAL, VarKind.INPUT, VarKind.OUTPUT, VarKind.IN_OUT, VarKind.STAT)
 
@@ -55,7 +55,7 @@ class LoopCount:
         return [*counted(self.scope, self.at, f"{self.keyword} TRUE"), *self._note(False)]
 
     def end(self) -> list[ast.stmt]:
-        """Where no turn follows: behind some, or at once."""
+        """Where no turn follows: after some, or at once."""
         made = counted(self.scope, self.at, f"{self.keyword} FALSE")
         at_once = counted(self.scope, self.at, f"{self.keyword} without a turn")
         if at_once:
@@ -82,7 +82,7 @@ def while_loop(scope: Scope, statement: tree.While) -> list[ast.stmt]:
 
 
 def repeat_loop(scope: Scope, statement: tree.RepeatUntil) -> list[ast.stmt]:
-    """REPEAT: the condition is tested behind each turn, also one that CONTINUE cuts short."""
+    """REPEAT: the condition is tested after each turn, also one that CONTINUE cuts short."""
 
     pen = scope.pen
 
@@ -231,7 +231,7 @@ def _loop(
 def _turn(
     scope: Scope, turn: Callable[[], list[ast.stmt]], before_continue: Callable[[], list[ast.stmt]]
 ) -> tuple[list[ast.stmt], OpenLoop]:
-    """Compile one turn from what is known now; afterwards the state behind it is known."""
+    """Compile one turn from what is known now; then the state after it is known."""
     loop = OpenLoop(before_continue)
     scope.loops.append(loop)
     body = turn()
@@ -262,7 +262,7 @@ def _settle(
 
 
 def _hoist(scope: Scope, statement: tree.Statement) -> tuple[list[ast.stmt], list[ast.stmt], set[tree.VarDecl]]:
-    """Take variables of the instance into Python variables around an outermost loop, and put them back behind it.
+    """Take variables of the instance into Python variables around an outermost loop, and put them back after it.
 
     That is legal because nothing else reaches them meanwhile: in-outs of scalars are copied at calls.
     """

@@ -82,7 +82,7 @@ def _floating(scope: Scope, term: Term, kind: Type) -> Floating:
 
 
 def _logic(scope: Scope, left: ast.expr, operator: str, right: ast.expr) -> ast.expr:
-    """BOOL: both sides are evaluated; Python's short circuit is taken where nobody can tell."""
+    """BOOL: both sides are evaluated; Python's short circuit is taken where it makes no difference."""
     pen = scope.pen
     if operator == "XOR":
         return pen.compare(left, (ast.NotEq(), right))

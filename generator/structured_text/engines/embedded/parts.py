@@ -17,7 +17,7 @@ from structured_text.language.types import LREAL, Elementary, Kind, String, Type
 def term_of(scope: Scope, expression: tree.Expression) -> Term:
     """An expression with all that is known about it. UnsupportedError.
 
-    A number whose type nothing tells must be the same in all types that compilers choose.
+    A number whose type nothing gives must be the same in all types that compilers choose.
     """
     compiled = scope.terms.get(type(expression))
     if compiled is None:
@@ -136,7 +136,7 @@ def supposing(scope: Scope, condition: tree.Expression, truth: bool) -> Ranges:
 
 
 def body_of(scope: Scope, statements: list[tree.Statement]) -> list[ast.stmt]:
-    """A list of statements; each stands at its ST line and, if asked for, counts itself. UnsupportedError."""
+    """A list of statements; each is at its ST line and, if asked for, counts itself. UnsupportedError."""
     written: list[ast.stmt] = []
     for each in statements:
         scope.pen.move(each.at)

@@ -214,7 +214,7 @@ def _enter(path: str, kind: Type, match: re.Match[str]) -> tuple[list[Step], Typ
             raise KeyError(f"{path}: there is no {name}")
         return [name.upper()], inner
     if not isinstance(kind, Array):
-        raise KeyError(f"{path}: {match[0]} stands behind what is no array")
+        raise KeyError(f"{path}: {match[0]} follows what is no array")
     indices = [int(each) for each in match["indices"].split(",")]
     if len(indices) != len(kind.bounds):
         raise KeyError(f"{path}: {kind} has {len(kind.bounds)} dimensions")

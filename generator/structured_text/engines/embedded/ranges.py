@@ -1,7 +1,7 @@
 """What the compiler knows about the values of local variables while it walks through a body.
 
 An interval per variable, narrowed by conditions and assignments, joined where ways meet. It is what makes most masks
-and checks unnecessary, for `i` in `WHILE i < n` cannot leave its type by `i := i + 1`.
+and checks unnecessary, for `i` in `WHILE i < n` cannot overflow its type by `i := i + 1`.
 """
 
 from __future__ import annotations

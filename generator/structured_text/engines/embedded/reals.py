@@ -79,7 +79,7 @@ def c_cut(number: float, width: int) -> int:
 
 
 def c_cut_unsigned_64(number: float) -> int:
-    """Cut to ULINT as compilers for x86-64 do: halves of the range apart, below zero by two's complement."""
+    """Cut to ULINT as compilers for x86-64 do: each half of the range by itself, below zero by two's complement."""
     if number >= float(1 << 63):
         return c_cut(number - float(1 << 63), 64) ^ (1 << 63)
     return c_cut(number, 64)

@@ -116,6 +116,6 @@ class Scope:
         return name
 
     def note_access(self, name: str, low: int, high: int, offset: ast.expr) -> None:
-        """Remember an array access that stands where the pen is, for the message if it fails."""
+        """Remember an array access at the place of the pen, for the message if it fails."""
         key = self.pen.unit.path, self.pen.line, self.pen.column
         self.accesses.table[key] = Access(name, low, high, offset)

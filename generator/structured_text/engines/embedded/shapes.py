@@ -186,7 +186,7 @@ class Shapes:
 
 
 def nested_copier(element: Copier | None, dimensions: int) -> Copier:
-    """A copier of an array of so many dimensions whose elements need a copier of their own, or none."""
+    """A copier of an array of this number of dimensions whose elements need a copier of their own, or none."""
     if dimensions > 1:
         element = nested_copier(element, dimensions - 1)
     if element is None:

@@ -18,7 +18,7 @@ from structured_text.language.types import Elementary
 Body = Callable[[Any], None]
 
 _IDLE, _RUNNING, _DONE = 0, 1, 2
-# The slots behind the parameters, with their initial values; they are no variables of ST.
+# The slots after the parameters, with their initial values; they are no variables of ST.
 _EDGE = {"memory": False}
 _COUNT = {"memory_up": False, "memory_down": False}
 _TIMER = {"state": _IDLE, "previous": False, "start": 0}
@@ -108,7 +108,7 @@ def _counter(name: str, block: Block) -> Body:
 
 
 def _up(kind: Elementary) -> Callable[[Any], None]:
-    """Count up to PV; the standard goes on to the end of the type, matiec does not. FaultError."""
+    """Count up to PV; the standard counts to the end of the type, matiec does not. FaultError."""
 
     def count(s: Any) -> None:
         if s.CV < s.PV:
@@ -120,7 +120,7 @@ def _up(kind: Elementary) -> Callable[[Any], None]:
 
 
 def _down(kind: Elementary) -> Callable[[Any], None]:
-    """Count down to zero; the standard goes on to the end of the type, matiec does not. FaultError."""
+    """Count down to zero; the standard counts to the end of the type, matiec does not. FaultError."""
 
     def count(s: Any) -> None:
         if s.CV > 0:

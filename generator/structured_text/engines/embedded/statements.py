@@ -72,7 +72,7 @@ def returned_value(scope: Scope) -> ast.expr | None:
 
 
 def _if(scope: Scope, statement: tree.If) -> list[ast.stmt]:
-    """IF and its ELSIFs; what is known behind it is what all ways have in common."""
+    """IF and its ELSIFs; what is known after it is what all branches have in common."""
     pen = scope.pen
     ranges = scope.ranges
     links: list[_Link] = []
@@ -99,7 +99,7 @@ def _chain(scope: Scope, links: list[_Link], rest: list[ast.stmt]) -> list[ast.s
     """Branches of which the first that fits is taken, or else `rest`.
 
     Python nests every `elif` in the one before it, and its compiler cannot go deep: a long chain is cut into
-    several, one behind the other, of which the next runs where the one before has found nothing.
+    several, one after the other, of which the next runs where the one before has found nothing.
     """
     parts = [links[start : start + _LONGEST_CHAIN] for start in range(0, len(links), _LONGEST_CHAIN)]
     if len(parts) == 1:
@@ -166,7 +166,7 @@ def _matches(scope: Scope, name: str, low: int, high: int) -> ast.expr:
 
 
 def _label(scope: Scope, label: tree.Expression | tree.LabelRange, selector: tree.Expression) -> tuple[int, int]:
-    """The values that a label stands for."""
+    """The values that a label covers."""
     evaluate = scope.shapes.evaluate
     evaluate = present(evaluate)
     if isinstance(label, tree.LabelRange):
@@ -176,7 +176,7 @@ def _label(scope: Scope, label: tree.Expression | tree.LabelRange, selector: tre
 
 
 def _chained(links: list[_Link], rest: list[ast.stmt]) -> list[ast.stmt]:
-    """Branches, each as what stands behind the `else` of the one before it."""
+    """Branches, each as what follows the `else` of the one before it."""
     for each in reversed(links):
         each.branch.orelse = [*each.before_next, *rest]
         rest = [each.branch]

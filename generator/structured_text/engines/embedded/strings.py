@@ -46,7 +46,7 @@ def concat(*texts: bytes) -> bytes:
 
 
 def insert(text: bytes, other: bytes, position: int) -> bytes:
-    """INSERT `other` behind character `position`. FaultError."""
+    """INSERT `other` after character `position`. FaultError."""
     _characters(text, 1, position, "INSERT")
     return _built(text[:position] + other + text[position:], "INSERT")
 

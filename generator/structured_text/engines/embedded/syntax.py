@@ -1,6 +1,6 @@
-"""Python syntax that stands at places of Structured Text.
+"""Python syntax with places in Structured Text.
 
-The compiler builds `ast` nodes, not text: every node carries the line and column of the ST that it stands for, so
+The compiler builds `ast` nodes, not text: every node carries the line and column of the ST that it comes from, so
 that tracebacks, `sys.settrace` and coverage tools see ST lines, and a fault is traced to its column at no cost in a
 scan that has none.
 """
@@ -26,7 +26,7 @@ class Pen:
         self.move(0)
 
     def move(self, at: int) -> None:
-        """Go to an offset in the source; the nodes written from now on stand there."""
+        """Go to an offset in the source; the nodes written from now on get that place."""
         self.line, self.column = self.unit.place(at)
         left = self.column - 1
         self.here = {"lineno": self.line, "end_lineno": self.line, "col_offset": left, "end_col_offset": left + 1}
@@ -159,7 +159,7 @@ def writable(target: ast.expr) -> ast.expr:
 
 
 def place_of(node: ast.expr) -> dict[str, Any]:
-    """Where a node stands, as keywords of a new node."""
+    """The place of a node, as keywords of a new node."""
     line, left = node.lineno, node.col_offset
     return {"lineno": line, "end_lineno": line, "col_offset": left, "end_col_offset": left + 1}
 

@@ -112,7 +112,7 @@ INTEGRAL = (Kind.BITS, Kind.INTEGER)
 
 
 def elementary(each: Type) -> Elementary:
-    """The elementary type behind a type that is known to be one (a subrange counts as its base)."""
+    """The elementary type of a type that is known to be one (a subrange counts as its base)."""
     return known(plain(each), Elementary)
 
 

@@ -1,6 +1,6 @@
 """TIME, DATE, TIME_OF_DAY and DATE_AND_TIME at run time: one integer of nanoseconds (dates since 1970-01-01).
 
-matiec's is a pair (seconds, nanoseconds) whose operations leave it unnormalised at times, so that equal durations
+matiec's is a pair (seconds, nanoseconds) whose operations do not always normalise it, so that equal durations
 compare unequal: every operation is done in both, and fails where the pair comes out otherwise.
 """
 

@@ -50,7 +50,7 @@ def written(kind: Type, current: Any, value: Value) -> Any:
     """What to store for a value of the user's. ValueError.
 
     Arrays and structures are filled in place and given back; a list or bytes shorter than the array, or a dict
-    that lacks fields, leaves the rest.
+    that lacks fields, keeps the rest.
     """
     if isinstance(kind, Array):
         _fill(kind, current, value, 0)
@@ -78,7 +78,7 @@ def _fill(kind: Array, current: list[Any], value: Value, dimension: int) -> None
     if len(value) > len(current):
         raise ValueError(f"{len(value)} values do not fit into the {len(current)} elements of {kind}")
     last = dimension + 1 == len(kind.bounds)
-    # Checked first and stored afterwards, so that a wrong value in the middle leaves nothing half written.
+    # Checked first and stored afterwards, so that with a wrong value in the middle nothing is half written.
     made = [written(kind.element, current[place], each) for place, each in enumerate(value)] if last else []
     current[: len(made)] = made
     for place, each in enumerate(() if last else value):

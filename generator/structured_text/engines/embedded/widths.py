@@ -1,4 +1,4 @@
-"""Where the exact value of an integer matters: wrapped, checked or left alone, whatever leaves its type fails."""
+"""Where the exact value of an integer matters: wrapped, checked or left alone, whatever exceeds its type fails."""
 
 from __future__ import annotations
 

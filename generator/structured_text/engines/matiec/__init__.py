@@ -4,7 +4,7 @@
     block = engine.build([Source.read(path)]).instance("CrcTable")
 
 Nothing of matiec is part of this package: `iec2c` and its library are looked for on the machine (`installation`).
-A build goes: `translate` (iec2c, ST -> C), `header` and `declarations` (what the C and the ST declare), `runtime` (a
+A build runs: `translate` (iec2c, ST -> C), `header` and `declarations` (what the C and the ST declare), `runtime` (a
 small C file of our own around it), `ccompiler` (-> shared library), `cache`, `layout` (bytes -> Python values).
 """
 

@@ -45,8 +45,8 @@ def take_lines(
 ) -> tuple[str, LineTable]:
     """Take the #line directives out (the C keeps its own lines), and make the table.
 
-    What stands in a unit before its first statement belongs to the line of `unit_lines` where the unit is declared.
-    `mark` gives the C that goes into the place of a directive, by its number from 0: a statement begins there.
+    What is in a unit before its first statement belongs to the line of `unit_lines` where the unit is declared.
+    `mark` gives the C that replaces a directive, by its number from 0: a statement begins there.
     """
     stretches = {}
     number, at = 1, 0

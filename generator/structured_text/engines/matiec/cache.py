@@ -139,7 +139,7 @@ class Cache:
             yield
 
     def _trim(self, newest: Path) -> None:
-        """Remove the longest unused entries beyond the limit, and what killed processes left behind."""
+        """Remove the longest unused entries beyond the limit, and what killed processes have left."""
         with contextlib.suppress(OSError):
             for folder in (self.root / "making").iterdir():
                 if time.time() - folder.stat().st_mtime > _ABANDONED_SECONDS:

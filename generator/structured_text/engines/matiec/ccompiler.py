@@ -118,7 +118,7 @@ def _message(match: re.Match[str], lines: LineTable) -> Message:
 
 
 def find_c_compiler(environment: Mapping[str, str] = os.environ) -> CCompiler | None:
-    """CC, else cc, gcc, clang on PATH; None if there is none that tells its version."""
+    """CC, else cc, gcc, clang on PATH; None if there is none that reports its version."""
     named = environment.get("CC", "").strip()
     for words in [shlex.split(named)] if named else [["cc"], ["gcc"], ["clang"]]:
         program = shutil.which(words[0], path=environment.get("PATH"))

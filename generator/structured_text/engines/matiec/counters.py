@@ -1,7 +1,7 @@
 """Counters in the C of iec2c, one for each statement of the ST, and what they say of lines and decisions.
 
 iec2c puts a #line before each statement and keeps the order of those of one line, so that the n-th #line of a line
-belongs to its n-th statement. What ran tells which way each decision went: a branch as often as its first statement,
+belongs to its n-th statement. What ran shows which way each decision took: a branch as often as its first statement,
 the missing ELSE as often as the rest. A scan that a signal ends may so be counted for a way that it did not go.
 """
 
@@ -67,7 +67,7 @@ class Counters:
                         yield first + unit.line(each.at) - 1, each
 
     def mark(self, number: int) -> str:
-        """The C that stands in place of a #line."""
+        """The C in place of a #line."""
         loop = self._turns.get(number)
         begun = "" if loop is None else f" DBK_TURN({loop})"
         fresh = f" DBK_LOOP({number})" if number in self._turns.values() else ""
@@ -100,7 +100,7 @@ class Counters:
 
 
 class Ways:
-    """Which way decisions went, by how often statements ran."""
+    """Which way decisions took, by how often statements ran."""
 
     def __init__(self, runs: Callable[[tree.Statement], int], begun: Callable[[tree.Statement], int]) -> None:
         """Take how often a statement ran, and how often a loop came to a first turn."""

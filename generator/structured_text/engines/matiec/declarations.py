@@ -1,4 +1,4 @@
-"""What ST declares that iec2c's C no longer tells: array bounds, sections of variables, defaults, spelling, order.
+"""What ST declares that iec2c's C no longer has: array bounds, sections of variables, defaults, spelling, order.
 
 Only declarations are read, and only text that iec2c has accepted; so this works also for ST that our own front end
 does not know, and both engines stay independent of each other.
@@ -62,7 +62,7 @@ class Declarations:
     defaults: dict[str, str] = field(default_factory=dict)
 
     def resolve(self, spec: Spec | None) -> Spec | None:
-        """Follow names of declared types to what they stand for; an elementary or block name stays."""
+        """Follow names of declared types to what they mean; an elementary or block name stays."""
         seen = set()
         while isinstance(spec, Named) and spec.name in self.types and spec.name not in seen:
             seen.add(spec.name)

@@ -17,7 +17,7 @@ class RefusedWithCrashError(BuildError):
     """iec2c complained about the ST, and then crashed; the last message says so."""
 
     def __init__(self, messages: Sequence[Message], crash: str) -> None:
-        """Put `crash` behind the messages, at the place of the last of them."""
+        """Put `crash` after the messages, at the place of the last of them."""
         last = messages[-1]
         super().__init__([*messages, Message(last.path, last.line, last.column, crash)])
 

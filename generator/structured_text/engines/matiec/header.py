@@ -74,7 +74,7 @@ class Block:
 
 @dataclass(frozen=True)
 class Function:
-    """A function: its result type, and (C type, name, by pointer) of each parameter behind EN and ENO."""
+    """A function: its result type, and (C type, name, by pointer) of each parameter after EN and ENO."""
 
     name: str
     result: str

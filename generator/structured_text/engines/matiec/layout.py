@@ -128,7 +128,7 @@ class Floating(Scalar):
 
 
 class Text(Scalar):
-    """STRING: its length, then so many bytes of a body of fixed size."""
+    """STRING: its length, then that number of bytes of a body of fixed size."""
 
     fields = 2
 
@@ -202,7 +202,7 @@ class ArrayNode:
         return _fold(flat, self.lengths)
 
     def write(self, memory: Memory, offset: int, value: Value) -> None:
-        """Put a list or bytes; a shorter one leaves the rest."""
+        """Put a list or bytes; a shorter one keeps the rest."""
         self._write(memory, offset, value, self.lengths)
 
     def _write(self, memory: Memory, offset: int, value: Value, lengths: Sequence[int]) -> None:
@@ -345,7 +345,7 @@ class Snapshot:
 
 
 def _inverse(order: Sequence[int]) -> list[int]:
-    """Where each leaf stands in memory order."""
+    """The place of each leaf in memory order."""
     places = [0] * len(order)
     for place, leaf in enumerate(order):
         places[leaf] = place

@@ -39,13 +39,13 @@ class BlockType:
         return Snapshot(self.node)
 
     def trap(self, number: int) -> ScanError:
-        """Say which signal ended a scan; C does not tell the line."""
+        """Say which signal ended a scan; C does not give the line."""
         return ScanError(Message(self.path, self.line, 0, f"{self.name}: the scan was stopped by {cause(number)}"))
 
 
 @dataclass
 class Clock:
-    """Where the time of a library stands; the C has it in a variable that all loads of the same file share."""
+    """Where the time of a library is; the C has it in a variable that all loads of the same file share."""
 
     now: int = 0
 

@@ -1,6 +1,6 @@
-"""Tell the two lines of matiec apart by what they do: their versions are the same, and copies are patched.
+"""Distinguish the two lines of matiec by what they do: their versions are the same, and copies are patched.
 
-The traits are those in which they were measured to differ; a copy that has some of each goes by the majority.
+The traits are those in which they were measured to differ; a copy that has some of each counts as the majority says.
 """
 
 from dataclasses import dataclass

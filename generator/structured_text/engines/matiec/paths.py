@@ -94,5 +94,5 @@ def _part(node: Node, match: re.Match[str]) -> Part:
             raise IndexError(f"there is no {name}")
         return part
     if not isinstance(node, ArrayNode):
-        raise IndexError(f"{match[0]} stands behind what is no array")
+        raise IndexError(f"{match[0]} follows what is no array")
     return Part(node.place([int(each) for each in match["indices"].split(",")]), node.element)

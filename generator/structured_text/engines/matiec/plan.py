@@ -1,7 +1,7 @@
 """From what the C and the ST declare to nodes that read and write memory.
 
 Every number that depends on the C compiler is asked for as a C expression (`offsetof(BLOCK, X.value)`). So the same
-walk runs twice: once to collect the expressions for the runtime, once with the numbers that the library tells.
+walk runs twice: once to collect the expressions for the runtime, once with the numbers that the library gives.
 """
 
 from collections.abc import Callable, Mapping
@@ -57,7 +57,7 @@ class Expressions:
         self.found: dict[str, None] = {}
 
     def __call__(self, expression: str) -> int:
-        """Note the expression; the answer stands for any size."""
+        """Note the expression; the answer does for any size."""
         self.found[expression] = None
         return 1
 

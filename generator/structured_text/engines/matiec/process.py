@@ -45,7 +45,7 @@ class _Reader(threading.Thread):
         self._child = child
 
     def run(self) -> None:
-        assert self._child.stdout is not None  # noqa: S101 - Popen was told PIPE
+        assert self._child.stdout is not None  # noqa: S101 - Popen got PIPE
         with contextlib.suppress(OSError, ValueError):
             while chunk := os.read(self._child.stdout.fileno(), 65536):
                 self.data += chunk

@@ -42,7 +42,7 @@ def unit(
 
 
 def _call(function: Function) -> str:
-    """A way in to a function: its arguments in the order of the C call, behind EN and ENO."""
+    """A way in to a function: its arguments in the order of the C call, after EN and ENO."""
     arguments = ["1", "NULL"]
     for place, (type_name, _, by_pointer) in enumerate(function.parameters, start=1):
         arguments.append(f"{'' if by_pointer else '*'}({type_name} *)cells[{place}]")

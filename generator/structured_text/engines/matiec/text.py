@@ -30,7 +30,7 @@ class Listing:
         self.text = "".join(parts)
 
     def place(self, line: int) -> tuple[str, int]:
-        """Path and line of a line (1-based) of the joined text; a line behind the end belongs to the last source."""
+        """Path and line of a line (1-based) of the joined text; a line after the end belongs to the last source."""
         if not self.sources:
             return self.NAME, line
         index = max(bisect_right(self.starts, line) - 1, 0)

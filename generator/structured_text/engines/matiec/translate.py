@@ -64,7 +64,7 @@ class Translator:
         return warnings
 
     def _collisions(self, listing: Listing, foreign: list[Message]) -> list[Message]:
-        """What stands behind messages on iec2c's own library: names of ours that its lines use for parameters."""
+        """What causes messages on iec2c's own library: names of ours that its lines use for parameters."""
         words = {word.upper() for each in foreign for word in _WORD.findall(self._library_line(each))}
         declared = read_declarations(listing.text)
         found = [

@@ -19,7 +19,7 @@ class SyntaxProblem(Exception):  # noqa: N818 - control flow within the parser, 
 
 
 class TooManyProblemsError(Exception):
-    """So many problems that more of them help nobody."""
+    """The number of problems after which more of them help nobody."""
 
 
 class Cursor:
@@ -30,7 +30,7 @@ class Cursor:
     )  # fmt: skip
 
     def __init__(self, tokens: Tokens) -> None:
-        """Stand before the first token."""
+        """Begin before the first token."""
         self.tokens = tokens
         self.kinds, self.texts, self.ats = tokens.kinds, tokens.texts, tokens.ats
         self.before, self.notes = tokens.before, tokens.notes
@@ -84,7 +84,7 @@ class Cursor:
         return True
 
     def name(self, what: str) -> str:
-        """Take an identifier. Raises SyntaxProblem; a keyword in its place is told as a reserved name."""
+        """Take an identifier. Raises SyntaxProblem; a keyword in its place is reported as a reserved name."""
         here, kind = self.i, self.kinds[self.i]
         if kind == "name" or (kind in KEYWORDS and kind not in HARD_KEYWORDS):
             self.i = here + 1
@@ -97,7 +97,7 @@ class Cursor:
         return self.fail(what)
 
     def end_of_last(self) -> int:
-        """The offset behind the token that was taken last."""
+        """The offset after the token that was taken last."""
         last = self.i - 1
         return self.ats[last] + len(self.texts[last])
 
@@ -109,7 +109,7 @@ class Cursor:
             raise SyntaxProblem
 
     def too_long(self) -> NoReturn:
-        """Tell of an expression with too many operators. Raises SyntaxProblem."""
+        """Report an expression with too many operators. Raises SyntaxProblem."""
         text = f"expected at most {MOST_OPERATORS} operators in one statement: put parts into variables first"
         self.problem(self.i, text, "long-expression")
         raise SyntaxProblem
@@ -119,7 +119,7 @@ class Cursor:
         return tuple(self.before.pop(self.i, ()))
 
     def trailing(self) -> Comment | None:
-        """Take the comment behind the last token on its line; the rest is left for what follows."""
+        """Take the comment after the last token on its line; the rest is left for what follows."""
         comments = self.before.get(self.i)
         if not comments or comments[0].own_line:
             return None

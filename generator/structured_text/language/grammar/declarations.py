@@ -63,7 +63,7 @@ def _declarations(cursor: Cursor, into: list[VarDecl], kind: VarKind, words: tup
 
 
 def _skip_declaration(cursor: Cursor, start: int, close: str) -> bool:
-    """Go on behind the next `;`; False if the block ends without its closing word."""
+    """Continue after the next `;`; False if the block ends without its closing word."""
     if cursor.i == start and cursor.kinds[cursor.i] in _SYNC and cursor.kinds[cursor.i] != ";":
         cursor.problem(cursor.i, f"expected {close}, found {cursor.found(cursor.i)}")
         return False
@@ -98,7 +98,7 @@ def _declaration(cursor: Cursor, into: list[VarDecl], kind: VarKind, words: tupl
 
 
 def _declared_name(cursor: Cursor, kind: VarKind) -> tuple[int, str, str | None]:
-    """Where, the name, and the address behind AT; a dotted path in VAR_CONFIG and VAR_ACCESS."""
+    """Where, the name, and the address after AT; a dotted path in VAR_CONFIG and VAR_ACCESS."""
     at = cursor.ats[cursor.i]
     if kind in (VarKind.CONFIG, VarKind.ACCESS) or cursor.kinds[cursor.i] == "direct":
         return at, path(cursor), _address(cursor)
@@ -118,7 +118,7 @@ def path(cursor: Cursor) -> str:
 
 
 def _address(cursor: Cursor) -> str | None:
-    """The address behind AT; None without AT."""
+    """The address after AT; None without AT."""
     if not cursor.accept("AT"):
         return None
     here = cursor.i
@@ -139,7 +139,7 @@ def _optional_value(cursor: Cursor) -> Expression | None:
 
 
 def specification(cursor: Cursor) -> Spec:
-    """What stands behind the colon. Raises SyntaxProblem."""
+    """What follows the colon. Raises SyntaxProblem."""
     kind, at = cursor.kinds[cursor.i], cursor.ats[cursor.i]
     if kind == "ARRAY":
         return _array_spec(cursor)
@@ -158,7 +158,7 @@ def specification(cursor: Cursor) -> Spec:
 
 
 def _bracketed_spec(cursor: Cursor, at: int, name: str) -> Spec:
-    """`INT (0..9)` or `INT (A, B)`, behind the name."""
+    """`INT (0..9)` or `INT (A, B)`, after the name."""
     if cursor.kinds[cursor.i + 1] == "name" and cursor.kinds[cursor.i + 2] in (",", ")", ":="):
         made = _enum_spec(cursor, name)
         made.at = at

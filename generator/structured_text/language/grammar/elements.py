@@ -1,4 +1,4 @@
-"""What stands at the outermost level of a file, and inside a POU: tokens -> tree (annex B.1.5)."""
+"""What is at the outermost level of a file, and inside a POU: tokens -> tree (annex B.1.5)."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def _starts_statement(cursor: Cursor) -> bool:
 
 
 def _head(cursor: Cursor, made: Pou) -> None:
-    """What stands between the name and the first VAR block."""
+    """What is between the name and the first VAR block."""
     if isinstance(made, Function) and cursor.accept(":"):
         made.returns = specification(cursor)
         cursor.accept(";")
@@ -126,7 +126,7 @@ def _head(cursor: Cursor, made: Pou) -> None:
 
 
 def _inside(cursor: Cursor, made: Pou, close: str) -> None:
-    """The VAR blocks, statements and what else stands before the closing word; never raises SyntaxProblem."""
+    """The VAR blocks, statements and what else comes before the closing word; never raises SyntaxProblem."""
     while not cursor.accept(close):
         kind = cursor.kinds[cursor.i]
         try:
@@ -144,7 +144,7 @@ def _inside(cursor: Cursor, made: Pou, close: str) -> None:
 
 
 def _body_part(cursor: Cursor, into: list[Statement], close: str) -> None:
-    """Statements up to a word that does not belong to a statement; a word that nothing opened is told."""
+    """Statements up to a word that does not belong to a statement; a word that nothing opened is reported."""
     start = cursor.i
     into.extend(statements(cursor))
     kind = cursor.kinds[cursor.i]

@@ -122,7 +122,7 @@ def _bad_literal(cursor: Cursor, index: int, error: ValueError) -> NoReturn:
 
 
 def _parenthesis(cursor: Cursor) -> Expression:
-    """`( expression )`, and what may stand behind it."""
+    """`( expression )`, and what may follow it."""
     cursor.i += 1
     cursor.deeper()
     inner = expression(cursor)
@@ -141,7 +141,7 @@ def variable(cursor: Cursor) -> Expression:
 
 
 def _postfix(cursor: Cursor, base: Expression) -> Expression:
-    """Members, indices, arguments and `^` behind `base`."""
+    """Members, indices, arguments and `^` after `base`."""
     before = cursor.depth
     while True:
         kind = cursor.kinds[cursor.i]
@@ -161,7 +161,7 @@ def _postfix(cursor: Cursor, base: Expression) -> Expression:
 
 
 def _member(cursor: Cursor, base: Expression) -> Expression:
-    """What stands behind a dot: a field, or the number of a bit."""
+    """What follows a dot: a field, or the number of a bit."""
     here = cursor.i
     kind, text = cursor.kinds[here], cursor.texts[here]
     if kind == "number" and text.isdigit() and len(text) < 4:
@@ -187,7 +187,7 @@ def _indices(cursor: Cursor) -> list[Expression]:
 
 
 def arguments(cursor: Cursor) -> list[Argument]:
-    """`a := 1, b => c)`, behind the opening parenthesis."""
+    """`a := 1, b => c)`, after the opening parenthesis."""
     made: list[Argument] = []
     if cursor.accept(")"):
         return made

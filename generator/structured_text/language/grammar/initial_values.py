@@ -8,7 +8,7 @@ from structured_text.language.tree import Argument, ArrayInitial, Expression, Re
 
 
 def initial_value(cursor: Cursor) -> Expression:
-    """What stands behind `:=` in a declaration: an expression, `[...]` or `(a := 1)`."""
+    """What follows `:=` in a declaration: an expression, `[...]` or `(a := 1)`."""
     kind = cursor.kinds[cursor.i]
     cursor.operators = 0
     if kind == "[":

@@ -63,7 +63,7 @@ def starts_variable(cursor: Cursor, kind: str) -> bool:
 
 
 def _recover(cursor: Cursor) -> None:
-    """Skip to behind the next `;`, or to a word that starts or ends something."""
+    """Skip past the next `;`, or to a word that starts or ends something."""
     kinds = cursor.kinds
     while kinds[cursor.i] != ";":
         if kinds[cursor.i] in _STOPS or kinds[cursor.i] in _STARTS:

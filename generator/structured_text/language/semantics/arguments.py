@@ -1,4 +1,4 @@
-"""Which argument goes to which parameter (clauses 2.5.1.3, 3.3.2.2)."""
+"""Which argument belongs to which parameter (clauses 2.5.1.3, 3.3.2.2)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _positional(value: Call) -> bool:
 
 
 def sort_arguments(scope: Scope, value: Call, parameters: list[Parameter], name: str) -> dict[str, Argument]:
-    """Arguments by the upper-case name of their parameter; what has no place is told."""
+    """Arguments by the upper-case name of their parameter; what has no place is reported."""
     given: dict[str, Argument] = {}
     places = parameters if _positional(value) else []
     for number, argument in enumerate(value.arguments):
@@ -56,7 +56,7 @@ def sort_arguments(scope: Scope, value: Call, parameters: list[Parameter], name:
 
 
 def _unplaced(scope: Scope, argument: Argument, places: int, name: str) -> None:
-    """Tell of an argument by place that has none."""
+    """Report an argument by place that has none."""
     infer_argument(scope, argument)
     what = f"expected at most {places} arguments for {name}, found more" if places else None
     scope.report.add(argument.at, "call-arguments", what or f"expected `name := value` for {name}, found a bare value")

@@ -33,7 +33,7 @@ def call_type(scope: Scope, value: Call, statement: bool = False) -> Type:
 
 
 def _unknown_callee(scope: Scope, value: Call, name: str) -> Type:
-    """Tell of a name that cannot be called."""
+    """Report a name that cannot be called."""
     for each in value.arguments:
         infer_argument(scope, each)
     found = scope.library.find(name)

@@ -33,7 +33,7 @@ def declare_type(resolver: Resolver, declared: TypeDecl) -> None:
 
 
 def no_block_inside(report: Report, at: int, made: Type) -> None:
-    """Tell of an array of blocks."""
+    """Report an array of blocks."""
     while isinstance(made, Array):
         made = made.element
         if made.kind is Kind.BLOCK:
@@ -79,7 +79,7 @@ def _declare_variable(resolver: Resolver, pou: Pou, variable: VarDecl) -> None:
 
 
 def _block_variable_kind(report: Report, pou: Pou, variable: VarDecl) -> None:
-    """Tell of a block instance where none may be."""
+    """Report a block instance where none may be."""
     if isinstance(pou, Function):
         text = f"a function keeps nothing between calls: declare the block {variable.name} in a function block"
         report.add(variable.at, "type-mismatch", text)

@@ -102,7 +102,7 @@ def _shared_type(
 
 
 def _untyped_shared(scope: Scope, values: list[Expression | None], group: Group, name: str) -> Type:
-    """What numbers without prefix share; told if the function is not for numbers."""
+    """What numbers without prefix share; reported if the function is not for numbers."""
     given = [each for each in values if each is not None]
     reals = [each for each in given if each.type is UNTYPED_REAL]
     numbers = group & {Kind.INTEGER, Kind.REAL, Kind.BITS}
@@ -157,7 +157,7 @@ def _standard_argument(scope: Scope, argument: Argument, wanted: Type | Group | 
 
 
 def _leave_all_open(given: dict[str, Argument]) -> None:
-    """Mark the arguments of a comparison in which nothing tells a type."""
+    """Mark the arguments of a comparison in which nothing gives a type."""
     for each in given.values():
         if each.value is not None:
             leave_open(each.value, BITS_OF_SINT)

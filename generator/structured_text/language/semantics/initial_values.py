@@ -20,7 +20,7 @@ from structured_text.language.types import INT, UNKNOWN, Kind, Type
 
 
 def initial_value(scope: Scope, value: Expression, wanted: Type) -> None:
-    """An initial value; constants and expressions are told."""
+    """An initial value; constants and expressions are reported."""
     if isinstance(value, ArrayInitial):
         _array_initial(scope, value, wanted)
     elif isinstance(value, StructInitial):
@@ -33,7 +33,7 @@ def initial_value(scope: Scope, value: Expression, wanted: Type) -> None:
 
 
 def _literal_only(scope: Scope, value: Expression) -> None:
-    """Tell of an initial value that is computed."""
+    """Report an initial value that is computed."""
     symbol = getattr(value, "symbol", None)
     if isinstance(value, Literal) or isinstance(symbol, EnumValue) or value.type is UNKNOWN:
         return
@@ -86,6 +86,6 @@ def _struct_initial(scope: Scope, value: StructInitial, wanted: Type) -> None:
 
 
 def _unwanted(scope: Scope, value: Expression, wanted: Type, shown: str) -> None:
-    """Tell of an initialiser of the wrong shape."""
+    """Report an initialiser of the wrong shape."""
     if wanted is not UNKNOWN:
         scope.report.add(value.at, "type-mismatch", f"expected a value of {wanted}, found {shown}")

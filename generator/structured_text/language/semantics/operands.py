@@ -87,7 +87,7 @@ def name(scope: Scope, value: Name) -> Type:
 
 
 def _unknown_name(scope: Scope, value: Name) -> Type:
-    """Tell of a name that is declared nowhere here."""
+    """Report a name that is declared nowhere here."""
     upper = value.name.upper()
     variable = scope.library.global_variables.get(upper)
     if variable is not None:
@@ -195,7 +195,7 @@ def _index_type(scope: Scope, value: Expression) -> None:
 
 
 def _index_range(scope: Scope, value: Expression, bounds: tuple[int, int]) -> None:
-    """Tell of a constant index outside the bounds."""
+    """Report a constant index outside the bounds."""
     found = fold(value, scope.constant)
     if found is not None and not bounds[0] <= found <= bounds[1]:
         text = f"expected an index within {bounds[0]}..{bounds[1]}, found {found}"

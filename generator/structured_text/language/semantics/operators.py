@@ -55,13 +55,13 @@ def unary(scope: Scope, value: Unary) -> Type:
     if untyped(inner):
         return inner
     if value.op == "-" and isinstance(inner, Elementary) and inner.kind is Kind.INTEGER and not inner.signed:
-        scope.report.add(value.at, "type-mismatch", f"expected a signed number behind -, found {inner}")
+        scope.report.add(value.at, "type-mismatch", f"expected a signed number after -, found {inner}")
         return UNKNOWN
     return _operand(scope, value.operand, ANY_NUM | {Kind.TIME}, value.op, inner)
 
 
 def _operand(scope: Scope, value: Expression, kinds: frozenset[Kind], op: str, have: Type) -> Type:
-    """Tell if an operator cannot take this type; the type of its result."""
+    """Report an operator that cannot take this type; the type of its result."""
     if have is UNKNOWN or have.kind in kinds:
         return plain(have)
     if have.kind is Kind.POINTER:
@@ -124,7 +124,7 @@ def _joined(scope: Scope, value: Binary, kinds: frozenset[Kind]) -> Type:
 
 
 def _shared(scope: Scope, value: Binary) -> Type:
-    """The type that both operands can have; UNKNOWN, and told, if there is none."""
+    """The type that both operands can have; UNKNOWN, and reported, if there is none."""
     left, right = value.left.type, value.right.type
     if untyped(left) and untyped(right):
         if left is not right:
@@ -140,7 +140,7 @@ def _shared(scope: Scope, value: Binary) -> Type:
 
 
 def _mixed(scope: Scope, value: Binary) -> None:
-    """Tell of an integer beside a real, both without prefix."""
+    """Report an integer beside a real, both without prefix."""
     integer = value.left if value.left.type is UNTYPED_INTEGER else value.right
     for each in (value.left, value.right):
         settle(scope.report, each, REAL)
@@ -149,7 +149,7 @@ def _mixed(scope: Scope, value: Binary) -> None:
 
 
 def _unlike(scope: Scope, value: Binary) -> None:
-    """Tell of operands of two types."""
+    """Report operands of two types."""
     left, right = value.left.type, value.right.type
     if UNKNOWN in (left, right) or Kind.POINTER in (left.kind, right.kind):
         return
@@ -162,7 +162,7 @@ def _unlike(scope: Scope, value: Binary) -> None:
 
 
 def _zero_divisor(scope: Scope, value: Binary) -> None:
-    """Tell of a division by a constant zero."""
+    """Report a division by a constant zero."""
     if value.op in ("/", "MOD") and isinstance(value.right, Literal) and value.right.value == 0:
         scope.report.add(value.right.at, "literal-range", f"expected a divisor other than 0 for {value.op}")
 

@@ -16,7 +16,7 @@ Calls = Mapping[int, set[str]]
 
 
 def sort_callees(checked: Checked, calls: Calls, report: Report) -> None:
-    """Sort functions and blocks so that callees come first; tell of those that contain themselves."""
+    """Sort functions and blocks so that callees come first; report those that contain themselves."""
     waiting: dict[str, set[str]] = {}
     pous: dict[str, Function | FunctionBlock] = {**checked.functions, **checked.blocks}
     for key, pou in pous.items():
@@ -40,7 +40,7 @@ def sort_callees(checked: Checked, calls: Calls, report: Report) -> None:
 def _tell_cycles(
     report: Report, pous: dict[str, Function | FunctionBlock], cyclic: set[str], level: dict[str, int]
 ) -> None:
-    """Tell of POUs that call or contain themselves, and of towers of blocks."""
+    """Report POUs that call or contain themselves, and towers of blocks."""
     for key, pou in pous.items():
         report.unit = pou.unit
         if key in cyclic:

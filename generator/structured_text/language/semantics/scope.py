@@ -1,4 +1,4 @@
-"""What the functions of the checker share: the declarations that an expression sees, and where problems are told."""
+"""What the functions of the checker share: the declarations that an expression sees, and the list of problems."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Inference = Mapping[type[Expression], Callable[["Scope", Any], Type]]
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """What stands around a piece of text: a POU, a declared type, a block of globals or a configuration.
+    """What is around a piece of text: a POU, a declared type, a block of globals or a configuration.
 
     `called` collects the functions that it calls, `written` the variables that it writes to, both in upper case.
     """

@@ -145,7 +145,7 @@ def _case(scope: Scope, statement: Case) -> None:
         text = f"CASE on {have} is refused by matiec: write {plain(have).name}_TO_UINT(...)"
         scope.report.add(selector.at, "case-selector", text)
     elif have.kind not in (Kind.INTEGER, Kind.ENUM) and have is not UNKNOWN:
-        text = f"expected an integer or an enumeration behind CASE, found {have}"
+        text = f"expected an integer or an enumeration after CASE, found {have}"
         scope.report.add(selector.at, "type-mismatch", text)
     taken: list[tuple[int, int, int]] = []
     for branch in statement.branches:
@@ -188,7 +188,7 @@ def _label_value(scope: Scope, label: Expression, wanted: Type) -> int | None:
 
 
 def _overlaps(scope: Scope, taken: list[tuple[int, int, int]]) -> None:
-    """Tell of numbers that stand in two labels."""
+    """Report numbers that are in two labels."""
     highest: int | None = None
     for low, high, at in sorted(taken):
         if highest is not None and low <= highest:

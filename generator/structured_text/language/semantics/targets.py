@@ -33,7 +33,7 @@ def _outermost(value: Expression) -> Expression:
 
 
 def assignable(scope: Scope, value: Expression, what: str) -> None:
-    """Note that an expression, whose type is known, is written to; tell if it cannot be."""
+    """Note that an expression, whose type is known, is written to; report it if it cannot be."""
     if isinstance(_outermost(value), Direct | Dereference):
         return
     root = _instance_of(value)
@@ -45,7 +45,7 @@ def assignable(scope: Scope, value: Expression, what: str) -> None:
 
 
 def _writable(scope: Scope, value: Expression, root: VarDecl, what: str) -> None:
-    """Tell if a part of the variable `root` is nothing that can be written to."""
+    """Report a part of the variable `root` that cannot be written to."""
     if root.constant:
         scope.report.add(value.at, "not-assignable", f"expected a variable {what}, found the constant {root.name}")
     elif value.type.kind is Kind.BLOCK or value.type is VOID:
@@ -54,7 +54,7 @@ def _writable(scope: Scope, value: Expression, root: VarDecl, what: str) -> None
 
 
 def _output_of_instance(scope: Scope, value: Expression, what: str) -> None:
-    """Tell of a write to an output of another block."""
+    """Report a write to an output of another block."""
     while isinstance(value, Member | Index | BitAccess):
         if isinstance(value, Member) and isinstance(value.base.type, Block):
             parameter = value.base.type.parameters.get(value.name.upper())

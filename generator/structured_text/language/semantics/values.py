@@ -1,4 +1,4 @@
-"""Literals without prefix, and whether a value may stand where a type is wanted."""
+"""Literals without prefix, and whether a value may be used where a type is wanted."""
 
 from __future__ import annotations
 
@@ -46,13 +46,13 @@ _LITERAL_KINDS = frozenset([Kind.INTEGER, Kind.BITS, Kind.REAL, Kind.BOOL])
 # The largest value that rounds to a finite IEEE single, and the largest double.
 _LARGEST_REAL = 3.4028235677973366e38
 _LARGEST_LREAL = sys.float_info.max
-# How many bits a positive number has in an INT, which is the least type that stands for one, and in a SINT.
+# How many bits a positive number has in an INT, which is the least type that holds one, and in a SINT.
 _BITS_OF_INT = 15
 BITS_OF_SINT = 7
 
 
 def fits(report: Report, value: Expression, wanted: Type, rule: str = "type-mismatch") -> None:
-    """Tell if `value`, whose own type is known, may not stand where `wanted` is; settle numbers without prefix."""
+    """Report a `value` of a known type that may not be used where `wanted` is; settle numbers without prefix."""
     have = value.type
     if untyped(have):
         settle(report, value, wanted)
@@ -63,7 +63,7 @@ def fits(report: Report, value: Expression, wanted: Type, rule: str = "type-mism
 
 
 def mismatch(report: Report, value: Expression, wanted: Type, rule: str = "type-mismatch") -> None:
-    """Tell of a value of another type, and how to convert it."""
+    """Report a value of another type, and how to convert it."""
     have = value.type
     if UNKNOWN in (have, wanted) or Kind.POINTER in (have.kind, wanted.kind):
         return
@@ -90,13 +90,13 @@ def settle(report: Report, value: Expression, wanted: Type) -> None:
 
 
 def choose(report: Report, value: Expression, wanted: Type | None = None, bits: int = _BITS_OF_INT) -> None:
-    """Settle a number without prefix that stands where any number may; what is computed is marked as open."""
+    """Settle a number without prefix that is used where any number may be; what is computed is marked as open."""
     leave_open(value, bits)
     settle(report, value, wanted or default(value))
 
 
 def _unsuitable(report: Report, value: Expression, wanted: Type) -> None:
-    """Tell of a number without prefix that cannot be of the wanted type; it gets the type it has by default."""
+    """Report a number without prefix that cannot be of the wanted type; it gets the type it has by default."""
     culprit = _misfit(value, wanted) or value
     if wanted.kind is Kind.REAL and isinstance(culprit, Literal):
         text = f"expected {wanted}, found the integer {culprit.text}: write {culprit.text}.0"
@@ -159,7 +159,7 @@ def push(report: Report, value: Expression, wanted: Type) -> None:
 
 
 def _computed(report: Report, value: Binary, wanted: Type) -> None:
-    """Tell if what literals amount to is beyond the range of their type."""
+    """Report literals that amount to more than the range of their type."""
     found = fold(value, lambda _: None)
     if found is not None and isinstance(wanted, Elementary) and not wanted.low <= found <= wanted.high:
         text = f"expected a value of {wanted.name}, {wanted.low}..{wanted.high}, found {found}"
@@ -179,7 +179,7 @@ def _push_call(report: Report, value: Call, target: Builtin, wanted: Type) -> No
 
 
 def within(report: Report, value: Literal, wanted: Type) -> None:
-    """Tell if a literal is beyond the range of its type; make its Python value fit the type."""
+    """Report a literal beyond the range of its type; make its Python value fit the type."""
     if not isinstance(wanted, Elementary) or isinstance(value.value, bytes | str):
         return
     if wanted.kind is Kind.REAL:
@@ -195,7 +195,7 @@ def within(report: Report, value: Literal, wanted: Type) -> None:
 
 
 def _real(report: Report, value: Literal, wanted: Elementary) -> None:
-    """Make a number a float; tell of one beyond the range."""
+    """Make a number a float; report one beyond the range."""
     number = value.value
     if isinstance(number, bytes | str):
         return

@@ -1,4 +1,4 @@
-"""The two lines of matiec are told apart by what they do."""
+"""The two lines of matiec are distinguished by what they do."""
 
 from dataclasses import replace
 
