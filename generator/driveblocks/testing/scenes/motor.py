@@ -393,7 +393,8 @@ def _trip(can: Ability) -> Iterator[Step]:
     other = can.codes[0] if can.code else 0
     yield Step("the first fault since then is another", {"Fate.Trips": can.codes[0]}, ms=500, shows={
         "Motor.Diagnosis.FirstFaultCode": other, "Motor.Diagnosis.FaultBack1": other, "Fault": True,
-        "Motor.Diagnosis.FaultBack2": can.code,
+        "Motor.Diagnosis.FaultBack2": can.code, "Motor.Diagnosis.FirstFaultMs > 200": True,
+        "Motor.Diagnosis.FirstFaultMs < 3500": True,
     })  # fmt: skip
 
 
@@ -647,7 +648,9 @@ def _tries(can: Ability) -> Iterator[Step]:
 
 
 def _keypad_run() -> Iterator[Step]:
-    yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {"StopConfirmed": False})
+    yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {
+        "StopConfirmed": False, "Slots[0].StopAgain": False,
+    })  # fmt: skip
     yield stand(NOTHING_STARTED)
 
 
@@ -701,6 +704,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     """Who is in charge, settings that are missing or wrong."""
     yield scene("MonitorOnly", POWER, run(), *_monitor())
     yield scene("SpeedOnly", POWER, *_speed_only(can))
+    yield scene("SpeedOnly, and a stop pin that flickers", POWER, *_calm(can))
     yield scene("a setting that is missing", POWER, *_missing())
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
@@ -752,6 +756,18 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
 
 
+def _calm(can: Ability) -> Iterator[Step]:
+    """After a stop pin the reference stays 0 for half a second."""
+    speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}
+    yield Step("the reference is sent", speeds, f"({why('SPEED_ONLY')}) AND (Seen.References > 0)", 2000)
+    register = word(can.drive.operation.reference.register)
+    given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
+    for _ in range(2):
+        yield Step("Enable falls", {"Enable": False}, ms=100)
+        yield Step("and rises: none yet", {"Enable": True}, ms=300, shows={given: False})
+    yield Step("then the reference", {}, given, 600, NOTHING_STARTED)
+
+
 def _missing() -> Iterator[Step]:
     bad: Shows = NOTHING_STARTED | {"Reason": "MISSING", "Ready": False}
     yield Step("StopWithinMs is 0", {"StopWithinMs": 0, "RunForward": True}, ms=500, shows=bad)
@@ -791,6 +807,8 @@ def _heartbeat(can: Ability) -> Iterator[Step]:
     }
     name, shows = fed[can.feeds]
     yield Step(name, sets, ms=3000, shows=RUNNING | shows)
+    for _ in range(6):
+        yield Step("in time", ms=4 * SCAN_MS, shows=RUNNING)
     rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
     yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 

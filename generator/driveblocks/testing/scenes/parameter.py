@@ -193,7 +193,8 @@ def _waits(place: int) -> Iterator[Step]:
     pending |= {"Fate.Skipped": word(place)}
     yield Step("its answer stays away", pending, why("WRITE_WAITS"), 500, {"Ready": False, "Writer.Busy": True})
     yield Step("an edge starts nothing", {"RunForward": True}, ms=60, shows=NOTHING_STARTED | {"Reason": "WRITE_WAITS"})
-    yield Step("it is given up", {".Writing": False}, "NOT Writer.Busy", 3000, NOTHING_STARTED)
+    yield Step("a stop is a new one", {"Enable": False}, ms=60, shows={"Slots[0].StopAgain": False})
+    yield Step("it is given up", {".Writing": False, "Enable": True}, "NOT Writer.Busy", 3000, NOTHING_STARTED)
     yield Step("released", {"RunForward": False, "Fate.Skips": False}, "Motor.Ready", 2000)
     yield run()
 
