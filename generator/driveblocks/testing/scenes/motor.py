@@ -142,7 +142,12 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
         found["DcBusVoltageV"] = 540.0
     if can.measures("output_power"):
         found["OutputPowerKW"] = 1.2
-    found["OutputCurrentValid"] = can.measures("output_current")
+    for name, what in (
+        ("OutputCurrent", "output_current"),
+        ("DcBusVoltage", "dc_bus_voltage"),
+        ("OutputPower", "output_power"),
+    ):
+        found[f"{name}Valid"] = can.measures(what)
     return found
 
 
@@ -242,6 +247,8 @@ def stops(can: Ability) -> Iterator[Scene]:
     yield scene("a stop grows stronger", POWER, run(), *_stronger(can))
     if can.can("jog_forward"):
         yield scene("the jog pin falls", POWER, *_jog_ends(can))
+        if can.can("jog_stop"):
+            yield scene("a jog whose block is no longer called", POWER, *_jog_alone())
     yield scene("a motor that runs on", POWER, run(), *_runs_on())
     yield scene("a stop whose acknowledgement is lost", POWER, run(), *_unanswered_stop())
     yield scene("a flickering stop pin", POWER, run(), *_flicker())
@@ -272,14 +279,20 @@ def _released() -> Iterator[Step]:
     yield Step("it ramps down", {}, "Seen.Milli < 20000", 1000, {"StopConfirmed": False, "Reason": "STOPPING"})
     yield stand({
         "Reason": "READY", "Motor.Diagnosis.StopReason": 6, "Motor.Diagnosis.StopKind": 1, "AtSpeed": False,
+        "Slots[0].Answer[1].ErrorID = 0": True,
     })  # fmt: skip
 
 
 def _stronger(can: Ability) -> Iterator[Step]:
-    yield Step("a ramp", {"RunForward": False}, "Seen.Stopping", 300, {"Seen.StopKind": 1})
+    runs_on: Shows = {"RunForward": False, "Fate.RunsOn": True, "StopWithinMs": 20000}
+    yield Step("a ramp, and it runs on", runs_on, TOLD, 300, {"Seen.StopKind": 1})
     yield Step("a quick stop", {"QuickStop": True}, ms=150, shows={"Seen.StopKind": can.kind("quick_stop")})
     yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": can.kind("coast_stop")})
-    yield stand()
+    pins: Shows = {"CoastStop": False, "QuickStop": False, ".Mark": "Seen.Stops"}
+    yield Step("its repetitions are as strong", pins, "Seen.Stops > Mark", 1000, {
+        "Seen.StopKind": can.kind("coast_stop"), "Slots[0].StopAgain": True,
+    })  # fmt: skip
+    yield Step("it stands", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
 
 
 def _jog_ends(can: Ability) -> Iterator[Step]:
@@ -291,6 +304,16 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
     yield run({"Seen.Starts": 2})
     yield Step("after a run there is but one stop", {"RunForward": False, ".Mark": "Seen.Stops"}, TOLD, 300)
     yield stand({"Seen.StopKind": 1, "Seen.Stops - Mark": (1, 2)})
+
+
+def _jog_alone() -> Iterator[Step]:
+    """The line knows which stop comes first."""
+    yield Step("both stops are told after power-up", ms=100, shows={"Seen.StopKind": 4})
+    yield Step("it jogs", {"JogForward": True}, "ABS(Seen.Milli - 5000) <= 200", 1500, {"Seen.Order": 7})
+    gone: Shows = {"Pins.NoDrive": True, "Pins.AttendMs": 200, ".Mark": "Seen.Stops"}
+    yield Step("the line ends it", gone, "Seen.Stops > Mark", 1500, {"Seen.StopKind": 4})
+    yield Step("and stops what may run beside", {}, "Seen.StopKind = 1", 500, {"Seen.Stops - Mark": 2})
+    yield Step("the block is back", {"Pins.NoDrive": False, "JogForward": False}, "Motor.Ready", 5000, STANDS)
 
 
 def _runs_on() -> Iterator[Step]:
@@ -718,6 +741,7 @@ def modes(can: Ability) -> Iterator[Scene]:
 
 def _monitor() -> Iterator[Step]:
     yield Step("it stops first", {"MonitorOnly": True}, TOLD, 500, {"Seen.StopKind": 1})
+    yield Step("until that is proved", ms=200, shows={"Motor.Diagnosis.State": 0, "Seen.Driven": True})
     yield Step(
         "then it only reads", {}, "(Seen.Milli = 0) AND (Motor.Diagnosis.State = 5)", 4000, {"Reason": "MONITOR"}
     )
@@ -763,7 +787,7 @@ def _calm(can: Ability) -> Iterator[Step]:
     register = word(can.drive.operation.reference.register)
     given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
     for _ in range(2):
-        yield Step("Enable falls", {"Enable": False}, ms=100)
+        yield Step("Enable falls", {"Enable": False}, ms=100, shows={"Motor.Diagnosis.State": 6})
         yield Step("and rises: none yet", {"Enable": True}, ms=300, shows={given: False})
     yield Step("then the reference", {}, given, 600, NOTHING_STARTED)
 
