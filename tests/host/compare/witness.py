@@ -10,7 +10,7 @@ from driveblocks.host.engine import Engine, Library, ScanError, Source, Value
 from driveblocks.host.matiec import BadCError
 
 FILE = Path(__file__).parent / "differences.yaml"
-# What stands in the place of a value; no STRING of the list has these characters.
+# What is in the place of a value; no STRING of the list has these characters.
 ERROR, BAD_C = b"error", b"badC"
 
 
