@@ -8,9 +8,9 @@ from tests.bench.record import Rows
 from tests.drives.bench import Bench
 from tests.drives.station import FAMILIES, name_of, station, texts
 
-from driveblocks.host.engine import EngineError, Library, Source
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.library import MatiecInstance
+from structured_text.engines.engine import EngineError, Library, Source
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.library import MatiecInstance
 
 FEW, MANY = 4, 8
 """Drives on a line; what one more costs is taken from the difference."""

@@ -7,8 +7,8 @@ from tests.bench.turns import Taken
 from tests.blocks.library import alone
 from tests.native.driver import PRELUDE, Driver, run
 
-from driveblocks.host.engine import EngineError, Source
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.engine import EngineError, Source
+from structured_text.engines.matiec import MatiecEngine
 
 NATIVE = Path(__file__).with_name("native")
 FOLDERS = ("types/", "modbus/", "jscc/")

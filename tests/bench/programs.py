@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.blocks.library import sources
 
-from driveblocks.host.engine import Source
+from structured_text.engines.engine import Source
 
 FOLDER = Path(__file__).with_name("st")
 MODES = ("Rtu", "Ascii")

@@ -7,9 +7,9 @@ from tests.bench.inputs import Pin, pins
 from tests.blocks.library import alone, sources
 from tests.native.driver import Driver
 
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, Function, FunctionBlock
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, Function, FunctionBlock
 
 MAIN = """
 #if defined __has_include

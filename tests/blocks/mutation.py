@@ -25,8 +25,6 @@ from tests.blocks import judges
 from tests.blocks.library import Blocks, sources
 from tests.maps import mutate
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, nodes
 from driveblocks.maps.check import check
 from driveblocks.maps.decode import decode
@@ -34,6 +32,8 @@ from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
 from driveblocks.render import library, text
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Source
 
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 SURVIVORS = Path(__file__).with_name("survivors.yaml")

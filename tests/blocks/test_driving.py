@@ -6,8 +6,8 @@ import pytest
 from tests.blocks import driving
 from tests.blocks.library import built, result, scan, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
 

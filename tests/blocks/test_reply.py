@@ -7,10 +7,10 @@ import pytest
 from tests.blocks import answering, wire
 from tests.blocks.library import Blocks, built, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Answer, Manners, manners, parse
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("prefix", shipped())
 BEHIND = (b"\x00", b"\x00\x00", b"\xff", b"0", b":", b"\r\n")

@@ -14,15 +14,15 @@ from tests.shapes import shapes
 
 from driveblocks.docs import timing
 from driveblocks.docs.page import documents
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Instance, Source
 from driveblocks.maps.model import Drive
 from driveblocks.render.library import PLATFORMS, first_motor, generic
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.reasons import REASONS, STATES
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Instance, Source
+from structured_text.language.lint import lint_sources
 
 FOLDER = Path(BLOCKS).parent / "docs"
 FAMILIES = sorted(shipped())

@@ -8,7 +8,7 @@ from unittest.mock import patch
 from tests.drives import test_identity, test_modes, test_reset, test_start, test_stop
 from tests.drives.station import built
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.engine import EmbeddedEngine
 
 CHF, SN, CIA, PUL = ("CHF",), ("SN300G5",), ("CIA",), ("PUL",)
 THREE = ("CHF", "JSCC", "SN300G5")

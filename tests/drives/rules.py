@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from tests.drives.bench import RUNS, Bench, Frame
 from tests.drives.station import PINS
 
-from driveblocks.host.engine import Value
 from driveblocks.maps.model import Command, Drive
 from driveblocks.simulator.pattern import Pattern, of_write
+from structured_text.engines.engine import Value
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))

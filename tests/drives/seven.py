@@ -10,11 +10,11 @@ from tests.drives.station import maps
 from tests.line.vline import Config, Sent
 from tests.simulator.bench import DriveBench
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 COUNT = 7
 RATES = {"SN300G5": 9600, "JSCC": 57600, "CHF": 19200}

@@ -9,8 +9,8 @@ from tests.drives.station import FAMILIES, maps
 from tests.drives.test_start import edge, meet, motions
 from tests.drives.test_stop import stops
 
-from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Value
 
 
 def writes(bench: Bench, ms: int) -> list[int]:

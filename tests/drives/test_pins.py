@@ -10,14 +10,14 @@ from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, built, library, maps, name_of, texts
 from tests.drives.test_stop import stops
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library
 from driveblocks.maps.revision import checked
 from driveblocks.render import library as blocks
 from driveblocks.simulator.habits import Habits
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import VarKind
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import VarKind
 
 INPUTS = (
     "Enable", "RunForward", "RunReverse", "JogForward", "JogReverse", "QuickStop", "CoastStop", "FaultReset",

@@ -8,9 +8,9 @@ from tests.drives.bench import OFF, Bench, Frame
 from tests.drives.rules import MOTIONS, sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 
-from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Value
 
 MODES = [(kind, mode) for kind in (*FAMILIES, *MADE_UP) for mode in maps()[kind].serial.mode.modes]
 NAN, INFINITE = float("nan"), float("inf")

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from driveblocks.host.engine import Instance
 from driveblocks.reference.checksum import crc16
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Instance
 
 SCAN_MS = 10
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from tests.export.stock import made
 from tests.export.test_codesys_port import COM, portable, replaced
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Library, Source
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, Source
 
 SCAN_MS = 10
 HERE = Path(__file__).parent

@@ -15,7 +15,7 @@ from tests.export.tc6_reader import File, Node
 from driveblocks.export.part import Shelf
 from driveblocks.export.target import Writer
 from driveblocks.export.wide import wide
-from driveblocks.st.fingerprint import fingerprint, stream
+from structured_text.language.fingerprint import fingerprint, stream
 
 DIALECTS = {
     "plcopen": ("http://www.plcopen.org/xml/tc6_0201", "p"),

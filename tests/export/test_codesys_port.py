@@ -10,11 +10,11 @@ from itertools import pairwise
 import pytest
 from tests.export.test_tc6 import LANGUAGES, stock
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Source, Value
 from driveblocks.render import library
-from driveblocks.st.names import reserved
-from driveblocks.st.tree import Pou
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Source, Value
+from structured_text.language.names import reserved
+from structured_text.language.tree import Pou
 
 PINS = (
     "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"

@@ -11,9 +11,9 @@ from tests.examples.port import SCAN_MS, Port
 from tests.export.stock import canon, made
 from tests.export.test_openplc import written
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Library, Source
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, Source
 
 TICKS = 10_000
 """Of GETCPUCOUNTER in a millisecond."""

@@ -15,8 +15,8 @@ from driveblocks import __version__
 from driveblocks.export import twincat
 from driveblocks.export.part import WHOLE, Part, Shelf
 from driveblocks.export.problem import ExportError
-from driveblocks.st.fingerprint import fingerprint, stream
-from driveblocks.st.parser import parse
+from structured_text.language.fingerprint import fingerprint, stream
+from structured_text.language.parser import parse
 
 ID = re.compile(r"\{[0-9a-f]{8}-[0-9a-f]{4}-5[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}\}")
 FIXED = {

@@ -14,7 +14,7 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, translate
 from tests.line.drives import header
 
-from driveblocks.host.matiec.installation import Installation
+from structured_text.engines.matiec.installation import Installation
 
 HERE = Path(__file__).parent
 WHY_NOT = "" if FOUND and COMPILER else "the line in C needs iec2c and a C compiler; `driveblocks doctor` tells more"

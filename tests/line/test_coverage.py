@@ -7,8 +7,8 @@ from tests.blocks.library import sources
 from tests.line.vline import PARAMETER, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
 
 SEEDS = range(16)
 

@@ -8,10 +8,10 @@ import pytest
 from tests.blocks.library import sources
 from tests.line.vline import NAMES, PARAMETER, Bench, Config
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
 from driveblocks.render.environment import environment
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, Source
+from structured_text.language.lint import lint_sources
 
 SCENE = """
 FUNCTION_BLOCK T_Drive

@@ -4,7 +4,7 @@ from functools import cache
 
 from tests.line.vline import library
 
-from driveblocks.host.engine import Instance
+from structured_text.engines.engine import Instance
 
 CLAIMS = (
     "HasCode", "HasCopy", "StopAgain", "ResetAsked", "BlockIsBack", "Orphan", "Online", "Booting", "Dark", "SupplyBack",

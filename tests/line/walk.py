@@ -11,7 +11,7 @@ from random import Random
 from tests.line.drives import KINDS
 from tests.line.vline import PARAMETER, POLL, STOP, Bench, Config
 
-from driveblocks.host.engine import Instance
+from structured_text.engines.engine import Instance
 
 SCANS = 1500
 

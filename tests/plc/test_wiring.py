@@ -3,9 +3,9 @@
 import pytest
 from tests.plc.desk import BOX, EXAMPLE, ONE, Desk, loaded, wired
 
-from driveblocks.host.engine import BuildError
 from driveblocks.plc import wiring
 from driveblocks.plc.wiring import DriveBlock, Wiring
+from structured_text.engines.engine import BuildError
 
 
 def told(text: str) -> str:

@@ -17,16 +17,16 @@ from typing import Any
 
 from tests.prove.evaluate import Program, signed
 
-from driveblocks.host.discovery import survey
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, ScanError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
 from driveblocks.prove.replay import known_paths
-from driveblocks.st.tree import Function
-from driveblocks.st.types import Elementary, Kind
+from structured_text.engines.discovery import survey
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, ScanError, Source
+from structured_text.language.tree import Function
+from structured_text.language.types import Elementary, Kind
 
 CALLS = 10_000
 SEED = 31

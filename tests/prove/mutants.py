@@ -17,8 +17,6 @@ from tests.drives import station
 from tests.drives.station import FAMILIES
 from tests.second.mutants import NAME, SWAPS, TOKEN, Mutant
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.prove import prover, rules
@@ -27,7 +25,9 @@ from driveblocks.prove.model import models
 from driveblocks.prove.proof import STEPS, Question, questions
 from driveblocks.prove.rules import Subject
 from driveblocks.prove.sorts import UnsupportedError
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Source
+from structured_text.language.lint import lint_sources
 
 SEED, NUMBER = 22, 100
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "StopRound", "Send", "Why")

@@ -10,12 +10,12 @@ from tests.prove import agreement, mutants
 from typer.testing import CliRunner
 
 from driveblocks.cli import app
-from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, report, rules
 from driveblocks.prove.proof import Verdict
 from driveblocks.prove.prover import Proved
-from driveblocks.st.tree import Function
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.language.tree import Function
 
 FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"

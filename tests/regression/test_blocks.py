@@ -5,8 +5,8 @@ from tests.blocks import wire
 from tests.blocks.library import built, result, scan
 from tests.blocks.test_fourth_drive import fourth
 
-from driveblocks.host.engine import Engine, Value
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Engine, Value
 
 
 def test_a_drive_that_speaks_ascii_alone_can_be_read(engine: Engine) -> None:

@@ -13,7 +13,7 @@ from tests.second.observer import Figures
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
 
-from driveblocks.host.engine import Library, Value
+from structured_text.engines.engine import Library, Value
 
 KIND = {"CHF": "chf", "JSCC": "jscc", "SN300G5": "sn"}
 STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "SN300G5": sn300g5.stores}

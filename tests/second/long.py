@@ -16,8 +16,8 @@ from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
 from tests.second.station import built
 from tests.second.walk import walk
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.engine import Library
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.engine import Library
 
 JOBS = 2
 CHUNK = 28

@@ -20,7 +20,7 @@ from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.station import SIZES, types_of
 
-from driveblocks.host.engine import Library
+from structured_text.engines.engine import Library
 
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")

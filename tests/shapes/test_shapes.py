@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 
 from driveblocks.building import build
 from driveblocks.cli import app
-from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
@@ -21,10 +20,11 @@ from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
-from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.script import Suite
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.language.lint import lint_sources
 
 NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low")
 CONCERNED = re.compile(r"_Test(Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "tests/maps/example.yaml"

@@ -9,8 +9,6 @@ import pytest
 from tests.shapes import shapes
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Instance, Library, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
@@ -19,6 +17,8 @@ from driveblocks.testing.outcome import Outcome
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.scenes.scene import RULES
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Instance, Library, Source
 
 from .conftest import only, run
 

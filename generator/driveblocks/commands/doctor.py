@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from driveblocks.host.health import Health
+    from driveblocks.building.health import Health
 
 Json = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
 
@@ -23,8 +23,8 @@ def run(json: Json = False) -> None:
 
     Example: driveblocks doctor --json | jq .missing
     """
-    from driveblocks.host.discovery import survey
-    from driveblocks.host.health import examine
+    from driveblocks.building.health import examine
+    from structured_text.engines.discovery import survey
 
     health = examine(survey())
     if json:

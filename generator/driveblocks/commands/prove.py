@@ -33,8 +33,8 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
         refuse("the solver is missing: pip install 'driveblocks[prove]'")
     from driveblocks.prove import prover, report
     from driveblocks.prove.sorts import UnsupportedError
-    from driveblocks.st.problems import SourceError
     from driveblocks.testing import junit as xml
+    from structured_text.language.problems import SourceError
 
     done: list[Proved] = []
     try:

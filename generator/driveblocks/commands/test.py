@@ -9,10 +9,10 @@ import typer
 from driveblocks.commands import Maps, refuse
 
 if TYPE_CHECKING:
-    from driveblocks.host.discovery import Candidate
     from driveblocks.maps.collection import Source
     from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
+    from structured_text.engines.discovery import Candidate
 
 SHOWN, PER_PROGRAM = 20, 3
 """Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
@@ -98,7 +98,7 @@ def _read(maps: list[str] | None) -> "list[Source]":
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
     """All engines that were looked for, and those that are asked for and work. Ends with status 2 without any."""
-    from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, survey
+    from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, survey
 
     groups = {"embedded": (EMBEDDED,), "matiec": MATIEC_NAMES, "all": (EMBEDDED, *MATIEC_NAMES)}
     groups |= {each: (each,) for each in MATIEC_NAMES}

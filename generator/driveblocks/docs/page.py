@@ -22,9 +22,9 @@ from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.render.text import ENGLISH
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, FunctionBlock, TypeDecl, VarKind
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, FunctionBlock, TypeDecl, VarKind
 
 FOLDER = "docs"
 STATES = "drive_states.svg"

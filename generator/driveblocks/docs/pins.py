@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from driveblocks.st.tree import FunctionBlock, Literal, VarDecl, VarKind
+from structured_text.language.tree import FunctionBlock, Literal, VarDecl, VarKind
 
 GROUPS = {
     "Enable": "command", "SpeedReferenceHz": "speed", "Address": "drive", "MonitorOnly": "mode",

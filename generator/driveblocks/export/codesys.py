@@ -15,8 +15,8 @@ from driveblocks.export.problem import ExportError
 from driveblocks.export.rungs import diagram
 from driveblocks.export.tc6 import CODESYS, project, types, vendor, written
 from driveblocks.export.wide import wide
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import FunctionBlock, Program, TypeDecl
+from structured_text.language.problems import Problem
+from structured_text.language.tree import FunctionBlock, Program, TypeDecl
 
 _PLATFORM = "codesys"
 _SERIAL = {

@@ -8,7 +8,7 @@ from driveblocks.export.part import Library, Shelf
 from driveblocks.render import library
 from driveblocks.render.environment import render
 from driveblocks.render.motor import SCAN_MS, motor
-from driveblocks.st.tree import TypeDecl
+from structured_text.language.tree import TypeDecl
 
 TARGET = "openplc"
 LINUX = "LX_Line8"

@@ -8,10 +8,10 @@ from driveblocks.maps.model import Drive
 from driveblocks.render import library
 from driveblocks.render.library import File
 from driveblocks.render.text import Language
-from driveblocks.st.checker import check
-from driveblocks.st.fingerprint import body, stream
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, FunctionBlock, Program, TypeDecl, Unit
+from structured_text.language.checker import check
+from structured_text.language.fingerprint import body, stream
+from structured_text.language.parser import parse
+from structured_text.language.tree import Function, FunctionBlock, Program, TypeDecl, Unit
 
 Declared = TypeDecl | Function | FunctionBlock | Program
 WHOLE = "DriveBlocks"

@@ -11,8 +11,8 @@ from driveblocks.export.element import Element, element, escaped
 from driveblocks.export.ladder import is_bool, said
 from driveblocks.export.part import Part
 from driveblocks.export.tc6 import CODESYS, vendor
-from driveblocks.st import tree
-from driveblocks.st.tree import Expression, FunctionBlock, VarDecl, VarKind
+from structured_text.language import tree
+from structured_text.language.tree import Expression, FunctionBlock, VarDecl, VarKind
 
 Wire = tuple[int, str | None]
 """Where a wire begins: the number of an element, and the pin of a box."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 
 from driveblocks.export.element import Element, cdata, element, escaped
 from driveblocks.export.part import Declared, Part
-from driveblocks.st import tree
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import Comment, Expression, Spec, VarBlock, VarDecl, VarKind
-from driveblocks.st.types import ELEMENTARY
+from structured_text.language import tree
+from structured_text.language.problems import Problem
+from structured_text.language.tree import Comment, Expression, Spec, VarBlock, VarDecl, VarKind
+from structured_text.language.types import ELEMENTARY
 
 _XHTML = "http://www.w3.org/1999/xhtml"
 _VENDOR = "http://www.3s-software.com/plcopenxml/"

@@ -19,9 +19,9 @@ from driveblocks.export.wide import wide
 from driveblocks.render.environment import render
 from driveblocks.render.library import PLATFORMS
 from driveblocks.render.motor import SCAN_MS
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import TypeDecl
+from structured_text.language.parser import parse
+from structured_text.language.problems import Problem
+from structured_text.language.tree import TypeDecl
 
 TARGET = "twincat"
 IDS = UUID("6b1f2c0e-2d0f-5a53-9a39-1f0d6c7c6a11")

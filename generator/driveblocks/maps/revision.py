@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Worded
-from driveblocks.st.fingerprint import fingerprint
+from structured_text.language.fingerprint import fingerprint
 
 
 def revision(drive: Drive) -> int:

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import driveblocks
-from driveblocks.host.engine import Value
 from driveblocks.plc import wanted
 from driveblocks.plc.session import Session
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Value
 
 PROGRAM = "three_makes.st"
 RAMP, COAST = 40, 60

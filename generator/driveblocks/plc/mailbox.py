@@ -2,9 +2,9 @@
 
 from collections import deque
 
-from driveblocks.host.embedded import EmbeddedInstance
-from driveblocks.host.embedded.certainty import known
 from driveblocks.plc.wiring import Wiring
+from structured_text.engines.embedded import EmbeddedInstance
+from structured_text.engines.embedded.certainty import known
 
 MOST_BYTES = 255
 """What a line takes in one scan."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 from xml.sax.saxutils import escape
 
-from driveblocks.host.engine import Value
+from structured_text.engines.engine import Value
 
 MOST_CHANGES = 20_000
 """Changes of one variable that a picture holds; older ones are forgotten."""

@@ -13,8 +13,8 @@ from rich.table import Table
 from rich.text import Text
 
 from driveblocks import console
-from driveblocks.host.engine import Value
 from driveblocks.plc.view import Seen, View, spelled
+from structured_text.engines.engine import Value
 
 HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."
 BAD, GOOD = "bold red1", "bold green4"

@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from driveblocks import console
-from driveblocks.host.engine import BuildError, ScanError
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
@@ -29,6 +28,8 @@ from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import BuildError, ScanError
+from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
 USUAL = {"BitRate": 9600, "CharacterBits": 10}
@@ -63,7 +64,7 @@ class Setup:
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
         if console.terminal().is_terminal:
-            console.write(f"{self.label}  compiling {console.name(self._path.name)}")
+            console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
         self._probe = self._probed()
@@ -84,7 +85,7 @@ class Setup:
     # ------------------------------------------------------------ program
 
     def _load(self) -> source.Loaded:
-        name = console.name(catalog.shown(self._path))
+        name = file_name(catalog.shown(self._path))
         try:
             return source.load(name, _text(self._path, name), self._maps, self._options.name)
         except BuildError as error:
@@ -245,20 +246,20 @@ class Setup:
 
     def _records(self) -> None:
         """Open what is to be recorded. Raises Refused."""
-        where, names = f"{self.label}, {console.name(self._path.name)}", self._session.recorded
+        where, names = f"{self.label}, {file_name(self._path.name)}", self._session.recorded
         ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
         try:
             for path, way in ways:
                 if path is not None:
                     self._session.recorders.append(way(path, names, where, waits=self._options.fast))
         except OSError as error:
-            raise Refused(f"{console.name(error.filename)}: {error.strerror}") from None
+            raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
 
     def _script(self, controller: Controller) -> list[script.Setting]:
         path = self._options.script
         if path is None:
             return []
-        name = console.name(path)
+        name = file_name(path)
         try:
             return script.read(name, _text(path, name), controller.instance)
         except script.ScriptError as error:
@@ -290,7 +291,7 @@ class Setup:
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
     def _screen(self) -> Screen:
-        terminal, title = console.terminal(), console.name(self._path.name)
+        terminal, title = console.terminal(), file_name(self._path.name)
         drawn = terminal.is_terminal and not terminal.is_dumb_terminal and not terminal.legacy_windows
         if drawn and not self._options.fast:
             heading = Heading(self._head(), title, self._options.real)

@@ -3,12 +3,22 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from driveblocks.host.embedded.certainty import present
-from driveblocks.host.engine import BuildError, Message
-from driveblocks.st import tree
-from driveblocks.st.tree import Binding, Block, Direction, Expression, FunctionBlock, Pou, Program, VarDecl, VarKind
-from driveblocks.st.types import Elementary
-from driveblocks.st.walk import statements
+from structured_text.engines.embedded.certainty import present
+from structured_text.engines.engine import BuildError, Message
+from structured_text.language import tree
+from structured_text.language.tree import (
+    Binding,
+    Block,
+    Direction,
+    Expression,
+    FunctionBlock,
+    Pou,
+    Program,
+    VarDecl,
+    VarKind,
+)
+from structured_text.language.types import Elementary
+from structured_text.language.walk import statements
 
 LINES = {"MB_LINE8", "MB_LINE32"}
 BYTE_LINES = {"MB_BYTELINE8", "MB_BYTELINE32"}

@@ -11,7 +11,7 @@ from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.view import error_number
 from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.st.writing import word
+from structured_text.language.writing import word
 
 PINS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",

@@ -7,15 +7,15 @@ from functools import cached_property
 
 import z3
 
-from driveblocks.host.engine import Source
 from driveblocks.prove import observer
 from driveblocks.prove.example import nothing
 from driveblocks.prove.rules import Subject
 from driveblocks.prove.sorts import UnsupportedError, initial, leaves, sort
 from driveblocks.prove.terms import Obligation, Store, Terms
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, Function, Pou, VarKind
+from structured_text.engines.engine import Source
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, Function, Pou, VarKind
 
 BEFORE = "Was."
 """What the name of a term begins with that is not an input of the call."""

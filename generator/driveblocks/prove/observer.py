@@ -6,8 +6,8 @@ it). Constants of all blocks may be used where all blocks that have one of that 
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from driveblocks.st.tree import Block, Checked, Function, Literal, Pou, VarDecl, VarKind
-from driveblocks.st.types import Type
+from structured_text.language.tree import Block, Checked, Function, Literal, Pou, VarDecl, VarKind
+from structured_text.language.types import Type
 
 NAME = "Rules_of_"
 """How the observer of a block is called."""

@@ -11,7 +11,7 @@ from typing import TypeAlias
 import z3
 
 from driveblocks.prove.sorts import SINGLE, UnsupportedError, sort
-from driveblocks.st.types import Elementary, Kind, Type, plain
+from structured_text.language.types import Elementary, Kind, Type, plain
 
 Term: TypeAlias = z3.ExprRef
 Demand = Callable[[str, Term], None]

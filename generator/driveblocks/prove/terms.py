@@ -14,7 +14,7 @@ import z3
 from driveblocks.prove import operations
 from driveblocks.prove.operations import Term, both, choice, inverse
 from driveblocks.prove.sorts import UnsupportedError, initial, leaves, number
-from driveblocks.st.tree import (
+from structured_text.language.tree import (
     Array,
     Assign,
     Binary,
@@ -40,7 +40,7 @@ from driveblocks.st.tree import (
     VarKind,
     While,
 )
-from driveblocks.st.types import REAL, Elementary, Type, plain
+from structured_text.language.types import REAL, Elementary, Type, plain
 
 Store = dict[str, Term]
 """What every scalar is, by its path."""

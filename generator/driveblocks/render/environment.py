@@ -11,8 +11,8 @@ from driveblocks.maps import form
 from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import constants, expression, results
-from driveblocks.st import writing
-from driveblocks.st.fingerprint import body, fingerprint, stream
+from structured_text.language import writing
+from structured_text.language.fingerprint import body, fingerprint, stream
 
 ABI = 2
 """Version of the shared types; blocks of one ABI number fit together."""

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
 from driveblocks.maps.form import Span
-from driveblocks.st.writing import word
+from structured_text.language.writing import word
 
 T = TypeVar("T")
 

@@ -9,7 +9,7 @@ from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
 from driveblocks.render.context import Context, source_of
-from driveblocks.st.writing import string
+from structured_text.language.writing import string
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.request import Asked
-from driveblocks.st.writing import byte, dword, flag, real, string, word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.script import Item, Probe, Script
+from structured_text.language.writing import byte, dword, flag, real, string, word
 
 GENERIC = "modbus"
 """Folder of the programs that test what all drives share."""

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.reference.request import Asked, body
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import WORDS
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import word
 
 LINE = "MODBUS over Serial Line V1.02"
 PROTOCOL = "MODBUS Application Protocol V1.1b3"

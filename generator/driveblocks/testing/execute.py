@@ -4,10 +4,10 @@ import struct
 import time
 from dataclasses import dataclass
 
-from driveblocks.host.engine import EngineError, Instance, Library, ScanError, Value
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result
 from driveblocks.testing.record import recorded
 from driveblocks.testing.script import Check, Program
+from structured_text.engines.engine import EngineError, Instance, Library, ScanError, Value
 
 SCAN_NS = 10_000_000
 """How far the clock goes from scan to scan."""

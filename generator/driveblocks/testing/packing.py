@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from driveblocks.reference.packing import pack, unpack
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import word
 
 BOXES = {"Adu": 256, "Chars": 513}
 """The arrays and how many bytes they hold."""

@@ -6,11 +6,11 @@ from dataclasses import dataclass, replace
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Manners, manners, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
+from structured_text.language.writing import word
 
 STALE = (0xDEAD, 0xBEEF, 0xF00D)
 """What stands in the words before each reply: one that is not believed must leave it."""

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
-from driveblocks.st.writing import comment, flowing, paragraph, remarked
 from driveblocks.testing.harness import PER_SCAN
+from structured_text.language.writing import comment, flowing, paragraph, remarked
 
 MOST_STAGES = 100
 """Stages of one program; what needs more becomes several programs."""

@@ -6,11 +6,11 @@ from fractions import Fraction
 from driveblocks.maps.model import Drive
 from driveblocks.reference.single import stored
 from driveblocks.reference.speed import SpeedReference
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
 from driveblocks.testing.table import Table
+from structured_text.language.writing import word
 
 Case = tuple[str, float, float, float, float]
 """What it is about; SpeedReferenceHz, MaximumHz, FullScaleHz, ReferenceScale."""

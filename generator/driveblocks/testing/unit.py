@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from driveblocks.host.engine import Source
 from driveblocks.testing import harness
 from driveblocks.testing.script import Suite
 from driveblocks.testing.suite import ROOT
+from structured_text.engines.engine import Source
 
 
 @dataclass(frozen=True)

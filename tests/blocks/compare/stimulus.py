@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from tests.blocks.compare.pou import Pou
 from tests.blocks.compare.scenario import SCENARIOS, kind_of, scenario
 from tests.blocks.compare.value import Values
-from tests.host.compare.draws import Draws
-from tests.host.compare.scenarios import Inputs
+from tests.structured_text.engines.compare.draws import Draws
+from tests.structured_text.engines.compare.scenarios import Inputs
 
-from driveblocks.st.types import Kind
+from structured_text.language.types import Kind
 
 SCENARIO = 0.75
 LANDMARK = 0.2

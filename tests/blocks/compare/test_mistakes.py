@@ -7,8 +7,8 @@ from tests.blocks.compare.comparison import Libraries, build, compare, subjects
 from tests.blocks.compare.pou import AROUND, Text, read, shipped
 from tests.blocks.compare.subject import Subject
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Source, Value
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Source, Value
 
 SCANS = 1000
 SEED = 7

@@ -12,8 +12,8 @@ from driveblocks.export.part import shelf as made_shelf
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
 from driveblocks.render import library, text
-from driveblocks.st.fingerprint import fingerprint, stream
-from driveblocks.st.tree import ArraySpec, Function, NamedSpec, Pou, Spec, TypeDecl, VarDecl, VarKind
+from structured_text.language.fingerprint import fingerprint, stream
+from structured_text.language.tree import ArraySpec, Function, NamedSpec, Pou, Spec, TypeDecl, VarDecl, VarKind
 
 Files = dict[str, str]
 SECTIONS = {

@@ -14,9 +14,9 @@ from tests.shapes import shapes
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens import library
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
-from driveblocks.st.parser import parse
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, Source
+from structured_text.language.parser import parse
 
 INSTRUCTIONS = Path(__file__).parent / "instructions.st"
 

@@ -18,7 +18,7 @@ from tests.native.exhaustive.bench import Bench, Finding
 from tests.native.exhaustive.checks import CHECKS, Report, run
 from tests.native.exhaustive.embedded import PARTS, embedded
 
-from driveblocks.host.discovery import MATIEC_NAMES
+from structured_text.engines.discovery import MATIEC_NAMES
 
 PROCESSES = 2
 

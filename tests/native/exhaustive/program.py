@@ -19,10 +19,10 @@ from tests.native.exhaustive import (
 )
 from tests.native.exhaustive.bench import Bench
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
 from driveblocks.maps.model import Drive
 from driveblocks.render.results import code
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
 
 SCANS: tuple[scan.AnyScan, ...] = (
     *words.SCANS,

@@ -14,8 +14,8 @@ from tests.native.sanitize.pins import Pou, pous
 from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
 
 PARSER_INPUTS = 10_000_000
 """Blocks that take apart what comes from outside."""

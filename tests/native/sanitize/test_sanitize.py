@@ -14,7 +14,7 @@ from tests.native.sanitize.planted import FAULTS, spoilt
 from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 INPUTS = 20_000
 PARSED = {"CHF_Reply", "JSCC_Reply", "SN300G5_Reply", "MB_ParseReply", "MB_RtuOpen", "MB_AsciiDecode"}

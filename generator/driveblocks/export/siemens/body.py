@@ -3,9 +3,9 @@
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.words import ELEMENTARY, FORMAL, RESERVED, UNNAMED, converts
-from driveblocks.st import walk
-from driveblocks.st.lexer import tokenize
-from driveblocks.st.tree import (
+from structured_text.language import walk
+from structured_text.language.lexer import tokenize
+from structured_text.language.tree import (
     Assign,
     Binary,
     Call,

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.words import ELEMENTARY, STANDARD_ACCESS, SYSTEM, quoted
-from driveblocks.st.library import fold
-from driveblocks.st.tree import (
+from structured_text.language.library import fold
+from structured_text.language.tree import (
     ArrayInitial,
     ArraySpec,
     Comment,

@@ -9,7 +9,7 @@ from driveblocks.export.siemens.declaration import head, opening, spelled, type_
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.page import page, source
 from driveblocks.render.context import identity
-from driveblocks.st.tree import ArraySpec, Function, Spec, TypeDecl
+from structured_text.language.tree import ArraySpec, Function, Spec, TypeDecl
 
 PLATFORM = "siemens"
 PORT = "SI_Port"

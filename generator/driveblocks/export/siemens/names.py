@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 
 from driveblocks.export.part import Part
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import ArraySpec, TypeDecl
+from structured_text.language.problems import Problem
+from structured_text.language.tree import ArraySpec, TypeDecl
 
 
 @dataclass

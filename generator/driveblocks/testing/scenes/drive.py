@@ -15,7 +15,7 @@ from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import Pattern, of_condition
 from driveblocks.simulator.table import Gauge, Table, table
-from driveblocks.st.writing import byte, comment, word
+from structured_text.language.writing import byte, comment, word
 
 Context = dict[str, Any]
 

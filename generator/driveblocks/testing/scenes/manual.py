@@ -7,10 +7,10 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.permission import readable
-from driveblocks.st.writing import byte, dword, word
 from driveblocks.testing.scenes.drive import manners
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import Script
+from structured_text.language.writing import byte, dword, word
 
 READS, WRITES = (3, 4), (6, 8, 16)
 MOST_READ, MOST_WRITTEN = 4, 4

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import most
 from driveblocks.reference.permission import Judge, Write, readable, writable
-from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED
 from driveblocks.testing.scenes.parameter import BLOCKS, CALLS, WITHIN_MS, does, error, idle, meant, place_of
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import word
 
 MOST_READ, MOST_WRITTEN = 4, 3
 """Registers of a block."""

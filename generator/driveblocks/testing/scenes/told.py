@@ -4,12 +4,12 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.model import Command, Drive
 from driveblocks.reference.command import Commands
-from driveblocks.st.writing import word
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, manners
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
+from structured_text.language.writing import word
 
 KEPT = 0x5A5A
 """What stands in a command register beside the commands' own bits."""
