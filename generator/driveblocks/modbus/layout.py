@@ -176,6 +176,12 @@ def granted(body: bytes, direction: Direction) -> Layout:
     return Layout(direction, body, parts, size, two_byte_count=wide)
 
 
+def request(body: bytes) -> Layout | None:
+    """A request as the standard has it; None if its length is wrong. Of other functions nobody knows the length."""
+    found = granted(body, "request") if len(body) >= 2 else None
+    return None if found is None or found.missing or found.two_byte_count else found
+
+
 def _is_wide(body: bytes, at: int) -> bool:
     """Whether the byte count is a word: a count of 0 would carry nothing, and the next byte counts what follows."""
     return (

@@ -5,11 +5,11 @@ from dataclasses import dataclass, field
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
-from driveblocks.modbus.frame import seal
+from driveblocks.modbus.frame import opened, seal
+from driveblocks.modbus.layout import granted
 from driveblocks.plc.clock import Clock
 from driveblocks.plc.gate import Gate
 from driveblocks.plc.guard import stop_request
-from driveblocks.plc.wire import opened
 from driveblocks.simulator.pattern import Pattern, of_condition
 
 WITHIN_US = 10_000_000
@@ -124,7 +124,8 @@ class Stopper:
 
     def _read(self, unit: int, function: int, register: int) -> int | None:
         reply = self._ask(bytes([unit, function, *register.to_bytes(2, "big"), 0, 1]), 5)
-        return int.from_bytes(reply[3:5], "big") if reply[2:3] == b"\x02" else None
+        words = granted(reply, "reply").words if reply else ()
+        return words[0] if len(words) == 1 else None
 
     def _ask(self, body: bytes, length: int) -> bytes:
         """A request, and its reply of this number of bytes, both without checksum; empty if there is none."""
@@ -165,10 +166,8 @@ class Stopper:
         return int(len(frame) * self._character_us)
 
     def _reply(self, text: bytes, length: int) -> bytes:
-        if self._ascii:
-            return opened(text, ascii_mode=True) or b""
-        whole = text[: length + 2]
-        return whole[:-2] if len(whole) == length + 2 and seal("rtu", whole[:-2]) == whole else b""
+        body = opened("ascii", text) if self._ascii else opened("rtu", text[: length + 2])
+        return body if body is not None and len(body) == length else b""
 
 
 def _holds(pattern: Pattern, words: dict[int, int | None]) -> bool:
