@@ -74,7 +74,7 @@ class Scans:
         return self.block._block.paths.find(path).node.size
 
     def called(self, drives: int, *, line: bool = True) -> float:
-        """Nanoseconds of a scan in which so many drive blocks are called: the least of all rounds."""
+        """Nanoseconds of a scan in which this many drive blocks are called: the least of all rounds."""
         least = float("inf")
         for _ in range(self.rounds):
             self.block._memory.raw = self.before

@@ -21,7 +21,7 @@ MAIN = """
 static void (*volatile nothing_body)(void *) = nothing;
 static void run_nothing(void) { nothing_body(NULL); }
 
-/* One scan of each between two dumps of callgrind, behind a scan that is not counted; first a call of nothing. */
+/* One scan of each between two dumps of callgrind, after a scan that is not counted; first a call of nothing. */
 static int count_all(void)
 {
 #ifdef CALLGRIND_ZERO_STATS

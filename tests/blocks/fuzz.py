@@ -159,7 +159,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Fuzz the drives that are asked for. Exit status 1 when any reply was judged wrongly."""
     parser = argparse.ArgumentParser(description="Damaged replies through the reply blocks.")
     parser.add_argument("--count", type=int, default=1_000_000, help="replies per drive")
-    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="by chance without it")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="at random without it")
     parser.add_argument("--drive", choices=list(shipped()), action="append", help="all without it")
     given = parser.parse_args(arguments)
     print(f"seed {given.seed}", flush=True)

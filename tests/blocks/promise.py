@@ -55,7 +55,7 @@ class Try:
     number: int
     said: str
     digest: str = ""
-    """What stands for its blocks; empty for a map that `check` refuses."""
+    """What means its blocks; empty for a map that `check` refuses."""
     wrong: tuple[str, ...] = ()
 
 

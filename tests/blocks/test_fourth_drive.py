@@ -143,7 +143,7 @@ def test_refusals_that_no_shipped_drive_has(
 
 
 def steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Value) -> None:
-    """Calls with the pins that are TRUE beside Enable, and the register and word that must be told."""
+    """Calls with the pins that are TRUE beside Enable, and the register and word that must be reported."""
     pins = ("RunForward", "RunReverse", "QuickStop", "CoastStop", "FaultReset", "StopAcknowledged", "ResetAcknowledged")
     for asked, telegram in calls:
         scan(instance, {"Enable": True, **{pin: pin in asked.split() for pin in pins}, **always})

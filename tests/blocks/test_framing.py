@@ -14,7 +14,7 @@ LENGTHS = (0, 1, 2, 3, 8, 127, 128, 253, 254, 255, 256)
 
 
 def noise(length: int, seed: int = 7) -> bytes:
-    """Bytes by chance, the same on every run."""
+    """Random bytes, the same on every run."""
     return random.Random(f"{seed} {length}").randbytes(length)
 
 

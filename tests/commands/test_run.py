@@ -126,7 +126,7 @@ REFUSED = [
     (".", ".:1:1: cannot be read: it is no file"),
     ("my.st --script .", ".:1:1: cannot be read: it is no file"),
     ("my.st --port no-such-port", "no-such-port: "),
-    ("my.st --port x --format 9X9", "--format 9X9 is none; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
+    ("my.st --port x --format 9X9", "--format 9X9 is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
 ]  # fmt: skip
 
 

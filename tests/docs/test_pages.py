@@ -203,7 +203,7 @@ def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its
     for name in ("codesys", "openplc", "plcopen", "siemens", "twincat"):
         said = " ".join((FOLDER.parent / name / "README.md").read_text(encoding="utf-8").split())
         assert "(../docs/VFD_HardStop.md)" in said
-        assert "put a retriggered relay between" in said.lower()
+        assert "put a retriggered relay in between" in said.lower()
 
 
 PLATFORM_PAGES = ("codesys", "openplc", "plcopen", "siemens", "twincat")

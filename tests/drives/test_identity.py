@@ -134,7 +134,7 @@ def test_an_unanswered_read_does_not_keep_the_stop_back() -> None:
     assert one.number("FirstStopMs") == pytest.approx(one.frames[first].ms, abs=60)
     later = one.run(20_000)
     kinds = [each.read for each in later]
-    assert not any(a == b is False for a, b in pairwise(kinds)), "a read goes before each stop"
+    assert not any(a == b is False for a, b in pairwise(kinds)), "a read is sent before each stop"
     assert len([each for each in later if not each.read]) >= 2
     one.deaf = set()
     one.stopped()

@@ -1,4 +1,4 @@
-"""What else a drive block may be told, and what may be wrong around it."""
+"""What else a drive block may be reported, and what may be wrong around it."""
 
 from contextlib import suppress
 

@@ -1,4 +1,4 @@
-"""A fault reset: of the fault that was there when it was asked for, so often and no more, and no start behind it."""
+"""A fault reset: of the fault that was there when it was asked for, a few times and no more, and no start after it."""
 
 import pytest
 from tests.drives.bench import RUNS, Bench
@@ -14,7 +14,7 @@ CAN = [
 
 
 def tripped(kind: str = "CHF", code: int = 3) -> Bench:
-    """A drive with a fault, whose cause is gone and whose motor stands."""
+    """A drive with a fault, whose cause is gone and whose motor is at standstill."""
     bench = watched(kind, ms=10).running()
     bench.put(RunForward=False)
     bench.drives[0].trip(code)

@@ -119,7 +119,7 @@ def serve(bench: Bench) -> None:
 
 
 def meaning(word: int) -> Callable[[Bench], object]:
-    """What SN300G5's reference means is another thing; its block reads that anew behind a stop."""
+    """What SN300G5's reference means is another thing; its block reads that anew after a stop."""
 
     def happens(bench: Bench) -> None:
         bench.drives[0].set(0x000F, word)
@@ -340,7 +340,7 @@ def test_a_run_that_ends_by_itself_is_answered_by_a_stop(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
-    """The drive says that it runs until the motor stands."""
+    """The drive says that it runs until the motor is at standstill."""
     bench = watched(kind).running()
     bench.run(1500)
     bench.drives[0].keypad_stop()

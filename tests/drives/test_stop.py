@@ -1,4 +1,4 @@
-"""A stop leaves at once, goes out again until the drive proves that it stands, and says when it is late."""
+"""A stop is sent at once, goes out again until the drive proves that it stands, and says when it is late."""
 
 from itertools import pairwise
 
@@ -55,7 +55,7 @@ def test_a_fault_posts_a_stop(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_stop_that_nobody_acknowledges_is_not_confirmed(kind: str) -> None:
-    """Though all that is read says that the motor stands."""
+    """Though all that is read says that the motor is at standstill."""
     bench = watched(kind, start=False)
     bench.spoil = lambda frame, reply: None if stops(bench, [frame]) else reply
     bench.restart()
@@ -175,7 +175,7 @@ def test_a_plc_that_starts_warm_stops_a_running_motor(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_motor_that_comes_back_running_is_stopped(kind: str) -> None:
-    """On first contact and behind a lost connection, even if the drive says that it runs."""
+    """On first contact and after a lost connection, even if the drive says that it runs."""
     bench = watched(kind).running()
     bench.deaf = {1}
     bench.until(lambda: not bench.shows("CommOk"), 9000)

@@ -1,6 +1,6 @@
 """The ports of three platforms on the embedded engine, and how a maker's block may end with a frame.
 
-Each port stands in two rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; and in its line.
+Each port is in two rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; and in its line.
 """
 
 from collections.abc import Iterable
@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 
 @dataclass(frozen=True)
 class End:
-    """How each frame ends from now on: in which call behind the starting one (None: never), and whether in an error."""
+    """How each frame ends from now on: in which call after the starting one (None: never), and whether in an error."""
 
     call: int | None
     fails: bool = False

@@ -175,7 +175,7 @@ def tasks(one: Made) -> None:
 
 
 def drawings(one: Made) -> list[tuple[Node, str]]:
-    """Each ladder of a file, and the body that it stands for."""
+    """Each ladder of a file, and the body that it means."""
     nodes = {node.get("name"): node for node in one.file.all("types/pous/pou")}
     return [(nodes[unit.name], unit.body) for _, unit in one.pairs if unit.name.endswith("_Ladder")]
 

@@ -33,7 +33,7 @@ def written() -> dict[str, str]:
 
 
 def pieces(text: str) -> list[str]:
-    """A library cut behind each type, function and block; its own head goes before the first."""
+    """A library cut after each type, function and block; its own head goes before the first."""
     ends = [0, *(match.end() for match in END.finditer(text))]
     return [text[start:end] for start, end in pairwise(ends)]
 

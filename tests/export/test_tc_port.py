@@ -198,12 +198,12 @@ PLANTED = {
         "        Length",
         test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped,
     ),
-    "an older frame goes first": (
+    "an older frame is sent first": (
         "IF TxBuffer.Count > 0 THEN",
         "IF FALSE THEN",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
     ),
-    "a frame goes out again": (
+    "a frame is sent again": (
         "Length := 0;\n        Sent := 0;\n      ELSIF",
         "Sent := 0;\n      ELSIF",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, what stands in the text, what instead, and the kind of random lines that tells."""
+    """A mistake: its name, what is in the text, what instead, and the kind of random lines that tells."""
 
     name: str
     old: str

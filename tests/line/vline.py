@@ -317,7 +317,7 @@ class Bench:
         self._leave(bytes(value[: self["Port.TxCount"]]))  # type: ignore[arg-type]  # an array of BYTE
 
     def _leave(self, text: bytes) -> None:
-        """A request goes onto the wire."""
+        """A request is sent on the wire."""
         start, heard = self.now, max([self._last, *(at for at, _, _ in self._wire if at <= self.now)])
         if self.config.keeps:
             for at, _, _ in sorted(self._wire):

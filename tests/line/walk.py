@@ -193,7 +193,7 @@ class Walk:
             self.bench.port_takes = not self.bench.port_takes
         else:
             self.bench.echoes = not self.bench.echoes
-            self.bench.block["Port.ErrorID"] = 4  # behind an error it is decided anew; nothing else could tell
+            self.bench.block["Port.ErrorID"] = 4  # after an error it is decided anew; nothing else could tell
 
     def foreign(self, slot: int) -> None:
         frames = [

@@ -1,6 +1,6 @@
 """Drivers in C around the library as matiec translates it: programs, so that millions of scans cost no Python.
 
-A driver is C text that is compiled behind `prelude.h`, with the C of iec2c in the same unit. It prints what it found;
+A driver is C text that is compiled after `prelude.h`, with the C of iec2c in the same unit. It prints what it found;
 its exit status is 0 if all was well.
 """
 

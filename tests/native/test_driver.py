@@ -1,4 +1,4 @@
-"""A driver runs the library's C without Python, and a driver that does not compile is told."""
+"""A driver runs the library's C without Python, and a driver that does not compile is reported."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""On a real port only reads and the maps' stops leave, judged by the bytes, whatever the program wants."""
+"""On a real port only reads and the maps' stops are sent, judged by the bytes, whatever the program wants."""
 
 import pytest
 from tests.plc.desk import EXAMPLE, ONE, Desk
@@ -26,7 +26,7 @@ LEAVES = [
 DROPPED = [
     "01 10 00 00 00 01 02 00 01", "01 10 00 00 00 01 02 00 02",  # run
     "01 10 00 00 00 01 02 00 04",  # a terminal by the bus, which may be set to anything
-    "01 10 00 00 00 02 04 00 00 13 88",  # a stop with a reference behind it
+    "01 10 00 00 00 02 04 00 00 13 88",  # a stop with a reference after it
     "01 06 00 00 00 01", "01 10 00 01 00 01 02 13 88", "01 10 09 00 00 01 02 00 00",
     "02 06 10 00 00 01", "02 06 10 01 0B B8", "02 06 10 00 00 05",
     "03 06 10 00 00 03", "03 06 10 00 00 07", "03 06 20 00 27 10",  # what stops JSCC jogs CHF

@@ -1,4 +1,4 @@
-"""Terms as Python: what they are for given values. None stands for a value that the terms leave free."""
+"""Terms as Python: what they are for given values. None means a value that the terms leave free."""
 
 import math
 import struct

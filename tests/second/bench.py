@@ -62,7 +62,7 @@ class Second(Bench):
         self.strange = False
         """Another master speaks."""
         self.strange_ms = 0
-        """How often; 0: by chance."""
+        """How often; 0: at random."""
         self.strange_us = 0
         """When it spoke last."""
         self.strangers: list[int] = []

@@ -108,7 +108,7 @@ def ordered(one: Mutant, number: int) -> list[tuple[Cell, int]]:
 
 
 def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
-    """Of so many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
+    """Of this many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
     stations = mutated(one)
     if stations is None:
         return None

@@ -43,7 +43,7 @@ def shared(made: dict[str, Unit]) -> Unit:
 
 
 def only(unit: Unit, *programs: str) -> Unit:
-    """The unit with some of its programs, by the beginning of what stands behind `_Test`, and the blocks they need."""
+    """The unit with some of its programs, by the beginning of what follows `_Test`, and the blocks they need."""
     chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
     assert chosen, programs
     parts = unit.suite.parts if any("_TestDrive;" in one.text for one in chosen) else {}

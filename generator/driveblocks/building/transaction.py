@@ -157,7 +157,7 @@ def _about(path: Path) -> Iterator[None]:
 def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
     """Write a text for a file that it will become. Raises OSError that names it.
 
-    What something else goes for must be on the disk itself by then; to wait for that takes seconds for a whole library.
+    What replaces something else must be on the disk itself by then; to wait for that takes seconds for a whole library.
     """
     with _about(target):
         path.parent.mkdir(parents=True, exist_ok=True)

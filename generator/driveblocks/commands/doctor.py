@@ -16,7 +16,7 @@ _COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 def run(json: Json = False) -> None:
     """Say which ST engines this machine has, and what is missing.
 
-    For what is missing it says what that costs and where to get it.
+    For each part that is missing it says what cannot be done without it, and where to get it.
 
     The exit status is 0 if the embedded engine works: then everything can be done, and only matiec may be missing.
     It is 1 if not.

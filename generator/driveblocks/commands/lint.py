@@ -42,7 +42,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     A finding is one line, `file:line:col: CODE rule: why; what to write instead`. The files are taken as one text:
     each may use what another declares, and the types and blocks of the installed library. Of a file that cannot be
     read or parsed only that is reported; the others are checked all the same. The exit status is 0 without findings,
-    1 with findings, and 2 if a file could not be judged; standard error names it. docs/lint.md explains every rule.
+    1 with findings, and 2 if a file could not be checked; standard error names it. docs/lint.md explains every rule.
 
     With --for, also names that the targets of build reserve are reported.
 

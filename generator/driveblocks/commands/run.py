@@ -48,7 +48,7 @@ For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End afte
 Show = Annotated[
     list[str] | None,
     typer.Option(
-        "--show", metavar="NAME", help="Show this variable, too; may be repeated. Traced and pictured as well."
+        "--show", metavar="NAME", help="Show this variable, too; may be repeated. It is traced and drawn, too."
     ),
 ]
 Script = Annotated[
@@ -62,7 +62,7 @@ Trace = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write what
 Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw a timing diagram of the shown variables.")]
 Allow = Annotated[bool, typer.Option("--allow-run", help="Send more than reads and stops on a real port; asks first.")]
 Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, fifteen seconds.")]
-Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait, reckon the time.")]
+Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait between scans.")]
 
 
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line

@@ -51,9 +51,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and
     against a reference model, and play scenes: a drive block on its line, with a drive that the program simulates. Of a
     scene that fails, pins and frames before the failure are printed; --picture draws them. The exit status is 0 if all
-    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. With --coverage it is said what no
-    program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
-    --require-coverage asks for; what no input can reach is explained and left out of the percentage.
+    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. --coverage lists
+    what no program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
+    --require-coverage asks for; what no input can reach is explained and not in the percentage.
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """

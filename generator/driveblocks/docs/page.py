@@ -300,9 +300,9 @@ def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
         poll: Poll = read["read"]
         yield {
             "poll": poll,
-            "often": often if poll.fast else "one of the slow ones a round",
+            "often": often if poll.fast else "one slow read a round",
             "first": address_text(poll.address),
-            "titles": [f"{word['address_text']} {word['title'].lower()}" for word in read["words"]],
+            "titles": [f"{word['address_text']} {context.inside_a_sentence(word['title'])}" for word in read["words"]],
             "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
         }
 

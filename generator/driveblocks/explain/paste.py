@@ -25,7 +25,7 @@ _LIKE: dict[int, str | int] = {
     0x201D: '"',
     0x2013: "-",
 }
-"""Characters that stand for an ASCII one, each for one, so that columns stay right."""
+"""Characters that mean an ASCII one, each for one, so that columns stay right."""
 
 _LABEL = re.compile(
     r"""\s*(?:

@@ -72,7 +72,7 @@ def _identity(part: Part) -> str:
 
 
 def _structure(parts: tuple[Part, ...]) -> Element:
-    """One folder for each of the canonical text's, in one for all; a user's program stands outside of it."""
+    """One folder for each of the canonical text's, in one for all; a user's program is outside of it."""
     if all(isinstance(part.element, Program) for part in parts):
         own = (element("Object", {"Name": part.name, "ObjectId": _identity(part)}) for part in parts)
         return element("ProjectStructure", {}, *own)

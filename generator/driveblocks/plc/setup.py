@@ -147,7 +147,7 @@ class Setup:
         if self._options.form is not None:
             form = self._options.form.upper()
             if len(form) != 3 or form[0] not in "78" or form[1] not in "NEO" or form[2] not in "12":
-                raise Refused(f"--format {self._options.form} is none; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+                raise Refused(f"--format {self._options.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
             return form
         bits = self._line("CharacterBits")
         found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))

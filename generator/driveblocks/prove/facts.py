@@ -177,7 +177,7 @@ def _settings(drive: Drive) -> str:
 
 
 def _shown(drive: Drive) -> dict[str, str]:
-    """That the pins show what the map says of the words that were read, and what the line is told of the drive."""
+    """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
     manners, silence = reply(drive)["form"], drive.serial.silence
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)

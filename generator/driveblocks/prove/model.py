@@ -23,7 +23,7 @@ BEFORE = "Was."
 
 @dataclass(frozen=True)
 class Model:
-    """A call. `before`: the memory that it finds; `inputs`: with its inputs; `after`: what it leaves."""
+    """A call. `before`: the memory that it finds; `inputs`: with its inputs; `after`: the memory after it."""
 
     subject: Subject
     pou: Pou
@@ -132,7 +132,7 @@ def _model(subject: Subject, pou: Pou, checked: Checked) -> Model:
 
 
 def run(pou: Pou, inputs: Store, *, exact: bool = False) -> tuple[Store, list[Obligation]]:
-    """What a call leaves, and what has to hold in it for all compilers to agree."""
+    """The memory after a call, and what has to hold in it for all compilers to agree."""
     terms = Terms(dict(inputs), exact=exact)
     terms.block(pou, "", {name: name for name in in_outs(pou)})
     return terms.store, terms.obligations

@@ -148,7 +148,7 @@ class Terms:
         self._fork(self.value(condition), lambda: self.statements(body), lambda: self._branches(others, otherwise))
 
     def _fork(self, condition: Term, then: Run, otherwise: Run) -> None:
-        """Run both ways, and join what they leave."""
+        """Run both ways, and join their results."""
         if z3.is_true(condition):
             then()
         elif z3.is_false(condition):

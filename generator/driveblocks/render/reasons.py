@@ -71,7 +71,7 @@ REASONS = (
     Reason(20, "DISABLED", "Enable is FALSE", "未使能", "set `Enable`"),
     Reason(21, "STOP_PIN", "QuickStop or CoastStop is TRUE", "快速停机或自由停机信号有效", "release it"),
     Reason(22, "STOP_ALL", "all drives of the line are being stopped", "全部停机中", "release `StopAll` of the line"),
-    Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start anew"),
+    Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start again"),
     Reason(
         24,
         "HELD",
@@ -126,7 +126,7 @@ REASONS = (
         "correct the setting that the page names",
     ),
     Reason(34, "UNREAD", "the settings of the drive are not read yet", "参数尚未读取", "wait"),
-    Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start anew"),
+    Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start again"),
     # the drive
     Reason(
         40,

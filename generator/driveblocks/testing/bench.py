@@ -46,7 +46,7 @@ def fill(box: str, data: bytes) -> list[str]:
 
 
 def changed(box: str, usual: bytes, data: bytes) -> list[str]:
-    """Statements that put bytes into Adu or Chars where others stand by now."""
+    """Statements that put bytes into Adu or Chars where others are by now."""
     filled = fill(box, data)
     return [filled[index] for index in range(len(data)) if data[index : index + 1] != usual[index : index + 1]]
 

@@ -16,7 +16,7 @@ MOST = {3: 125, 4: 125, 16: 123}
 """Registers per frame by the standard."""
 
 UNTOUCHED = b"\xaa" * 12
-"""What stands in the frame before; a request that is refused leaves it."""
+"""What is in the frame before; a request that is refused keeps it."""
 
 NUMBERS = (0x0000, 0x00FF, 0xFF00, 0xFFFF)
 UNITS = (0, 1, 247, 248, 256, 257, 65535)

@@ -11,7 +11,7 @@ _HEAD = f"""# The test programs
 
 Everything in this folder is written by `driveblocks build` from the vendor maps; nothing in the library needs it.
 `driveblocks test` runs these programs on your computer. They are plain Structured Text, so a controller can run them
-too: on the bench, without a drive, to see that its compiler makes of the blocks what they should be.
+too: on the bench, without a drive, to see that its compiler translates the blocks correctly.
 
 1. Import the library in the order of `../iec61131/order.txt`, then the files named in `iec61131/order.txt`: those of
    `harness`, those of `modbus`, and those of your drive. A controller short of memory takes one program at a time.

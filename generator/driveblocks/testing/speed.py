@@ -46,7 +46,7 @@ def _table(program: Script, model: SpeedReference) -> Table:
     table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
     table.column("WantedHz", "REAL", 0.0, "AskedHz that it must give, Hz")
     table.column("Lowest", "UINT", 0, "Value that it must give, at least")
-    table.column("Highest", "UINT", 0, "... and at most: more only where REAL leaves two")
+    table.column("Highest", "UINT", 0, "... and at most: more only where REAL allows two")
     table.do(
         f"Encode({pins});",
         bench.is_number("Encode.ErrorID", "WantedError", "ErrorID"),

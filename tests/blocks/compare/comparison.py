@@ -18,7 +18,7 @@ from structured_text.engines.engine import Engine, Library, ScanError
 from structured_text.engines.matiec.library import MatiecLibrary
 
 AS_USERS = 64
-"""Every so many scans the states are also read and compared as users read them."""
+"""Every this many scans the states are also read and compared as users read them."""
 
 Libraries = Mapping[str, Library]
 
@@ -47,7 +47,7 @@ def _subject(name: str, library: Library, pou: Pou) -> Subject:
 
 
 def compare(pou: Pou, runs: Sequence[Subject], scans: int, seed: int) -> Difference | None:
-    """Drive all through so many scans; the first difference from the first run, or the first ScanError, or None."""
+    """Drive all through this many scans; the first difference from the first run, or the first ScanError, or None."""
     first, others = runs[0], runs[1:]
     for number, inputs in enumerate(islice(stimuli(pou, seed), scans)):
         errors = _step(runs, inputs)

@@ -36,7 +36,7 @@ def scenario(pou: Pou, values: Values, seed: int) -> Iterator[Inputs] | None:
 
 
 def kind_of(pou: Pou) -> str:
-    """The name of a POU behind the prefix of its layer or drive."""
+    """The name of a POU after the prefix of its layer or drive."""
     return pou.name.partition("_")[2]
 
 

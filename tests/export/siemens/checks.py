@@ -119,7 +119,7 @@ def declarations_are_equal(found: Read) -> None:
 
 
 def _variables(found: Read, part: Part) -> Iterator[tuple[str, str, str, tuple[str, ...], str]]:
-    """What is declared: an array of constants is a variable behind the others, a function's variable is temporary."""
+    """What is declared: an array of constants is a variable after the others, a function's variable is temporary."""
     element = part.element
     declared = element.spec.fields if isinstance(element, TypeDecl) else _all(element)  # type: ignore[attr-defined]  # a structure
     for one in sorted(declared, key=lambda each: each.constant):
@@ -138,7 +138,7 @@ def _all(pou: Pou) -> list[VarDecl]:
 
 
 def _type(found: Read, spec: Spec | None) -> str:
-    """A type in upper case, the name of an array replaced by what it stands for."""
+    """A type in upper case, the name of an array replaced by what it means."""
     if isinstance(spec, NamedSpec):
         part = found.parts.get(spec.name.upper())
         if spec.name == "TON":

@@ -314,7 +314,7 @@ class Module:
         self.port = running().instance("SI_Port")
 
     def receive(self, seconds: float = 0.01, scans: int = 1) -> None:
-        """Scans that receive, so many seconds apart."""
+        """Scans that receive, this many seconds apart."""
         for _ in range(scans):
             self.port["TxCount"], self.port["Meter"] = 0, seconds
             self.port.scan()

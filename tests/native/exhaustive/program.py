@@ -36,7 +36,7 @@ RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM", "NO_FULL_SCALE"
 
 
 def text() -> str:
-    """The whole driver behind its prelude."""
+    """The whole driver after its prelude."""
     shared = [_part("scans"), scan.table(SCANS), _part("checksums"), _part("permissions"), permissions.table()]
     families = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
     families += [_family(drive) for drive in shipped().values()]

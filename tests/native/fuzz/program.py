@@ -26,7 +26,7 @@ def targets() -> dict[str, str]:
 
 
 def text(engine: MatiecEngine) -> str:
-    """The C behind prelude.h."""
+    """The C after prelude.h."""
     library = pous(engine)
     return "\n".join([drivers(library, library), *_parts()])
 

@@ -24,7 +24,7 @@ SHARE = 2_500_000
 """The most that one process runs, so that every core has work to the end."""
 SECONDS = 3600.0
 EVERY = "*"
-"""The name that stands for every block."""
+"""The name that means every block."""
 
 
 def inputs(pou: Pou) -> int:
@@ -78,7 +78,7 @@ def build(engine: MatiecEngine, checked: Checked, texts: Sequence[Source] = (), 
 
 
 def at_once(program: Program, seed: int, count: int) -> Outcome:
-    """So many inputs to each block, one behind the other in one process; ends at the first find."""
+    """This many inputs to each block, one after the other in one process; ends at the first find."""
     return execute(Share(program, EVERY, seed, count))
 
 

@@ -24,7 +24,7 @@ class Configuration(Protocol):
         """Write `Resource.Program.Variable` or a global."""
 
     def run(self, ticks: int = 1) -> None:
-        """Run so many ticks; each runs the tasks that are due, then advances the clock by `tick_ns`."""
+        """Run this many ticks; each runs the tasks that are due, then advances the clock by `tick_ns`."""
 
     def state(self) -> dict[str, Value]:
         """Every scalar of the configuration, path in upper case -> value."""

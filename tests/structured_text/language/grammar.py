@@ -101,7 +101,7 @@ class Program:
         return f"{self.place(kind)} := {self.expression(kind, 3)}"
 
     def jump(self) -> str:
-        """What leaves a loop or the program; rarely, since nothing behind it runs."""
+        """What ends a loop or the program; rarely, since nothing after it runs."""
         words = ["EXIT", "CONTINUE", "RETURN"] if self.loops or self.strays() else ["RETURN"]
         return self.draw.choice(words) if self.draw.random() < 0.3 else self.assignment()
 

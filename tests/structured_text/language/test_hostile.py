@@ -20,7 +20,7 @@ SAMPLES = [(HERE / name).read_text(encoding="utf-8") for name in ("clean.st", "e
 MANY = 10_000
 """Far more than any stack of calls is deep."""
 FEW = 1500
-"""The growth of work is seen on texts of so many parts, and of twice and four times as many."""
+"""The growth of work is seen on texts of this many parts, and of twice and four times as many."""
 
 
 def program(text: str) -> str:
@@ -30,7 +30,7 @@ def program(text: str) -> str:
 
 @cache
 def hostile(many: int) -> dict[str, str]:
-    """Texts made to hurt, of so many parts."""
+    """Texts made to hurt, of this many parts."""
     return {
         "parentheses": program("a := " + "(" * many + "1" + ")" * many + ";"),
         "open parentheses": program("a := " + "(" * many),

@@ -60,7 +60,7 @@ def test_ignoring_a_rule_silences_it_and_selecting_it_silences_the_others(name: 
     text = next(text for kind, text in rows_of(name) if kind == "bad")
     whole = complete(text)
     if name in ("syntax", "long-expression"):
-        pytest.skip("what cannot be parsed is told whatever the selection")
+        pytest.skip("what cannot be parsed is reported whatever the selection")
     assert {each.rule for each in judged(name, whole, Selection.of([name], []))} == {name}
     assert name not in {each.rule for each in judged(name, whole, Selection.of([], [RULES[name].code]))}
 

@@ -16,7 +16,7 @@ READS, WRITES = (3, 4), (6, 8, 16)
 MOST_READ, MOST_WRITTEN = 4, 4
 """Registers of one request in a slot, beside polls."""
 STOP, PARAMETER = 0, 2
-"""Compartments: a write goes as a stop, which is sent at once; a read as a parameter."""
+"""Compartments: a write is posted as a stop, which is sent at once; a read as a parameter."""
 
 MORE = More(
     blocks={

@@ -75,7 +75,7 @@ def first_unlike(left: State, right: State) -> str | None:
 
 
 def lockstep(case: Case, runs: Sequence[Run], scans: int, seed: int, but: tuple[str, ...] = ()) -> Difference | None:
-    """Drive the runs through so many scans; the first difference from the first run, or None.
+    """Drive the runs through this many scans; the first difference from the first run, or None.
 
     Paths that begin with one of `but` are not compared.
     """
@@ -106,7 +106,7 @@ def _compare(
 
 
 def states(case: Case, engine: Engine, scans: int, seed: int) -> Iterator[State]:
-    """The states of one engine after each of so many scans."""
+    """The states of one engine after each of a number of scans."""
     run = Run(engine, case)
     for stimulus in islice(case.stimuli(seed), scans):
         yield run.scan(stimulus)

@@ -10,7 +10,7 @@ from structured_text.engines.engine import Engine, Library, ScanError, Source, V
 from structured_text.engines.matiec import BadCError
 
 FILE = Path(__file__).parent / "differences.yaml"
-# What stands in the place of a value; no STRING of the list has these characters.
+# What is in the place of a value; no STRING of the list has these characters.
 ERROR, BAD_C = b"error", b"badC"
 
 

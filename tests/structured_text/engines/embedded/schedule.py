@@ -79,7 +79,7 @@ class EmbeddedConfiguration:
         return self._interval
 
     def run(self, ticks: int = 1) -> None:
-        """Run so many ticks. ScanError."""
+        """Run this many ticks. ScanError."""
         run = self._compiler.run
         for _ in range(ticks):
             run.now = self._tick * self._interval
@@ -133,7 +133,7 @@ class EmbeddedConfiguration:
         return 0 if task.interval is None else int(self._compiler.evaluate(task.interval, TIME))
 
     def _enter_globals(self) -> None:
-        """Make globals readable by path: those of the configuration by name, those of a resource behind its name."""
+        """Make globals readable by path: those of the configuration by name, those of a resource after its name."""
         owners: dict[str, Block] = {}
         for owner, variable in globals_in(self._configuration):
             block = owners.setdefault(owner.upper(), Block(owner, Kind.BLOCK))

@@ -113,7 +113,7 @@ def test_a_block_alone_has_globals_of_its_own() -> None:
 
 
 def test_state_and_paths() -> None:
-    """Globals first, each resource's behind its name; then the programs."""
+    """Globals first, each resource's after its name; then the programs."""
     running = start(build(TEXT))
     paths = list(running.state())
     assert paths[:7] == ["TOTAL", "SHARE[0]", "SHARE[1]", "SHARE[2]", "BEGIN", "GO", "STATION.LOCAL"]

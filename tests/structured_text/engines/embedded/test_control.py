@@ -50,7 +50,7 @@ def test_case_without_match_and_else_does_nothing() -> None:
 
 @pytest.mark.parametrize("count", [50, 51, 100, 1200])
 def test_a_case_of_many_branches(count: int) -> None:
-    """More branches than Python takes inside each other, one of them, and what stands behind ELSE."""
+    """More branches than Python takes inside each other, one of them, and what follows ELSE."""
     labels = " ".join(f"{number}: y := {number + 1};" for number in range(count))
     made = block(COUNTER, f"y := 7; CASE n OF {labels} ELSE y := -1; END_CASE;")
     for number, expected in ((0, 1), (49, 50), (count - 1, count), (count, -1), (-1, -1)):
@@ -66,7 +66,7 @@ def test_while_and_exit() -> None:
 
 
 def test_repeat_runs_at_least_once() -> None:
-    """The condition stands behind."""
+    """The condition follows."""
     body = "y := 0; REPEAT y := y + 1; UNTIL y >= n END_REPEAT;"
     assert [run(body, n) for n in (-5, 1, 4)] == [1, 1, 4]
 
@@ -123,7 +123,7 @@ def test_return_from_inside_a_loop_keeps_what_was_written() -> None:
 
 
 def test_a_fault_inside_a_loop_keeps_what_was_written() -> None:
-    """So that the state after a ScanError tells what happened."""
+    """So that the state after a ScanError shows what happened."""
     made = block(COUNTER, "i := 0; WHILE i < 100 DO i := i + 1; y := 10 / (n - i); END_WHILE;")
     made["n"] = 5
     with pytest.raises(ScanError, match="division by zero"):
@@ -132,7 +132,7 @@ def test_a_fault_inside_a_loop_keeps_what_was_written() -> None:
 
 
 class TestBudget:
-    """A scan may take so many turns of loops, all loops together; the look that ends a WHILE counts as one."""
+    """A scan may take this many turns of loops, all loops together; the look that ends a WHILE counts as one."""
 
     TEXT = """FUNCTION_BLOCK Test
 VAR_INPUT n : UINT; END_VAR
@@ -149,14 +149,14 @@ END_FUNCTION_BLOCK
 """
 
     def test_up_to_the_limit(self) -> None:
-        """Exactly so many are allowed, and each scan has a new budget."""
+        """Exactly this many are allowed, and each scan has a new budget."""
         made = build(self.TEXT, loop_limit=101).instance("Test")
         made["n"] = 50
         for _ in range(3):
             made.scan()
 
     def test_beyond_the_limit(self) -> None:
-        """The error stands at the loop in which the budget ended."""
+        """The error is at the loop in which the budget ended."""
         made = build(self.TEXT, loop_limit=101).instance("Test")
         made["n"] = 60
         with pytest.raises(ScanError) as caught:

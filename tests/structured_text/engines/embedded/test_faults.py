@@ -173,7 +173,7 @@ END_FUNCTION_BLOCK
 
 
 class TestBuildErrors:
-    """What does not compile is told with its place, all of it at once."""
+    """What does not compile is reported with its place, all of it at once."""
 
     def test_syntax(self) -> None:
         """Of all sources."""

@@ -63,7 +63,7 @@ class MatiecConfiguration:
         paths.write(memory, rest, value)
 
     def run(self, ticks: int = 1) -> None:
-        """Run so many ticks."""
+        """Run this many ticks."""
         trap = self._run(self._now, ticks)
         self._now += ticks * self._tick
         if trap:

@@ -88,7 +88,7 @@ def test_warning_of_the_c_compiler_is_kept_with_the_build(fresh: MatiecEngine) -
 
 
 def test_name_that_the_library_of_matiec_uses_is_explained(matiec: MatiecEngine) -> None:
-    """All that iec2c says then is about its own files; one line on ours says what is behind it."""
+    """All that iec2c says then is about its own files; one line on ours gives the cause."""
     text = "(* head *)\nPROGRAM P\n  VAR\n    X : INT;\n  END_VAR\n  X := 1;\nEND_PROGRAM\n"
     with pytest.raises(BuildError) as caught:
         matiec.build([Source("p.st", text)])

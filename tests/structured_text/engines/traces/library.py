@@ -63,7 +63,7 @@ def path_of(folder: str) -> Path:
 
 
 def scans(pou: Pou) -> int:
-    """How many scans are recorded: all landmarks, then some by chance."""
+    """How many scans are recorded: all landmarks, then some at random."""
     return 1 + landmarks(pou) + (BY_CHANCE_WITH_ARRAYS if pou.arrays else BY_CHANCE)
 
 
@@ -99,7 +99,7 @@ def read(folder: str) -> dict[str, Record]:
 
 
 def states(pou: Pou, library: Library, count: int) -> Iterator[tuple[State, State]]:
-    """The state with the inputs set, and after the scan, for each of so many scans."""
+    """The state with the inputs set, and after the scan, for each of this many scans."""
     instance = library.instance(pou.block)
     for inputs in islice(stimuli(pou, SEED), count):
         set_inputs(instance, inputs)

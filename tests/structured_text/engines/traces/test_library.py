@@ -50,7 +50,7 @@ def test_the_record_is_of_the_blocks_as_they_are(folder: str) -> None:
 
 
 def test_a_changed_block_makes_its_record_stale() -> None:
-    """Another text, other inputs, or another name: each is told by name."""
+    """Another text, other inputs, or another name: each is reported by name."""
     first, second, third, *rest = _pous("jscc")
     changed = [replace(first, digest="0"), replace(second, whole=(7,)), replace(third, name="JSCC_New"), *rest]
     assert _stale("jscc", changed) == [first.name, second.name, "JSCC_New", third.name]

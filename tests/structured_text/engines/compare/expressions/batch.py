@@ -87,7 +87,7 @@ def _block(number: int, terms: Sequence[Term]) -> str:
 
 
 def make_batch(seed: object, count: int, vectors: int, without: Sequence[str] = ()) -> Batch:
-    """So many random expressions with so many random inputs."""
+    """This many random expressions with this many random inputs."""
     draws = Draws("expressions", seed)
     grammar = Grammar(draws, [each for each in PRODUCTIONS if each.rule not in without])
     terms = tuple(grammar.expression(draws.one_of(TYPES), draws.one_of(DEPTHS)) for _ in range(count))

@@ -53,7 +53,7 @@ def _arithmetic(g: Grammar, kind: str, depth: int) -> Term:
 
 def _division(g: Grammar, kind: str, depth: int) -> Term:
     if kind in REALS:
-        # matiec refuses a literal zero behind the stroke; a variable may well be zero.
+        # matiec refuses a literal zero after the stroke; a variable may well be zero.
         return g.join(kind, "division", g.expression(kind, depth), "/", g.anchored(kind, depth))
     return g.join(kind, "division", g.anchored(kind, depth), "/", g.divisor(kind, depth))
 
@@ -117,7 +117,7 @@ def _xor_function(g: Grammar, kind: str, depth: int) -> Term:
 
 
 def _not_function(g: Grammar, kind: str, depth: int) -> Term:
-    # To a parser this is the operator with parentheses behind it, so it must not follow a NOT either.
+    # To a parser this is the operator with parentheses after it, so it must not follow a NOT either.
     return Term(kind, "not-function", ("NOT(", g.anchored(kind, depth), ")"), UNARY)
 
 
