@@ -474,6 +474,39 @@ def test_no_stop_is_later_than_the_line_says(alive: tuple[bool, bool], slow: int
     assert 0.4 < worst <= 1
 
 
+def test_all_of_it_can_be_reached() -> None:
+    """Every line, and every outcome of a decision."""
+    counted = EmbeddedEngine(coverage=True).build(texts())
+    bench = Scene(None, counted.instance("T_Devices"), Address=0)
+    tour = (
+        {"Address": 0}, {"Address": 1, "FunctionCode": 9}, {"FunctionCode": 4, "Quantity": 17},
+        {"Quantity": 16, "First": 0xFFF1}, {"First": 0, "StaleMs": 65535}, {"StaleMs": 0, "SwapWords": True}, {"Quantity": 3, "SwapBytes": True},
+    )  # fmt: skip
+    for pins in tour:
+        bench.wire("Meter", **pins)
+        bench.run(300)
+    for pins in ({"WriteQuantity": 1}, {"WriteQuantity": 2}):
+        bench.write(**pins)
+    bench.wire("Get", Execute=True)
+    bench.run(100)
+    bench.block["Keep.SinceMs"] = 60_000
+    bench.put(0, SinceStoreMs=60_000)
+    bench.wire("Keep", Execute=True)
+    bench.run(100)
+    bench.wire("Meter", Address=3)
+    bench.run(500)
+    bench.wire("Meter", Address=8)
+    bench.run(500)
+    bench.set(Lined=False)
+    bench.run(1100)
+    bench.set(Lined=True, Twice=True)
+    bench.run(100)
+    path = "device/MB_Device.st"
+    assert [line for line, hits in counted.coverage()[path].items() if not hits] == []
+    missed = [(one.line, one.text) for one, hits in counted.branches()[path].items() if not hits]
+    assert missed == []
+
+
 def test_the_same_on_matiec(matiec: Engine) -> None:
     both: Instance = Twins([library().instance("T_Devices"), matiec.build(texts()).instance("T_Devices")])
     bench = Scene(Config(drives=4, garble=5000), both, FunctionCode=4, SwapWords=True)
