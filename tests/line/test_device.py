@@ -479,9 +479,14 @@ def test_all_of_it_can_be_reached() -> None:
     counted = EmbeddedEngine(coverage=True).build(texts())
     bench = Scene(None, counted.instance("T_Devices"), Address=0)
     tour = (
-        {"Address": 0}, {"Address": 1, "FunctionCode": 9}, {"FunctionCode": 4, "Quantity": 17},
-        {"Quantity": 16, "First": 0xFFF1}, {"First": 0, "StaleMs": 65535}, {"StaleMs": 0, "SwapWords": True}, {"Quantity": 3, "SwapBytes": True},
-    )  # fmt: skip
+        {"Address": 0},
+        {"Address": 1, "FunctionCode": 9},
+        {"FunctionCode": 4, "Quantity": 17},
+        {"Quantity": 16, "First": 0xFFF1},
+        {"First": 0, "StaleMs": 65535},
+        {"StaleMs": 0, "SwapWords": True},
+        {"Quantity": 3, "SwapBytes": True},
+    )
     for pins in tour:
         bench.wire("Meter", **pins)
         bench.run(300)
