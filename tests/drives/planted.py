@@ -370,4 +370,17 @@ PLANTED = (
         test_identity.test_its_own_maximum_must_be_full_scale,
         CIA,
     ),
+    Planted(
+        "an edge keeps a reset in hand whatever else is asked for",
+        "  Gone := (Stage <> NO_RESET) AND",
+        "  Gone := NOT Edge AND (Stage <> NO_RESET) AND",
+        test_reset.test_a_reset_that_waits_is_taken_back_for_reading_only_though_its_pin_rises_anew,
+    ),
+    Planted(
+        "a stop is repeated though the one after a restart waits",
+        "    Posts := (Follows OR Repeats) AND NOT FirstWaits AND NOT LeftOut;",
+        "    Posts := Follows OR Repeats;",
+        test_modes.test_a_restart_that_waits_for_the_bus_repeats_no_stop,
+        CIA,
+    ),
 )

@@ -138,6 +138,17 @@ def test_a_restart_does_not_wait_for_the_bus_for_good() -> None:
     assert stops(bench, bench.run(1500))
 
 
+def test_a_restart_that_waits_for_the_bus_repeats_no_stop() -> None:
+    """Another block has had a stop answered on this slot; that was taken for one of its own to be sent again."""
+    bench = elsewhere("SpeedOnly")
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    bench.restart().run(1000)
+    for part in ("Ask", "Answer"):
+        bench.block[f"Slots[0].{part}[0].Number"] = 77
+    assert not stops(bench, bench.run(2000))
+    assert bench.out("Control.First.Waits")
+
+
 def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
     bench = watched("CHF", "CHF").running()
     bench.put(Address=9)

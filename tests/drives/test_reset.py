@@ -113,6 +113,17 @@ def test_a_reset_does_not_outlive_what_it_was_asked_for(gone: str) -> None:
     assert bench.shows("Fault")
 
 
+def test_a_reset_that_waits_is_taken_back_for_reading_only_though_its_pin_rises_anew() -> None:
+    """The edge kept it in hand for one scan more, in which the line sent it."""
+    bench = tripped().put(FaultReset=True)
+    bench.scan()
+    bench.put(FaultReset=False).until(lambda: bench.out("Control.Reset.OnItsWay"))
+    assert not sent(bench, bench.frames, "fault_reset")
+    bench.put(FaultReset=True, MonitorOnly=True)
+    assert not sent(bench, bench.run(1000), "fault_reset")
+    assert not bench.out("Control.Resetting")
+
+
 def test_a_run_pin_held_through_a_reset_starts_nothing() -> None:
     bench = tripped().put(FaultReset=True)
     bench.scan()

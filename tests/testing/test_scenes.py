@@ -20,7 +20,7 @@ from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, Instance, Library, Source
 
-from .conftest import only, run
+from .conftest import changed, only, run
 
 PROGRAMS = ("Motor", "Parameters")
 
@@ -132,6 +132,30 @@ MISTAKES = {
 BLOCKS = {"Motor": "CHF_Drive.st", "Bus": "MB_ByteLine8.st", "HardStop": "VFD_HardStop.st"}
 
 
+TOKENS = {
+    "a reset that is over sends no stop": ("VFD_FaultReset", "Helped OR (Gone", "Helped AND (Gone", "MotorFault"),
+    "a reference is sent to a drive that nobody sees": (
+        "VFD_Send",
+        "IF Seen.CommOk AND Seen.SettingsRead",
+        "IF Seen.CommOk OR Seen.SettingsRead",
+        "MotorMode",
+    ),
+    "the wrong way counts only once run is acknowledged": (
+        "VFD_Run",
+        "(State > REFERRING) AND Seen.Moving AND Knows",
+        "(State > COMMANDING) AND Seen.Moving AND Knows",
+        "MotorExact",
+    ),
+    "the reference is refreshed one scan late": (
+        "VFD_Send",
+        "(RefreshedMs >= RefreshMs)",
+        "(RefreshedMs > RefreshMs)",
+        "MotorExact",
+    ),
+}
+"""Single tokens that the tests of lines and drives once left standing."""
+
+
 @pytest.fixture(scope="module")
 def chf() -> Unit:
     """The programs of a shipped family that has most of the commands, and what they need."""
@@ -189,6 +213,14 @@ def bad(chf: Unit, library: Library, name: str, number: int, program: str) -> li
 def test_a_mistake_is_found(chf: Unit, library: Library, name: str, words: str) -> None:
     number = list(MISTAKES[name]).index(words) + 1
     assert bad(chf, library, name, number, MISTAKES[name][words][2])
+
+
+@pytest.mark.parametrize("words", TOKENS)
+def test_a_wrong_token_is_found(chf: Unit, words: str) -> None:
+    block, old, new, program = TOKENS[words]
+    done = run(changed(only(chf, program), block, old, new))
+    assert [outcome for result in done.results for outcome in result.bad]
+    assert not any(result.count("error") for result in done.results)
 
 
 def test_what_makes_no_mistake_passes(chf: Unit, library: Library) -> None:

@@ -66,7 +66,10 @@ class Model:
         return ((path, term) for path, term in self.before.items() if re.split(r"[.\[]", path)[0] not in shared)
 
     def _observe(self, now: Store, before: Store) -> Store:
-        terms = Terms(now | {f"WAS.{path}": term for path, term in before.items()} | _unset(self.subject))
+        terms = Terms(
+            now | {f"WAS.{path}": term for path, term in before.items()} | _unset(self.subject),
+            exact=self.subject.exact,
+        )
         terms.block(self.checked.blocks[observer.name(self.pou).upper()], "", {})
         return {name: terms.store[name.upper()] for name in self.subject.conditions()}
 

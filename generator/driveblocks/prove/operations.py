@@ -1,7 +1,8 @@
 """Operators and standard functions of ST on terms, and what has to hold for all compilers to agree on the result.
 
-Arithmetic of REALs, and what is converted to or from them, is left free unless it is asked for: any value may come,
-which proves less, never more. Comparisons of REALs are exact, those with what is no number included.
+Products and quotients of REALs, and what is converted to or from them, are left free unless they are asked for: any
+value may come, which proves less, never more. Sums and comparisons of REALs are exact, those with what is no number
+included.
 """
 
 from collections.abc import Callable

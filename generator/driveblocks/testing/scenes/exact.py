@@ -17,6 +17,7 @@ MORE = More(
         "Stage1": ("UINT", "the state that it is told"),
         "Answers": ("UINT", "Number that is answered"),
         "Anew": ("BOOL", "its command has just been posted"),
+        "Way": ("BOOL", "the drive shows which way it turns"),
         "GoodSeen": ("UDINT", "replies of the last call"),
         "RequestsSeen": ("UDINT", "requests of the last call"),
         "SinceGood": ("UINT", "up to the last call: since a reply, ms"),
@@ -29,7 +30,7 @@ MORE = More(
     calls=(
         "Command(Seen := Known, Asked := Wish, CommLost := FALSE, State := Stage1, Order := 5, Sent := 5,",
         "  SentWord := WORD#16#0000, StepNumber := 0, Number := 7, Posted := Anew, Begun := Anew, Dropped := FALSE,",
-        "  AskNumber := 7, Answer := Answers, AnswerErrorID := 20, KnowsDirection := FALSE, FollowWithinMs := 1000,",
+        "  AskNumber := 7, Answer := Answers, AnswerErrorID := 20, KnowsDirection := Way, FollowWithinMs := 1000,",
         "  StepLast := 0, StepReached := TRUE, StepHoldMs := 0);",
         "Anew := FALSE;",
         "SinceGood := SinceGood + Pins.ElapsedMs;",
@@ -73,6 +74,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when it does after a restart", POWER, run(), *_attend_anew())
     yield scene("when a drive is dead", POWER, *_dead())
     yield scene("when a request is withdrawn", POWER, *_mailbox())
+    yield scene("when every call comes late", POWER, *_late_calls())
     if can.drive.operation.measures:
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
@@ -81,9 +83,15 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when a start is not followed", POWER, *_follow())
     yield scene("which call comes too late", POWER, *_restart())
     yield scene("a motor that ran before its command was acknowledged", *_ran())
+    yield scene("one that runs the other way before that", *_other_way())
+    yield scene("a restart while a command is in doubt", *_in_doubt())
 
 
 def _refresh(drive: Drive) -> Iterator[Step]:
+    usual: Shows = {"Pins.Settings.RefreshMs": 5 * SCAN_MS, ".Mark": "Seen.References"}
+    yield Step("every five scans", usual, ms=100 * SCAN_MS, shows={
+        "Seen.References - Mark": (19, 21), "Running": True,
+    })  # fmt: skip
     slow = drive.serial.silence is not None  # whose silence takes longer than that
     often: Shows = {"Pins.Settings.RefreshMs": 20}
     yield Step("every 20 ms", MS | often, ms=100 * SCAN_MS, shows={
@@ -122,14 +130,25 @@ def _mailbox() -> Iterator[Step]:
     yield Step("the port takes nothing", stuck, "Bus.Timeouts > Mark", 3000, {".SinceRequest": 1001 - 13})
 
 
+def _late_calls() -> Iterator[Step]:
+    """A call that comes late gives a reply one call more, and no more."""
+    late: Shows = {"Pins.ElapsedMs": 3 * SCAN_MS, "Pins.MaxScanMs": SCAN_MS}
+    yield Step(
+        "every call comes late", late, ms=10 * SCAN_MS, shows={"Slots[0].ScanLate": True, "Slots[0].Online": True}
+    )
+    begin: Shows = {"Fate.Dumb": True, ".Mark": "Bus.Timeouts"}
+    yield Step("its replies are lost", begin, ms=20 * SCAN_MS, shows={"Bus.Timeouts - Mark": (4, 9)})
+
+
 def _young() -> Iterator[Step]:
     yield Step("measures", {".Youngest": 65535}, ms=400, shows={".Youngest": 0})
 
 
 def _quiet(drive: Drive) -> Iterator[Step]:
     """After a restart the line keeps silence before its first request, whatever was before."""
-    slow: Shows = {"Pins.BitRate": 9600, "Pins.KeepsSilence": False, "Pins.Restart": True}
-    yield Step("a slow line", MS | slow, ms=SCAN_MS)
+    slow: Shows = {"Pins.BitRate": 9600, "Pins.KeepsSilence": False, "Pins.TxBusy": True}
+    yield Step("a slow line on which it is quiet", MS | slow, ms=60 * SCAN_MS)
+    yield Step("Restart", {"Pins.Restart": True, "Pins.TxBusy": False}, ms=SCAN_MS)
     yield Step("its first request", {"Pins.Restart": False}, "TxCount > 0", 2000, {
         ".WaitedMs": _after(4, 80 if drive.identity else 14),
     })  # fmt: skip
@@ -162,13 +181,34 @@ def _restart() -> Iterator[Step]:
     yield Step("in time", {"Pins.ElapsedMs": SCAN_MS}, "Motor.StopConfirmed", 3000, STANDS)
 
 
-def _ran() -> Iterator[Step]:
-    """The command in hand by itself: what is shown in these few calls, no drive does at will."""
-    begin: Shows = {"Known.CommOk": True, "Known.PassedMs": 1, "Wish.Order": 5, "Wish.Motion": True, ".Stage1": 3}
+def _posted() -> Iterator[Step]:
+    """The command in hand by itself: what is shown in a few calls, no drive does at will."""
+    begin: Shows = {
+        "Known.CommOk": True, "Known.PassedMs": 1, "Known.Moving": False, "Known.Backwards": False,
+        "Known.ProofRead": False, "Wish.Order": 5, "Wish.Motion": True, ".Stage1": 3, ".Way": False, ".Answers": 6,
+    }  # fmt: skip
     yield Step("run is posted", begin | {"Known.Restarted": True, ".Anew": True}, ms=20)
     yield Step("and not answered yet", {"Known.Restarted": False, ".Anew": True}, ms=40, shows={
         "Command.Open": True, "Command.UnderWay": True, "Command.Ends": 0,
     })  # fmt: skip
+
+
+def _other_way() -> Iterator[Step]:
+    yield from _posted()
+    back: Shows = {"Known.Moving": True, "Known.Backwards": True}
+    yield Step("it runs the other way, as far as it shows", back, ms=20, shows={"Command.Ends": 0})
+    yield Step("it does", {".Way": True}, ms=20, shows={"Command.Open": True, "Command.Ends": REASONS["BY_ITSELF"]})
+
+
+def _in_doubt() -> Iterator[Step]:
+    yield from _posted()
+    yield Step("nobody answers", {".Answers": 7}, ms=20, shows={"Command.Failed": True, "Command.RunsAgain": False})
+    anew: Shows = {"Known.Restarted": True, "Known.ProofRead": True, ".Answers": 6}
+    yield Step("Restart", anew, ms=20, shows={"Command.RunsAgain": False, "Command.Failed": False})
+
+
+def _ran() -> Iterator[Step]:
+    yield from _posted()
     yield Step("nobody answers", {".Answers": 7}, ms=20, shows={"Command.Failed": True, "Command.Taken": False})
     yield Step("it runs", {"Known.Moving": True}, ms=40, shows={"Command.Ends": 0, "Command.RunsAgain": False})
     yield Step("it stands", {"Known.Moving": False, "Known.ProofRead": True}, ms=20, shows={

@@ -142,7 +142,12 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
         found["DcBusVoltageV"] = 540.0
     if can.measures("output_power"):
         found["OutputPowerKW"] = 1.2
-    found["OutputCurrentValid"] = can.measures("output_current")
+    for name, what in (
+        ("OutputCurrent", "output_current"),
+        ("DcBusVoltage", "dc_bus_voltage"),
+        ("OutputPower", "output_power"),
+    ):
+        found[f"{name}Valid"] = can.measures(what)
     return found
 
 
@@ -242,6 +247,8 @@ def stops(can: Ability) -> Iterator[Scene]:
     yield scene("a stop grows stronger", POWER, run(), *_stronger(can))
     if can.can("jog_forward"):
         yield scene("the jog pin falls", POWER, *_jog_ends(can))
+        if can.can("jog_stop"):
+            yield scene("a jog whose block is no longer called", POWER, *_jog_alone())
     yield scene("a motor that runs on", POWER, run(), *_runs_on())
     yield scene("a stop whose acknowledgement is lost", POWER, run(), *_unanswered_stop())
     yield scene("a flickering stop pin", POWER, run(), *_flicker())
@@ -272,14 +279,20 @@ def _released() -> Iterator[Step]:
     yield Step("it ramps down", {}, "Seen.Milli < 20000", 1000, {"StopConfirmed": False, "Reason": "STOPPING"})
     yield stand({
         "Reason": "READY", "Motor.Diagnosis.StopReason": 6, "Motor.Diagnosis.StopKind": 1, "AtSpeed": False,
+        "Slots[0].Answer[1].ErrorID = 0": True,
     })  # fmt: skip
 
 
 def _stronger(can: Ability) -> Iterator[Step]:
-    yield Step("a ramp", {"RunForward": False}, "Seen.Stopping", 300, {"Seen.StopKind": 1})
+    runs_on: Shows = {"RunForward": False, "Fate.RunsOn": True, "StopWithinMs": 20000}
+    yield Step("a ramp, and it runs on", runs_on, TOLD, 300, {"Seen.StopKind": 1})
     yield Step("a quick stop", {"QuickStop": True}, ms=150, shows={"Seen.StopKind": can.kind("quick_stop")})
     yield Step("a coast stop", {"CoastStop": True}, ms=150, shows={"Seen.StopKind": can.kind("coast_stop")})
-    yield stand()
+    pins: Shows = {"CoastStop": False, "QuickStop": False, ".Mark": "Seen.Stops"}
+    yield Step("its repetitions are as strong", pins, "Seen.Stops > Mark", 1000, {
+        "Seen.StopKind": can.kind("coast_stop"), "Slots[0].StopAgain": True,
+    })  # fmt: skip
+    yield Step("it stands", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
 
 
 def _jog_ends(can: Ability) -> Iterator[Step]:
@@ -291,6 +304,16 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
     yield run({"Seen.Starts": 2})
     yield Step("after a run there is but one stop", {"RunForward": False, ".Mark": "Seen.Stops"}, TOLD, 300)
     yield stand({"Seen.StopKind": 1, "Seen.Stops - Mark": (1, 2)})
+
+
+def _jog_alone() -> Iterator[Step]:
+    """The line knows which stop comes first."""
+    yield Step("both stops are told after power-up", ms=100, shows={"Seen.StopKind": 4})
+    yield Step("it jogs", {"JogForward": True}, "ABS(Seen.Milli - 5000) <= 200", 1500, {"Seen.Order": 7})
+    gone: Shows = {"Pins.NoDrive": True, "Pins.AttendMs": 200, ".Mark": "Seen.Stops"}
+    yield Step("the line ends it", gone, "Seen.Stops > Mark", 1500, {"Seen.StopKind": 4})
+    yield Step("and stops what may run beside", {}, "Seen.StopKind = 1", 500, {"Seen.Stops - Mark": 2})
+    yield Step("the block is back", {"Pins.NoDrive": False, "JogForward": False}, "Motor.Ready", 5000, STANDS)
 
 
 def _runs_on() -> Iterator[Step]:
@@ -393,7 +416,8 @@ def _trip(can: Ability) -> Iterator[Step]:
     other = can.codes[0] if can.code else 0
     yield Step("the first fault since then is another", {"Fate.Trips": can.codes[0]}, ms=500, shows={
         "Motor.Diagnosis.FirstFaultCode": other, "Motor.Diagnosis.FaultBack1": other, "Fault": True,
-        "Motor.Diagnosis.FaultBack2": can.code,
+        "Motor.Diagnosis.FaultBack2": can.code, "Motor.Diagnosis.FirstFaultMs > 200": True,
+        "Motor.Diagnosis.FirstFaultMs < 3500": True,
     })  # fmt: skip
 
 
@@ -647,7 +671,9 @@ def _tries(can: Ability) -> Iterator[Step]:
 
 
 def _keypad_run() -> Iterator[Step]:
-    yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {"StopConfirmed": False})
+    yield Step("it is stopped", {"Fate.KeypadRun": True}, "Seen.Stopping", 1500, {
+        "StopConfirmed": False, "Slots[0].StopAgain": False,
+    })  # fmt: skip
     yield stand(NOTHING_STARTED)
 
 
@@ -701,6 +727,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     """Who is in charge, settings that are missing or wrong."""
     yield scene("MonitorOnly", POWER, run(), *_monitor())
     yield scene("SpeedOnly", POWER, *_speed_only(can))
+    yield scene("SpeedOnly, and a stop pin that flickers", POWER, *_calm(can))
     yield scene("a setting that is missing", POWER, *_missing())
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
@@ -714,6 +741,7 @@ def modes(can: Ability) -> Iterator[Scene]:
 
 def _monitor() -> Iterator[Step]:
     yield Step("it stops first", {"MonitorOnly": True}, TOLD, 500, {"Seen.StopKind": 1})
+    yield Step("until that is proved", ms=200, shows={"Motor.Diagnosis.State": 0, "Seen.Driven": True})
     yield Step(
         "then it only reads", {}, "(Seen.Milli = 0) AND (Motor.Diagnosis.State = 5)", 4000, {"Reason": "MONITOR"}
     )
@@ -750,6 +778,18 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step("it is read again", seen, "Motor.CommOk AND (Seen.References > Mark)", 2000, {"Seen.Starts": 0})
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
     yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
+
+
+def _calm(can: Ability) -> Iterator[Step]:
+    """After a stop pin the reference stays 0 for half a second."""
+    speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}
+    yield Step("the reference is sent", speeds, f"({why('SPEED_ONLY')}) AND (Seen.References > 0)", 2000)
+    register = word(can.drive.operation.reference.register)
+    given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
+    for _ in range(2):
+        yield Step("Enable falls", {"Enable": False}, ms=100, shows={"Motor.Diagnosis.State": 6})
+        yield Step("and rises: none yet", {"Enable": True}, ms=300, shows={given: False})
+    yield Step("then the reference", {}, given, 600, NOTHING_STARTED)
 
 
 def _missing() -> Iterator[Step]:
@@ -791,6 +831,8 @@ def _heartbeat(can: Ability) -> Iterator[Step]:
     }
     name, shows = fed[can.feeds]
     yield Step(name, sets, ms=3000, shows=RUNNING | shows)
+    for _ in range(6):
+        yield Step("in time", ms=4 * SCAN_MS, shows=RUNNING)
     rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
     yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 

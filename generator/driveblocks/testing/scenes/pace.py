@@ -129,7 +129,19 @@ def _resets(can: Ability) -> Iterator[Step]:
     yield Step("is taken back by a stop, when somebody else takes charge", {"MonitorOnly": True}, ms=40, shows={
         "Slots[0].Ask[1].Number": "Slots[0].Answer[1].Number", "Reason": "NO_RESET",
     })  # fmt: skip
+    if can.code:
+        yield from _another_fault(can)
     yield Step("all is well", {".Mute": False, "Fate.Dumb": False, "Fate.Cause": False}, ms=20)
+
+
+def _another_fault(can: Ability) -> Iterator[Step]:
+    """A fault that nobody has looked at is not reset."""
+    yield Step("in charge again", {"MonitorOnly": False, ".Mute": False, "FaultReset": False}, ms=1000)
+    begin: Shows = {".Mark": "Seen.Resets", ".Mute": True, "FaultReset": True}
+    yield Step("a reset that is not answered", begin, "Seen.Resets > Mark", 3000, {"Fault": True})
+    other: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True, "Fate.Trips": can.codes[0], ".Mark": "Seen.Resets"}
+    yield Step("another fault comes", other, ms=SCAN_MS)
+    yield Step("it is not reset", {"Fate.Cause": True}, why("NO_RESET"), 9000, {"Seen.Resets - Mark": (0, 1)})
 
 
 def _silent() -> Iterator[Step]:

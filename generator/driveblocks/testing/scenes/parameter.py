@@ -95,6 +95,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("a start while a parameter is written", idle(), *_waits(place))
     if can.drive.storage.method == "enter_register":
         yield scene("parameters are stored", idle(), *_stored(place))
+        yield scene("parameters are stored in vain", idle(), *_not_stored(can.drive))
 
 
 def place_of(drive: Drive) -> int | None:
@@ -193,15 +194,34 @@ def _waits(place: int) -> Iterator[Step]:
     pending |= {"Fate.Skipped": word(place)}
     yield Step("its answer stays away", pending, why("WRITE_WAITS"), 500, {"Ready": False, "Writer.Busy": True})
     yield Step("an edge starts nothing", {"RunForward": True}, ms=60, shows=NOTHING_STARTED | {"Reason": "WRITE_WAITS"})
-    yield Step("it is given up", {".Writing": False}, "NOT Writer.Busy", 3000, NOTHING_STARTED)
+    yield Step("a stop is a new one", {"Enable": False}, ms=60, shows={"Slots[0].StopAgain": False})
+    yield Step("it is given up", {".Writing": False, "Enable": True}, "NOT Writer.Busy", 3000, NOTHING_STARTED)
     yield Step("released", {"RunForward": False, "Fate.Skips": False}, "Motor.Ready", 2000)
     yield run()
 
 
-def _stored(place: int) -> Iterator[Step]:
-    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
+def _minute() -> Iterator[Step]:
+    """From one store to the next."""
     yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600, shows=NOTHING_STARTED)
     yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, "Motor.Ready", 3000, {"Seen.Stores": 0})
+
+
+def _not_stored(drive: Drive) -> Iterator[Step]:
+    yield from _minute()
+    nothing: Shows = {"Seen.Stores": 0}
+    yield Step("it refuses writes", {"Fate.RefusesWrites": True}, ms=50, shows=nothing)
+    refused = error("Storer", "REFUSED") | nothing | {"Storer.RefusedReason": codes(drive)["address"] or 0}
+    yield from does("Storer", 0, "Error", refused)
+    yield Step("it is well", {"Fate.RefusesWrites": False}, ms=50, shows=nothing)
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | nothing)
+    yield from _minute()
+    yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000, nothing)
+    yield from does("Storer", 0, "Error", error("Storer", "OFFLINE") | nothing)
+
+
+def _stored(place: int) -> Iterator[Step]:
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
+    yield from _minute()
     rivals: Shows = {".Rivals": True, ".Place": word(place)}
     yield Step("two that read without rest", rivals, ms=200, shows={"Storer.Busy": False})
     yield Step("Execute", {".Storing": True, ".Within": 8000, ".Mark": "Slots[0].Ask[2].Number"}, ms=40, shows={

@@ -24,7 +24,7 @@ RULES = (
     "nothing stored unasked", "no register written unasked", "not Running and StopConfirmed", "the right way round",
     "Reason 0 only while it runs", "FaultCode only with Fault", "no closed contact while a stop is overdue",
     "an answer to each command", "no StopConfirmed without its proof", "no fewer registers than are shown",
-    "no request that a line cannot send",
+    "no request that a line cannot send", "a stop after a fault reset",
 )  # fmt: skip
 """What VFD_TestWatch sees broken, by bit."""
 
