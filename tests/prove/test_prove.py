@@ -14,6 +14,7 @@ from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, report, rules
 from driveblocks.prove.proof import Verdict
 from driveblocks.prove.prover import Proved
+from structured_text.engines.embedded.engine import EmbeddedEngine
 
 FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
