@@ -135,7 +135,7 @@ def _resets(can: Ability) -> Iterator[Step]:
 
 
 def _another_fault(can: Ability) -> Iterator[Step]:
-    """A fault that nobody has looked at is not reset."""
+    """A fault that was not read is not reset."""
     yield Step("in charge again", {"MonitorOnly": False, ".Mute": False, "FaultReset": False}, ms=1000)
     begin: Shows = {".Mark": "Seen.Resets", ".Mute": True, "FaultReset": True}
     yield Step("a reset that is not answered", begin, "Seen.Resets > Mark", 3000, {"Fault": True})
