@@ -38,7 +38,7 @@ class Proof:
 
     @property
     def free(self) -> bool:
-        """Whether the call rests on values of REALs that the engine need not reckon."""
+        """Whether the call rests on values of REALs that the engine need not compute."""
         return any(name.startswith(FREE) for name in self.values)
 
     @property

@@ -1,4 +1,4 @@
-"""Run suites on engines: build each unit once per engine, run its programs, and keep going whatever goes wrong."""
+"""Run suites on engines: build each unit once per engine, run its programs, and continue whatever goes wrong."""
 
 import time
 from collections.abc import Iterable, Iterator, Sequence
