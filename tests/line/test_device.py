@@ -217,6 +217,21 @@ def test_silence_ends_what_is_valid_and_a_reply_begins_it(stale: int, every: int
     assert (bench["Meter.Valid"], bench.error()) == (True, "OK")
 
 
+def test_it_is_found_again_while_the_stop_of_a_dead_drive_waits() -> None:
+    """The stop was sent again whenever a dead unit could be asked, so no other was ever probed."""
+    bench = Scene(EveryMs=200).ready()
+    for dead in (0, 3):
+        bench.drives[dead].alive = False
+    bench.put(3, TurnRoundMs=400)  # so the wire rests for longer than until its stop is due again
+    bench.stop(3)
+    bench.run(3000)
+    assert not bench["Meter.CommOk"]
+    bench.drives[0].alive = True
+    bench.run(12_000)
+    assert bench["Meter.Valid"]
+    assert not bench.slot(3, "Online")
+
+
 def test_no_power_on_purpose_is_no_error() -> None:
     bench = Scene(SupplyOff=True)
     bench.drives[0].alive = False
