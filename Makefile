@@ -16,7 +16,7 @@ counts:               ## the tables of drives in the READMEs, from the maps
 schema:               ## vendor_maps/schema.json and keys.md from the model, and the smallest map in the guide
 	$(DB) schema vendor_maps
 
-fuzz:                 ## by chance: maps, texts for both YAML parsers, every property of the suite, damaged replies; hostile files
+fuzz:                 ## random maps, texts for both YAML parsers, every property of the suite, damaged replies; hostile files
 	@echo "again: make fuzz SEED=$(strip $(SEED))"
 	$(PY) tests/maps/fuzz.py --seed $(SEED)
 	$(PY) -m tests.maps.agreement --seed $(SEED)
@@ -31,16 +31,16 @@ promise:              ## 3000 changes of maps as authors make them: what check c
 	$(PY) -m tests.blocks.promise
 
 compare:              ## 10^5 scans of every block of the corpus and 10^6 expressions, embedded against matiec
-	$(PY) -m tests.host.compare.long
+	$(PY) -m tests.structured_text.engines.compare.long
 
 compare-blocks:       ## 10^5 scans of every block and function of the library, three engines, the full state after each
 	$(PY) -m tests.blocks.compare.long
 
 traces:               ## record how matiec runs the corpus and the library (needs both lines of matiec)
-	$(PY) -m tests.host.traces.record
+	$(PY) -m tests.structured_text.engines.traces.record
 
 verdicts:             ## record what matiec says of the accept/reject corpus
-	$(PY) -m tests.host.accept.record
+	$(PY) -m tests.structured_text.engines.accept.record
 
 coverage:             ## lines and branches of the blocks that the test programs reach, on every engine found
 	$(DB) test --engine all --require-coverage 90

@@ -16,8 +16,8 @@ from collections.abc import Generator
 import pytest
 from hypothesis import HealthCheck, settings
 
-from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
-from driveblocks.host.engine import Engine
+from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
+from structured_text.engines.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
 settings.register_profile(

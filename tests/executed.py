@@ -141,7 +141,7 @@ def idle(folder: Path) -> list[str]:
     return [
         name
         for name, path in modules().items()
-        if str(path) not in found and has_functions(path) and ".host.matiec" not in name
+        if str(path) not in found and has_functions(path) and ".engines.matiec" not in name
     ]
 
 

@@ -1,17 +1,20 @@
-"""What each module of the generator imports."""
+"""What each module of the two packages imports."""
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
 
 import driveblocks
+import structured_text
 
 ROOT = Path(driveblocks.__file__).parent
+TOOLCHAIN = Path(structured_text.__file__).parent
 
 
 def modules() -> dict[str, Path]:
     """Every module by its dotted name."""
-    names = {path: path.relative_to(ROOT.parent).with_suffix("").parts for path in ROOT.rglob("*.py")}
+    paths = [path for root in (ROOT, TOOLCHAIN) for path in root.rglob("*.py")]
+    names = {path: path.relative_to(ROOT.parent).with_suffix("").parts for path in paths}
     return {".".join(parts).removesuffix(".__init__"): path for path, parts in names.items()}
 
 
@@ -26,8 +29,9 @@ def imports(path: Path, known: dict[str, Path]) -> Iterator[str]:
 
 
 def room(module: str) -> str:
-    """The folder or file right below the package that a module is in; the package's own is called as itself."""
-    return [*module.split("."), "driveblocks"][1]
+    """The folder or file of `driveblocks` that a module is in; `driveblocks` itself, `structured_text` as a whole."""
+    package, *rest = module.split(".")
+    return rest[0] if package == "driveblocks" and rest else package
 
 
 GRAPH = {name: set(imports(path, modules())) for name, path in modules().items()}

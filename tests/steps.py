@@ -5,7 +5,7 @@ from collections.abc import Callable
 from types import FrameType
 
 SLACK = 20_000
-"""Steps of what happens only from some size on, such as sorting the most mistakes that are told."""
+"""Steps of what happens only from some size on, such as sorting the most mistakes that are reported."""
 
 
 def steps(work: Callable[[], object]) -> int:

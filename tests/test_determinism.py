@@ -1,4 +1,4 @@
-"""No test looks at a clock or draws by chance: a busy machine gives the same verdicts as an idle one, in every run."""
+"""No test looks at a clock or draws at random: a busy machine gives the same verdicts as an idle one, in every run."""
 
 import ast
 from collections.abc import Iterator

@@ -1,14 +1,17 @@
 """The rooms of the generator, each above what it may use: nothing imports from above, and no modules go in a circle."""
 
+import sys
 from graphlib import TopologicalSorter
 
 from tests.rooms import GRAPH, room
 
 ROOMS = (
-    "driveblocks", "console", "modbus", "st", "maps", "simulator", "reference", "tables", "explain", "host", "render",
-    "export", "docs", "testing", "prove", "building", "plc", "stand", "commands", "cli", "__main__",
+    "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "reference", "tables", "explain",
+    "render", "export", "docs", "testing", "prove", "building", "plc", "stand", "commands", "cli", "__main__",
 )  # fmt: skip
-"""From the bottom up; `driveblocks` is the package's own file."""
+"""From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""
+FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")
+"""Those of `structured_text`."""
 
 
 def test_nothing_imports_from_a_room_above() -> None:
@@ -24,3 +27,17 @@ def test_nothing_imports_from_a_room_above() -> None:
 
 def test_no_modules_go_in_a_circle() -> None:
     assert GRAPH.keys() <= set(TopologicalSorter(GRAPH).static_order())
+
+
+def test_the_toolchain_knows_no_drive() -> None:
+    own = {name: others for name, others in GRAPH.items() if room(name) == "structured_text"}
+    foreign = {
+        other.partition(".")[0]
+        for others in own.values()
+        for other in others
+        if other.partition(".")[0] not in sys.stdlib_module_names
+    }
+    assert foreign == {"structured_text"}
+    floors = {name: FLOORS.index([*name.split("."), "structured_text"][1]) for name in own}
+    upwards = [f"{name} -> {other}" for name in own for other in own[name] if floors.get(other, 0) > floors[name]]
+    assert not upwards

@@ -7,7 +7,7 @@ from tests.steps import grows_evenly, steps
 
 
 def turns(count: int) -> Callable[[], object]:
-    """Work of so many calls."""
+    """Work of this many calls."""
     return lambda: [abs(each) for each in range(count)]
 
 

@@ -49,7 +49,7 @@ def main() -> None:
     console.use_safe_utf8()
     try:
         app()
-    except OSError as error:  # a command tells of its files itself; what is left is a full disk behind its output
+    except OSError as error:  # a command reports on its files itself; what is left is a full disk under its output
         typer.echo(f"{error.filename or 'standard output'}: {error.strerror or error}", err=True)
         console.give_up_output()
         sys.exit(2)

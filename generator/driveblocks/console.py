@@ -6,42 +6,21 @@ terminal, and those that turn the direction of writing would show another text t
 
 import io
 import os
-import re
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from pathlib import Path
 from typing import Any, TextIO
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 from rich.text import Text
 
+from structured_text.visible import visible
+
 NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
 WIDEST = 1000
 """No terminal is wider; COLUMNS may say anything."""
-
-_HIDDEN = re.compile(
-    "[\0-\x08\x0b-\x1f\x7f-\x9f\xad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f"
-    "\ufeff\ufff9-\ufffb\ufffe\uffff\ud800-\udfff\U000e0000-\U000e0fff]"
-)
-"""Control characters but for tab and line feed, what directs or hides text, and what is no character at all."""
-
-
-def visible(text: str) -> str:
-    """A text with what nobody can see written as JSON does, \\u001b; tabs and line feeds stay."""
-    return _HIDDEN.sub(lambda match: _written(match[0]), text)
-
-
-def name(path: str | Path) -> str:
-    """The name of a file as a message holds it: in one line, whatever is in it."""
-    return visible(str(path)).replace("\n", _written("\n")).replace("\t", _written("\t"))
-
-
-def _written(character: str) -> str:
-    units = character.encode("utf-16-be", "surrogatepass").hex()
-    return "".join(f"\\u{units[at : at + 4]}" for at in range(0, len(units), 4))
 
 
 class Shown:
@@ -66,7 +45,7 @@ class Shown:
 
 
 def use_safe_utf8() -> None:
-    """Make both standard streams UTF-8, and what goes there visible.
+    """Make both standard streams UTF-8, and what is written there visible.
 
     Under a C locale Python may choose ASCII, and the manuals are Chinese.
     """

@@ -16,10 +16,10 @@ from tests.bench.units import program, units
 from tests.blocks.library import sources
 from tests.native.driver import run
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Instance, Library
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.st.tree import Function, FunctionBlock
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Instance, Library
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.language.tree import Function, FunctionBlock
 
 IEC = "IEC"
 """Column of the sum of IEC widths, as `blocks/README.md` prints it."""

@@ -10,7 +10,7 @@ WIDTH = 760
 LEFT = 250
 """Where bars begin; labels end a little before."""
 LONGEST = 350
-"""Length of the longest bar; behind it stands its text."""
+"""Length of the longest bar; its text follows it."""
 ROW, HEAD, GAP, MARGIN = 22, 26, 10, 16
 CHARACTER = 7.2
 """Most that a character of 13 pixels takes, on average over a word."""
@@ -31,7 +31,7 @@ text { fill: #e6edf3 }
 
 @dataclass(frozen=True)
 class Bar:
-    """One bar: what it is, how long, the text behind it, and of which kind: a key of the chart's legend."""
+    """One bar: what it is, how long, the text after it, and of which kind: a key of the chart's legend."""
 
     label: str
     value: float

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from tests.bench.forms import NATIVE, ROUNDS, timed
 from tests.bench.record import Rows
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 BUILDS = {"stock": True, "unforced": False}
 """How matiec's C is compiled: as its runtime has it, or without the test whether a variable is forced."""

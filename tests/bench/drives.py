@@ -8,9 +8,9 @@ from tests.bench.record import Rows
 from tests.drives.bench import Bench
 from tests.drives.station import FAMILIES, name_of, station, texts
 
-from driveblocks.host.engine import EngineError, Library, Source
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.library import MatiecInstance
+from structured_text.engines.engine import EngineError, Library, Source
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.library import MatiecInstance
 
 FEW, MANY = 4, 8
 """Drives on a line; what one more costs is taken from the difference."""
@@ -74,7 +74,7 @@ class Scans:
         return self.block._block.paths.find(path).node.size
 
     def called(self, drives: int, *, line: bool = True) -> float:
-        """Nanoseconds of a scan in which so many drive blocks are called: the least of all rounds."""
+        """Nanoseconds of a scan in which this many drive blocks are called: the least of all rounds."""
         least = float("inf")
         for _ in range(self.rounds):
             self.block._memory.raw = self.before

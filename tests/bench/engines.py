@@ -9,11 +9,11 @@ from pathlib import Path
 from tests.bench import speed
 from tests.bench.record import Rows
 from tests.blocks.library import sources
-from tests.host.embedded.bench import crc_rate, scan_rate
+from tests.structured_text.engines.embedded.bench import crc_rate, scan_rate
 
-from driveblocks.host.engine import Engine
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.cache import Cache
+from structured_text.engines.engine import Engine
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.cache import Cache
 
 
 def measure(engines: Iterable[Engine]) -> Rows:

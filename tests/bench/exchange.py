@@ -11,9 +11,9 @@ from tests.bench.inputs import WORDS
 from tests.bench.record import Rows
 from tests.bench.turns import Work, side_by_side
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Instance
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Instance
+from structured_text.engines.matiec import MatiecEngine
 
 FRAMERS: dict[str, type[FramerBase]] = {"rtu": FramerRTU, "ascii": FramerAscii}
 CHAINS = {"drive": "BN_Drive", "any": "BN_Any"}

@@ -7,8 +7,8 @@ from tests.bench.turns import Taken
 from tests.blocks.library import alone
 from tests.native.driver import PRELUDE, Driver, run
 
-from driveblocks.host.engine import EngineError, Source
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.engine import EngineError, Source
+from structured_text.engines.matiec import MatiecEngine
 
 NATIVE = Path(__file__).with_name("native")
 FOLDERS = ("types/", "modbus/", "jscc/")
@@ -18,14 +18,14 @@ PROCESSES = 3
 
 
 def driver(text: str, *, forced: bool = True) -> Driver:
-    """C text of the bench behind the clock; unless `forced`, variables are written without asking a debugger."""
+    """C text of the bench after the clock; unless `forced`, variables are written without asking a debugger."""
     start = "" if forced else (NATIVE / "unforced.h").read_text("utf-8")
     clock = (NATIVE / "clock.h").read_text("utf-8")
     return Driver(f'{start}#include "{PRELUDE}"\n{clock}#line 1 "bench.c"\n{text}', ("-O2",), prelude=False)
 
 
 def texts() -> list[Source]:
-    """The blocks of the library that the forms are made of, and behind them the bench's own ST."""
+    """The blocks of the library that the forms are made of, and after them the bench's own ST."""
     return [*(source for source in alone() if source.path.startswith(FOLDERS)), *programs()]
 
 
@@ -41,7 +41,7 @@ def timed(
 
 
 def timed_program(program: Path, name: str, rounds: int, *arguments: object) -> tuple[dict[str, Taken], list[str]]:
-    """The same for a program that is there, in some processes; `name` stands in front of an error."""
+    """The same for a program that is there, in some processes; `name` is in front of an error."""
     least: dict[str, Taken] = {}
     for _ in range(PROCESSES):
         done = run(program, rounds, *arguments)

@@ -59,7 +59,7 @@ def _render(drive: Drive) -> list[library.File]:
 
 
 def whole_build(count: int, registers: int) -> dict[str, float]:
-    """All that a build makes of so many maps at once, in memory, with the peak of it in MiB."""
+    """All that a build makes of this many maps at once, in memory, with the peak of it in MiB."""
     maps = [synthetic(number, registers) for number in range(count)]
     return _steps(
         lambda: [

@@ -5,7 +5,7 @@ A program reads ten registers of unit 1 by function 03H and gets its reply; the 
 
 from tests.bench.synthetic import crc16
 
-from driveblocks.st.tree import Function, FunctionBlock, VarDecl, VarKind
+from structured_text.language.tree import Function, FunctionBlock, VarDecl, VarKind
 
 Pin = bool | int | float | bytes | list[int] | dict[str, int]
 

@@ -7,7 +7,7 @@ import subprocess
 from importlib import metadata
 from pathlib import Path
 
-from driveblocks.host.discovery import survey
+from structured_text.engines.discovery import survey
 
 CPUINFO = Path("/proc/cpuinfo")
 

@@ -13,7 +13,7 @@ HEAD = """# Performance
 Written by `make bench` from one run; the figures are in [`performance.json`](performance.json). Nanoseconds belong to
 the machine; ratios and counts say more. A time in nanoseconds is the least of many short rounds of the same work, so
 that caches are warm; the forms of one program take turns. A run without matiec, valgrind or pymodbus says so, and
-leaves the figures that need them as they were.
+keeps the figures that need them as they were.
 """
 UNKNOWN = "Not measured yet.\n"
 CHARTS: Mapping[str, Callable[[Rows], chart.Chart]] = {"crc": checksum.chart, "exchange": exchange.chart}

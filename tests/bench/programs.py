@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.blocks.library import sources
 
-from driveblocks.host.engine import Source
+from structured_text.engines.engine import Source
 
 FOLDER = Path(__file__).with_name("st")
 MODES = ("Rtu", "Ascii")
@@ -36,7 +36,7 @@ CHARS = {"Rtu": "", "Ascii": "  Chars : MB_Chars;     (* the frame as characters
 
 
 def programs() -> list[Source]:
-    """The bench's own ST, to be compiled behind the library."""
+    """The bench's own ST, to be compiled after the library."""
     chains = [make(whose, mode) for whose in BUILD for mode in MODES for make in (_ask, _read)]
     table = re.search(r"  TABLE : .*?\];\n", next(one.text for one in sources() if "TABLE :" in one.text), re.DOTALL)
     assert table is not None

@@ -17,9 +17,9 @@ from tests.bench import blocks, checksums, drives, engines, growth, machine, pag
 from tests.bench.record import Part, Record, Rows
 from tests.native.driver import lines
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import EngineError
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import EngineError
+from structured_text.engines.matiec import MatiecEngine
 
 
 @dataclass(frozen=True)

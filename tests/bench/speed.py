@@ -3,10 +3,10 @@
 from collections.abc import Callable
 from time import process_time
 
-from driveblocks.st.checker import analyse
-from driveblocks.st.lexer import tokenize
-from driveblocks.st.lint import lint
-from driveblocks.st.parser import parse
+from structured_text.language.checker import analyse
+from structured_text.language.lexer import tokenize
+from structured_text.language.lint import lint
+from structured_text.language.parser import parse
 
 Work = Callable[[], object]
 

@@ -8,9 +8,9 @@ from tests.bench.units import units
 from tests.blocks.library import built
 from tests.native.driver import run
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import EngineError
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import EngineError
+from structured_text.engines.matiec import MatiecEngine
 
 
 def test_every_block_takes_its_typical_input() -> None:

@@ -13,7 +13,7 @@ from tests.bench.run import MEASUREMENTS, Measurement, Tools, measured
 from tests.bench.sections import checksum, growth
 from tests.bench.table import prose, short, table
 
-from driveblocks.host.engine import EngineError
+from structured_text.engines.engine import EngineError
 
 SVG = "{http://www.w3.org/2000/svg}"
 DRAWN = Chart(

@@ -7,9 +7,9 @@ from tests.bench.inputs import Pin, pins
 from tests.blocks.library import alone, sources
 from tests.native.driver import Driver
 
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, Function, FunctionBlock
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, Function, FunctionBlock
 
 MAIN = """
 #if defined __has_include
@@ -21,7 +21,7 @@ MAIN = """
 static void (*volatile nothing_body)(void *) = nothing;
 static void run_nothing(void) { nothing_body(NULL); }
 
-/* One scan of each between two dumps of callgrind, behind a scan that is not counted; first a call of nothing. */
+/* One scan of each between two dumps of callgrind, after a scan that is not counted; first a call of nothing. */
 static int count_all(void)
 {
 #ifdef CALLGRIND_ZERO_STATS

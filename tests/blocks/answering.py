@@ -46,6 +46,6 @@ def spoilt(body: bytes, other: bytes, chance: random.Random) -> bytes:
 
 
 def questions(unit: int, functions: list[int], most: int, addresses: list[int], chance: random.Random) -> Asked:
-    """A request by chance that a drive takes."""
+    """A random request that a drive takes."""
     base = Asked(chance.choice(functions), unit, chance.choice(addresses), chance.randrange(1, most + 1))
     return replace(base, value=chance.randrange(0x10000), sub_function=chance.choice([0, 0, 1]))

@@ -30,7 +30,7 @@ def frame(body: bytes, in_ascii: bool) -> bytes:
 
 
 def line(drive: Drive, chance: random.Random, in_ascii: bool) -> Line:
-    """A request by chance and frames around it."""
+    """A random request and frames around it."""
     manner = manners(drive)
     places = [0, 0x1000, 0x2000, 0xFFFF, manner.address or 0x5001]
     asked = answering.questions(chance.choice([1, 2, 247]), [3, 3, 3, 4, 6, 8, 16], 16, places, chance)

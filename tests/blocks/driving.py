@@ -55,7 +55,7 @@ def pressed(pins: dict[str, Any]) -> Pins:
 
 
 def all_pins() -> Iterator[Pins]:
-    """Every combination of pins, one after the other in a fixed order by chance."""
+    """Every combination of pins, one after the other in a fixed order at random."""
     combinations = list(itertools.product([False, True], repeat=len(PIN_NAMES)))
     random.Random(9).shuffle(combinations)
     for each in combinations:

@@ -18,13 +18,13 @@ from typing import Any
 from tests.blocks.damage import damaged, line
 from tests.blocks.library import NAMES, shipped, sources
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import ScanError, Source
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_decode, rtu_open
 from driveblocks.reference.reply import Answer, manners, parse
 from driveblocks.reference.request import Asked
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import ScanError, Source
 
 TURNS = 1100
 """Turns of loops in one scan: 256 bytes of two characters, their LRC, 125 words, and the looks that end the loops."""
@@ -159,7 +159,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Fuzz the drives that are asked for. Exit status 1 when any reply was judged wrongly."""
     parser = argparse.ArgumentParser(description="Damaged replies through the reply blocks.")
     parser.add_argument("--count", type=int, default=1_000_000, help="replies per drive")
-    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="by chance without it")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="at random without it")
     parser.add_argument("--drive", choices=list(shipped()), action="append", help="all without it")
     given = parser.parse_args(arguments)
     print(f"seed {given.seed}", flush=True)

@@ -5,12 +5,12 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from driveblocks.host.engine import Engine, Instance, Library, Source, Value
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.render.library import DRIVE_TYPES, LINE_TYPES
 from driveblocks.render.results import RESULTS
+from structured_text.engines.engine import Engine, Instance, Library, Source, Value
 
 BLOCKS = Path(__file__).parents[2] / "blocks" / "iec61131"
 NAMES = {result.code: result.name for result in RESULTS}

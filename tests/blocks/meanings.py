@@ -70,7 +70,7 @@ def check_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int]
 
 
 def check_standstill(blocks: Blocks, drive: Drive) -> None:
-    """Each condition alone broken and kept, and words by chance."""
+    """Each condition alone broken and kept, and random words."""
     pins = {one.register: word_pin(drive, one.register) for one in drive.operation.standstill.all}
     instance = blocks.library.instance(f"{drive.prefix}_Standstill")
     for words in proofs(drive, list(pins)):
@@ -86,7 +86,7 @@ def word_pin(drive: Drive, address: int) -> str:
 
 
 def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:
-    """Words by register: the proof, then each single bit of it changed, then pairs of words by chance."""
+    """Words by register: the proof, then each single bit of it changed, then pairs of random words."""
     good = dict.fromkeys(addresses, 0)
     for one in drive.operation.standstill.all:
         good[one.register] |= one.equals << (one.bit.first if one.bit else 0)
@@ -100,7 +100,7 @@ def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:
 
 
 def check_fault_number(blocks: Blocks, drive: Drive) -> None:
-    """Every bit alone, and words by chance: the lowest number and the count."""
+    """Every bit alone, and random words: the lowest number and the count."""
     relation = drive.faults.bits
     assert relation is not None
     addresses = range(relation.first, relation.last + 1)

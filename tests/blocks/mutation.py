@@ -25,8 +25,6 @@ from tests.blocks import judges
 from tests.blocks.library import Blocks, sources
 from tests.maps import mutate
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, nodes
 from driveblocks.maps.check import check
 from driveblocks.maps.decode import decode
@@ -34,6 +32,8 @@ from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
 from driveblocks.render import library, text
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Source
 
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
@@ -169,7 +169,7 @@ def closure(prefix: str, made: dict[str, str], altered: Iterable[str]) -> Iterat
 
 
 def run(rounds: int, seed: int, sample: int | None = None) -> Tally:
-    """Change every fact so many times, or a sample of them."""
+    """Change every fact this many times, or a sample of them."""
     judges.shipped_is_good()
     tally, start = Tally(), time.perf_counter()
     places = [(original, leaf) for original in originals() for leaf in original.text.leaves] * rounds
@@ -225,7 +225,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Change every fact of the shipped maps and see that it is noticed.")
     parser.add_argument("--rounds", type=int, default=1, help="changes per fact")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--sample", type=int, help="so many changes by chance instead of all")
+    parser.add_argument("--sample", type=int, help="this many changes at random instead of all")
     given = parser.parse_args(arguments)
     tally = run(given.rounds, given.seed, given.sample)
     print(report(tally))

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 from tests.blocks.library import Blocks
 
-from driveblocks.host.engine import Value
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Write, parameters
 from driveblocks.testing.code import NUMBERS
+from structured_text.engines.engine import Value
 
 NEAR = (-1, 0, 1)
 

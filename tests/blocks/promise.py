@@ -26,17 +26,17 @@ from tests.blocks import authors
 from tests.maps import mutate
 
 from driveblocks.docs.page import documents
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.render import library, text
-from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.suite import ROOT, drive_suite
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
+from structured_text.language.lint import lint_sources
 
 OTHERS = Path(__file__).parent / "fourth_drive"
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
@@ -55,7 +55,7 @@ class Try:
     number: int
     said: str
     digest: str = ""
-    """What stands for its blocks; empty for a map that `check` refuses."""
+    """What means its blocks; empty for a map that `check` refuses."""
     wrong: tuple[str, ...] = ()
 
 

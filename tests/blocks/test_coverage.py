@@ -7,11 +7,11 @@ import pytest
 from tests.blocks.library import BLOCKS
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
 from driveblocks.testing.coverage import Coverage, exemptions
+from structured_text.engines.embedded import EmbeddedEngine
 
 FOURTH = sorted((Path(__file__).parent / "fourth_drive").glob("*.yaml"))
 BOTH = languages(["en", "zh"], "utf-8")

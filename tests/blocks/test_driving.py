@@ -6,8 +6,8 @@ import pytest
 from tests.blocks import driving
 from tests.blocks.library import built, result, scan, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
 
@@ -97,7 +97,7 @@ RESETS = {
     "Enable that falls is a stop that rises": [
         ("", 5), ("StopAcknowledged", 5), ("FaultReset", 7), ("-Enable", 5), ("-Enable StopAcknowledged", 7),
     ],
-    "acknowledged while a stop goes first: it is not sent twice": [
+    "acknowledged while a stop is sent first: it is not sent twice": [
         ("", 5), ("StopAcknowledged", 5), ("FaultReset", 7), ("Stop ResetAcknowledged", 5), ("StopAcknowledged", 5),
     ],
     "a jog is ended by its own stop before": [

@@ -12,7 +12,6 @@ from tests.blocks import asking, driving, meanings, vectors, wire
 from tests.blocks.library import Blocks, built, scan
 from tests.blocks.test_reply import check_by_chance
 
-from driveblocks.host.engine import Engine, Instance, Source, Value
 from driveblocks.maps import collection
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
@@ -20,7 +19,8 @@ from driveblocks.reference.reply import Answer
 from driveblocks.reference.request import Asked
 from driveblocks.render import library as library_of
 from driveblocks.render import text as texts
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.engine import Engine, Instance, Source, Value
+from structured_text.language.lint import lint_sources
 
 MAPS = sorted((Path(__file__).parent / "fourth_drive").glob("*.yaml"))
 SOURCES = collection.read(MAPS)
@@ -143,7 +143,7 @@ def test_refusals_that_no_shipped_drive_has(
 
 
 def steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Value) -> None:
-    """Calls with the pins that are TRUE beside Enable, and the register and word that must be told."""
+    """Calls with the pins that are TRUE beside Enable, and the register and word that must be reported."""
     pins = ("RunForward", "RunReverse", "QuickStop", "CoastStop", "FaultReset", "StopAcknowledged", "ResetAcknowledged")
     for asked, telegram in calls:
         scan(instance, {"Enable": True, **{pin: pin in asked.split() for pin in pins}, **always})

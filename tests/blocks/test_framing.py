@@ -6,15 +6,15 @@ import pytest
 from tests.blocks import wire
 from tests.blocks.library import Blocks, built, number, octets, result, words
 
-from driveblocks.host.engine import Engine
 from driveblocks.reference import framing, packing
 from driveblocks.reference.checksum import crc16, lrc
+from structured_text.engines.engine import Engine
 
 LENGTHS = (0, 1, 2, 3, 8, 127, 128, 253, 254, 255, 256)
 
 
 def noise(length: int, seed: int = 7) -> bytes:
-    """Bytes by chance, the same on every run."""
+    """Random bytes, the same on every run."""
     return random.Random(f"{seed} {length}").randbytes(length)
 
 

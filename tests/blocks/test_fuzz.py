@@ -6,9 +6,9 @@ import pytest
 from tests.blocks import fuzz
 from tests.blocks.library import shipped, sources
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import Source
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import Source
 
 library = functools.cache(fuzz.build)
 

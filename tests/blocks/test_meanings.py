@@ -4,10 +4,10 @@ import pytest
 from tests.blocks import meanings
 from tests.blocks.library import built, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference.naming import name_of
 from driveblocks.render.results import RESULTS
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
 DECODED = [(drive, row) for drive in shipped().values() for row in meanings.decoded(drive)]

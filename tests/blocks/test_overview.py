@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from tests.blocks.library import BLOCKS, Blocks, octets, sources
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import Source, Value
 from driveblocks.reference.framing import rtu_seal
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import Source, Value
 
 WIDTHS = {"BOOL": 1, "BYTE": 1, "USINT": 1, "WORD": 2, "UINT": 2, "INT": 2, "DINT": 4, "UDINT": 4, "REAL": 4}
 TYPES = {

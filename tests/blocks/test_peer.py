@@ -27,9 +27,9 @@ from pymodbus.pdu.register_message import (
 from tests.blocks import wire
 from tests.blocks.library import built
 
-from driveblocks.host.engine import Engine
 from driveblocks.reference.reply import Answer
 from driveblocks.reference.request import Asked, body
+from structured_text.engines.engine import Engine
 
 ECHO: Callable[..., ModbusPDU] = ReturnQueryDataResponse
 WORDS = st.integers(0, 0xFFFF)

@@ -12,7 +12,7 @@ from driveblocks.maps import check, page
 from driveblocks.maps.load import loads
 from driveblocks.maps.rules import identifier
 from driveblocks.render import expression
-from driveblocks.st.lint import lint_sources
+from structured_text.language.lint import lint_sources
 
 Plain = dict[str, Any]
 READ_TOGETHER = 60

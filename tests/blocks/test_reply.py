@@ -1,4 +1,4 @@
-"""Reply blocks on every engine: each result one by one, and replies by chance against the reference model."""
+"""Reply blocks on every engine: each result one by one, and replies at random against the reference model."""
 
 import random
 from dataclasses import replace
@@ -7,10 +7,10 @@ import pytest
 from tests.blocks import answering, wire
 from tests.blocks.library import Blocks, built, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Answer, Manners, manners, parse
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("prefix", shipped())
 BEHIND = (b"\x00", b"\x00\x00", b"\xff", b"0", b":", b"\r\n")
@@ -112,7 +112,7 @@ def check(blocks: Blocks, prefix: str, manner: Manners, asked: Asked, body: byte
 
 
 def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
-    """Right and wrong replies by chance; answers the names of all results seen."""
+    """Right and wrong replies at random; answers the names of all results seen."""
     manner, chance, seen = manners(drive), random.Random(drive.prefix), set()
     unit, places = drive.serial.unit.min, [0, 0x1000, manner.address or 0]
     for _ in range(count):
@@ -145,7 +145,7 @@ def test_any_single_changed_bit_of_a_frame_is_noticed(engine: Engine, prefix: st
             for bit in range(8):
                 changed = frame[:at] + bytes([frame[at] ^ 1 << bit]) + frame[at + 1 :]
                 assert wire.unframe(blocks, changed, ascii_mode=ascii_mode).result != "OK", (at, bit)
-        # a CRC does not notice bytes 00H behind a frame; the length that the request asks for does
+        # a CRC does not notice bytes 00H after a frame; the length that the request asks for does
         changed_lengths = [*(frame[:n] for n in range(len(frame))), *(frame + more for more in BEHIND)]
         for changed in changed_lengths:
             answer = wire.receive(blocks, prefix, request, changed, ascii_mode=ascii_mode)

@@ -7,8 +7,8 @@ from tests.blocks import wire
 from tests.blocks.asking import Asking, check_request
 from tests.blocks.library import built, result, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("prefix", shipped())
 

@@ -6,7 +6,7 @@ import pytest
 from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, compile_c, texts, translate
 
-from driveblocks.host.matiec.installation import Installation
+from structured_text.engines.matiec.installation import Installation
 
 TOOLS = pytest.mark.parametrize(
     "tool",

@@ -4,8 +4,8 @@ import pytest
 from tests.blocks import vectors, wire
 from tests.blocks.library import built, shipped
 
-from driveblocks.host.engine import Engine
 from driveblocks.maps.model import Drive, Frame
+from structured_text.engines.engine import Engine
 
 FRAMES = [(drive, frame) for drive in shipped().values() for frame in drive.frames]
 IDS = [f"{drive.prefix}-{frame.id}" for drive, frame in FRAMES]

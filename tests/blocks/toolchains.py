@@ -13,7 +13,7 @@ from pathlib import Path
 
 from tests.blocks.library import BLOCKS
 
-from driveblocks.host.matiec.installation import Installation, find_installations
+from structured_text.engines.matiec.installation import Installation, find_installations
 
 PROGRAMS = BLOCKS.parent / "tests" / "iec61131"
 FOUND = find_installations()

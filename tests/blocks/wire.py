@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 from tests.blocks.library import Blocks, number, octets, result, words
 
-from driveblocks.host.engine import Value
 from driveblocks.reference.reply import Answer
 from driveblocks.reference.request import Asked, Built
+from structured_text.engines.engine import Value
 
 LONGEST = {False: 256, True: 513}
 """Bytes of an RTU frame and characters of an ASCII frame that the types hold."""

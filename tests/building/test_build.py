@@ -71,7 +71,9 @@ def test_chinese_can_be_gb18030() -> None:
 def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -> None:
     """The package as it is packed: without what .gitignore names, and nothing of the project beside it."""
     left_out = (ROOT / ".gitignore").read_text(encoding="utf-8").replace("/\n", "\n").split()
-    shutil.copytree(ROOT / "generator/driveblocks", tmp_path / "driveblocks", ignore=shutil.ignore_patterns(*left_out))
+    for package in ("driveblocks", "structured_text"):
+        source = ROOT / "generator" / package
+        shutil.copytree(source, tmp_path / package, ignore=shutil.ignore_patterns(*left_out))
     code = "import driveblocks.__main__ as start; print(start.__file__); start.main()"
     words = ["build", str(EXAMPLE), "-o", "out", "--target", "all"]
     done = subprocess.run(

@@ -216,7 +216,7 @@ def test_line_ends_of_a_checkout_are_no_edit() -> None:
 
 
 def test_names_that_differ_in_case_only_are_one_file_where_case_does_not_count() -> None:
-    """A hard link stands for the second name."""
+    """A hard link means the second name."""
     good("one.yaml", "-o", "out")
     put("One.yaml", EXAMPLE)
     Path("out/iec61131/One").mkdir()

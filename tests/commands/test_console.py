@@ -14,6 +14,7 @@ from rich.text import Text
 
 from driveblocks import cli, console
 from driveblocks.tables.layout import card, heading, table
+from structured_text.visible import file_name, visible
 
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"
 SEEN = r"\u001b[31mred\u001b]0;t\u0007\u000d\u0008\u007f\u009b5m\u202eback\u2066\u200b\u2028\ufeff\udb40\udc41"
@@ -62,14 +63,14 @@ def test_everything_that_steers_or_turns_is_written_out() -> None:
         steers = unicodedata.category(sign) in ("Cc", "Cs", "Zl", "Zp") and sign not in "\t\n"
         turns = unicodedata.bidirectional(sign) in ("LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI")
         if steers or turns:
-            assert json.loads(f'"{console.visible(sign)}"') == sign
-            assert console.visible(sign).isascii()
+            assert json.loads(f'"{visible(sign)}"') == sign
+            assert visible(sign).isascii()
 
 
 def test_what_people_write_stays() -> None:
     text = "Überstrom\t过流，85 °C \N{EM DASH} “x” é\n１２ ✓ 𝛼"
-    assert console.visible(text) == text
-    assert console.name("a\tb\n过流.yaml") == r"a\u0009b\u000a过流.yaml"
+    assert visible(text) == text
+    assert file_name("a\tb\n过流.yaml") == r"a\u0009b\u000a过流.yaml"
 
 
 @pytest.mark.parametrize(

@@ -14,10 +14,10 @@ import yaml
 from typer.testing import CliRunner, Result
 
 from driveblocks.cli import app
-from driveblocks.host import discovery
-from driveblocks.host.discovery import Candidate, survey
-from driveblocks.host.engine import Engine
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines import discovery
+from structured_text.engines.discovery import Candidate, survey
+from structured_text.engines.engine import Engine
+from structured_text.engines.matiec import MatiecEngine
 
 NOWHERE = {"PATH": "", "HOME": "/nonexistent"}
 

@@ -70,7 +70,7 @@ def test_a_wrong_frame_is_told_repaired_and_read() -> None:
     shown = squeezed(result.stdout)
     assert "Wrong RTU frame" in shown
     assert "wrong the CRC does not fit: the frame has CA 8F, and 8F CA would be right" in shown
-    assert "perhaps the CRC bytes are swapped: the low byte goes first" in shown
+    assert "perhaps the CRC bytes are swapped: the low byte is sent first" in shown
     assert "Read as RTU 01 03 20 00 00 01 8F CA: Request to unit 1: read 1 register from 2000H" in shown
 
 
@@ -142,7 +142,7 @@ def test_json_of_a_wrong_frame() -> None:
     assert result.exit_code == 1
     made = json.loads(result.stdout)
     assert (made["drive"], made["good"]) == (None, False)
-    assert made["wrong"][0]["what"] == "the request stands before the reply: bytes 1 to 8"
+    assert made["wrong"][0]["what"] == "the request comes before the reply: bytes 1 to 8"
     assert [one["good"] for one in made["inside"]] == [True, True]
 
 

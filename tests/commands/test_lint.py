@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner, Result
 
 from driveblocks.commands import lint
-from driveblocks.st.rules import RULES
+from structured_text.language.rules import RULES
 
 CLEAN = "FUNCTION_BLOCK Example\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_FUNCTION_BLOCK\n"
 LOOP = CLEAN.replace("  Count := Count + 1;", "  FOR Count := 1 TO 3 DO\n    Count := Count + 0;\n  END_FOR;;")

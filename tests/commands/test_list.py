@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
 @pytest.fixture
 def shelf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with one good map that stands for the shipped ones."""
+    """A folder with one good map that means the shipped ones."""
     monkeypatch.setattr(catalog, "folder", lambda: tmp_path)
     (tmp_path / "example.yaml").write_text(EXAMPLE.read_text(encoding="utf-8"), encoding="utf-8")
     return tmp_path

@@ -23,7 +23,7 @@ EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative
 
 
 def code(page: Path) -> Iterator[str]:
-    """What stands between backticks, a line of a table or of prose."""
+    """What is between backticks, a line of a table or of prose."""
     text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
     yield from re.findall(r"`([^`\n]+)`", text)
 
@@ -43,16 +43,30 @@ def test_files_and_modules_are_there(page: Path) -> None:
     assert not missing
 
 
+def anchors(page: Path) -> set[str]:
+    """What the headings of a page are called in links."""
+    heads = re.findall(r"^#+ (.*)", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
+
+
 @EACH
 def test_links_lead_somewhere(page: Path) -> None:
-    links = re.findall(r"\]\(([^)#:]+)\)", page.read_text(encoding="utf-8"))
-    assert not {link for link in links if not (page.parent / link).exists()}
+    for name, _, anchor in re.findall(r"\]\(([^)#:]*)(#([^)]*))?\)", page.read_text(encoding="utf-8")):
+        there = page.parent / name if name else page
+        assert there.exists(), name
+        assert not anchor or anchor in anchors(there), f"{name}#{anchor}"
+
+
+def lines(page: Path) -> Iterator[str]:
+    """The commands in blocks of their own, without what a second column says of them."""
+    for block in re.findall(r"^```\n(.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL):
+        yield from (re.split(r"   +", line)[0] for line in block.splitlines() if line.startswith("driveblocks "))
 
 
 @EACH
 def test_commands_and_their_options_are_there(page: Path) -> None:
     commands = cast(Any, typer.main.get_command(app)).commands
-    for text in code(page):
+    for text in (*code(page), *lines(page)):
         name, *words = text.removeprefix("driveblocks ").split()
         if text.startswith("driveblocks ") and "*" not in text:
             known = {option for each in commands[name].params for option in each.opts}

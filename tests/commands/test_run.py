@@ -115,7 +115,7 @@ REFUSED = [
     ("my.st --simulate jscc@7,chf@7", "--simulate chf@7: units are 1 to 247, one drive each; write chf@1"),
     ("my.st --simulate jscc@0", "--simulate jscc@0: units are 1 to 247"),
     ("my.st --simulate chf@7:0", "--simulate chf: `0` is no maximum; write whole Hz, 1 to 600, such as :50"),
-    ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC leaves open: ReferenceScale"),
+    ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC does not give: ReferenceScale"),
     ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
     ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
     ("my.st --trace my.st", "my.st: there is a file that no run has written; name a new one, or move it away"),
@@ -126,7 +126,7 @@ REFUSED = [
     (".", ".:1:1: cannot be read: it is no file"),
     ("my.st --script .", ".:1:1: cannot be read: it is no file"),
     ("my.st --port no-such-port", "no-such-port: "),
-    ("my.st --port x --format 9X9", "--format 9X9 is none; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
+    ("my.st --port x --format 9X9", "--format 9X9 is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1"),
 ]  # fmt: skip
 
 
@@ -262,7 +262,7 @@ def test_a_lost_output_is_no_failure_of_the_program(program: Path, monkeypatch: 
     said = Lines.say
 
     def lost(screen: Lines, text: str) -> None:
-        if "stands" in text:
+        if "standstill" in text:
             raise BrokenPipeError(32, "Broken pipe")
         said(screen, text)
 
@@ -384,7 +384,7 @@ def test_what_is_behind_an_address_is_real_unless_somebody_says_so(
     *lines, _, _ = result.output.splitlines()
     assert (result.exit_code, lines[0]) == (0, f"{label}  {link.place} my.st")
     assert lines[-1] == f"{label}  stopped, and standstill read: Motor"
-    assert ("only reads and stops leave; if a simulator is there, add --simulated" in result.output) == (not words)
+    assert ("only reads and stops are sent; if a simulator is there, add --simulated" in result.output) == (not words)
 
 
 def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytest.MonkeyPatch) -> None:

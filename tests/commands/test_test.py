@@ -11,11 +11,11 @@ from typer.testing import CliRunner, Result
 
 from driveblocks.building import build
 from driveblocks.cli import app
-from driveblocks.host import discovery
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps import collection
 from driveblocks.testing.unit import Unit
+from structured_text.engines import discovery
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 

@@ -14,15 +14,15 @@ from tests.shapes import shapes
 
 from driveblocks.docs import timing
 from driveblocks.docs.page import documents
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Instance, Source
 from driveblocks.maps.model import Drive
 from driveblocks.render.library import PLATFORMS, first_motor, generic
 from driveblocks.render.library import drive as library_of
 from driveblocks.render.reasons import REASONS, STATES
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Instance, Source
+from structured_text.language.lint import lint_sources
 
 FOLDER = Path(BLOCKS).parent / "docs"
 FAMILIES = sorted(shipped())
@@ -203,7 +203,7 @@ def test_the_contact_of_the_hard_stop_has_a_page_and_each_platform_says_what_its
     for name in ("codesys", "openplc", "plcopen", "siemens", "twincat"):
         said = " ".join((FOLDER.parent / name / "README.md").read_text(encoding="utf-8").split())
         assert "(../docs/VFD_HardStop.md)" in said
-        assert "put a retriggered relay between" in said.lower()
+        assert "put a retriggered relay in between" in said.lower()
 
 
 PLATFORM_PAGES = ("codesys", "openplc", "plcopen", "siemens", "twincat")
@@ -224,15 +224,15 @@ def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wirin
 @every_family
 def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
     drive, text = shipped()[family], page(family)
-    top = text.partition("\n## What your manual must still tell you\n")[2].partition("\n## ")[0]
-    rows_ = text.partition("\n## What the manual leaves open\n")[2].partition("\n## ")[0]
+    top = text.partition("\n## Find out before the first start\n")[2].partition("\n## ")[0]
+    rows_ = text.partition("\n## What the manual does not say\n")[2].partition("\n## ")[0]
     count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
     assert f"**{count} things**" in top
-    assert text.index("must still tell you") < text.index("## In this order")
+    assert text.index("Find out before the first start") < text.index("## In this order")
     assert "terminals" in top
     assert all(f"- {each.what}" in top for each in drive.absent if "serial" in each.about)
     keypad = text.partition("\n## Keypad and wiring\n")[2].partition("\n## ")[0]
-    assert "(#what-your-manual-must-still-tell-you)" in keypad
+    assert "(#find-out-before-the-first-start)" in keypad
     assert (drive.manual.edition or "") in text.partition("\n>")[0]
 
 
@@ -247,7 +247,7 @@ def test_a_reset_over_the_bus_is_advised_where_there_is_one() -> None:
 
 
 def test_a_misprint_in_what_the_block_reads_is_on_the_page() -> None:
-    section = page("SN300G5").partition("\n## Where the print was not followed\n")[2]
+    section = page("SN300G5").partition("\n## Misprints that the map corrects\n")[2]
     assert "| section (II), row U1-08 | U1-08 输出频率 | 输出功率 (output power) |" in section
 
 
@@ -466,5 +466,5 @@ def test_a_page_says_what_the_block_does_not_try_by_itself() -> None:
     """Whether another setting makes the reference the run command: the manual does not bear an automatic trial."""
     assert (
         "The drive block does not try this by itself"
-        in page("SN300G5").partition("\n## What the manual leaves open")[2]
+        in page("SN300G5").partition("\n## What the manual does not say")[2]
     )

@@ -13,10 +13,10 @@ from random import Random
 from tests.drives.station import PINS, library, maps, name_of
 from tests.line.vline import opened, sealed
 
-from driveblocks.host.engine import Library, Value
 from driveblocks.render.reasons import REASONS
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Library, Value
 
 REASON = {each.code: each.name for each in REASONS}
 RUNS = ("RunForward", "RunReverse", "JogForward", "JogReverse")

@@ -5,8 +5,8 @@ from collections import Counter
 from tests.drives.bench import Bench, Frame
 from tests.drives.rules import Meaning
 
-from driveblocks.host.engine import Library
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Library
 
 HOUR_MS = 3_600_000
 

@@ -17,8 +17,8 @@ from tests.drives.planted import PLANTED
 from tests.drives.station import FAMILIES, MADE_UP, built
 from tests.drives.walk import walk
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.engine import Library
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.engine import Library
 
 SEEDS = 4
 """Runs of each field of the matrix: habits and chance differ."""

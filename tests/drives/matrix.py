@@ -5,8 +5,8 @@ from collections.abc import Callable
 from tests.drives.bench import Bench, Faults
 from tests.drives.rules import watched
 
-from driveblocks.host.engine import Library
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Library
 
 Doing = Callable[[Bench], object]
 

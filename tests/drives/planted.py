@@ -8,7 +8,7 @@ from unittest.mock import patch
 from tests.drives import test_identity, test_modes, test_reset, test_start, test_stop
 from tests.drives.station import built
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.engine import EmbeddedEngine
 
 CHF, SN, CIA, PUL = ("CHF",), ("SN300G5",), ("CIA",), ("PUL",)
 THREE = ("CHF", "JSCC", "SN300G5")
@@ -18,7 +18,7 @@ needs_release = test_start.test_what_stops_a_motor_needs_a_release_and_a_new_edg
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, what stands in the text, what instead, the test that tells, and the drives that it needs."""
+    """A mistake: its name, what is in the text, what instead, the test that tells, and the drives that it needs."""
 
     name: str
     old: str
@@ -91,7 +91,7 @@ PLANTED = (
         test_modes.test_two_blocks_on_one_slot_are_stopped,
     ),
     Planted(
-        "a refresh goes out behind a dip of the supply",
+        "a refresh goes out after a dip of the supply",
         "  ELSIF Ran AND NOT Seen.Moving THEN",
         "  ELSIF FALSE THEN",
         partial(test_start.test_a_short_dip_of_the_supply_starts_nothing, "CHF"),
@@ -153,7 +153,7 @@ PLANTED = (
         partial(test_stop.test_standstill_needs_status_and_frequency, "CHF", 0x1001, 5),
     ),
     Planted(
-        "old words are shown behind a lost connection",
+        "old words are shown after a lost connection",
         "  CommOk := Link.Linked AND Slot.Online AND (Reads.StatusAgeMs <= Usual.StaleMs) AND NOT Unit.Moved;",
         "  CommOk := Link.Linked AND (Reads.StatusAgeMs <= 65535) AND NOT Unit.Moved;",
         test_stop.test_nothing_stale_is_shown_as_good,
@@ -196,7 +196,7 @@ PLANTED = (
         partial(test_modes.test_with_monitor_only_it_stops_and_then_only_reads, "CHF"),
     ),
     Planted(
-        "with SpeedOnly a stop goes out",
+        "with SpeedOnly a stop is sent",
         "    StopDue := NOT Asked.SpeedOnly OR NewHalt;",
         "    StopDue := NOT Asked.SpeedOnly OR Run.Answered OR NewHalt;",
         partial(test_modes.test_with_speed_only_it_writes_the_reference_and_starts_nothing, "CHF"),
@@ -258,7 +258,7 @@ PLANTED = (
         PUL,
     ),
     Planted(
-        "a stop waits behind the one before",
+        "a stop waits for the one before",
         "  NewHalt := Asked.Halted AND (NOT HaltedMemory OR (Asked.StopKind > Round.Rank));",
         "  NewHalt := Asked.Halted AND NOT HaltedMemory;",
         test_stop.test_a_harder_stop_replaces_a_softer_one,
@@ -368,6 +368,19 @@ PLANTED = (
         "SettingsGood := SameMaximum",
         "SettingsGood := TRUE",
         test_identity.test_its_own_maximum_must_be_full_scale,
+        CIA,
+    ),
+    Planted(
+        "an edge keeps a reset in hand whatever else is asked for",
+        "  Gone := (Stage <> NO_RESET) AND",
+        "  Gone := NOT Edge AND (Stage <> NO_RESET) AND",
+        test_reset.test_a_reset_that_waits_is_taken_back_for_reading_only_though_its_pin_rises_anew,
+    ),
+    Planted(
+        "a stop is repeated though the one after a restart waits",
+        "    Posts := (Follows OR Repeats) AND NOT FirstWaits AND NOT LeftOut;",
+        "    Posts := Follows OR Repeats;",
+        test_modes.test_a_restart_that_waits_for_the_bus_repeats_no_stop,
         CIA,
     ),
 )

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from tests.drives.bench import RUNS, Bench, Frame
 from tests.drives.station import PINS
 
-from driveblocks.host.engine import Value
 from driveblocks.maps.model import Command, Drive
 from driveblocks.simulator.pattern import Pattern, of_write
+from structured_text.engines.engine import Value
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
 MOTIONS = dict(zip(RUNS, ("run_forward", "run_reverse", "jog_forward", "jog_reverse"), strict=True))
@@ -19,7 +19,7 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
 READ_US = 100_000
-"""How old the words can be that prove standstill: somebody may start the motor behind them, and the line stop it."""
+"""How old the words can be that prove standstill: somebody may start the motor after them, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 LEFT_US = 1_050_000
@@ -242,7 +242,7 @@ class Observer:
         if not self.parameters or self.drive:
             self.fail(f"{frame}: a write to a register that is neither command nor reference")
         if not self.was_confirmed:
-            self.fail(f"{frame}: a parameter while the motor is not known to stand")
+            self.fail(f"{frame}: a parameter while the motor is not known to be at standstill")
 
     def _motion(self, frame: Frame, does: set[str], *, runs: bool) -> None:
         if self.wish not in does:

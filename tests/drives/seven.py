@@ -10,11 +10,11 @@ from tests.drives.station import maps
 from tests.line.vline import Config, Sent
 from tests.simulator.bench import DriveBench
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 COUNT = 7
 RATES = {"SN300G5": 9600, "JSCC": 57600, "CHF": 19200}
@@ -25,7 +25,7 @@ SETTINGS = "Enable := TRUE, SpeedReferenceHz := 25.0, MaximumHz := 50.0, FullSca
 
 
 def station(prefix: str, count: int = COUNT) -> Source:
-    """A program with a line and so many drives, as a block."""
+    """A program with a line and this many drives, as a block."""
     drives = range(count)
     calls = "".join(
         f"  Drive{at}(RunForward := Run{at}, {SETTINGS}, Settings := Setting,"
@@ -81,7 +81,7 @@ def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: i
 
 
 def promised(drive: Drive, rate: int, count: int, *, keeps: bool) -> tuple[int, int]:
-    """`StopAloneMs` and `WorstStopMs` of a line with so many drives."""
+    """`StopAloneMs` and `WorstStopMs` of a line with this many drives."""
     bench = _standing(drive, Config(rate=rate, keeps=keeps, turn_ms=20), count)
     return bench["TheLine.StopAloneMs"], bench["TheLine.WorstStopMs"]
 

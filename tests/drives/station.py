@@ -7,12 +7,12 @@ from functools import cache
 from tests.blocks.library import sources
 from tests.shapes import shapes
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library, Source
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.render import library as blocks
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
 FAMILIES = ("CHF", "JSCC", "SN300G5")

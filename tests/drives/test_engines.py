@@ -9,8 +9,8 @@ from tests.drives.station import FAMILIES, built
 from tests.drives.walk import walk
 from tests.line.twins import DifferentError, TwinLibrary, Twins
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library
 
 SEED = 19
 """A walk with a drive of each family."""

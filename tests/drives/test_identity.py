@@ -134,7 +134,7 @@ def test_an_unanswered_read_does_not_keep_the_stop_back() -> None:
     assert one.number("FirstStopMs") == pytest.approx(one.frames[first].ms, abs=60)
     later = one.run(20_000)
     kinds = [each.read for each in later]
-    assert not any(a == b is False for a, b in pairwise(kinds)), "a read goes before each stop"
+    assert not any(a == b is False for a, b in pairwise(kinds)), "a read is sent before each stop"
     assert len([each for each in later if not each.read]) >= 2
     one.deaf = set()
     one.stopped()
@@ -150,7 +150,7 @@ def test_another_address_ends_it() -> None:
     assert one.reason() == "OTHER_DRIVE"
     one.drives[0].unit = 5
     one.put(Address=5).stopped()
-    assert one.drives[0].mode == "standing"
+    assert one.drives[0].mode == "standstill"
 
 
 def test_a_drive_that_was_silent_is_looked_at_again_and_goes_on() -> None:

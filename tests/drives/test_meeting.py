@@ -18,7 +18,7 @@ def test_a_late_scan_takes_no_other_address_while_the_motor_may_turn() -> None:
     begun = len(bench.frames)
     bench.run(8000)
     assert stops(bench, [each for each in bench.frames[begun:] if each.unit == 1])
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     first = next(at for at, each in enumerate(bench.frames) if each.unit == 2)
     assert all(each.unit == 2 for each in bench.frames[first + 1 :])
 
@@ -32,7 +32,7 @@ def test_a_restart_into_a_mode_stops_what_the_bus_has_started(kind: str, mode: s
         bench.scan(1500)
     else:
         bench.restart()
-    bench.until(lambda: bench.drives[0].mode == "standing", 8000)
+    bench.until(lambda: bench.drives[0].mode == "standstill", 8000)
     bench.run(20_000)
     assert not bench.shows("StopOverdue")
 
@@ -82,7 +82,7 @@ def test_the_stop_key_of_a_drive_is_never_overridden(kind: str, scale: float) ->
         bench.run(moment)
         bench.drives[0].keypad_stop()
         assert not motions(bench, bench.run(7000)), moment
-        assert bench.drives[0].mode == "standing"
+        assert bench.drives[0].mode == "standstill"
 
 
 def at_speed(bench: Bench) -> bool:

@@ -1,4 +1,4 @@
-"""What else a drive block may be told, and what may be wrong around it."""
+"""What else a drive block may be reported, and what may be wrong around it."""
 
 from contextlib import suppress
 
@@ -9,8 +9,8 @@ from tests.drives.station import FAMILIES, maps
 from tests.drives.test_start import edge, meet, motions
 from tests.drives.test_stop import stops
 
-from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Value
 
 
 def writes(bench: Bench, ms: int) -> list[int]:
@@ -22,7 +22,7 @@ def writes(bench: Bench, ms: int) -> list[int]:
 def test_with_monitor_only_it_stops_and_then_only_reads(kind: str) -> None:
     bench = watched(kind).running().put(MonitorOnly=True)
     assert stops(bench, bench.run(4000))
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert not writes(bench, 2000)
     bench.drives[0].keypad_run(20.0)
     assert not writes(bench, 4000)
@@ -42,7 +42,7 @@ def test_with_monitor_only_it_stops_and_then_only_reads(kind: str) -> None:
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 @pytest.mark.parametrize("kind", FAMILIES)
@@ -77,7 +77,7 @@ def test_a_plc_that_starts_warm_in_a_mode_sends_each_stop_once(kind: str, mode: 
     frames = bench.restart().run(6000)
     said = {each.word for each in stops(bench, frames)}
     assert said == ({5, 8} if kind == "CHF" else {stops(bench, frames)[0].word})
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.drives[0].keypad_run()
     assert not stops(bench, bench.run(6000))
     assert not bench.shows("StopOverdue")
@@ -138,6 +138,17 @@ def test_a_restart_does_not_wait_for_the_bus_for_good() -> None:
     assert stops(bench, bench.run(1500))
 
 
+def test_a_restart_that_waits_for_the_bus_repeats_no_stop() -> None:
+    """Another block has had a stop answered on this slot; that was taken for one of its own to be sent again."""
+    bench = elsewhere("SpeedOnly")
+    bench.spoil = lambda frame, reply: None if frame.read and frame.address == STATUS else reply
+    bench.restart().run(1000)
+    for part in ("Ask", "Answer"):
+        bench.block[f"Slots[0].{part}[0].Number"] = 77
+    assert not stops(bench, bench.run(2000))
+    assert bench.out("Control.First.Waits")
+
+
 def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
     bench = watched("CHF", "CHF").running()
     bench.put(Address=9)
@@ -147,7 +158,7 @@ def test_the_address_is_taken_while_the_stop_is_confirmed() -> None:
     bench.drives[0].unit = 1
     bench.watch.clear()
     bench.until(lambda: any(each.unit == 9 for each in bench.frames), 9000)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.drives[0].unit = 9
     bench.until(lambda: bench.shows("Ready"))
     assert stops(bench, [each for each in bench.frames if each.unit == 9])
@@ -227,7 +238,7 @@ def test_with_a_foreign_master_one_reading_proves_no_standstill(kind: str) -> No
     assert not any(confirmed)
     bench.drives[0].keeps_running = False
     bench.until(lambda: bench.shows("StopConfirmed"), 9000)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 def test_a_late_scan_is_flagged_and_starts_all_the_same() -> None:
@@ -244,7 +255,7 @@ def test_a_scan_beyond_the_limit_acts_like_power_up() -> None:
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.shows("StopConfirmed")
 
 
@@ -267,7 +278,7 @@ def test_stale_memory_starts_nothing(seed: int) -> None:
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     edge(bench)
     bench.until(lambda: bench.drives[0].hertz > 24.0, 8000)
 
@@ -365,7 +376,7 @@ def test_each_drive_shows_its_own_words() -> None:
     bench.running("RunForward", 0)
     assert bench.shows("StopConfirmed", 1)
     assert not bench.shows("Running", 1)
-    assert bench.drives[1].mode == "standing"
+    assert bench.drives[1].mode == "standstill"
 
 
 def test_stop_all_stops_each_and_starts_none() -> None:
@@ -375,7 +386,7 @@ def test_stop_all_stops_each_and_starts_none() -> None:
     bench.line(StopAll=True)
     frames = bench.run(4000)
     assert {each.unit for each in frames if not each.read} == {1, 2, 3}
-    assert all(drive.mode == "standing" for drive in bench.drives)
+    assert all(drive.mode == "standstill" for drive in bench.drives)
     bench.line(StopAll=False).run(4000)
     assert all(bench.reason(drive) == "HELD" for drive in range(3))
-    assert all(drive.mode == "standing" for drive in bench.drives)
+    assert all(drive.mode == "standstill" for drive in bench.drives)

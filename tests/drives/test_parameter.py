@@ -10,7 +10,7 @@ WRITABLE = {"CHF": 0x8007, "JSCC": 0x0012, "SN300G5": 0x0200}
 
 
 def both(kind: str, apart: int) -> tuple[Bench, list[Frame], list[Frame]]:
-    """A write, and so many scans later (or before) an edge of RunForward; the writes, and what else was written."""
+    """A write, and this many scans later (or before) an edge of RunForward; the writes, and what else was written."""
     bench = Bench(kind).stopped()
     before = len(bench.frames)
     for scan in range(300):
@@ -43,4 +43,4 @@ def test_each_of_the_two_comes_first_sometimes() -> None:
     written, started = both("JSCC", 4)[1:]
     assert written
     assert not started, "an edge while a write waits is lost"
-    assert bool(both("JSCC", 30)[2]), "one behind it is not"
+    assert bool(both("JSCC", 30)[2]), "one after it is not"

@@ -10,14 +10,14 @@ from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, built, library, maps, name_of, texts
 from tests.drives.test_stop import stops
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library
 from driveblocks.maps.revision import checked
 from driveblocks.render import library as blocks
 from driveblocks.simulator.habits import Habits
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import VarKind
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import VarKind
 
 INPUTS = (
     "Enable", "RunForward", "RunReverse", "JogForward", "JogReverse", "QuickStop", "CoastStop", "FaultReset",
@@ -73,7 +73,7 @@ def alike(kind: str, stations: Library) -> None:
             for bench in both:
                 bench.scan()
             assert both[0].seen == both[1].seen
-        assert both[0].drives[0].mode == ("running" if run else "standing")
+        assert both[0].drives[0].mode == ("running" if run else "standstill")
         assert both[0].frames == both[1].frames
 
 
@@ -106,7 +106,7 @@ def test_without_a_full_scale_a_fraction_is_no_reference() -> None:
     bench.run(1000)
     bench.put(RunForward=True).run(2000)
     assert (bench.reason(), bench.out("ErrorID")) == ("REFERENCE", 19)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 @pytest.mark.parametrize("name", ["TurnRoundMs", "LongestMs", "BootMs", "FollowWithinMs", "StaleMs", "StopWithinMs"])

@@ -1,4 +1,4 @@
-"""A fault reset: of the fault that was there when it was asked for, so often and no more, and no start behind it."""
+"""A fault reset: of the fault that was there when it was asked for, a few times and no more, and no start after it."""
 
 import pytest
 from tests.drives.bench import RUNS, Bench
@@ -14,7 +14,7 @@ CAN = [
 
 
 def tripped(kind: str = "CHF", code: int = 3) -> Bench:
-    """A drive with a fault, whose cause is gone and whose motor stands."""
+    """A drive with a fault, whose cause is gone and whose motor is at standstill."""
     bench = watched(kind, ms=10).running()
     bench.put(RunForward=False)
     bench.drives[0].trip(code)
@@ -111,6 +111,17 @@ def test_a_reset_does_not_outlive_what_it_was_asked_for(gone: str) -> None:
     frames = bench.run(5000)
     assert not sent(bench, frames, "fault_reset")
     assert bench.shows("Fault")
+
+
+def test_a_reset_that_waits_is_taken_back_for_reading_only_though_its_pin_rises_anew() -> None:
+    """The edge kept it in hand for one scan more, in which the line sent it."""
+    bench = tripped().put(FaultReset=True)
+    bench.scan()
+    bench.put(FaultReset=False).until(lambda: bench.out("Control.Reset.OnItsWay"))
+    assert not sent(bench, bench.frames, "fault_reset")
+    bench.put(FaultReset=True, MonitorOnly=True)
+    assert not sent(bench, bench.run(1000), "fault_reset")
+    assert not bench.out("Control.Resetting")
 
 
 def test_a_run_pin_held_through_a_reset_starts_nothing() -> None:

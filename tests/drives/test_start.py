@@ -8,9 +8,9 @@ from tests.drives.bench import OFF, Bench, Frame
 from tests.drives.rules import MOTIONS, sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 
-from driveblocks.host.engine import Value
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Value
 
 MODES = [(kind, mode) for kind in (*FAMILIES, *MADE_UP) for mode in maps()[kind].serial.mode.modes]
 NAN, INFINITE = float("nan"), float("inf")
@@ -36,7 +36,7 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None
     assert abs(bench.number("OutputFrequencyHz") - 25.0) < 0.2
     assert bench.out("OutputFrequencyValid")
     bench.put(RunForward=False).stopped()
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.block["TheLine.Timeouts"] == 0
     assert bench.block["TheLine.Refusals"] == 0
 
@@ -119,7 +119,7 @@ def serve(bench: Bench) -> None:
 
 
 def meaning(word: int) -> Callable[[Bench], object]:
-    """What SN300G5's reference means is another thing; its block reads that anew behind a stop."""
+    """What SN300G5's reference means is another thing; its block reads that anew after a stop."""
 
     def happens(bench: Bench) -> None:
         bench.drives[0].set(0x000F, word)
@@ -186,7 +186,7 @@ def test_what_stops_a_motor_needs_a_release_and_a_new_edge(what: str) -> None:
     ends(bench)
     frames += bench.run(6000)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.stopped()
     assert bench.reason() == "HELD"
     edge(bench)
@@ -246,7 +246,7 @@ def test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed() -> None:
     last = frames.index(motions(bench, frames)[-1])
     assert sent(bench, frames[last:], "stop")
     assert bench.shows("StopConfirmed")
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.reason() == "NO_RUN"
 
 
@@ -340,13 +340,13 @@ def test_a_run_that_ends_by_itself_is_answered_by_a_stop(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
-    """The drive says that it runs until the motor stands."""
+    """The drive says that it runs until the motor is at standstill."""
     bench = watched(kind).running()
     bench.run(1500)
     bench.drives[0].keypad_stop()
     frames = bench.run(9000)
     assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     assert bench.shows("StopConfirmed")
     assert bench.reason() == "BY_ITSELF"
 

@@ -1,4 +1,4 @@
-"""A stop leaves at once, goes out again until the drive proves that it stands, and says when it is late."""
+"""A stop is sent at once, goes out again until the drive proves that it stands, and says when it is late."""
 
 from itertools import pairwise
 
@@ -48,14 +48,14 @@ def test_a_fault_posts_a_stop(kind: str) -> None:
     bench.until(lambda: not bench.drives[0].motor.shaft, 9000)
     bench.drives[0].reset()
     bench.run(3000)
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.drives[0].trip(4)
     assert stops(bench, bench.run(300))
 
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_stop_that_nobody_acknowledges_is_not_confirmed(kind: str) -> None:
-    """Though all that is read says that the motor stands."""
+    """Though all that is read says that the motor is at standstill."""
     bench = watched(kind, start=False)
     bench.spoil = lambda frame, reply: None if stops(bench, [frame]) else reply
     bench.restart()
@@ -170,12 +170,12 @@ def test_a_plc_that_starts_warm_stops_a_running_motor(kind: str) -> None:
     assert stops(bench, frames)
     assert not motions(bench, frames)
     assert bench.shows("StopConfirmed")
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_motor_that_comes_back_running_is_stopped(kind: str) -> None:
-    """On first contact and behind a lost connection, even if the drive says that it runs."""
+    """On first contact and after a lost connection, even if the drive says that it runs."""
     bench = watched(kind).running()
     bench.deaf = {1}
     bench.until(lambda: not bench.shows("CommOk"), 9000)
@@ -218,7 +218,7 @@ def test_a_drive_block_that_is_no_longer_called_is_stopped_by_the_line() -> None
     frames = bench.run(6000)
     assert stops(bench, frames)
     assert not motions(bench, stops(bench, frames))
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
     bench.leave("Skip0", on=False)
     assert not motions(bench, bench.run(4000))
     edge(bench)

@@ -50,7 +50,7 @@ def drives() -> list[SimulatedDrive]:
 
 
 def script(made: list[SimulatedDrive], chance: random.Random) -> Iterator[Event]:
-    """Events by chance, a drive for some while: most of them a command, a reading or a little time."""
+    """Events at random, a drive for some while: most of them a command, a reading or a little time."""
     for _ in range(BURSTS):
         number = chance.randrange(len(made))
         yield from (Event(what, number, what in {"follows", "power"}) for what in FLAGS)

@@ -92,7 +92,7 @@ def test_run_is_not_sent_again_after_a_stop_key(hz: float) -> None:
     bench.run(300)
     assert bench.drives[0].mode == "ramping down"
     assert not motions(bench, bench.run(12_000))
-    assert bench.drives[0].mode == "standing"
+    assert bench.drives[0].mode == "standstill"
 
 
 def test_a_run_that_stays_unanswered_once_is_sent_again_after_a_read() -> None:

@@ -237,7 +237,7 @@ static int vd_write(VDrive *d, int first, const unsigned short *words, int count
   vd_written(d, &b);
   return -1;
 }
-/* the reply's data behind unit and function; its length, or minus 1 and a reason */
+/* the reply's data after unit and function; its length, or minus 1 and a reason */
 static int vd_granted(VDrive *d, const unsigned char *ask, int everyone, unsigned char *data, int *reason) {
   const VTable *t = d->t; int function = ask[1], first = ask[2] << 8 | ask[3], number = ask[4] << 8 | ask[5], known = 0;
   unsigned short words[128];

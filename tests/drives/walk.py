@@ -11,8 +11,8 @@ from tests.drives.bench import RUNS, Bench, Faults
 from tests.drives.rules import BrokenRuleError, Observer
 from tests.drives.station import FAMILIES, STATIONS, maps
 
-from driveblocks.host.engine import Library
 from driveblocks.simulator.habits import Habits
+from structured_text.engines.engine import Library
 
 HERTZ = (25.0, 25.0, 10.0, 50.0, 0.0, 60.0, -1.0, float("nan"), float("inf"))
 WIRE = ("lost", "unanswered", "garbled", "truncated", "late", "twice")

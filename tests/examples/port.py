@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from driveblocks.host.engine import Instance
 from driveblocks.reference.checksum import crc16
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Instance
 
 SCAN_MS = 10
 
@@ -28,7 +28,7 @@ class Port:
     """Bytes on their way to the program: when the last bit is there (ms), and which."""
 
     def scan(self) -> None:
-        """Time passes, bytes come, the program runs, a request leaves."""
+        """Time passes, bytes come, the program runs, a request is sent."""
         self.now += SCAN_MS
         for drive in self.drives:
             drive.step(SCAN_MS)
@@ -45,7 +45,7 @@ class Port:
             self._leave(bytes(text[:count]))  # type: ignore[arg-type]  # an array of BYTE
 
     def _leave(self, text: bytes) -> None:
-        assert not self.coming, "a request leaves while a reply comes"
+        assert not self.coming, "a request is sent while a reply comes"
         frame = text[:-2]
         assert text == sealed(frame)
         self.sent.append(frame)

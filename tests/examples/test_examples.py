@@ -7,9 +7,9 @@ from pathlib import Path
 from tests.blocks.library import built, shipped, sources
 from tests.examples.port import Port
 
-from driveblocks.host.engine import Engine, Source
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.engine import Engine, Source
+from structured_text.language.lint import lint_sources
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"

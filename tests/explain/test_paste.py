@@ -1,4 +1,4 @@
-"""Every usual way to write a frame gives the same bytes; what cannot be read is told with line and column."""
+"""Every usual way to write a frame gives the same bytes; what cannot be read is reported with line and column."""
 
 import binascii
 

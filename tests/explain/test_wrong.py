@@ -1,4 +1,4 @@
-"""Wrong frames: what is told of each, and what it might be instead. Frames are typed; checksums stand as printed."""
+"""Wrong frames: what is reported of each, and what it might be instead. Frames are typed; checksums are as printed."""
 
 import pytest
 from hypothesis import given
@@ -53,8 +53,8 @@ def inverted(frame: str) -> str:
         ("02 06 10 00 00 01 4C CA", "one byte is wrong: byte 1 is 02 and would be 01", "01 06 10 00 00 01 4C CA"),
         ("03 20 00 00 01 8F CA", "the first byte is missing: with unit 1", READ),
         ("01 03 20 00 00 01 8F", "the last byte is missing: it is the second of the CRC", READ),
-        ("01 03 20 00 00 01", "the checksum is missing: CRC 8F CA belongs behind it", READ),
-        (":010320000001", "the checksum is missing: LRC DB belongs behind it", ":010320000001DB"),
+        ("01 03 20 00 00 01", "the checksum is missing: CRC 8F CA belongs after it", READ),
+        (":010320000001", "the checksum is missing: LRC DB belongs after it", ":010320000001DB"),
         (":010320000001BD", "the LRC with its two digits swapped", ":010320000001DB"),
         (":01032000000125", "the sum of the bytes", ":010320000001DB"),
         (":010320000001DA", "the inverted sum", ":010320000001DB"),
@@ -110,14 +110,14 @@ def test_what_no_checksum_proves(explain: Explain, frame: str, perhaps: str) -> 
         ),
         (":010320000001DC", ["the LRC does not fit: the frame has DC, and DB would be right"]),
         ("01 03 20 00 00 01 CA 8F", ["the CRC does not fit: the frame has CA 8F, and 8F CA would be right"]),
-        (REPLY + " 00", ["1 byte too many behind the frame: 00"]),
-        (REPLY + " 00 00", ["2 bytes too many behind the frame: 00 00"]),
-        (READ + " AA 55", ["2 bytes too many behind the frame: AA 55"]),
+        (REPLY + " 00", ["1 byte too many after the frame: 00"]),
+        (REPLY + " 00 00", ["2 bytes too many after the frame: 00 00"]),
+        (READ + " AA 55", ["2 bytes too many after the frame: AA 55"]),
         ("FF " + READ, ["1 byte too many before the frame: FF"]),
-        ("FF " + READ + " FF", ["bytes before and behind the frame, which is 01 03 20 00 00 01 8F CA"]),
+        ("FF " + READ + " FF", ["bytes before and after the frame, which is 01 03 20 00 00 01 8F CA"]),
         (READ + READ, ["2 frames glued together: bytes 1 to 8 and 9 to 16"]),
-        (READ + REPLY, ["the request stands before the reply: bytes 1 to 8"]),
-        (":010320000001DB:01030201F405", ["the request stands before the reply: bytes 1 to 17"]),
+        (READ + REPLY, ["the request comes before the reply: bytes 1 to 8"]),
+        (":010320000001DB:01030201F405", ["the request comes before the reply: bytes 1 to 17"]),
         (":010320000001DB:010320000001DB", ["2 frames glued together: bytes 1 to 17 and 18 to 34"]),
         (rtu("01 03 00 02 01 F4"), ["the byte count is a word: two-byte count"]),
         (rtu("01 10 10 00 00 02 02 00 01"), ["the byte count 2 does not fit: a quantity of 2 needs 4"]),

@@ -14,7 +14,7 @@ from driveblocks.export import openplc, twincat
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, the writer, what stands in its source, what instead, and the check that tells."""
+    """A mistake: its name, the writer, what is in its source, what instead, and the check that tells."""
 
     name: str
     writer: ModuleType
@@ -113,7 +113,7 @@ PLANTED = (
         "_object(inner: str) -> str:\n    inner = inner.replace(chr(10), chr(13))\n",
         _bytes,
     ),
-    Planted("ids by chance", twincat, "uuid5(IDS, name)", "__import__('uuid').uuid4()", _ids),
+    Planted("ids at random", twincat, "uuid5(IDS, name)", "__import__('uuid').uuid4()", _ids),
     Planted("ids in another namespace", twincat, "6b1f2c0e", "6b1f2c0f", _ids),
     Planted("one id for all", twincat, "uuid5(IDS, name)", "uuid5(IDS, '')", _ids),
     Planted(

@@ -1,6 +1,6 @@
 """The ports of three platforms on the embedded engine, and how a maker's block may end with a frame.
 
-Each port stands in two rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; and in its line.
+Each port is in two rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; and in its line.
 """
 
 from collections.abc import Iterable
@@ -11,8 +11,8 @@ from pathlib import Path
 from tests.export.stock import made
 from tests.export.test_codesys_port import COM, portable, replaced
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Library, Source
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, Source
 
 SCAN_MS = 10
 HERE = Path(__file__).parent
@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 
 @dataclass(frozen=True)
 class End:
-    """How each frame ends from now on: in which call behind the starting one (None: never), and whether in an error."""
+    """How each frame ends from now on: in which call after the starting one (None: never), and whether in an error."""
 
     call: int | None
     fails: bool = False

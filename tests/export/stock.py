@@ -33,7 +33,7 @@ class Canon:
 
     @property
     def body(self) -> str:
-        """From the line behind the last END_VAR to the line before the end; empty for a type."""
+        """From the line after the last END_VAR to the line before the end; empty for a type."""
         lines = self.text.split("\n")
         if "END_VAR" not in lines:
             return ""

@@ -15,7 +15,7 @@ from tests.export.tc6_reader import File, Node
 from driveblocks.export.part import Shelf
 from driveblocks.export.target import Writer
 from driveblocks.export.wide import wide
-from driveblocks.st.fingerprint import fingerprint, stream
+from structured_text.language.fingerprint import fingerprint, stream
 
 DIALECTS = {
     "plcopen": ("http://www.plcopen.org/xml/tc6_0201", "p"),
@@ -175,7 +175,7 @@ def tasks(one: Made) -> None:
 
 
 def drawings(one: Made) -> list[tuple[Node, str]]:
-    """Each ladder of a file, and the body that it stands for."""
+    """Each ladder of a file, and the body that it means."""
     nodes = {node.get("name"): node for node in one.file.all("types/pous/pou")}
     return [(nodes[unit.name], unit.body) for _, unit in one.pairs if unit.name.endswith("_Ladder")]
 

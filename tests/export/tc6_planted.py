@@ -21,7 +21,7 @@ MODULES = ("element", "tc6", "ladder", "rungs", *BOTH)
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, the module, what stands in its text, what instead, the check that tells, and where.
+    """A mistake: its name, the module, what is in its text, what instead, the check that tells, and where.
 
     What both dialects share is tried in one.
     """

@@ -10,11 +10,11 @@ from itertools import pairwise
 import pytest
 from tests.export.test_tc6 import LANGUAGES, stock
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Source, Value
 from driveblocks.render import library
-from driveblocks.st.names import reserved
-from driveblocks.st.tree import Pou
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Source, Value
+from structured_text.language.names import reserved
+from structured_text.language.tree import Pou
 
 PINS = (
     "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"
@@ -31,7 +31,7 @@ VAR
   Memory : BOOL; (* xExecute of the last call *)
   Calls : UINT;  (* calls since the starting one *)
   Ends : BOOL;   (* test: it ends by itself *)
-  Slow : UINT;   (* test: in which call behind the starting one; 0: in that itself *)
+  Slow : UINT;   (* test: in which call after the starting one; 0: in that itself *)
   Fails : BOOL;  (* test: it ends with an error *)
 END_VAR
   Calls := Calls + 1;
@@ -279,7 +279,7 @@ class _Slave:
             self.program[name] = value
 
     def scans(self, count: int) -> list[tuple[int, Value]]:
-        """What is asked in so many scans, which answer at once, each with the command word; pauses are passed over."""
+        """What is asked in some scans, which answer at once, each with the command word; pauses are passed over."""
         self.asked.clear()
         for _ in range(count):
             if self.program.state().get("WAITS"):

@@ -7,7 +7,7 @@ from tests.export.stock import canon, made
 from driveblocks.export import CANONICAL, TARGETS
 from driveblocks.maps.rules import identifier
 from driveblocks.render import library
-from driveblocks.st.reserved import TARGET_WORDS
+from structured_text.language.reserved import TARGET_WORDS
 
 DECLARED = re.compile(r"^  (\w+)(?: AT %\S+)? : ", re.MULTILINE)
 OUTER = re.compile(r"^(?:FUNCTION_BLOCK|FUNCTION|PROGRAM) (\w+)", re.MULTILINE)

@@ -9,14 +9,14 @@ import pytest
 from tests.blocks.toolchains import FOUND, translate
 from tests.examples.port import Port
 from tests.export.stock import canon, made
-from tests.host.configuration import start
+from tests.structured_text.engines.configuration import start
 
 from driveblocks.export import openplc
-from driveblocks.host.discovery import EMBEDDED
-from driveblocks.host.engine import Engine, Library, Source
-from driveblocks.host.matiec.installation import Installation
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.discovery import EMBEDDED
+from structured_text.engines.engine import Engine, Library, Source
+from structured_text.engines.matiec.installation import Installation
+from structured_text.language.lint import lint_sources
 
 END = re.compile(r"^END_(?:TYPE|FUNCTION|FUNCTION_BLOCK)\n", re.MULTILINE)
 TOOLS = pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def written() -> dict[str, str]:
 
 
 def pieces(text: str) -> list[str]:
-    """A library cut behind each type, function and block; its own head goes before the first."""
+    """A library cut after each type, function and block; its own head goes before the first."""
     ends = [0, *(match.end() for match in END.finditer(text))]
     return [text[start:end] for start, end in pairwise(ends)]
 

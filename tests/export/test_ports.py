@@ -195,13 +195,13 @@ PLANTED = {
         test_a_stop_leaves_in_time_behind_a_frame_that_failed,
         NEVER,
     ),
-    "the error of a frame goes with the next message": (
+    "the error of a frame is cleared by the next message": (
         SIEMENS,
         ("ErrorID := SendError;\n    RxCount", "ErrorID := 0;\n    RxCount"),
         test_a_port_that_stays_broken_is_reported_all_the_time_and_tried_again_and_again,
         End(3, fails=True),
     ),
-    "a port is opened again behind one failure": (
+    "a port is opened again after one failure": (
         CODESYS,
         ("IF (Failures > 1)", "IF (Failures > 0)"),
         test_the_next_attempt_starts_within_three_scans_of_the_end,

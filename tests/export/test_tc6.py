@@ -13,15 +13,15 @@ from tests.shapes import shapes
 from driveblocks.export.part import Part, Shelf, shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.target import WRITERS
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.revision import checked
 from driveblocks.render import library, text
 from driveblocks.render.library import File
 from driveblocks.render.results import code
-from driveblocks.st.lint import lint_sources
-from driveblocks.st.parser import parse
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, Source
+from structured_text.language.lint import lint_sources
+from structured_text.language.parser import parse
 
 LANGUAGES = text.languages(["en", "zh"], "utf-8")
 HEAD = "(* X: a sample\n   Purpose  none: & < > \" ' Ü 变频 ]] > *)\n"
@@ -109,7 +109,7 @@ END_VAR
   A := 1;
 END_FUNCTION_BLOCK
 """
-NO_OWNER = "a comment that belongs to no declaration would be lost; put it behind one"
+NO_OWNER = "a comment that belongs to no declaration would be lost; put it after one"
 MARK = "has no form in this XML; write it with a blank in it"
 
 

@@ -11,9 +11,9 @@ from tests.examples.port import SCAN_MS, Port
 from tests.export.stock import canon, made
 from tests.export.test_openplc import written
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Library, Source
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, Source
 
 TICKS = 10_000
 """Of GETCPUCOUNTER in a millisecond."""
@@ -198,12 +198,12 @@ PLANTED = {
         "        Length",
         test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped,
     ),
-    "an older frame goes first": (
+    "an older frame is sent first": (
         "IF TxBuffer.Count > 0 THEN",
         "IF FALSE THEN",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
     ),
-    "a frame goes out again": (
+    "a frame is sent again": (
         "Length := 0;\n        Sent := 0;\n      ELSIF",
         "Sent := 0;\n      ELSIF",
         test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,

@@ -15,8 +15,8 @@ from driveblocks import __version__
 from driveblocks.export import twincat
 from driveblocks.export.part import WHOLE, Part, Shelf
 from driveblocks.export.problem import ExportError
-from driveblocks.st.fingerprint import fingerprint, stream
-from driveblocks.st.parser import parse
+from structured_text.language.fingerprint import fingerprint, stream
+from structured_text.language.parser import parse
 
 ID = re.compile(r"\{[0-9a-f]{8}-[0-9a-f]{4}-5[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}\}")
 FIXED = {
@@ -203,6 +203,6 @@ def test_what_the_format_cannot_say_is_refused_with_its_place() -> None:
     with pytest.raises(ExportError) as refusal:
         twincat.files(Shelf((Part("types", parse(text, "types/MB_Adu.st")),), {}, ()))
     assert [str(problem) for problem in refusal.value.problems] == [
-        "types/MB_Adu.st:3:15: the character 000CH cannot stand in a file of TwinCAT: leave it out",
+        "types/MB_Adu.st:3:15: the character 000CH cannot be in a file of TwinCAT: leave it out",
         "types/MB_Adu.st:7:38: `]]>` ends the text in a file of TwinCAT: put a blank between the brackets",
     ]

@@ -10,7 +10,7 @@ from tests.export.stock import made
 
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.target import WRITERS
-from driveblocks.st.parser import parse
+from structured_text.language.parser import parse
 
 Files = dict[str, str]
 MARK = "STOPWITHINMS := 4321"

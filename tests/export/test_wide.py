@@ -6,8 +6,8 @@ from tests.export.stock import canon, made
 
 from driveblocks.export.wide import wide
 from driveblocks.render.reasons import REASONS, STATES
-from driveblocks.st.fingerprint import fingerprint, stream
-from driveblocks.st.writing import string
+from structured_text.language.fingerprint import fingerprint, stream
+from structured_text.language.writing import string
 
 PARTS = {part.name: part for part in wide(made())}
 GIVEN = re.compile(r':= "((?:\$.|[^"$])*)";')

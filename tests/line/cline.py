@@ -14,7 +14,7 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, translate
 from tests.line.drives import header
 
-from driveblocks.host.matiec.installation import Installation
+from structured_text.engines.matiec.installation import Installation
 
 HERE = Path(__file__).parent
 WHY_NOT = "" if FOUND and COMPILER else "the line in C needs iec2c and a C compiler; `driveblocks doctor` tells more"
@@ -59,7 +59,7 @@ class CLine:
 
 
 def texts(slots: int = 8) -> list[str]:
-    """The files of the library that a line of so many slots needs."""
+    """The files of the library that a line of this many slots needs."""
     names = (BLOCKS / "order.txt").read_text(encoding="utf-8").split()
     own = [name for name in names if name.startswith(("types/", "modbus/MB_Hex", "line/")) and "ByteLine" not in name]
     wanted = [name for name in own if not name.endswith({8: "32.st", 32: "s8.st"}[slots])]
@@ -73,7 +73,7 @@ def build(
     tool: Installation | None = None,
     flags: tuple[str, ...] = ("-O2",),
 ) -> CLine:
-    """Compile a line of so many slots in a folder; `edit` may plant a fault in the ST. Raises AssertionError."""
+    """Compile a line of this many slots in a folder; `edit` may plant a fault in the ST. Raises AssertionError."""
     tool = tool or FOUND[0]
     translate(tool, [edit(text) for text in texts(slots)], folder)
     (folder / "drives.h").write_text(header(), encoding="utf-8")

@@ -24,8 +24,8 @@ from tests.line.planted import PLANTED, Planted
 from tests.line.test_engines import twins
 from tests.line.walk import walk
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.matiec.installation import Installation
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.matiec.installation import Installation
 
 PAGE = Path(__file__).parents[2] / "docs" / "measured" / "line.md"
 KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1, "faults": 0.1}

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, what stands in the text, what instead, and the kind of random lines that tells."""
+    """A mistake: its name, what is in the text, what instead, and the kind of random lines that tells."""
 
     name: str
     old: str
@@ -47,7 +47,7 @@ PLANTED = (
         "      IF NOT Stop.Accepted THEN\n",
     ),
     Planted(
-        "a stop is acknowledged when it leaves",
+        "a stop is acknowledged when it is sent",
         "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
         "      Slots[Chosen].Answer[0].Number := Asked;\n"
         "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
@@ -101,7 +101,7 @@ PLANTED = (
         "timing",
     ),
     Planted(
-        "a parameter leaves without its drive block",
+        "a parameter is sent without its drive block",
         "Passes := ParameterCleared AND ",
         "Passes := ",
     ),

@@ -69,7 +69,7 @@ class Setup:
         return self.drives * (scans + self.sent + self.received) * self.scan
 
     def run(self, lines: Callable[[int], CLine], jitter: int = 0) -> float:
-        """What the virtual line takes for a round, in ms; scans vary by so many percent."""
+        """What the virtual line takes for a round, in ms; scans vary by this many percent."""
         ran = lines(32 if self.drives > 8 else 8).run(
             "run",
             drives=self.drives,

@@ -5,10 +5,10 @@ from functools import cache
 import pytest
 from tests.line.vline import line_sources
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import Instance
 from driveblocks.reference.checksum import crc16
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import Instance
 
 
 @cache

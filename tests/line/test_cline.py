@@ -42,7 +42,7 @@ def test_the_silence_of_a_drive_behind_a_request_that_nobody_answers(line: CLine
 
 @NEEDS
 def test_the_silence_of_a_drive_behind_an_adapter_in_its_own_rhythm(line: CLine) -> None:
-    """What it keeps a request back for is no silence behind that request."""
+    """What it keeps a request back for is no silence after that request."""
     pins = {
         "drives": 5,
         "rate": 57600,

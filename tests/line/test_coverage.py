@@ -7,8 +7,8 @@ from tests.blocks.library import sources
 from tests.line.vline import PARAMETER, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
 
 SEEDS = range(16)
 
@@ -27,7 +27,7 @@ def idle(bench: Bench) -> Bench:
 
 
 def strangers(bench: Bench) -> None:
-    """Frames of another master, too many at last; a late reply behind a stop that did not wait for it."""
+    """Frames of another master, too many at last; a late reply after a stop that did not wait for it."""
     bench.set(ForeignMost=1)
     bench.put(0, PollEveryMs=400)
     bench.ready()
@@ -205,7 +205,7 @@ TOURS = (
 
 @cache
 def walked() -> EmbeddedLibrary:
-    """A line of eight slots with counters, behind its walks."""
+    """A line of eight slots with counters, after its walks."""
     library = EmbeddedEngine(coverage=True).build(line_sources())
     for tour, config in TOURS:
         tour(Bench(config, block=library.instance("MB_Line8")))

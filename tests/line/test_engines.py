@@ -8,8 +8,8 @@ from tests.line.twins import DifferentError, Twins
 from tests.line.vline import line_sources
 from tests.line.walk import walk
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library
 
 _BUILT: dict[str, Library] = {}
 

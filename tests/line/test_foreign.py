@@ -136,7 +136,7 @@ def test_one_reply_in_a_hundred_comes_twice(drives: int, ascii_: bool) -> None:
 
 
 def test_each_request_accounts_for_one_late_reply() -> None:
-    """Two stops go unanswered, since a stop waits for nobody; both replies come late."""
+    """Two stops stay unanswered, since a stop waits for nobody; both replies come late."""
     bench = Bench(Config(drives=2, longest_ms=400)).ready()
     bench.put(0, PollEveryMs=5000)
     bench.put(1, PollEveryMs=5000)

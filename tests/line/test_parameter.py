@@ -8,10 +8,10 @@ import pytest
 from tests.blocks.library import sources
 from tests.line.vline import NAMES, PARAMETER, Bench, Config
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
 from driveblocks.render.environment import environment
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, Source
+from structured_text.language.lint import lint_sources
 
 SCENE = """
 FUNCTION_BLOCK T_Drive
@@ -53,9 +53,9 @@ VAR
   Put1 : VFD_WriteParameter; (* before the drive block *)
   Keep : VFD_Store;          (* before the drive block *)
   Drive : T_Drive;          (* the drive block *)
-  Get2 : VFD_ReadParameter;  (* behind it *)
-  Put2 : VFD_WriteParameter; (* behind it *)
-  Store2 : VFD_Store;        (* behind it *)
+  Get2 : VFD_ReadParameter;  (* after it *)
+  Put2 : VFD_WriteParameter; (* after it *)
+  Store2 : VFD_Store;        (* after it *)
   Stores2 : UDINT;           (* of Store2 *)
   Line : MB_Line8;          (* the line *)
 END_VAR
@@ -109,7 +109,7 @@ class Scene(Bench):
         self.ready()
 
     def rested(self) -> "Scene":
-        """Long behind the last store."""
+        """Long after the last store."""
         self.block["Keep.SinceMs"] = self.block["Store2.SinceMs"] = 60_000
         self.put(0, SinceStoreMs=60_000)
         return self
@@ -259,7 +259,7 @@ def test_what_is_not_listed_is_read_only_with_allow_unknown() -> None:
     assert scene.done("Get2", Address=0x4000, AllowUnknown=True) == "OK"
 
 
-# ---------------------------------------------------------------- only while the motor stands
+# ---------------------------------------------------------------- only while the motor is at standstill
 
 
 def test_nothing_is_written_while_the_motor_may_move() -> None:
@@ -360,7 +360,7 @@ def test_who_sleeps_through_its_answer_says_so(block: str) -> None:
     scene.set(Asleep=False)
     scene.scan()
     assert scene.result(block) == "LOST"
-    assert scene["Keep.Most"] == 0, "what stands in the compartment is another's"
+    assert scene["Keep.Most"] == 0, "what is in the compartment is another's"
 
 
 def test_a_store_waits_for_its_turn() -> None:
@@ -526,7 +526,7 @@ def test_a_store_goes_by_its_own_block_alone() -> None:
 
 def test_stores_are_apart_and_counted() -> None:
     scene = Scene("SN300G5", clock=59_000)
-    assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon behind power-up"
+    assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon after power-up"
     scene.drop("Keep")
     scene.rested().silent = True
     scene.block["Stores"] = 99_998

@@ -244,7 +244,7 @@ def test_frames_that_nobody_asked_for_are_counted(frame: bytes, counted: int, as
 
 
 def test_the_inside_of_a_good_reply_is_no_foreign_frame() -> None:
-    """Six bytes of a reply and the two behind them that happen to be their checksum."""
+    """Six bytes of a reply and the two after them that happen to be their checksum."""
     bench = Bench(Config(drives=1))
     head = bytes([1, 3, 12, 1, 2, 3])
     from driveblocks.reference.checksum import crc16

@@ -1,4 +1,4 @@
-"""A stop is a compartment of its own: never merged, never behind anything, never given up, and somebody says so."""
+"""A stop is a compartment of its own: never merged, never kept waiting, never given up, and somebody says so."""
 
 from itertools import pairwise
 

@@ -4,7 +4,7 @@ from functools import cache
 
 from tests.line.vline import library
 
-from driveblocks.host.engine import Instance
+from structured_text.engines.engine import Instance
 
 CLAIMS = (
     "HasCode", "HasCopy", "StopAgain", "ResetAsked", "BlockIsBack", "Orphan", "Online", "Booting", "Dark", "SupplyBack",
@@ -59,7 +59,7 @@ def test_a_slot_at_rest_may_be_left_out() -> None:
 
 
 def test_a_stop_stays_open_until_it_is_acknowledged() -> None:
-    """Any claims, attempts in vain, refusals: it waits, is due again within a second, and takes the command back."""
+    """Any claims, attempts unanswered, refusals: it waits, is due again within a second, and takes the command back."""
     for round_ in range(300):
         for name in (*KEPT, "UnsentMs", "FirstMs"):
             block()[f"Track.{name}"] = 0

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from driveblocks.host.engine import Instance, Library, Value
+from structured_text.engines.engine import Instance, Library, Value
 
 _COPY = re.compile(r"[\w.]+\.(?:REPLY|SLOT|SLOTS|PORT|STORES|OPEN|TRACK|TX|READS\.WORDS|GATE\.ASK|REST\.DIAGNOSIS)\b.*")
 """Copies of in-outs inside inner instances, which only C keeps."""
@@ -17,7 +17,7 @@ class Twins:
     """Instances of one block that look like one."""
 
     def __init__(self, instances: Sequence[Instance], every: int = 1) -> None:
-        """Compare the states behind `every` so many scans."""
+        """Compare the states after each `every` scans."""
         self.instances = instances
         self.every = every
         self.scans = 0
@@ -62,7 +62,7 @@ class TwinLibrary:
     """Libraries of several engines that look like one."""
 
     def __init__(self, libraries: Sequence[Library], every: int = 1) -> None:
-        """Compare the states behind `every` so many scans."""
+        """Compare the states after each `every` scans."""
         self.libraries = libraries
         self.every = every
 

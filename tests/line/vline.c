@@ -120,11 +120,11 @@ static int sealed(unsigned char *bytes, int count, unsigned char *text) {
   text[made++] = 13; text[made++] = 10;
   return made;
 }
-/* bytes go onto the wire at a time; what overlaps another transmission is spoilt */
+/* bytes are sent at a time; what overlaps another transmission is spoilt */
 static int transmit(unsigned char *bytes, int count, us start, int faults) {
   unsigned char text[170]; int good = 1, length = sealed(bytes, count, text);
   if (faults && happens(c.garble)) { text[between(0, length - 1)] ^= 1 << between(0, 7); good = 0; }
-  if (faults && happens(c.scramble) && length > 11) { /* all behind the head by chance: a CRC lets one in 65,536 pass, an LRC one in 256 */
+  if (faults && happens(c.scramble) && length > 11) { /* all after the head at random: a CRC lets one in 65,536 pass, an LRC one in 256 */
     for (int i = c.ascii ? 7 : 3; i < length - 2 * c.ascii; i++) text[i] = c.ascii ? "0123456789ABCDEF"[chance() & 15] : chance();
     good = 0; f.scrambled++; }
   if (faults && happens(c.truncate)) { length = between(0, length - 1); good = 0; }

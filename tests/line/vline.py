@@ -14,10 +14,10 @@ from random import Random
 from tests.blocks.library import sources
 from tests.line.drives import KINDS, Kind
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Instance, Library, Source
 from driveblocks.reference.checksum import crc16, lrc
 from driveblocks.render.results import RESULTS
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, Source
 
 STOP, COMMAND, PARAMETER, POLL = range(4)
 """The compartments of a slot."""
@@ -317,7 +317,7 @@ class Bench:
         self._leave(bytes(value[: self["Port.TxCount"]]))  # type: ignore[arg-type]  # an array of BYTE
 
     def _leave(self, text: bytes) -> None:
-        """A request goes onto the wire."""
+        """A request is sent on the wire."""
         start, heard = self.now, max([self._last, *(at for at, _, _ in self._wire if at <= self.now)])
         if self.config.keeps:
             for at, _, _ in sorted(self._wire):

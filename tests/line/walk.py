@@ -11,7 +11,7 @@ from random import Random
 from tests.line.drives import KINDS
 from tests.line.vline import PARAMETER, POLL, STOP, Bench, Config
 
-from driveblocks.host.engine import Instance
+from structured_text.engines.engine import Instance
 
 SCANS = 1500
 
@@ -193,7 +193,7 @@ class Walk:
             self.bench.port_takes = not self.bench.port_takes
         else:
             self.bench.echoes = not self.bench.echoes
-            self.bench.block["Port.ErrorID"] = 4  # behind an error it is decided anew; nothing else could tell
+            self.bench.block["Port.ErrorID"] = 4  # after an error it is decided anew; nothing else could tell
 
     def foreign(self, slot: int) -> None:
         frames = [

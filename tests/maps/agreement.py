@@ -94,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run from the command line; the exit status is 1 when a text was not read alike."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=200_000, help="how many texts (200000)")
-    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (by chance)")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (at random)")
     parser.add_argument("--only", type=int, help="repeat the text of this number alone")
     wanted = parser.parse_args(arguments)
     seed = wanted.seed

@@ -130,7 +130,7 @@ def main() -> int:
     """Run from the command line; the exit status is 1 when the loader failed."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=10_000, help="how many mutations (10000)")
-    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (by chance)")
+    parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="the seed (at random)")
     parser.add_argument("--only", type=int, help="repeat the mutation of this number alone")
     wanted = parser.parse_args()
     numbers = range(wanted.count) if wanted.only is None else [wanted.only]

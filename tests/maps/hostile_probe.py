@@ -1,7 +1,7 @@
 """Load files, each in a process of its own with little memory, and print what became of each.
 
 Arguments: bytes, paths. Prints one line of JSON for each path: its name, the messages, and the traceback of what
-should not have happened. A loader that wants more than so many bytes beyond what the process has ends in a MemoryError.
+should not have happened. A loader that wants more than its bytes beyond what the process has ends in a MemoryError.
 """
 
 import json

@@ -60,7 +60,7 @@ class Text:
 
     @cached_property
     def leaves(self) -> list[Leaf]:
-        """Every value that holds a fact and not prose, and that stands in one piece in the text."""
+        """Every value that holds a fact and not prose, and that is in one piece in the text."""
         found = _leaves(self.root, EntryOf(Drive), ())
         return [leaf for leaf in found if _is_fact(leaf) and self._stands(leaf.scalar)]
 
@@ -81,7 +81,7 @@ class Text:
         return starts
 
     def offset(self, scalar: Scalar) -> int:
-        """Where the characters of a value start in the text, behind its quote."""
+        """Where the characters of a value start in the text, after its quote."""
         return self.starts[scalar.at[0] - 1] + scalar.at[1] - 1 + (not scalar.plain)
 
     def _stands(self, scalar: Scalar) -> bool:

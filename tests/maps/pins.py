@@ -56,7 +56,7 @@ def kind_of(path: Path) -> str:
 
 @dataclass(frozen=True)
 class Row:
-    """A register row with the section that it stands in."""
+    """A register row with the section that it is in."""
 
     section: Plain
     entry: Plain

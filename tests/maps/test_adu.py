@@ -20,7 +20,7 @@ from pymodbus.pdu.register_message import (
 from driveblocks.maps import adu
 from driveblocks.maps.adu import Fields, FrameError
 from driveblocks.modbus.frame import checksum
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Direction, Manners
 
 WORDS = st.lists(st.integers(0, 0xFFFF), min_size=1, max_size=16)
 UNIT = st.integers(1, 247)
@@ -33,7 +33,7 @@ def both(pdu: ModbusPDU) -> list[tuple[str, bytes]]:
     return [(mode, framer.buildFrame(pdu)) for mode, framer in framers]
 
 
-def apart(pdu: ModbusPDU, direction: str, manners: Manners = Manners()) -> Fields:  # noqa: B008
+def apart(pdu: ModbusPDU, direction: Direction, manners: Manners = Manners()) -> Fields:  # noqa: B008
     """What the frames of a PDU carry; the same in both modes, and their checksums hold."""
     found = set()
     for mode, frame in both(pdu):
@@ -125,7 +125,7 @@ def test_what_a_refused_request_is_due() -> None:
         ("01 83 01", "request", "function 83H is not one that a map's frame may have"),
     ],
 )
-def test_a_wrong_length_is_named(body: str, direction: str, wrong: str) -> None:
+def test_a_wrong_length_is_named(body: str, direction: Direction, wrong: str) -> None:
     with pytest.raises(FrameError) as caught:
         adu.fields(bytes.fromhex(body), direction, Manners())
     assert str(caught.value) == wrong
@@ -151,7 +151,7 @@ def test_a_frame_that_cannot_be_split_is_named(mode: str, frame: bytes, wrong: s
 
 
 @given(st.sampled_from(["request", "reply"]), st.binary(min_size=3, max_size=40))
-def test_any_body_is_taken_apart_or_named(direction: str, body: bytes) -> None:
+def test_any_body_is_taken_apart_or_named(direction: Direction, body: bytes) -> None:
     try:
         found = adu.fields(body, direction, Manners(function=6, address=0x5001))
     except FrameError:

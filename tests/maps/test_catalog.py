@@ -12,7 +12,7 @@ MAPS = {"acme_turbo100": "TURBO1", "acme_eco": "ECO", "bravo_eco2": "BRAVO"}
 
 @pytest.fixture
 def shelf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder of three maps that stands for the shipped ones; the user stands in another."""
+    """A folder of three maps that means the shipped ones; the user is in another."""
     folder = tmp_path / "shelf"
     folder.mkdir()
     for stem, prefix in MAPS.items():

@@ -37,7 +37,7 @@ def rows(drive: Drive) -> dict[int, Register]:
     for section in drive.sections:
         for row in section.registers:
             for address in row.address:
-                assert address not in found, f"{address:04X}H stands twice"
+                assert address not in found, f"{address:04X}H is there twice"
                 found[address] = row
     return found
 

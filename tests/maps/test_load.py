@@ -68,7 +68,7 @@ def test_messages_come_in_the_order_of_the_file() -> None:
 
 
 def test_what_may_stand_in_an_unread_part_is_not_missed() -> None:
-    """The section of the faults could not be read; nobody is told that its registers are nowhere."""
+    """The section of the faults could not be read; nobody is reported that its registers are nowhere."""
     assert wrong(TEXT.replace("  - id: status\n", "  - id: Status\n")) == ["`id: Status` is not a word"]
 
 

@@ -36,7 +36,7 @@ def test_jscc_needs_two_reads() -> None:
 def test_chf_needs_three_reads() -> None:
     """1001H is the status; 3000H-3006H all measures, 7 words, just what an ASCII reply of 16 data bytes holds.
 
-    5000H is the fault; read with 5001H behind it, its reply cannot pass for one to 1001H.
+    5000H is the fault; read with 5001H after it, its reply cannot pass for one to 1001H.
     """
     assert polls(SHIPPED["CHF"]) == (
         Poll(3, 0x1001, 1, fast=True),

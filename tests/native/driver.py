@@ -1,6 +1,6 @@
 """Drivers in C around the library as matiec translates it: programs, so that millions of scans cost no Python.
 
-A driver is C text that is compiled behind `prelude.h`, with the C of iec2c in the same unit. It prints what it found;
+A driver is C text that is compiled after `prelude.h`, with the C of iec2c in the same unit. It prints what it found;
 its exit status is 0 if all was well.
 """
 
@@ -17,10 +17,10 @@ from pathlib import Path
 
 from tests.blocks.library import alone
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.engine import EngineError, Source
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.cache import SEAL
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.engine import EngineError, Source
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.cache import SEAL
 
 PRELUDE = Path(__file__).with_name("prelude.h")
 OPTIONS = ("-std=gnu11", "-fwrapv", "-fno-strict-aliasing", "-ffp-contract=off", "-w")

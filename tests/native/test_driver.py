@@ -1,4 +1,4 @@
-"""A driver runs the library's C without Python, and a driver that does not compile is told."""
+"""A driver runs the library's C without Python, and a driver that does not compile is reported."""
 
 import os
 from pathlib import Path
@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from tests.native.driver import Driver, run
 
-from driveblocks.host.engine import EngineError
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.cache import SEAL
+from structured_text.engines.engine import EngineError
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.cache import SEAL
 
 CRC = """
 static MB_CRC16 crc;

@@ -1,4 +1,4 @@
-"""On a real port only reads and the maps' stops leave, judged by the bytes, whatever the program wants."""
+"""On a real port only reads and the maps' stops are sent, judged by the bytes, whatever the program wants."""
 
 import pytest
 from tests.plc.desk import EXAMPLE, ONE, Desk
@@ -26,7 +26,7 @@ LEAVES = [
 DROPPED = [
     "01 10 00 00 00 01 02 00 01", "01 10 00 00 00 01 02 00 02",  # run
     "01 10 00 00 00 01 02 00 04",  # a terminal by the bus, which may be set to anything
-    "01 10 00 00 00 02 04 00 00 13 88",  # a stop with a reference behind it
+    "01 10 00 00 00 02 04 00 00 13 88",  # a stop with a reference after it
     "01 06 00 00 00 01", "01 10 00 01 00 01 02 13 88", "01 10 09 00 00 01 02 00 00",
     "02 06 10 00 00 01", "02 06 10 01 0B B8", "02 06 10 00 00 05",
     "03 06 10 00 00 03", "03 06 10 00 00 07", "03 06 20 00 27 10",  # what stops JSCC jogs CHF
@@ -75,7 +75,7 @@ def test_the_stop_of_a_map_stops_its_drive(family: str) -> None:
     assert Guard({5: MAPS[family]}).passes(seal("rtu", request))
     assert (drive.reply(request) or b"")[:6] == request[:6]
     drive.step(5000)
-    assert drive.mode == "standing"
+    assert drive.mode == "standstill"
 
 
 def test_no_word_of_a_motion_is_a_stop() -> None:
@@ -89,7 +89,7 @@ def test_no_word_of_a_motion_is_a_stop() -> None:
 
 def test_a_program_that_wants_to_run_a_real_drive_only_reads_and_stops() -> None:
     desk = Desk(free=frozenset()).started()
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.instance["Motor.CommOk"]
     assert {frame[1] for frame in desk.line.sent} == {3, 6}
     assert {frame[:6] for frame in desk.line.sent if frame[1] == 6} == {bytes.fromhex("07 06 10 00 00 03")}
@@ -98,7 +98,7 @@ def test_a_program_that_wants_to_run_a_real_drive_only_reads_and_stops() -> None
 
 def test_the_same_program_runs_it_where_a_person_has_typed_its_name_and_unit() -> None:
     assert Desk(free=frozenset({(7, "Motor")})).started().drives[0].mode == "running"
-    assert Desk(free=frozenset({(8, "Motor"), (7, "Other")})).started().drives[0].mode == "standing"
+    assert Desk(free=frozenset({(8, "Motor"), (7, "Other")})).started().drives[0].mode == "standstill"
 
 
 def test_a_drive_that_takes_another_unit_address_has_lost_its_permission() -> None:
@@ -110,7 +110,7 @@ def test_a_drive_that_takes_another_unit_address_has_lost_its_permission() -> No
     assert desk.instance["Motor.Ready"]
     desk.instance["Start"] = True
     desk.scan(3000)
-    assert [drive.mode for drive in desk.drives] == ["standing", "standing"]
+    assert [drive.mode for drive in desk.drives] == ["standstill", "standstill"]
     assert desk.controller.dropped["write to 1001H of unit 9"] > 0
 
 

@@ -13,7 +13,7 @@ from driveblocks.plc.view import View
 
 
 class Noted:
-    """A screen that notes what it is told, or is gone."""
+    """A screen that notes what it is reported, or is gone."""
 
     def __init__(self, fails: BaseException | None = None) -> None:
         self.lines: list[str] = []

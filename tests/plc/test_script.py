@@ -1,5 +1,8 @@
 """What a script or a person sets: times, names and values, and every mistake with its place."""
 
+import re
+from pathlib import Path
+
 import pytest
 from tests.plc.desk import Desk
 
@@ -83,3 +86,10 @@ def test_a_line_that_sets_nothing_says_why(line: str, said: str) -> None:
     desk = Desk()
     with pytest.raises(ValueError, match="^" + said.replace(".", r"\.")):
         typed(line, desk.controller.wiring.inputs, desk.instance)
+
+
+def test_the_script_on_the_page_is_read() -> None:
+    page = (Path(__file__).parents[2] / "docs/run.md").read_text(encoding="utf-8")
+    (block,) = re.findall(r"with `--script`:\n\n```\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    wanted = [("Hertz", 30.0, 2_000_000), ("Start", True, 2_000_000), ("Start", False, 4_500_000)]
+    assert script.read("run.md", block, {"Hertz": 0.0, "Start": False}) == [Setting(*each) for each in wanted]

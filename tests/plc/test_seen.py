@@ -117,7 +117,7 @@ def test_frames_that_were_not_sent_stand_in_the_table() -> None:
     view = View(0, (), {}, {}, dropped=7, port_error="No such device")
     parts = screen._parts(screen.Heading("REAL PORT", "my.st", True), view, screen.Plots(Console(width=80)))
     text = "\n".join(map(str, parts))
-    assert "7 frames not sent: only reads and stops leave" in text
+    assert "7 frames not sent: only reads and stops are" in text
     assert "the port does not work: No such device" in text
 
 
@@ -141,6 +141,22 @@ def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
     lanes = [each.get("points", "").split() for each in root.iter(f"{space}polyline")]
     # low until 1 s, a third of the way; then high
     assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
+
+
+def test_a_picture_brings_its_background_and_keeps_numbers_apart_from_names() -> None:
+    long = "Pump1.OutputFrequencyHz.Which.Is.Long"
+    timing = Timing(("A", long), "SIMULATED, my.st")
+    timing.add(0, {"A": False, long: 123456.0})
+    timing.add(1_000_000, {"A": True, long: 0.0})
+    root = ElementTree.fromstring(timing.svg())  # noqa: S314 - our own
+    space = "{http://www.w3.org/2000/svg}"
+    box = [float(each) for each in root.get("viewBox", "").split()]
+    (page,) = root.iter(f"{space}rect")
+    assert [page.get("width"), page.get("height"), page.get("fill")] == [f"{box[2]:g}", f"{box[3]:g}", "#fff"]
+    assert root.get("fill") == "#222", "without a style sheet, which not every viewer reads"
+    places = {each.text: float(each.get("x", "")) for each in root.iter(f"{space}text")}
+    end = places["123456"] - 8 * len("123456")  # it ends at its place
+    assert places[long] + 7 * len(long) <= end
 
 
 def test_a_picture_forgets_what_is_too_much(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,7 +27,7 @@ def test_a_motor_runs_and_stops(text: str) -> None:
     assert desk.instance["Motor.OutputFrequencyHz"] == pytest.approx(20)
     desk.instance["Start"] = False
     desk.scan(4000)
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.instance["Motor.StopConfirmed"]
     assert (desk.controller.number("Bus.Bad"), desk.controller.number("Bus.Timeouts")) == (0, 0)
 
@@ -37,7 +37,7 @@ def test_a_line_speaks_ascii() -> None:
     desk = ended(Desk(text, [SimulatedDrive(MAPS["CHF"], 7, ascii_mode=True)], frozenset({(7, "Motor")})))
     assert desk.line.sent[0].startswith(b":07")
     assert desk.controller.number("Bus.Bad") == 0
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.session.result is not None
     assert desk.session.result.stopped == ("Motor",)
 
@@ -55,7 +55,7 @@ def test_five_seconds_of_sleep_act_like_a_restart_and_start_nothing() -> None:
     desk = Desk().started()
     desk.clock.sleep_until(desk.clock.now_us() + 5 * SECOND)
     desk.scan(5000)
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.instance["Motor.Reason"] == 24  # the run pin is held since before
 
 
@@ -116,7 +116,7 @@ def ended(desk: Desk, end: Callable[[Desk], None] = lambda _: None, seconds: int
 
 def test_the_end_of_the_time_stops_every_drive() -> None:
     desk = ended(Desk())
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     result = desk.session.result
     assert result is not None
     assert (result.reason, result.crashed, result.unconfirmed, result.stopped) == (
@@ -142,7 +142,7 @@ def test_a_signal_stops_every_drive(number: int) -> None:
     with live.listening(desk.ending):
         ended(desk, lambda desk: sent(desk, number))
     assert signal.getsignal(number) == before
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     result = desk.session.result
     assert result is not None
     assert (result.crashed, result.stopped) == (False, ("Motor",))
@@ -218,7 +218,7 @@ def breaks(desk: Desk) -> None:
 @pytest.mark.parametrize(("crash", "said"), [(fails, "my.st:17:15: division by zero"), (breaks, "TypeError")])
 def test_a_crash_stops_every_drive_and_is_told(crash: Callable[[Desk], None], said: str) -> None:
     desk = ended(Desk(), crash)
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     result = desk.session.result
     assert result is not None
     assert result.crashed
@@ -239,7 +239,7 @@ def test_a_motor_that_runs_on_is_named() -> None:
     desk = Desk()
     ended(desk, lambda desk: setattr(desk.drives[0], "keeps_running", True))
     assert desk.session.result is not None
-    why = {"Motor (unit 7)": "stop acknowledged, its status does not prove that it stands"}
+    why = {"Motor (unit 7)": "stop acknowledged, its status does not prove standstill"}
     assert desk.session.result.unconfirmed == why
 
 
@@ -265,7 +265,7 @@ def test_a_terminal_that_goes_brings_much_at_once_and_every_drive_is_waited_for(
             desk.ending.ask(reason)
 
     desk = ended(Desk(), gone)
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.session.result is not None
     assert (desk.session.result.reason, desk.session.result.stopped) == ("SIGHUP", ("Motor",))
 
@@ -277,7 +277,7 @@ def test_drives_are_stopped_before_a_first_scan_has_said_where_they_are() -> Non
     desk.ending.ask("Ctrl-C")
     assert desk.session.run().stopped == ("Motor",)
     assert desk.session.pace.scans == 0
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
 
 
 def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
@@ -294,7 +294,7 @@ def test_every_drive_gets_its_stop_before_one_is_waited_for() -> None:
     desk.line.sent.clear()
     desk.session.run()
     assert [frame[0] for frame in desk.line.sent[:3]] == [1, 2, 3]
-    assert [drive.mode for drive in drives] == ["standing"] * 3
+    assert [drive.mode for drive in drives] == ["standstill"] * 3
     assert desk.session.result is not None
     assert desk.session.result.unconfirmed == {}
 
@@ -334,7 +334,7 @@ def test_a_stop_meets_no_reply_and_keeps_the_silence(after_us: int) -> None:
     assert replied
     assert stopped[0] - replied[-1] >= 20_000
     assert stopped[0] - said < 100_000
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
 
 
 def test_a_stop_does_not_wait_for_ever_for_a_reply_or_for_silence() -> None:

@@ -182,7 +182,7 @@ def test_a_scan_that_does_not_end_is_given_up_and_every_drive_is_stopped(hanging
     desk, time = hanging.desk, hanging.watched()
     result = desk.session.run()
     assert time.us == LIMIT_US
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert (result.crashed, result.unconfirmed, result.stopped) == (True, {}, ("Motor",))
     text = HANGS.splitlines()
     inner, outer = (1 + text.index(line) for line in ("  Inner := SQRT(Inner);", "    Root := Outer(4.0);"))
@@ -200,7 +200,7 @@ def test_a_scan_that_was_given_up_sends_nothing_when_it_goes_on(hanging: Hanging
     desk.controller._mailbox.take = lambda: b"what it wants to send"  # type: ignore[method-assign]  # the program writes, given up
     hanging.release()
     assert (len(desk.line.sent), desk.session.pace.scans) == (before, scans)
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
 
 
 def test_a_drive_that_is_not_reached_is_named_when_its_time_to_stop_is_over(hanging: Hanging) -> None:
@@ -224,7 +224,7 @@ def test_who_asks_for_the_end_does_not_wait_for_a_scan_that_does_not_end(reason:
     person.join(NET)
     assert time.us == PATIENCE_US
     assert (result.reason, result.crashed, result.stopped) == (reason, False, ("Motor",))
-    assert desk.drives[0].mode == "standing"
+    assert desk.drives[0].mode == "standstill"
     assert desk.told()[-2].startswith("a scan was given up: it was at my.st:")
 
 

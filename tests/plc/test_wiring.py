@@ -3,9 +3,9 @@
 import pytest
 from tests.plc.desk import BOX, EXAMPLE, ONE, Desk, loaded, wired
 
-from driveblocks.host.engine import BuildError
 from driveblocks.plc import wiring
 from driveblocks.plc.wiring import DriveBlock, Wiring
+from structured_text.engines.engine import BuildError
 
 
 def told(text: str) -> str:
@@ -124,7 +124,7 @@ def test_globals_of_a_configuration_are_served_like_the_program_s_own() -> None:
     assert desk.drives[0].mode == "running"
     desk.session.run(0)
     assert desk.session.result is not None
-    assert (desk.drives[0].mode, desk.session.result.stopped) == ("standing", ("Motor",))
+    assert (desk.drives[0].mode, desk.session.result.stopped) == ("standstill", ("Motor",))
 
 
 def test_a_drive_that_could_not_be_stopped_is_refused() -> None:

@@ -10,6 +10,7 @@ import argparse
 import math
 import struct
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 from random import Random
@@ -17,16 +18,16 @@ from typing import Any
 
 from tests.prove.evaluate import Program, signed
 
-from driveblocks.host.discovery import survey
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, ScanError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
 from driveblocks.prove.replay import known_paths
-from driveblocks.st.tree import Function
-from driveblocks.st.types import Elementary, Kind
+from structured_text.engines.discovery import survey
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Instance, Library, ScanError, Source
+from structured_text.language.tree import Function, VarKind
+from structured_text.language.types import Elementary, Kind
 
 CALLS = 10_000
 SEED = 31
@@ -61,6 +62,11 @@ def subjects(family: str) -> list[Model]:
     return models(sources()[family], rules.family(facts(drive)))
 
 
+def nothing(kind: Elementary) -> Any:
+    """What a variable of a function is before its first assignment."""
+    return False if kind.kind is Kind.BOOL else 0.0 if kind.kind is Kind.REAL else 0
+
+
 def drawn(random: Random, kind: Elementary) -> Any:
     """A value of a type, near the edges more often than not."""
     if kind.kind is Kind.BOOL:
@@ -72,35 +78,57 @@ def drawn(random: Random, kind: Elementary) -> Any:
 
 
 def compared(model: Model, library: Library, calls: int) -> Score:
-    """Run calls of a block both ways; every second finds what the one before has left."""
-    paths = known_paths(model)
-    program = Program(model.after[path] for path in paths)
+    """Run calls of a block both ways; every second finds what the one before has left. A function remembers nothing."""
+    kinds = {path: kind for path, (_, kind) in known_paths(model).items()}
+    function = isinstance(model.pou, Function)
+    shown = {"RESULT": kinds[model.pou.name.upper()]} if function else kinds
+    program = Program(model.after[path] for path in shown)
+    places = {path: program.places[model.after[path].get_id()] for path in shown}
     random, score = Random(SEED), Score()
-    given = [path for path in paths if not model.inputs[path].eq(model.before[path])]
-    state: dict[str, Any] = {}
+    instance = library.instance(f"{model.pou.name}_Call" if function else model.pou.name)
+    given = [path for path in kinds if not model.inputs[path].eq(model.before[path])]
+    state: dict[str, Any] = {path: nothing(kind) for path, kind in kinds.items()}
     for call in range(calls):
-        if call % 2 == 0 or not state:
-            state = {path: drawn(random, kind) for path, (_, kind) in paths.items()}
-        inputs = {path: drawn(random, paths[path][1]) for path in given}
+        if not function and (call % 2 == 0 or not state):
+            state = {path: drawn(random, kind) for path, kind in kinds.items()}
+        inputs = {path: drawn(random, kinds[path]) for path in given}
         try:
-            after = _run(model, library, state | inputs)
+            after = _run(instance, inputs if function else state | inputs, shown)
         except ScanError:  # a result leaves its width, which no memory that the rules allow brings about: matiec wraps
-            state, score.refused = {}, score.refused + 1
+            state, score.refused = state if function else {}, score.refused + 1
             continue
         said = program.run({BEFORE + path: value for path, value in state.items()} | inputs)
-        for path, (_, kind) in paths.items():
-            _compare(score, path, kind, said[model.after[path].get_id()], after[path])
+        for path, kind in shown.items():
+            _compare(score, path, kind, said[places[path]], after[path])
         score.calls += 1
-        state = after
+        state = state if function else after
     return score
 
 
-def _run(model: Model, library: Library, values: dict[str, Any]) -> dict[str, Any]:
-    instance = library.instance(model.pou.name)
+def wrapped(texts: list[Source], those: list[Model]) -> list[Source]:
+    """The texts, and a block around each function, which calls it."""
+    made = [Source(f"{each.pou.name}_Call.st", _around(each.pou)) for each in those if isinstance(each.pou, Function)]
+    return [*texts, *made]
+
+
+def _around(function: Function) -> str:
+    """A block with the inputs of a function, and its result."""
+    inputs = [each for each in function.symbols.values() if each.kind is VarKind.INPUT]
+    declared = "\n".join(f"  {each.name} : {each.type};" for each in inputs)
+    handed = ", ".join(f"{each.name} := {each.name}" for each in inputs)
+    result = function.symbols[function.name.upper()].type
+    return (
+        f"FUNCTION_BLOCK {function.name}_Call\nVAR_INPUT\n{declared}\nEND_VAR\nVAR_OUTPUT\n  Result : {result};\n"
+        f"END_VAR\n  Result := {function.name}({handed});\nEND_FUNCTION_BLOCK\n"
+    )
+
+
+def _run(instance: Instance, values: dict[str, Any], shown: Iterable[str]) -> dict[str, Any]:
+    """A call; all that an instance remembers is given to it, so one does for all calls."""
     for path, value in values.items():
         instance[path] = value
     instance.scan()
-    return {path: instance[path] for path in values}
+    return {path: instance[path] for path in shown}
 
 
 def _compare(score: Score, path: str, kind: Elementary, said: Any, found: Any) -> None:
@@ -129,12 +157,11 @@ def main() -> int:
     options = parser.parse_args()
     bad = False
     for family, texts in sources().items():
-        library = engine(options.engine).build(texts)
+        library = engine(options.engine).build(wrapped(texts, subjects(family)))
         for model in subjects(family):
-            if isinstance(model.pou, Function) or model.subject.exact:
-                continue
             score = compared(model, library, options.calls)
             words = f"{score.calls} calls, {score.compared} values compared, {score.free} left free"
+            words += f", {score.refused} calls beside refused" if score.refused else ""
             print(f"{model.pou.name} on {options.engine}: {words}, {len(score.wrong)} wrong", flush=True)
             print(*(f"  {each}" for each in score.wrong), sep="\n", end="\n" if score.wrong else "")
             bad = bad or bool(score.wrong)

@@ -4,12 +4,12 @@ import pytest
 import z3
 from tests.prove.agreement import compared
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.prove.model import models
 from driveblocks.prove.proof import Verdict, answers, questions
 from driveblocks.prove.rules import Rule, Subject
 from driveblocks.prove.sorts import UnsupportedError
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 HEAD = """FUNCTION_BLOCK Sample
 VAR_INPUT

@@ -5,8 +5,8 @@ from tests.blocks import wire
 from tests.blocks.library import built, result, scan
 from tests.blocks.test_fourth_drive import fourth
 
-from driveblocks.host.engine import Engine, Value
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Engine, Value
 
 
 def test_a_drive_that_speaks_ascii_alone_can_be_read(engine: Engine) -> None:
@@ -58,7 +58,7 @@ def test_a_refusal_is_never_told_by_a_sum_that_wraps(engine: Engine, function: i
 @pytest.mark.parametrize("use", ["Read", "Write"])
 @pytest.mark.parametrize("address", [0x0000, 0x01FF, 0x0200, 0x0201, 0x1000])
 def test_no_register_at_all_is_not_permitted(engine: Engine, use: str, address: int) -> None:
-    """None from an address in a permitted area or just behind one was permitted, none from elsewhere was not."""
+    """None from an address in a permitted area or just after one was permitted, none from elsewhere was not."""
     assert built(engine).call(f"CHF_Can{use}", {"Address": address, "Quantity": 0}) is False
     assert built(engine).call(f"CHF_Can{use}", {"Address": 0x1000, "Quantity": 1}) is True
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Source
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Source
 
 # Types with initial values of their own (IEC 61131-3 2.3.3.2), as they reach a variable.
 TYPES = """

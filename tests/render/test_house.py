@@ -11,11 +11,11 @@ from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import loads
 from driveblocks.render import library as library_of
 from driveblocks.render import text
-from driveblocks.st.checker import check
-from driveblocks.st.lint import Selection, lint, lint_sources
-from driveblocks.st.parser import parse
-from driveblocks.st.reserved import TARGET_WORDS
-from driveblocks.st.tree import Pou, TypeDecl, Unit
+from structured_text.language.checker import check
+from structured_text.language.lint import Selection, lint, lint_sources
+from structured_text.language.parser import parse
+from structured_text.language.reserved import TARGET_WORDS
+from structured_text.language.tree import Pou, TypeDecl, Unit
 
 ROOT = Path(__file__).parents[2]
 MAPS = [*catalog.shipped(), ROOT / "tests/maps/example.yaml"]

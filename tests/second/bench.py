@@ -13,7 +13,7 @@ from tests.second.observer import Figures
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
 
-from driveblocks.host.engine import Library, Value
+from structured_text.engines.engine import Library, Value
 
 KIND = {"CHF": "chf", "JSCC": "jscc", "SN300G5": "sn"}
 STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "SN300G5": sn300g5.stores}
@@ -62,7 +62,7 @@ class Second(Bench):
         self.strange = False
         """Another master speaks."""
         self.strange_ms = 0
-        """How often; 0: by chance."""
+        """How often; 0: at random."""
         self.strange_us = 0
         """When it spoke last."""
         self.strangers: list[int] = []

@@ -136,6 +136,7 @@ class Claims:
             and same
             and not asks
             and self.willing(index)
+            and self.well(index, QUIET_US)
             and not any(pins.get(each) for each in RUN + JOG)
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")

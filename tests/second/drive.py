@@ -153,7 +153,7 @@ class Drive:
         return self.motor.hz(now_us)
 
     def state(self, now_us: int) -> str:
-        """Off, tripped, local, standing, coasting, starting, at speed or ramping down."""
+        """Off, tripped, local, at standstill, coasting, starting, at speed or ramping down."""
         hz = abs(self.shaft_hz(now_us))
         if not self.powered:
             return "off"
@@ -162,7 +162,7 @@ class Drive:
         if self.local or self.by in ("keypad", "terminals"):
             return "local"
         if not self.output:
-            return "coasting" if hz else "standing"
+            return "coasting" if hz else "standstill"
         if self.stopping or abs(self._goal()) < hz:
             return "ramping down"
         return "at speed" if hz and abs(self._goal()) == hz else "starting"

@@ -1,6 +1,6 @@
 """The matrix at length, `make matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
 
-Every cell so many times, each time with other options, other moments and, every second time, a second event on the
+Every cell this many times, each time with other options, other moments and, every second time, a second event on the
 heels of the first; then random walks with the same judge. On matiec where it is found, else on the embedded engine; in
 two processes. Prints each failure, then the table of cells by the rule that broke first; exit status 1 where one fails.
 """
@@ -16,8 +16,8 @@ from tests.second.matrix import MODES, STATES, Cell, Outcome, cells, run
 from tests.second.station import built
 from tests.second.walk import walk
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.engine import Library
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.engine import Library
 
 JOBS = 2
 CHUNK = 28

@@ -20,10 +20,10 @@ from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.station import SIZES, types_of
 
-from driveblocks.host.engine import Library
+from structured_text.engines.engine import Library
 
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
-STATES = ("standing", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
+STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
 BY_TERMINALS = {"CHF": {"run": 1}, "JSCC": {"F0_04": 1}, "SN300G5": {"b1_02": 1}}
 OWN_SPEED = {"CHF": {"speed": 0}, "JSCC": {"F0_08": 1}, "SN300G5": {"b1_01": 0}}
 JOGS = ("CHF",)
@@ -241,7 +241,7 @@ class Run:
 
     def _to_state(self) -> None:
         b, state = self.bench, self.cell.state
-        if state == "standing":
+        if state == "standstill":
             return
         if state == "local":
             self._to_local()

@@ -19,9 +19,9 @@ from tests.second.matrix import Cell, Run, run
 from tests.second.sample import aimed, sample
 from tests.second.station import built
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import EngineError, Library
-from driveblocks.st.lint import lint_sources
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import EngineError, Library
+from structured_text.language.lint import lint_sources
 
 SEEDS, NUMBER = (734, 421, 411, 412), 60
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
@@ -108,7 +108,7 @@ def ordered(one: Mutant, number: int) -> list[tuple[Cell, int]]:
 
 
 def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
-    """Of so many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
+    """Of this many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
     stations = mutated(one)
     if stations is None:
         return None

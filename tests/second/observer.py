@@ -70,7 +70,7 @@ class Watch:
     ended_us: int = 0
     """When it was last driven no longer, and whether it was permitted to be until then."""
     broken: set[str] = field(default_factory=set)
-    """Rules that are broken at present: each is told once."""
+    """Rules that are broken at present: each is reported once."""
 
 
 class Observer:

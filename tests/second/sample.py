@@ -15,7 +15,7 @@ def aimed() -> list[tuple[Cell, int]]:
         (Cell(family, "full control", event, state), seed)
         for event in AIMED
         for family in FAMILIES
-        for state, seed in (("standing", 0), ("at speed", 2))
+        for state, seed in (("standstill", 0), ("at speed", 2))
     ]
     return [each for each in found if each[0].event != "the motor turns round" or each[0].state == "at speed"]
 

@@ -72,7 +72,7 @@ class Talk:
             getattr(self.drive, SWITCHES[word][0])(SWITCHES[word][1], self.now)
         elif head in ("trip", "trip!", "set", "cure", "busy"):
             self._happens(head, rest)
-        elif word.startswith("poll"):  # the status every 100 ms, for so many seconds
+        elif word.startswith("poll"):  # the status every 100 ms, for this many seconds
             for _ in range(10 * int(word[4:-1])):
                 self.now += 100_000
                 self.send(bytes([self.drive.unit, 3]) + POLLED[self.kind])

@@ -9,8 +9,8 @@ from functools import cache
 from tests.drives import station as first
 from tests.drives.station import FAMILIES, PINS
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Engine, Library, Source
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
 BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer": "VFD_Store"}

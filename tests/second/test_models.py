@@ -52,14 +52,14 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("sn", {},
      "where state go hz state 1s hz where poll2s where state w1=7D0 poll2s hz r20 back poll9s hz where halt 1s hz "
      "state where 9s where state",
-     "22 0 standing 0.1 starting 10.1 21 42b 31 9c4 at speed 20 7d0 -25 35 9c4 -14.9 ramping down 25 598 22 0 "
-     "standing"),
+     "22 0 standstill 0.1 starting 10.1 21 42b 31 9c4 at speed 20 7d0 -25 35 9c4 -14.9 ramping down 25 598 22 0 "
+     "standstill"),
     ("jscc", {},
      "where go 1s hz where w1000=0 2s hz where back 9s hz where halt 1s hz where state 9s where state",
-     "4 0 10.1 1 6b 25 1 fa -25 2 fa -14.9 2 8e ramping down 4 0 standing"),
+     "4 0 10.1 1 6b 25 1 fa -25 2 fa -14.9 2 8e ramping down 4 0 standstill"),
     ("chf", {},
      "where go 1s hz where state 2s where w2000=FC18 9s hz back 9s hz where halt 1s hz where 9s where state",
-     "3 0 10.1 1 42b starting 1 9c4 -5 -25 2 9c4 -14.9 2 598 3 0 standing"),
+     "3 0 10.1 1 42b starting 1 9c4 -5 -25 2 9c4 -14.9 2 598 3 0 standstill"),
     # both words at once
     ("sn", {}, "w0=1,9C4 poll4s hz r0+2", "25 1 9c4"),
     ("jscc", {}, "w1000=1,FA 4s hz", "25"),
@@ -191,10 +191,10 @@ FACES: dict[str, tuple[str, str, dict[str, Any], str]] = {
     "comm_us": ("chf", "go 2s hz 9s r1001", {"=": (None, 1_000_000)}, "20.1 1 | 5 4"),
     "comm_action": ("chf", "go 2500ms 500ms hz r1001 state",
         {"comm_us": 2_500_000, "up_hz_s": 25.0}, "19.9 4 tripped | 0 4 tripped | 22.5 4 tripped | 25 1 at speed"),
-    "comm_trips": ("chf", "go 9s state", {"comm_us": 2_000_000}, "standing | tripped"),
+    "comm_trips": ("chf", "go 9s state", {"comm_us": 2_000_000}, "standstill | tripped"),
     "fed_by": ("chf", "go 800ms r1001 800ms by x020310010001 800ms by",
         {"comm_us": 1_500_000}, "1 bus - bus | 1 bus - nobody | 1 nobody - nobody"),
-    "comm_when": ("chf", "9s state", {"comm_us": 2_000_000}, "standing | tripped"),
+    "comm_when": ("chf", "9s state", {"comm_us": 2_000_000}, "standstill | tripped"),
     "forbidden": ("chf", "r1001 r3000+4", {"=": (frozenset(), frozenset({0x3003}))}, "3 0 0 21c 0 | 3 !4"),
     "holes": ("chf", "r1FE+3 r1FF r4000", {}, "!4 0 !4 | 0 0 0 0 !4 | 0 0 0 0 0"),
     "over": ("jscc", "w1001=258 w1000=1 9s hz", {}, "!3 0 | 50"),

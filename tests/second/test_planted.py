@@ -4,7 +4,7 @@ import pytest
 from tests.second.matrix import named, run
 from tests.second.station import built
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.engine import EmbeddedEngine
 
 ENDS = "EndsByAnswer := NOT Send.MayMove AND (Send.Proved OR Asked.MonitorOnly OR Asked.SpeedOnly);"
 TWO_STOPS = """  Orders(Order := RAMP_STOP, StepNumber := 0);

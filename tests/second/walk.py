@@ -9,7 +9,7 @@ from random import Random
 from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import Outcome, Run, cells
 
-from driveblocks.host.engine import Library
+from structured_text.engines.engine import Library
 
 STEPS = 5
 

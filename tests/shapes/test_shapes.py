@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 
 from driveblocks.building import build
 from driveblocks.cli import app
-from driveblocks.host.embedded.engine import EmbeddedEngine
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
@@ -21,10 +20,11 @@ from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
-from driveblocks.st.lint import lint_sources
 from driveblocks.testing import runner
 from driveblocks.testing.script import Suite
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.language.lint import lint_sources
 
 NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low")
 CONCERNED = re.compile(r"_Test(Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
@@ -121,12 +121,12 @@ def test_no_reset_passes_through_a_run(name: str, value: int) -> None:
 def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:
     drive = shapes()["active_low"]
     wrong = judged(drive, replace(command(drive, "stop"), set=()))
-    assert "`stop` leaves bit 0 as it is, which `run_forward` sets" in wrong
+    assert "`stop` does not change bit 0, which `run_forward` sets" in wrong
 
 
 def test_a_start_pulse_is_cleared_by_the_stop() -> None:
     drive = shapes()["pulse"]
-    assert "`stop` leaves bit 1 as it is, which `run_reverse` sets" in judged(
+    assert "`stop` does not change bit 1, which `run_reverse` sets" in judged(
         drive, replace(command(drive, "stop"), clear=(command(drive, "stop").set[0],), set=())
     )
 
@@ -159,7 +159,7 @@ def test_show_tells_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
     assert (
         "cable cut P3.02 = 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "
-        "the motor goes to another speed; P3.01 = 0: the motor runs on, whatever else is set; after P3.01 x 100 ms; "
+        "the motor changes to another speed; P3.01 = 0: the motor runs on, whatever else is set; after P3.01 x 100 ms; "
         "fed by any good frame; it does not start again by itself (section 1)"
     ) in page
     assert "trip the output is switched off and the motor coasts (table 3)" in page

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from tests.line.vline import POLL, STOP, Bench, Config, Drive
 
-from driveblocks.host.engine import Instance
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Instance
 
 
 class DriveBench(Bench):

@@ -94,7 +94,7 @@ def test_all_are_told_where_the_map_lets_them_and_nobody_answers() -> None:
     jscc = talk("JSCC")
     jscc.hertz(10)
     assert jscc.ask("00 06 10 00 00 01") == ""
-    assert jscc.drive.mode == "standing"
+    assert jscc.drive.mode == "standstill"
 
 
 def test_sn300g5_stores_with_enter_alone_and_is_busy_then() -> None:

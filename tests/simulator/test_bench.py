@@ -16,7 +16,7 @@ def line() -> DriveBench:
         bench.fill(slot, STOP, function, address, word=word)
         first = polls(MAPS[sorted(MAPS)[slot]])[0]
         bench.ask(slot, POLL, first.function, first.address, quantity=first.words)
-        assert drive.mode == "standing"
+        assert drive.mode == "standstill"
     bench.run(1500)
     return bench
 
@@ -42,7 +42,7 @@ def test_three_families_run_and_stop_on_one_line() -> None:
     for slot in range(3):
         bench.stop(slot)
     bench.run(2500)
-    assert [drive.mode for drive in bench.simulated] == ["standing"] * 3
+    assert [drive.mode for drive in bench.simulated] == ["standstill"] * 3
     assert [words(bench, 0)[0], words(bench, 1)[:2], words(bench, 2)[1]] == [3, [0, 4], 0x22]
     assert [drive.stores for drive in bench.simulated] == [0, 0, 0]
 

@@ -50,7 +50,7 @@ def test_it_starts_ramps_runs_and_stops(family: str) -> None:
     assert one.drive.mode == "ramping down"
     shows(one, family, "ramps", 10)
     one.drive.step(1000)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     shows(one, family, "stands", 0)
 
 
@@ -134,7 +134,7 @@ def test_chf_jogs_until_its_jog_stop_and_coasts() -> None:
     assert one.drive.hertz == -5
     one.command("jog_stop")
     one.drive.step(500)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     one.at(30)
     one.command("jog_stop")
     one.drive.step(1000)
@@ -198,7 +198,7 @@ def test_terminals_of_sn300g5_are_no_command_and_both_directions_are_none() -> N
     assert one.drive.hertz == 20
     one.write(0x0000, 0x00FC)
     one.drive.step(2000)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
 
 
 def test_a_command_word_of_zero_is_no_stop_of_jscc() -> None:

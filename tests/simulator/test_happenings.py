@@ -27,7 +27,7 @@ def test_nothing_happens_to_a_drive_without_power() -> None:
     one.drive.power(on=False)
     one.drive.trip(1)
     one.drive.keypad_run(10)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
 
 
 def test_a_drive_may_restart_after_a_dip() -> None:
@@ -52,7 +52,7 @@ def test_a_drive_does_not_restart_against_an_interlock() -> None:
     one.drive.inhibit(on=True)
     one.drive.power(on=True)
     one.drive.step(5000)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     assert one.read(0x1001) == 3
 
 
@@ -77,7 +77,7 @@ def test_keypad_and_terminals_start_and_stop() -> None:
     one.drive.keypad_stop()
     one.drive.keypad_stop()
     one.drive.step(2000)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     # run by the terminals, at the speed of the bus
     one.hertz(20)
     one.drive.keypad_run()
@@ -92,7 +92,7 @@ def test_a_drive_in_local_acknowledges_and_does_nothing() -> None:
     one = talk("JSCC")
     one.drive.local = True
     one.at(20)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     one.drive.local = False
     one.at(20)
     one.drive.local = True
@@ -105,7 +105,7 @@ def test_a_drive_may_acknowledge_and_not_follow_or_not_stop() -> None:
     one = talk("JSCC")
     one.drive.follows = False
     one.at(20)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
     one.drive.follows = True
     one.at(20)
     one.drive.keeps_running = True
@@ -151,7 +151,7 @@ def test_what_needs_an_edge_or_a_state_or_was_stopped_does_not_act_again() -> No
         one.drive.clear_cause()
         one.drive.step(10_000)
         one.drive.reset()
-        assert one.drive.mode == "standing"
+        assert one.drive.mode == "standstill"
 
 
 def test_the_frequency_may_be_that_of_the_coasting_shaft() -> None:
@@ -192,13 +192,13 @@ def test_a_watchdog_acts_without_a_good_request_to_its_own_address(action: str, 
         assert one.read(0x5000) == 18
         one.drive.step(20_000)
         one.command("fault_reset")
-        assert one.drive.mode == "standing"
+        assert one.drive.mode == "standstill"
 
 
 def test_a_watchdog_leaves_a_standing_drive_alone() -> None:
     one = talk("CHF", Habits(watchdog_ms=2000))
     one.drive.step(10_000)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
 
 
 def test_without_a_watchdog_it_runs_on() -> None:

@@ -129,7 +129,7 @@ def test_active_low_bits_stop_though_a_run_bit_is_set() -> None:
     assert one.read(STATUS) == 0
     write(one, 0x07)
     assert write(one, 0x05) == 0
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
 
 
 def test_a_pulse_acts_when_it_ends_and_only_if_it_was_long_enough() -> None:
@@ -175,7 +175,7 @@ def test_a_direction_beside_the_start_acts_at_once() -> None:
     one.write(0x0004, 0)
     one.drive.step(1000)
     one.write(0x0003, 1)
-    assert one.drive.mode == "standing"
+    assert one.drive.mode == "standstill"
 
 
 @pytest.mark.parametrize(("name", "word", "mask"), [("cia402", 0x40, 0x6F), ("profidrive", 0x40, 0x47)])

@@ -96,10 +96,10 @@ class Server(ModbusSerialServer):
 
 
 class Cable:
-    """Two pseudo-terminals: what a master says at one comes out of the other behind its time on the wire, and back."""
+    """Two pseudo-terminals: what a master says at one comes out of the other after its time on the wire, and back."""
 
     def __init__(self, damage: float) -> None:
-        """With so many of the frames damaged, to and fro."""
+        """With this many of the frames damaged, to and fro."""
         import tty
 
         self.loss = Loss(damage=damage)
@@ -217,12 +217,12 @@ class DeskPlc(SoftPlc):
         assert not self.over, self.lines
 
     def stop(self) -> None:
-        """Stop, and wait until the motor stands."""
+        """Stop, and wait until the motor is at standstill."""
         self.set("Start", on=False)
         self.reach(lambda seen: (seen["StopConfirmed"], seen["AtSpeed"]) == (1, 0) and seen["Reason"] != HELD)
 
     def start(self) -> int:
-        """Start, and wait until the motor turns; how many edges were in vain."""
+        """Start, and wait until the motor turns; how many edges were unanswered."""
         vain = 0
         while True:
             self.set("Start", on=True)
@@ -309,9 +309,9 @@ class Exchange:
         seen = failures - plc["LateReplies"]
         return {
             "asked again": plc["Requests"] - plc["Good"] - failures,  # while the line does not know whether it has echo
-            "behind the end": cable.asked - plc["Requests"],  # stops and reads when the program was over
+            "after the end": cable.asked - plc["Requests"],  # stops and reads when the program was over
             "failures of nothing": max(0, seen - self.lost),
-            "losses not noticed": max(0, self.lost - seen),  # among those that are asked again or behind the end
+            "losses not noticed": max(0, self.lost - seen),  # among those that are asked again or after the end
         }
 
     def wrong_values(self) -> int:

@@ -1,4 +1,4 @@
-/* LX_Port on a system that answers as it is told: the functions that the block calls stand here, for the whole program.
+/* LX_Port on a system that answers as it is reported: the functions that the block calls stand here, for the whole program.
  *
  * Commands, one per line: "now MS"; "next CALL RESULT" queues what a call gives, an error number below 0, else the most
  * that it takes or gives; "always CALL RESULT" from now on; "granted RATE"; "handle N"; "receive", "send N" call LX_Port,
@@ -29,7 +29,7 @@ static void note(const char *format, long value) {
   snprintf(did + strlen(did), sizeof(did) - strlen(did), format, value);
 }
 
-/* What is told of a call, or what it gives otherwise; below 0 it has failed, and errno says why. */
+/* What is reported of a call, or what it gives otherwise; below 0 it has failed, and errno says why. */
 static long answer(int call, long otherwise) {
   long result = used[call] < count[call] ? told[call][used[call]++] : always[call] != NOTHING ? always[call] : otherwise;
   if (result >= 0) return result;

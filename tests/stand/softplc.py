@@ -17,7 +17,6 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, run, translate
 from tests.simulator.talk import MAPS
 
-from driveblocks.host.matiec.installation import Installation
 from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.ending import Ending
@@ -25,6 +24,7 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from driveblocks.stand.link import PtyLink
 from driveblocks.stand.stand import Stand
+from structured_text.engines.matiec.installation import Installation
 
 HERE = Path(__file__).parent
 WHY_NOT = "" if FOUND and COMPILER else "the Linux line needs iec2c and a C compiler; `driveblocks doctor` tells more"
@@ -142,7 +142,7 @@ def long(seconds: float) -> dict[str, float]:
             figures["wrong values"] += before != 0 or desk.drive.hertz != 20 or soft.seen["hertz"] > 20.01
             soft.set("start", on=False)
             soft.until(lambda seen: seen["confirmed"] == 1)
-            figures["lost stops"] += desk.drive.mode != "standing"
+            figures["lost stops"] += desk.drive.mode != "standstill"
             figures["rounds"] += 1
         last = dict(soft.seen)
     desk.stop()

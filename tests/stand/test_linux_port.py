@@ -1,4 +1,4 @@
-"""LX_Port by matiec on a system that fails as it is told: what it sends, reports, gives up and opens again.
+"""LX_Port by matiec on a system that fails as it is reported: what it sends, reports, gives up and opens again.
 
 `linuxport.c` takes the place of the system's functions; its head says the commands. Error numbers are errno's.
 """

@@ -40,7 +40,7 @@ def said(*words: str, status: int = 0) -> str:
         (["jsc@1x"], "jsc@1x: units are"),
         (["nobody"], "there is no drive `nobody`"),
         (["chf@2:5000"], "chf: `5000` is no maximum; write whole Hz, 1 to 600, such as :50"),
-        (["chf:ReferenceScale=1"], "chf: `ReferenceScale=1` cannot be set; the manual of CHF leaves open: "),
+        (["chf:ReferenceScale=1"], "chf: `ReferenceScale=1` cannot be set; the manual of CHF does not give: "),
         (["jscc:ReferenceScale=x"], "jscc: `ReferenceScale=x` is no scale; write 0.1 to 1000 counts per Hz"),
         (["jscc", "--baud", "7"], "--baud 7 is no rate"),
         (["jscc", "--format", "9N1"], "--format 9N1 is none"),

@@ -33,12 +33,12 @@ def test_a_motor_starts_trips_is_reset_and_stops_and_both_sides_count_the_same(p
         soft.set("start", on=False)
         soft.set("reset", on=True)
         soft.until(lambda seen: seen["fault"] == 0 and seen["confirmed"] == 1)
-        assert desk.drive.mode == "standing"
+        assert desk.drive.mode == "standstill"
         soft.set("start", on=True)
         soft.until(lambda seen: seen["running"] == 1)
         soft.set("start", on=False)
         soft.until(lambda seen: seen["confirmed"] == 1 and seen["running"] == 0)
-        assert desk.drive.mode == "standing"
+        assert desk.drive.mode == "standstill"
     desk.stop()
     desk.link.close()
     counts, seen = desk.bus.counts[1], soft.seen

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Source
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "tests/maps/example.yaml"
@@ -43,7 +43,7 @@ def shared(made: dict[str, Unit]) -> Unit:
 
 
 def only(unit: Unit, *programs: str) -> Unit:
-    """The unit with some of its programs, by the beginning of what stands behind `_Test`, and the blocks they need."""
+    """The unit with some of its programs, by the beginning of what follows `_Test`, and the blocks they need."""
     chosen = [one for one in unit.suite.programs if one.name.partition("_Test")[2].startswith(programs)]
     assert chosen, programs
     parts = unit.suite.parts if any("_TestDrive;" in one.text for one in chosen) else {}

@@ -23,18 +23,18 @@ import yaml
 from tests.shapes import shapes
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
-from driveblocks.host.embedded.compiler import Compiler
-from driveblocks.host.engine import EngineError, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
-from driveblocks.st.checker import check
-from driveblocks.st.collector import paused
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import SourceError
-from driveblocks.st.tree import Checked, Pou
 from driveblocks.testing.script import Program
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
+from structured_text.engines.embedded.compiler import Compiler
+from structured_text.engines.engine import EngineError, Source
+from structured_text.language.checker import check
+from structured_text.language.collector import paused
+from structured_text.language.parser import parse
+from structured_text.language.problems import SourceError
+from structured_text.language.tree import Checked, Pou
 
 from .conftest import needed, only
 

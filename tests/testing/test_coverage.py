@@ -6,14 +6,14 @@ from xml.etree import ElementTree
 
 import pytest
 
-from driveblocks.host.coverage import Branches, Lines, Outcome
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, EngineError, Instance, Source, Value
-from driveblocks.host.matiec import Flags, MatiecEngine
 from driveblocks.testing import coverage, junit, runner
 from driveblocks.testing.coverage import Coverage, Exemption, counting, result
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit
+from structured_text.engines.coverage import Branches, Lines, Outcome
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, EngineError, Instance, Source, Value
+from structured_text.engines.matiec import Flags, MatiecEngine
 
 from .conftest import only
 

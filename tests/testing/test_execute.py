@@ -2,12 +2,12 @@
 
 import pytest
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Source
 from driveblocks.testing import execute, harness
 from driveblocks.testing.execute import Setting
 from driveblocks.testing.outcome import Outcome, Result
 from driveblocks.testing.script import Probe, Program, Script
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Source
 
 BLOCK = """FUNCTION_BLOCK VFD_Trouble
 VAR_INPUT

@@ -8,12 +8,12 @@ import pytest
 from driveblocks.building.build import units
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
-from driveblocks.st.lint import lint_sources
-from driveblocks.st.names import reserved
 from driveblocks.testing.harness import PER_SCAN
 from driveblocks.testing.script import MOST_STAGES, Program
 from driveblocks.testing.suite import programs
 from driveblocks.testing.unit import Unit
+from structured_text.language.lint import lint_sources
+from structured_text.language.names import reserved
 
 from .conftest import BOTH, EXAMPLE, ROOT
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, EngineError, Library, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing import page, runner
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, EngineError, Library, Source
 
 from .conftest import BOTH, EXAMPLE, only, run
 

@@ -9,8 +9,6 @@ import pytest
 from tests.shapes import shapes
 
 from driveblocks.building.build import units
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Instance, Library, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
@@ -19,6 +17,8 @@ from driveblocks.testing.outcome import Outcome
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.scenes.scene import RULES
 from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Instance, Library, Source
 
 from .conftest import changed, only, run
 
@@ -59,10 +59,10 @@ FIRST = {
 
 LAST = {
     "a new stop never gets its number": ("Slot.Ask[0].Number := Slot.Answer[0].Number;", "MotorStop"),
-    "a stop goes to another register": ("Slot.Ask[0].Address := WORD#16#0003;", "MotorStop"),
+    "a stop is sent to another register": ("Slot.Ask[0].Address := WORD#16#0003;", "MotorStop"),
     "the word of a stop is another": ("Slot.Ask[0].Words[0] := WORD#16#0100;", "MotorStop"),
     "the line's own stop is another": ("Slot.StopWord := WORD#16#0100;", "MotorLine"),
-    "a command goes to another register": ("Slot.Ask[1].Address := WORD#16#0003;", "MotorStart"),
+    "a command is sent to another register": ("Slot.Ask[1].Address := WORD#16#0003;", "MotorStart"),
     "a command is never sent": ("Slot.Ask[1].Number := Slot.Answer[1].Number;", "MotorStart"),
     "the status is ignored": ("Running := CommOk;", "MotorStart"),
     "StopConfirmed without proof": ("StopConfirmed := CommOk;", "MotorStop"),

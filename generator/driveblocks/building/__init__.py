@@ -1,1 +1,1 @@
-"""What goes into the output folder: library, test programs, pages; and how it gets there, all of it or nothing."""
+"""What is written to the output folder: library, test programs, pages; and how: all of it or nothing."""

@@ -10,7 +10,6 @@ from driveblocks.building.manifest import Manifest, Refused, State
 from driveblocks.docs.page import documents
 from driveblocks.export import CANONICAL, TARGETS, target
 from driveblocks.export.part import shelf
-from driveblocks.host.engine import Source as Text
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
@@ -18,6 +17,7 @@ from driveblocks.render import library
 from driveblocks.render.text import Language, told
 from driveblocks.testing.suite import drive_suite, programs, shared_suite
 from driveblocks.testing.unit import Unit
+from structured_text.engines.engine import Source as Text
 
 LARGE = ("/MB_Line32.st", "/MB_ByteLine32.st")
 """Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""

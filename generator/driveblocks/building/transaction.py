@@ -1,4 +1,4 @@
-"""Change many files of a folder as one, so that a killed run, a full disk or a second run leaves the old or the new.
+"""Change many files of a folder as one: after a killed run, a full disk or a second run there is the old or the new.
 
 New files are staged in a work folder and listed in its journal; then the old files move into it and the new ones out
 of it. Renaming the work folder is the moment from which the new files count; until then `recover` takes all of it back.
@@ -101,7 +101,7 @@ def write(folder: Path, texts: Mapping[str, str | None], emptied: list[str]) -> 
     """Write files and remove those without a text, then the folders that are empty then; all of it or nothing.
 
     The folder must be locked. Raises OSError with the file that it is about, or whatever interrupts it; the folder is
-    then as it was, unless taking it back was interrupted, too: `recover` goes on with that.
+    then as it was, unless taking it back was interrupted, too: `recover` continues with that.
     """
     work = folder / WORK
     try:
@@ -157,7 +157,7 @@ def _about(path: Path) -> Iterator[None]:
 def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
     """Write a text for a file that it will become. Raises OSError that names it.
 
-    What something else goes for must be on the disk itself by then; to wait for that takes seconds for a whole library.
+    What replaces something else must be on the disk itself by then; to wait for that takes seconds for a whole library.
     """
     with _about(target):
         path.parent.mkdir(parents=True, exist_ok=True)

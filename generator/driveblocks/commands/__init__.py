@@ -21,7 +21,7 @@ def refuse(message: str) -> NoReturn:
 
 
 def loaded(name: str) -> "tuple[Path, Drive]":
-    """The map that a word of the command line stands for. Ends with status 2 if it is none, or bad."""
+    """The map that a word of the command line names. Ends with status 2 if it is none, or bad."""
     from driveblocks.maps import catalog
     from driveblocks.maps.load import load
     from driveblocks.maps.problem import MapError

@@ -1,4 +1,4 @@
-"""`driveblocks counts`: how much the shipped maps hold, as the table of drives that stands in the READMEs."""
+"""`driveblocks counts`: how much the shipped maps hold, as the table of drives in the READMEs."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from driveblocks.host.health import Health
+    from driveblocks.building.health import Health
 
 Json = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
 
@@ -16,15 +16,15 @@ _COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 def run(json: Json = False) -> None:
     """Say which ST engines this machine has, and what is missing.
 
-    For what is missing it says what that costs and where to get it.
+    For each part that is missing it says what cannot be done without it, and where to get it.
 
     The exit status is 0 if the embedded engine works: then everything can be done, and only matiec may be missing.
     It is 1 if not.
 
     Example: driveblocks doctor --json | jq .missing
     """
-    from driveblocks.host.discovery import survey
-    from driveblocks.host.health import examine
+    from driveblocks.building.health import examine
+    from structured_text.engines.discovery import survey
 
     health = examine(survey())
     if json:

@@ -29,7 +29,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print everything as JSON.")]
 def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = False) -> None:
     """Explain a frame, or say what is wrong with it.
 
-    A good frame is told by its fields, checksum, registers and values, a wrong one by what it might be instead.
+    A good frame is shown as its fields, checksum, registers and values, a wrong one with what it might be instead.
     Without a drive the standard alone is used. The exit status is 0 for a good frame, 1 for a wrong one, and 2 if the
     input cannot be read.
 
@@ -52,7 +52,7 @@ def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = 
 
 
 def _stdin() -> str:
-    """Standard input as text; bytes that are none are shown as they are, so that their place can be told."""
+    """Standard input as text; bytes that are none are shown as they are, so that their place can be reported."""
     import sys
 
     from driveblocks.explain.paste import LONGEST

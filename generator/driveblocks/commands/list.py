@@ -16,7 +16,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print everything that the ma
 def run(maps: Maps = None, json: Json = False) -> None:
     """List the drives that there are maps for: those that are named, else all that are shipped.
 
-    A map with mistakes is left out, its mistakes go to standard error, and the exit status is 2.
+    A map with mistakes is left out, its mistakes are printed to standard error, and the exit status is 2.
 
     Example: driveblocks list --json | jq '.[].drive'
     """
@@ -74,4 +74,4 @@ def _print_table(loaded: "dict[Path, Drive]") -> None:
     for path, drive in loaded.items():
         if not drive.frames:
             console.write(f"\n{path.stem}: {view.UNPROVED}")
-    console.write("\n`driveblocks show DRIVE` tells everything about one of them.")
+    console.write("\n`driveblocks show DRIVE` prints everything about one of them.")

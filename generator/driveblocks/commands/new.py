@@ -19,7 +19,7 @@ def run(
 ) -> None:
     """Write the smallest whole map to a new file, with comments that say what to replace.
 
-    It is good as it stands, so that every mistake that `driveblocks check` tells later is yours. A file that is there
+    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that is there
     is never touched: the exit status is 2.
 
     Example: driveblocks new ACME -o acme_100.yaml

@@ -33,8 +33,8 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
         refuse("the solver is missing: pip install 'driveblocks[prove]'")
     from driveblocks.prove import prover, report
     from driveblocks.prove.sorts import UnsupportedError
-    from driveblocks.st.problems import SourceError
     from driveblocks.testing import junit as xml
+    from structured_text.language.problems import SourceError
 
     done: list[Proved] = []
     try:
@@ -53,7 +53,7 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
 
 
 def _read(maps: list[str] | None) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are told before it ends with status 2."""
+    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
     from driveblocks.maps import catalog, collection
     from driveblocks.maps.problem import MapError
 

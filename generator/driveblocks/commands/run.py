@@ -48,7 +48,7 @@ For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End afte
 Show = Annotated[
     list[str] | None,
     typer.Option(
-        "--show", metavar="NAME", help="Show this variable, too; may be repeated. Traced and pictured as well."
+        "--show", metavar="NAME", help="Show this variable, too; may be repeated. It is traced and drawn, too."
     ),
 ]
 Script = Annotated[
@@ -60,11 +60,9 @@ Scenario = Annotated[
 ]
 Trace = Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write what the shown variables did.")]
 Picture = Annotated[Path | None, typer.Option(metavar="FILE.svg", help="Draw a timing diagram of the shown variables.")]
-Allow = Annotated[
-    bool, typer.Option("--allow-run", help="Let more than reads and stops leave on a real port; asks first.")
-]
+Allow = Annotated[bool, typer.Option("--allow-run", help="Send more than reads and stops on a real port; asks first.")]
 Demo = Annotated[bool, typer.Option("--demo", help="Two pumps and a fan of three makes, simulated, fifteen seconds.")]
-Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait, reckon the time.")]
+Fast = Annotated[bool, typer.Option("--fast", help="With simulated drives: do not wait between scans.")]
 
 
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
@@ -90,11 +88,11 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 ) -> None:
     """Run a program: a soft PLC on this computer, at simulated drives or at a real line.
 
-    On a REAL PORT only reads and the maps' stops leave, unless --allow-run. Whatever ends the run, every drive is
-    stopped first, and it is said which could not be confirmed: at Ctrl-C and every signal that can be caught, and by
-    a watchdog if a scan does not end. No program can do so after kill -9, while the computer sleeps, or over an
-    unplugged cable: wire a hard stop. The exit status is 0 for a run whose drives all stand, 1 if one could not be
-    confirmed or the program failed, and 2 for bad input or a file that cannot be written.
+    On a REAL PORT only reads and the maps' stops are sent, unless --allow-run. Whatever ends the run, every drive is
+    stopped first, and those that could not be confirmed are named: at Ctrl-C and every signal that can be caught,
+    and by a watchdog if a scan does not end. No program can do so after kill -9, while the computer sleeps, or over
+    an unplugged cable: wire a hard stop. The exit status is 0 if all drives came to standstill, 1 if one could not
+    be confirmed or the program failed, and 2 for bad input or a file that cannot be written.
 
     Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """

@@ -20,13 +20,13 @@ Tcp = Annotated[
     str | None, typer.Option(metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")
 ]
 Pty = Annotated[bool, typer.Option("--pty", help="Serve a pseudo-terminal (not on Windows); its name is printed.")]
-Baud = Annotated[int, typer.Option("--baud", metavar="RATE", help="Bit rate; of TCP and --pty, how fast bytes come.")]
+Baud = Annotated[int, typer.Option("--baud", metavar="RATE", help="Bit rate, over TCP and --pty, too.")]
 Form = Annotated[str, typer.Option("--format", metavar="8N1", help="Data bits, parity, stop bits.")]
 Ascii = Annotated[bool, typer.Option("--ascii", help="MODBUS ASCII instead of RTU.")]
 Scenario = Annotated[
-    Path | None, typer.Option(metavar="FILE.yaml", help="What happens when, such as - at 3 s: trip OC")
+    Path | None, typer.Option(metavar="FILE.yaml", help="Events and their times, such as - at 3 s: trip OC")
 ]
-Frames = Annotated[bool, typer.Option("--frames", help="Write every frame as `driveblocks explain` says it.")]
+Frames = Annotated[bool, typer.Option("--frames", help="Print every frame as `driveblocks explain` does.")]
 For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End after this time, such as 60s.")]
 Schema = Annotated[bool, typer.Option("--schema", help="Print the JSON Schema of scenarios, and nothing else.")]
 
@@ -47,7 +47,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     """Simulate drives on one line, for a PLC, a program or a tool that speaks MODBUS.
 
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
-    of its addresses, and refuses where a real unit answers. The exit status is 0, or 2 for bad input.
+    of its addresses, and does not start if a real unit answers. The exit status is 0, or 2 for bad input.
 
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """

@@ -9,10 +9,10 @@ import typer
 from driveblocks.commands import Maps, refuse
 
 if TYPE_CHECKING:
-    from driveblocks.host.discovery import Candidate
     from driveblocks.maps.collection import Source
     from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
+    from structured_text.engines.discovery import Candidate
 
 SHOWN, PER_PROGRAM = 20, 3
 """Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
@@ -32,7 +32,7 @@ Least = Annotated[
         metavar="PERCENT",
         min=0.0,
         max=100.0,
-        help="Fail below so many percent of the lines or of the branches that can be reached; measures, too.",
+        help="Fail below this percentage of the lines or of the branches that can be reached; measures, too.",
     ),
 ]
 
@@ -51,9 +51,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and
     against a reference model, and play scenes: a drive block on its line, with a drive that the program simulates. Of a
     scene that fails, pins and frames before the failure are printed; --picture draws them. The exit status is 0 if all
-    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. With --coverage it is said what no
-    program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
-    --require-coverage asks for; what no input can reach is explained and left out of the percentage.
+    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. --coverage lists
+    what no program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
+    --require-coverage asks for; what no input can reach is explained and not in the percentage.
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """
@@ -86,7 +86,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
 
 def _read(maps: list[str] | None) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are told before it ends with status 2."""
+    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
     from driveblocks.maps import catalog, collection
     from driveblocks.maps.problem import MapError
 
@@ -98,7 +98,7 @@ def _read(maps: list[str] | None) -> "list[Source]":
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
     """All engines that were looked for, and those that are asked for and work. Ends with status 2 without any."""
-    from driveblocks.host.discovery import EMBEDDED, MATIEC_NAMES, survey
+    from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, survey
 
     groups = {"embedded": (EMBEDDED,), "matiec": MATIEC_NAMES, "all": (EMBEDDED, *MATIEC_NAMES)}
     groups |= {each: (each,) for each in MATIEC_NAMES}

@@ -41,7 +41,7 @@ text { fill: #e6edf3 }
 
 @dataclass
 class Canvas:
-    """A picture with a title; y goes down, all sizes are pixels."""
+    """A picture with a title; y increases downwards, all sizes are pixels."""
 
     title: str
     width: int

@@ -8,7 +8,7 @@ from driveblocks.docs.pins import SCALES, unit_of
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
-from driveblocks.st.tree import StructSpec, TypeDecl, VarDecl
+from structured_text.language.tree import StructSpec, TypeDecl, VarDecl
 
 MAP_HAS = "no use: the map has the scale"
 NOT_SHOWN = "no use: the drive does not show it"

@@ -22,9 +22,9 @@ from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.render.text import ENGLISH
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, FunctionBlock, TypeDecl, VarKind
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, FunctionBlock, TypeDecl, VarKind
 
 FOLDER = "docs"
 STATES = "drive_states.svg"
@@ -107,7 +107,7 @@ def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[st
 
 
 def _wires(drive: Drive) -> dict[str, str]:
-    """What the manual of a drive says of its line, and what it leaves open."""
+    """What the manual of a drive says of its line, and what it does not say."""
     gaps = [one for one in drive.absent if "serial" in one.about and "termination" in one.what]
     silence = drive.serial.silence
     milliseconds = f"more than {silence.milliseconds} ms" if silence and silence.milliseconds else ""
@@ -213,10 +213,10 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     rows = {words: [_yes(can(drive, does)) for drive in drives] for does, words in ABILITIES.items()}
     for shows in ("at_speed", "ready", "warning"):
         having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
-        rows[f"say itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
+        rows[f"report by itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
     rows["be recognised over the bus"] = [_yes(drive.identity is not None) for drive in drives]
-    rows["say whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
-    rows["tell its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
+    rows["report whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
+    rows["report its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
     for shows in MEASURES:
         rows[f"show `{pin_of(shows)['pin']}`"] = [_shows(drive, shows) for drive in drives]
     return {"families": [drive.prefix for drive in drives], "rows": rows}
@@ -300,9 +300,9 @@ def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
         poll: Poll = read["read"]
         yield {
             "poll": poll,
-            "often": often if poll.fast else "one of the slow ones a round",
+            "often": often if poll.fast else "one slow read a round",
             "first": address_text(poll.address),
-            "titles": [f"{word['address_text']} {word['title'].lower()}" for word in read["words"]],
+            "titles": [f"{word['address_text']} {context.inside_a_sentence(word['title'])}" for word in read["words"]],
             "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
         }
 

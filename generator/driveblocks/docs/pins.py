@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from driveblocks.st.tree import FunctionBlock, Literal, VarDecl, VarKind
+from structured_text.language.tree import FunctionBlock, Literal, VarDecl, VarKind
 
 GROUPS = {
     "Enable": "command", "SpeedReferenceHz": "speed", "Address": "drive", "MonitorOnly": "mode",
@@ -28,7 +28,7 @@ _MUST = "required: "
 _UNIT = re.compile(r"[a-z](Hz|Ms|A|V|KW)$")
 _SAID = re.compile(r"^required: |, [\d.]+ to [\d.]+(?= Hz| ms|;)|,? (?:ms|Hz|A|V|kW)(?=$|;)")
 """What has a column of its own: whether it is required, its range, its unit."""
-SAYS = {"SpeedReferenceHz": "how fast it is to turn"}
+SAYS = {"SpeedReferenceHz": "requested speed"}
 """Where the range is all that the block says."""
 _IDLE = re.compile(r"not needed here|not needed: .*|always FALSE.*|the drive does not show it")
 
@@ -62,7 +62,7 @@ def _pin(one: VarDecl, ranges: dict[str, str]) -> Pin:
     unit = unit_of(one.name)
     idle = _IDLE.fullmatch(said) is not None
     bounds = BOUNDS.get(type_, "") if one.kind is VarKind.INPUT else ""
-    # a unit address of 0 is none, and a slot is no wish
+    # a unit address of 0 is none, and a slot is no request
     required = said.startswith(_MUST) or one.name in {"Address", "Slot"}
     return Pin(
         name=one.name,

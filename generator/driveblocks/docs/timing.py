@@ -75,7 +75,7 @@ def proves_while_tripped(drive: Drive) -> bool:
     return any(not any(fault.excludes(each) for each in proof) for fault in faults)
 
 
-WIDTH, LEFT, ROW, TOP, GAP, HIGH = 1040, 150, 32, 44, 60, 16
+WIDTH, LEFT, ROW, TOP, GAP, HIGH = 1120, 150, 32, 44, 60, 16
 SIGNALS = {
     "RunForward": "run", "FaultReset": "reset", "Fault": "fault", "Running": "running", "AtSpeed": "at_speed",
     "StopConfirmed": "confirmed",

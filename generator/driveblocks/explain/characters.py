@@ -36,7 +36,7 @@ def _bare(line: str) -> str:
 
 
 def _pieces(line: str) -> list[str]:
-    """The frames of a line: each begins with a colon; whatever stands before the first is kept."""
+    """The frames of a line: each begins with a colon; whatever comes before the first is kept."""
     return [piece for piece in re.split(r"(?=:)", line) if piece.strip()]
 
 

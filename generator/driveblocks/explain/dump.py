@@ -53,7 +53,7 @@ def _closing(line: str, length: int) -> bool:
 
 
 def _columns(lines: Lines) -> bytes | None:
-    """Lines without an offset, but with a column of characters behind the bytes."""
+    """Lines without an offset, but with a column of characters after the bytes."""
     found = [_split(line) for _, line in lines]
     if not any(column for _, column in found):
         return None
@@ -81,7 +81,7 @@ def _split(line: str) -> tuple[int, bool]:
 
 
 def _ends(text: str) -> tuple[str, list[tuple[re.Match[str], int]]]:
-    """The digits that a line begins with, and every gap behind nothing but digits with how many stand before it."""
+    """The digits that a line begins with, and every gap after nothing but digits with how many come before it."""
     pieces: list[str] = []
     ends: list[tuple[re.Match[str], int]] = []
     count = start = 0

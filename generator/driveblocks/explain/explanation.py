@@ -84,7 +84,7 @@ class Explainer:
         return (None if whole.good else self._zeros_behind(wire, asked, sent)) or whole
 
     def _zeros_behind(self, wire: Wire, asked: Asked | None, sent: bytes | None) -> Explanation | None:
-        """A good frame with 00 behind it: the rest behind a CRC is 0, so 00 there leaves the CRC right."""
+        """A good frame with 00 after it: the remainder after a CRC is 0, so the CRC stays right with 00 there."""
         core = wire.frame.rstrip(b"\0")
         for end in range(len(core), min(len(wire.frame), RTU_BYTES + 1)):
             if wire.mode == "rtu" and open_(wire.frame[:end]).right and self._whole(open_(wire.frame[:end])):
@@ -245,7 +245,7 @@ def _glue(pieces: tuple[scan.Piece, ...], echo: bytes | None) -> Wrong:
     places = " and ".join(f"{one.start + 1} to {one.start + len(one.data)}" for one in pieces[:MOST_INSIDE])
     if echo is not None and len(good) > 1:
         return Wrong(
-            f"the request stands before the reply: bytes 1 to {len(echo)}",
+            f"the request comes before the reply: bytes 1 to {len(echo)}",
             ("the adapter hears what it sends (half-duplex echo)", "a logger recorded both directions as one"),
         )
     if len(good) > 1 or pieces[0].data[:1] == b":":
@@ -259,8 +259,8 @@ def _glue(pieces: tuple[scan.Piece, ...], echo: bytes | None) -> Wrong:
     if behind.good:
         return Wrong(f"{_bytes(before)} before the frame: {_few(before.data)}", (_why_extra(before.data),))
     if before.good:
-        return Wrong(f"{_bytes(behind)} behind the frame: {_few(behind.data)}", (_why_extra(behind.data),))
-    return Wrong(f"bytes before and behind the frame, which is {shown(good[0].data)}", ("noise, or pieces of others",))
+        return Wrong(f"{_bytes(behind)} after the frame: {_few(behind.data)}", (_why_extra(behind.data),))
+    return Wrong(f"bytes before and after the frame, which is {shown(good[0].data)}", ("noise, or pieces of others",))
 
 
 def _few(data: bytes) -> str:

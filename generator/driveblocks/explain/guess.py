@@ -1,4 +1,4 @@
-"""What a frame with a wrong checksum might be instead: each guess is tried, and told only if it comes out."""
+"""What a frame with a wrong checksum might be instead: each guess is tried, and reported only if it works out."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -60,7 +60,7 @@ def _good(frame: bytes, manners: Manners) -> bool:
 
 def _swapped_crc(wire: Wire, _: Manners) -> Tries:
     if len(wire.found) == 2 and wire.found[::-1] == wire.expected:
-        yield Guess("the CRC bytes are swapped: the low byte goes first", wire.sealed(wire.body))
+        yield Guess("the CRC bytes are swapped: the low byte is sent first", wire.sealed(wire.body))
 
 
 def _pairs_swapped(wire: Wire, manners: Manners) -> Tries:
@@ -162,7 +162,7 @@ def _byte_order(wire: Wire, manners: Manners) -> Tries:
             turned[place : place + 2] = turned[place : place + 2][::-1]
         if turned != body and crc_bytes(bytes(turned)) == wire.found and _fits(bytes(turned), manners):
             places_shown = ", ".join(str(place + 1) for place in chosen)
-            says = f"the two bytes from byte {places_shown} on are in the wrong order: the high byte goes first"
+            says = f"the two bytes from byte {places_shown} on are in the wrong order: the high byte is sent first"
             yield Guess(says, wire.sealed(bytes(turned)))
             return
 
@@ -277,7 +277,7 @@ def _no_checksum(wire: Wire, manners: Manners) -> Tries:
     if _fits(data, manners) and not _whole(wire, manners):
         sealed = wire.sealed(data)
         check = shown(sealed[-2:]) if wire.mode == "rtu" else f"{lrc(data):02X}"
-        yield Guess(f"the checksum is missing: {wire.name} {check} belongs behind it", sealed)
+        yield Guess(f"the checksum is missing: {wire.name} {check} belongs after it", sealed)
 
 
 def _whole(wire: Wire, manners: Manners) -> bool:

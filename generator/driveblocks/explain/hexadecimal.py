@@ -30,7 +30,7 @@ def is_literal(line: str) -> bool:
 
 
 def read(line: str, start: int = 0) -> bytes:
-    """The bytes of one line that stands at `start` of its text. Raises Spot."""
+    """The bytes of one line that begins at `start` of its text. Raises Spot."""
     quoted = _ESCAPED.match(line)
     if quoted and ("\\" in quoted["inner"] or is_literal(line)):
         return _string(quoted["inner"], start + quoted.start("inner"))
@@ -67,7 +67,7 @@ def _stranger(character: str) -> tuple[str, str]:
 
 
 def _string(inner: str, start: int) -> bytes:
-    """The bytes of a string as programming languages print it: what is not escaped stands for itself."""
+    """The bytes of a string as programming languages print it: what is not escaped means itself."""
     data, at = bytearray(), 0
     while at < len(inner):
         match = _INNER.match(inner, at)

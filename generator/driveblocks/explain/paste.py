@@ -1,6 +1,6 @@
 """Pasted text -> bytes: hexadecimal in any usual spelling, a hexdump, or the characters of an ASCII frame.
 
-What cannot be understood is told with its line and column; nothing is guessed over or left out silently.
+What cannot be understood is reported with its line and column; nothing is guessed or left out silently.
 """
 
 import re
@@ -25,7 +25,7 @@ _LIKE: dict[int, str | int] = {
     0x201D: '"',
     0x2013: "-",
 }
-"""Characters that stand for an ASCII one, each for one, so that columns stay right."""
+"""Characters that mean an ASCII one, each for one, so that columns stay right."""
 
 _LABEL = re.compile(
     r"""\s*(?:
@@ -52,7 +52,7 @@ class Paste:
 
 
 def read(text: str, name: str = "frame") -> Paste:
-    """Read a pasted frame; `name` stands in messages. Raises UnreadableError with `name:line:column: wrong; right`."""
+    """Read a pasted frame; `name` is for messages. Raises UnreadableError with `name:line:column: wrong; right`."""
     try:
         return _read(text.translate(_LIKE))
     except Spot as spot:
@@ -91,7 +91,7 @@ def _lines(text: str) -> list[tuple[int, str]]:
 
 
 def _unlabelled(line: str) -> int:
-    """Where a line's content starts, behind a time, TX, RX and the like; at its start if nothing would be left."""
+    """Where a line's content starts, after a time, TX, RX and the like; at its start if nothing would be left."""
     start, end = 0, len(line.rstrip())
     while (match := _LABEL.match(line, start)) and match.end() < end:
         start = match.end()

@@ -249,8 +249,8 @@ def _things(one: Layout, number: int) -> str:
 def _surplus(one: Layout) -> str:
     part = one.part("surplus")
     if part is not None and not any(part.data):
-        return "a 00 was received behind the frame, where the line turns round; 00 there leaves the CRC right"
-    return "trailing bytes, or another frame behind it"
+        return "a 00 was received after the frame, where the line turns round; the CRC stays right with 00 there"
+    return "trailing bytes, or another frame after it"
 
 
 def _error(drive: Drive, code: int) -> ErrorCode | None:

@@ -1,4 +1,4 @@
-"""Frames inside pasted bytes: several glued together, or one with something before or behind it."""
+"""Frames inside pasted bytes: several glued together, or one with something before or after it."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class Piece:
 
 
 def pieces(data: bytes, manners: Manners) -> tuple[Piece, ...]:
-    """Cut bytes into good frames and what stands between them."""
+    """Cut bytes into good frames and what is between them."""
     return _ascii(data) if mode_of(data) == "ascii" else _rtu(data, manners)
 
 

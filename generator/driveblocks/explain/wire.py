@@ -47,7 +47,7 @@ class Wire:
 
 
 def mode_of(data: bytes) -> Mode:
-    """RTU or ASCII: a colon, and mostly hexadecimal digits behind it, unless it is an RTU frame with a right CRC."""
+    """RTU or ASCII: a colon, and mostly hexadecimal digits after it, unless it is an RTU frame with a right CRC."""
     text = data[1:].rstrip(b"\r\n")
     digits = sum(byte & 0x7F in DIGITS for byte in text)
     if data[:1] != b":" or 2 * digits < len(text) or _rtu(data).right:
@@ -101,7 +101,7 @@ def _why_end(end: bytes) -> str:
     if end == b"\n\r":
         return "CR and LF are swapped"
     if not end:
-        return "the end was cut off, or the sender leaves it out"
+        return "the end was cut off, or the sender omits it"
     return (
         "the sender adds one of them, or a program took the other out"
         if len(end) == 1

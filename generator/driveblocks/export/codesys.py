@@ -15,8 +15,8 @@ from driveblocks.export.problem import ExportError
 from driveblocks.export.rungs import diagram
 from driveblocks.export.tc6 import CODESYS, project, types, vendor, written
 from driveblocks.export.wide import wide
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import FunctionBlock, Program, TypeDecl
+from structured_text.language.problems import Problem
+from structured_text.language.tree import FunctionBlock, Program, TypeDecl
 
 _PLATFORM = "codesys"
 _SERIAL = {
@@ -72,7 +72,7 @@ def _identity(part: Part) -> str:
 
 
 def _structure(parts: tuple[Part, ...]) -> Element:
-    """One folder for each of the canonical text's, in one for all; a user's program stands outside of it."""
+    """One folder for each of the canonical text's, in one for all; a user's program is outside of it."""
     if all(isinstance(part.element, Program) for part in parts):
         own = (element("Object", {"Name": part.name, "ObjectId": _identity(part)}) for part in parts)
         return element("ProjectStructure", {}, *own)

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from driveblocks.export.element import Element, element, escaped
 from driveblocks.export.part import Part
 from driveblocks.export.tc6 import NEUTRAL
-from driveblocks.st import tree
-from driveblocks.st.tree import Expression, FunctionBlock, VarDecl, VarKind
+from structured_text.language import tree
+from structured_text.language.tree import Expression, FunctionBlock, VarDecl, VarKind
 
 Point = tuple[int, int]
 Source = tuple[int, Point]

@@ -1,6 +1,6 @@
 """OpenPLC, and every other compiler of plain text: the library of each family as one file, and first motors beside it.
 
-The canonical texts stand in the order of their use, as they are. Nothing is left that the target could not say. What
+The canonical texts come in the order of their use, as they are. Nothing is left that the target could not say. What
 is the user's, a program and its task, has a file of its own, and so has the port of Linux, which is C.
 """
 
@@ -8,7 +8,7 @@ from driveblocks.export.part import Library, Shelf
 from driveblocks.render import library
 from driveblocks.render.environment import render
 from driveblocks.render.motor import SCAN_MS, motor
-from driveblocks.st.tree import TypeDecl
+from structured_text.language.tree import TypeDecl
 
 TARGET = "openplc"
 LINUX = "LX_Line8"

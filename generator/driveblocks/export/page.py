@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from driveblocks.export.part import Part, Shelf
 from driveblocks.render.environment import render
 from driveblocks.render.motor import SCAN_MS
-from driveblocks.st.tree import Program
+from structured_text.language.tree import Program
 
 KINDS = {"TYPE": "types", "FUNCTION": "functions", "FUNCTION_BLOCK": "function blocks", "PROGRAM": "programs"}
 

@@ -8,10 +8,10 @@ from driveblocks.maps.model import Drive
 from driveblocks.render import library
 from driveblocks.render.library import File
 from driveblocks.render.text import Language
-from driveblocks.st.checker import check
-from driveblocks.st.fingerprint import body, stream
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, FunctionBlock, Program, TypeDecl, Unit
+from structured_text.language.checker import check
+from structured_text.language.fingerprint import body, stream
+from structured_text.language.parser import parse
+from structured_text.language.tree import Function, FunctionBlock, Program, TypeDecl, Unit
 
 Declared = TypeDecl | Function | FunctionBlock | Program
 WHOLE = "DriveBlocks"
@@ -50,7 +50,7 @@ class Part:
 
     @cached_property
     def body(self) -> str:
-        """What stands behind the last END_VAR, as written; empty for a type."""
+        """What follows the last END_VAR, as written; empty for a type."""
         return body(self.text).strip("\n")
 
     @cached_property

@@ -9,8 +9,8 @@ from driveblocks.export.problem import ExportError
 from driveblocks.export.tc6 import NEUTRAL, project, types, written
 from driveblocks.render.library import BYTES
 from driveblocks.render.motor import SCAN_MS
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import FunctionBlock
+from structured_text.language.problems import Problem
+from structured_text.language.tree import FunctionBlock
 
 
 def write(shelf: Shelf) -> dict[str, str]:

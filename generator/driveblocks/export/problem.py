@@ -1,6 +1,6 @@
 """What a target cannot say."""
 
-from driveblocks.st.problems import SourceError
+from structured_text.language.problems import SourceError
 
 
 class ExportError(SourceError):

@@ -11,8 +11,8 @@ from driveblocks.export.element import Element, element, escaped
 from driveblocks.export.ladder import is_bool, said
 from driveblocks.export.part import Part
 from driveblocks.export.tc6 import CODESYS, vendor
-from driveblocks.st import tree
-from driveblocks.st.tree import Expression, FunctionBlock, VarDecl, VarKind
+from structured_text.language import tree
+from structured_text.language.tree import Expression, FunctionBlock, VarDecl, VarKind
 
 Wire = tuple[int, str | None]
 """Where a wire begins: the number of an element, and the pin of a box."""
@@ -59,7 +59,7 @@ class _Networks:
         return self.last
 
     def begin(self) -> None:
-        """What stands at the top of each network."""
+        """What is at the top of each network."""
         self.put("comment", {"height": "0", "width": "0"}, element("content", {}, CODESYS.text("")))
         title = vendor("fbdelementtype", Element("ElementType", {"xmlns": ""}, text="networktitle"), keep=True)
         self.put("vendorElement", {}, element("alternativeText", {}, CODESYS.text("")), element("addData", {}, title))

@@ -6,7 +6,7 @@ from driveblocks.export import codesys, openplc, plcopen, twincat
 from driveblocks.export.part import Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens import library as siemens
-from driveblocks.st.problems import Problem
+from structured_text.language.problems import Problem
 
 Writer = Callable[[Shelf], dict[str, str]]
 """From a shelf to every file of a target: path below the output folder, `twincat/CHF.plcproj`, -> text.

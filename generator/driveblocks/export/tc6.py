@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 
 from driveblocks.export.element import Element, cdata, element, escaped
 from driveblocks.export.part import Declared, Part
-from driveblocks.st import tree
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import Comment, Expression, Spec, VarBlock, VarDecl, VarKind
-from driveblocks.st.types import ELEMENTARY
+from structured_text.language import tree
+from structured_text.language.problems import Problem
+from structured_text.language.tree import Comment, Expression, Spec, VarBlock, VarDecl, VarKind
+from structured_text.language.types import ELEMENTARY
 
 _XHTML = "http://www.w3.org/1999/xhtml"
 _VENDOR = "http://www.3s-software.com/plcopenxml/"
@@ -49,7 +49,7 @@ class Dialect:
 
 
 NEUTRAL = Dialect("http://www.plcopen.org/xml/tc6_0201", False, ("]]>", "<![CDATA[", "<xhtml:p>", "</xhtml:p>"))
-"""TC6 2.01. Beremiz and its relatives put tags around every CDATA section that does not stand in theirs."""
+"""TC6 2.01. Beremiz and its relatives put tags around every CDATA section that is not inside theirs."""
 CODESYS = Dialect("http://www.plcopen.org/xml/tc6_0200", True)
 
 
@@ -241,7 +241,7 @@ class _Sheet:
         for comment in self.part.unit.comments:
             inside = isinstance(one, tree.Pou) and begin <= comment.at < one.end
             if not inside and comment.at not in self.used:
-                self.refuse(comment.at, "a comment that belongs to no declaration would be lost; put it behind one")
+                self.refuse(comment.at, "a comment that belongs to no declaration would be lost; put it after one")
 
     def characters(self) -> None:
         for at, text in _marks(self.part.text, self.dialect.marks):

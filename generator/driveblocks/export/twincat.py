@@ -19,9 +19,9 @@ from driveblocks.export.wide import wide
 from driveblocks.render.environment import render
 from driveblocks.render.library import PLATFORMS
 from driveblocks.render.motor import SCAN_MS
-from driveblocks.st.parser import parse
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import TypeDecl
+from structured_text.language.parser import parse
+from structured_text.language.problems import Problem
+from structured_text.language.tree import TypeDecl
 
 TARGET = "twincat"
 IDS = UUID("6b1f2c0e-2d0f-5a53-9a39-1f0d6c7c6a11")
@@ -191,7 +191,7 @@ def _reference(name: str) -> str:
 
 
 def _refuse(parts: Iterable[Part]) -> None:
-    """Raise ExportError with every place of texts that cannot stand in a CDATA section."""
+    """Raise ExportError with every place of texts that a CDATA section cannot hold."""
     problems = [
         Problem(part.unit.path, *part.unit.place(found.start()), _why(found[0]), "export")
         for part in parts
@@ -204,7 +204,7 @@ def _refuse(parts: Iterable[Part]) -> None:
 def _why(found: str) -> str:
     if len(found) > 1:
         return f"`{found}` ends the text in a file of TwinCAT: put a blank between the brackets"
-    return f"the character {ord(found):04X}H cannot stand in a file of TwinCAT: leave it out"
+    return f"the character {ord(found):04X}H cannot be in a file of TwinCAT: leave it out"
 
 
 def _page(shelf: Shelf, adapter: list[Item], own: int) -> str:

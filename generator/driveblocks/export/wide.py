@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterator
 
 from driveblocks.export.part import Part, Shelf
-from driveblocks.st.fingerprint import body, fingerprint, stream
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Function, StringSpec
+from structured_text.language.fingerprint import body, fingerprint, stream
+from structured_text.language.parser import parse
+from structured_text.language.tree import Function, StringSpec
 
 SUFFIX = "W"
 _GIVEN = re.compile(r":= '((?:\$[0-9A-F]{2}|[^'$])*)';")

@@ -3,9 +3,9 @@
 Only for judging a map's vectors; blocks and their tests have their own.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import DIRECTIONS, Direction, Layout, Manners, take
 
 _MOST_SHOWN = 16
 _WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
@@ -90,87 +90,55 @@ def _split_ascii(frame: bytes) -> tuple[bytes, bytes]:
     return body[:-1], body[-1:]
 
 
-def fields(body: bytes, direction: str, manners: Manners) -> Fields:
+def fields(body: bytes, direction: Direction, manners: Manners) -> Fields:
     """Take a body (without checksum) apart. Raises FrameError when the length does not fit the function."""
-    base = Fields(body[0], body[1])
-    data = body[2:]
-    if direction == "reply" and (base.function & 0x80 or base.function - manners.added in _FUNCTIONS):
-        _need(data, 1, "an exception reply")
-        return replace(base, error=data[0])
-    if direction == "reply" and base.function == manners.function and _word(data, 0) == manners.address:
-        _need(data, 4, "an error reply")
-        return replace(base, address=_word(data, 0), error=_word(data, 2))
-    reader = _READERS.get((base.function, direction))
-    if reader is None:
-        raise FrameError(
-            f"function {base.function:02X}H is not one that a map's frame may have", "03H, 04H, 06H, 08H or 10H"
-        )
-    return reader(base, data)
+    one = take(body, direction, manners)
+    if direction == "reply" and not one.refusal and body[1] & 0x80:
+        one = take(body, direction, Manners())
+    if not one.refusal and (body[1], direction) not in _NAMES:
+        raise FrameError(f"function {body[1]:02X}H is not one that a map's frame may have", "03H, 04H, 06H, 08H or 10H")
+    count = 0 if one.two_byte_count else one.number("byte count")
+    quantity = one.number("quantity")
+    _judge(one, count)
+    return Fields(
+        unit=body[0],
+        function=body[1],
+        address=one.number("address"),
+        words=count // 2 if quantity is None and count is not None else quantity,
+        byte_count=count,
+        values=one.words,
+        sub_function=one.number("sub-function"),
+        data=one.number("data word"),
+        error=one.number("reason"),
+    )
 
 
-def _word(data: bytes, at: int) -> int:
-    return int.from_bytes(data[at : at + 2], "big")
-
-
-def _words(data: bytes) -> tuple[int, ...]:
-    return tuple(_word(data, at) for at in range(0, len(data), 2))
-
-
-def _need(data: bytes, length: int, what: str) -> None:
-    if len(data) != length:
-        raise FrameError(f"{what} with {len(data)} data bytes", f"it has {length}")
-
-
-def _read_request(base: Fields, data: bytes) -> Fields:
-    _need(data, 4, "a read request")
-    return replace(base, address=_word(data, 0), words=_word(data, 2))
-
-
-def _read_reply(base: Fields, data: bytes) -> Fields:
-    count = data[0]
-    _need(data, 1 + count, f"a read reply with byte count {count}")
-    if count % 2:
+def _judge(one: Layout, count: int | None) -> None:
+    """Compare a body's length, byte count and quantity. Raises FrameError."""
+    data, due = len(one.body) - 2, one.size - 2
+    if one.refusal:
+        name = "an exception reply" if one.part("address") is None else "an error reply"
+    else:
+        name = _NAMES[one.body[1], one.direction]
+    if (one.body[1], one.direction) == (16, "request") and data < 5:
+        raise FrameError(f"{name} with {data} data bytes", "it has address, quantity, byte count and words")
+    if count is not None:
+        name = f"{name} with byte count {count}"
+        due = (5 if one.direction == "request" else 1) + count
+    if data != due:
+        raise FrameError(f"{name} with {data} data bytes", f"it has {due}")
+    if one.direction == "reply" and count is not None and count % 2:
         raise FrameError(f"a read reply with the odd byte count {count}", "a register is two bytes")
-    return replace(base, byte_count=count, words=count // 2, values=_words(data[1:]))
+    quantity = one.number("quantity")
+    if None not in (count, quantity) and count != 2 * (quantity or 0):
+        raise FrameError(f"byte count {count} for {quantity} words", f"it is {2 * (quantity or 0)}")
 
 
-def _write_one(base: Fields, data: bytes) -> Fields:
-    _need(data, 4, "a write of one register")
-    return replace(base, address=_word(data, 0), values=(_word(data, 2),))
-
-
-def _write_request(base: Fields, data: bytes) -> Fields:
-    if len(data) < 5:
-        raise FrameError(
-            f"a write request with {len(data)} data bytes", "it has address, quantity, byte count and words"
-        )
-    words, count = _word(data, 2), data[4]
-    _need(data, 5 + count, f"a write request with byte count {count}")
-    if count != 2 * words:
-        raise FrameError(f"byte count {count} for {words} words", f"it is {2 * words}")
-    return replace(base, address=_word(data, 0), words=words, byte_count=count, values=_words(data[5:]))
-
-
-def _write_reply(base: Fields, data: bytes) -> Fields:
-    _need(data, 4, "a reply to a write")
-    return replace(base, address=_word(data, 0), words=_word(data, 2))
-
-
-def _diagnostics(base: Fields, data: bytes) -> Fields:
-    _need(data, 4, "a diagnostics frame")
-    return replace(base, sub_function=_word(data, 0), data=_word(data, 2))
-
-
-_READERS = {
-    (0x03, "request"): _read_request,
-    (0x03, "reply"): _read_reply,
-    (0x04, "request"): _read_request,
-    (0x04, "reply"): _read_reply,
-    (0x06, "request"): _write_one,
-    (0x06, "reply"): _write_one,
-    (0x08, "request"): _diagnostics,
-    (0x08, "reply"): _diagnostics,
-    (0x10, "request"): _write_request,
-    (0x10, "reply"): _write_reply,
+_NAMES: dict[tuple[int, Direction], str] = {
+    **{(function, "request"): "a read request" for function in (3, 4)},
+    **{(function, "reply"): "a read reply" for function in (3, 4)},
+    **{(6, direction): "a write of one register" for direction in DIRECTIONS},
+    **{(8, direction): "a diagnostics frame" for direction in DIRECTIONS},
+    (16, "request"): "a write request",
+    (16, "reply"): "a reply to a write",
 }
-_FUNCTIONS = frozenset(function for function, _ in _READERS)

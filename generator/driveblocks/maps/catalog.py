@@ -10,11 +10,11 @@ import driveblocks
 
 _PREFIX = re.compile(rb"^prefix: *['\"]?([A-Za-z0-9]+)", re.MULTILINE)
 _HEAD = 8192
-"""Bytes at the start of a map in which its `prefix` is looked for; comments may stand before it."""
+"""Bytes at the start of a map in which its `prefix` is looked for; comments may come before it."""
 
 
 class UnknownDrive(Exception):  # noqa: N818  (a mistyped name is no error of the program)
-    """A name that stands for no map, or for several; `wrong` and `right` are the two halves of the message."""
+    """A name that means no map, or several; `wrong` and `right` are the two halves of the message."""
 
     def __init__(self, wrong: str, right: str) -> None:
         """Keep both halves."""
@@ -36,7 +36,7 @@ def shipped() -> tuple[Path, ...]:
 
 
 def shown(path: Path) -> str:
-    """A path as short as it can be written from where the user stands."""
+    """A path as short as it can be written from the user's folder."""
     return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else str(path)
 
 
@@ -46,7 +46,7 @@ def is_path(name: str) -> bool:
 
 
 def resolve(name: str) -> Path:
-    """The map that a word of the command line stands for. Raises UnknownDrive.
+    """The map that a word of the command line names. Raises UnknownDrive.
 
     A word is a path, or regardless of case the name of a shipped file, the prefix of its blocks, or a part of
     one of them that no other shipped map has.

@@ -1,4 +1,4 @@
-"""Maps of one library: each with its file, and what stands in the way of having the blocks of all of them together."""
+"""Maps of one library: each with its file, and what prevents having the blocks of all of them together."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ def read(paths: Iterable[Path]) -> list[Source]:
 
 
 def clashes(sources: list[Source]) -> list[Problem]:
-    """What stands in the way of one library for all of these maps."""
+    """What prevents one library for all of these maps."""
     return [*_shared_prefixes(sources), *_shared_folders(sources)]
 
 

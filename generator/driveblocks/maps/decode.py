@@ -12,7 +12,7 @@ from driveblocks.maps.shape import EntryOf, Key, ListOf, OneOf, Shape, keys_of, 
 
 _NUMERIC = re.compile(r"-?(0|[1-9][0-9]*)(\.[0-9]+)?")
 _BAD: Any = object()
-"""Stands for a value that is wrong. What cannot do without it is not built; a list goes on without its bad entries."""
+"""The mark of a wrong value. What cannot do without it is not built; a list is built without its bad entries."""
 
 
 def decode(cls: type, node: Node, report: Report) -> Any | None:
@@ -25,7 +25,7 @@ def decode(cls: type, node: Node, report: Report) -> Any | None:
 
 
 def build(shape: Shape, node: Node, report: Report, name: str) -> Any:
-    """Build one value of a shape; a wrong one is noted and stands as a mark that nothing accepts."""
+    """Build one value of a shape; a wrong one is noted and becomes a mark that nothing accepts."""
     if isinstance(shape, EntryOf):
         return _entry(shape, node, report, name)
     if isinstance(shape, ListOf):
@@ -90,7 +90,7 @@ def _formed(shape: Form, node: Scalar, report: Report, name: str) -> Any:
 
 
 def _address(text: str) -> str:
-    """What digits alone may stand for; empty where they cannot be an address."""
+    """What digits alone may mean; empty where they cannot be an address."""
     if not re.fullmatch("[0-9]{1,5}", text) or int(text) > 0xFFFF:
         return ""
     digits = f"{text:0>4}H if the manual's digits are hexadecimal, " if len(text) <= 4 else ""

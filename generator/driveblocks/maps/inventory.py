@@ -21,7 +21,7 @@ _WORDS = {
     "coast_stop": "coast",
     "fault_reset": "reset a fault",
 }
-"""What a drive is told, as the front table lists it."""
+"""What a drive can be asked to do, as the front table lists it."""
 
 _COLUMNS = (
     "drive and its register tables", "registers", "bits", "enums", "enum values",

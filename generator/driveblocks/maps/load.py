@@ -24,7 +24,7 @@ def load(path: Path) -> Drive:
 
 
 def loads(text: str, name: str) -> Drive:
-    """Load and check a map from its text; `name` stands in messages. Raises MapError."""
+    """Load and check a map from its text; `name` is the one in messages. Raises MapError."""
     return _loaded(text, Report(name))
 
 
@@ -36,5 +36,5 @@ def _loaded(text: str, report: Report) -> Drive:
     if drive is not None:
         check.check(drive, report)
     report.raise_if_any()
-    assert drive is not None  # noqa: S101  (a map that was not built left a problem behind)
+    assert drive is not None  # noqa: S101  (a map that was not built has left a problem)
     return drive

@@ -62,7 +62,7 @@ _WORDING = (
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """Base of all entries: where it stands in the file."""
+    """Base of all entries: where it is in the file."""
 
     at: Place = field(default=(0, 0), compare=False, repr=False)
     keys: dict[str, Place] = field(default_factory=dict, compare=False, repr=False)
@@ -86,7 +86,7 @@ class Worded:
 
     @property
     def own(self) -> str:
-        """What stands beside the English to find it in the manual: the Chinese, or its own words, or nothing."""
+        """What is given beside the English to find it in the manual: the Chinese, or its own words, or nothing."""
         return self.text_zh or self.wording or ""
 
 
@@ -131,7 +131,7 @@ class Returned(Named):
 
 @dataclass(frozen=True, kw_only=True)
 class Corroboration(Entry):
-    """Another public document that says the same, or what this manual leaves out. Never replaces a value silently."""
+    """Another public document that says the same, or what this manual does not. Never replaces a value silently."""
 
     document: Word = fact("id of an entry under `documents`", "modbus_application")
     page: Str = fact("page or section in that document", "section 7, page 48")
@@ -256,7 +256,7 @@ class BaudCode(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class FormatCode(Entry):
-    """A code of the setting that chooses parity and stop bits; what the manual leaves open stays out."""
+    """A code of the setting that chooses parity and stop bits; what the manual does not say stays out."""
 
     code: Number = fact("number on the keypad", "1")
     parity: Literal["none", "even", "odd"] = fact("parity bit", "even")
@@ -354,7 +354,7 @@ class Serial(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Limit(Entry):
-    """One limit and where it stands."""
+    """One limit and where it is given."""
 
     value: Count = fact("the number", "16")
     source: English = fact("where the manual says so", "command 03H")
@@ -406,7 +406,7 @@ class Condition(Entry):
     register: Address = fact("the register", "000FH")
     bit: Bits | None = fact("the bit or bits; left out for the whole word", "0", optional=True)
     mask: Number | None = fact(
-        "bits that count, where they do not lie side by side; the value stands in their place", "006FH", optional=True
+        "bits that count, where they are not side by side; the value is in their place", "006FH", optional=True
     )
     equals: Number = fact("the value", "0")
 
@@ -487,7 +487,7 @@ class Register(Worded, Entry):
         "meaning of each value of the word", "[{value: 1, name: ..., zh: ...}]", optional=True, default=()
     )
     masks: bool = fact(
-        "the values are single bits; the manual leaves open whether they combine", "true", optional=True, default=False
+        "the values are single bits; the manual does not say whether they combine", "true", optional=True, default=False
     )
     bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
     printed: PrintedRow | None = fact(
@@ -520,7 +520,7 @@ class Section(Entry):
 
     id: Word = fact("short name", "monitors_u1")
     title: Text = fact("heading of the table", "{en: U1 monitors, zh: U1-XX 监测具体内容寄存器}")
-    source: English = fact("where it stands in the manual", "section (II)")
+    source: English = fact("where it is in the manual", "section (II)")
     access: Access = fact("how its registers may be used: r, w or rw", "r")
     registers: tuple[Register, ...] = fact(
         "the rows, in the manual's order", "[{address: 0020H, id: U1-01, name: ..., zh: ...}]"
@@ -558,7 +558,7 @@ class Area(Named):
     addresses: Addresses = fact("the addresses", "0000H-01FFH")
     numbered_by: Literal["sequence_number", "parameter_number"] = fact("what the number is", "sequence_number")
     access: Access = fact("r, w or rw", "rw")
-    source: English = fact("where it stands in the manual", "11.6.4 (1)")
+    source: English = fact("where it is in the manual", "11.6.4 (1)")
     examples: tuple[AreaExample, ...] = fact("the manual's examples", "[{id: P5.05, number: 58, address: 003AH}]")
     excluded: tuple[Excluded, ...] = fact(
         "parameters that must not be read or written", "[{ids: PE, name: ..., zh: ...}]", optional=True, default=()
@@ -571,7 +571,7 @@ class Storage(Entry):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
     method: Literal["enter_register", "ram_address_bit", "unexplained"] = fact(
-        "`enter_register`: writes go to RAM, writing a register stores them; `ram_address_bit`: writes are stored "
+        "`enter_register`: writes reach RAM, writing a register stores them; `ram_address_bit`: writes are stored "
         "unless a bit is added to the address; `unexplained`: the manual does not say",
         "enter_register",
     )
@@ -650,7 +650,7 @@ class Reference(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Standstill(Entry):
-    """What proves that the motor stands: all of these at once, read after the stop was acknowledged."""
+    """What proves that the motor is at standstill: all of these at once, read after the stop was acknowledged."""
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 0}]")
     source: English = fact("where the manual says so", "section (I), 0010H; U1-02")
@@ -767,7 +767,7 @@ class Operation(Entry):
     """Commands, reference, what proves standstill, and what the drive shows."""
 
     commands: tuple[Command, ...] = fact(
-        "what the drive can be told", "[{does: stop, register: 1000H, value: 3, source: ...}]"
+        "what the drive can be asked to do", "[{does: stop, register: 1000H, value: 3, source: ...}]"
     )
     reference: Reference = fact("how speed is given", "{register: 0001H, means: frequency, source: ...}")
     standstill: Standstill = fact("what proves standstill", "{all: [...], source: ..., why: ...}")
@@ -841,10 +841,10 @@ class TripOutput(Entry):
 class Faults(Entry):
     """Fault codes and the registers that report them."""
 
-    source: English = fact("where the table stands", "section (IV), table of fault numbers")
+    source: English = fact("where the table is", "section (IV), table of fault numbers")
     registers: tuple[Addresses, ...] = fact("registers that hold a fault code", "[0080H, 0090H-0093H]")
     present: Address | None = fact(
-        "the one that holds the fault that is present, where `bits` do not tell it", "3000H", optional=True
+        "the one that holds the fault that is present, where `bits` do not show it", "3000H", optional=True
     )
     codes: tuple[Fault, ...] = fact(
         "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", optional=True, default=()
@@ -898,7 +898,7 @@ class Errors(Entry):
     form: ErrorForm | None = fact(
         "what a refusal looks like", "{kind: exception, add: 80H, source: ...}", optional=True
     )
-    source: English = fact("where the table stands", "meaning of error codes")
+    source: English = fact("where the table is", "meaning of error codes")
     codes: tuple[ErrorCode, ...] = fact("the reasons, in the manual's order", "[{code: 01H, name: ..., zh: ...}]")
 
 
@@ -908,7 +908,7 @@ class Notice(Entry):
 
     kind: Literal["prohibition", "warning", "hazard", "procedure"] = fact("what it is", "prohibition")
     text: Text = fact("the text; the Chinese as printed", "{en: ..., zh: ...}")
-    source: English = fact("where it stands", "notes (2)")
+    source: English = fact("where it is", "notes (2)")
     about: tuple[Ref, ...] = fact("what it is about", "[register FFFDH]", optional=True, default=())
     note: English | None = fact("what to make of it", "this hides a lost line", optional=True)
 
@@ -962,7 +962,7 @@ class Frame(Entry):
     id: Word = fact("short name", "read_dc_bus_request")
     direction: Literal["request", "reply"] = fact("who sends it", "request")
     mode: Literal["rtu", "ascii"] = fact("framing", "rtu")
-    source: English = fact("where it stands", "command 03H, RTU request")
+    source: English = fact("where it is", "command 03H, RTU request")
     printed: Adu = fact("as printed", "01 03 00 26 00 02 25 C0")
     checksum: Literal["right", "wrong"] = fact("verdict on the printed checksum", "right")
     printed_checksum_of: Octets | None = fact(
@@ -981,7 +981,7 @@ class Erratum(Entry):
     """A misprint or contradiction of the manual and what the map makes of it."""
 
     about: tuple[Ref, ...] = fact("what it is about; `prose` where no entry of the map is touched", "[register 0220H]")
-    where: English = fact("where it stands in the manual", "section (V), row C7-02")
+    where: English = fact("where it is in the manual", "section (V), row C7-02")
     printed: Str = fact("what is printed", "0210H C7-02 防乱系数")
     used: Str = fact("what the map uses", "0220H")
     why: English = fact("the reason", "0210H is C3-02; C7-01 is 021FH and C7-03 is 0221H")

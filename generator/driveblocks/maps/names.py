@@ -3,7 +3,7 @@
 import re
 
 from driveblocks.maps.model import Bit, Register, Value
-from driveblocks.st.names import reserved, reserved_outside
+from structured_text.language.names import reserved, reserved_outside
 
 MAX_LENGTH = 31
 """Longest identifier that every target takes."""

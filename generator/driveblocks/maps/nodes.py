@@ -24,7 +24,7 @@ _EDGE = re.compile(HIDDEN.pattern + r"""|[?]|\\(?!["\\])|^%|[|>][-+0-9]*#|[^\n]\
 
 
 class Scalar(NamedTuple):
-    """A text as written; `plain` tells that it stood without quotes, `refused` that its mistake is noted."""
+    """A text as written; `plain`: it was written without quotes, `refused`: its mistake is noted."""
 
     text: str
     plain: bool
@@ -55,7 +55,7 @@ def parse(text: str, report: Report) -> Node | None:
     """Return the root node, or None where the text is not YAML; mistakes go to the report.
 
     libyaml reads only what both parsers read alike, and only while nothing is wrong. All else, and every complaint,
-    comes from PyYAML's own parser, so that a map means the same, and is told the same, on every machine.
+    comes from PyYAML's own parser, so that a map means the same, and gets the same messages, on every machine.
     """
     if "\t" in text:
         _tabs(text, report)
@@ -97,7 +97,7 @@ def _tabs(text: str, report: Report) -> None:
     for number, line in enumerate(text.split("\n"), 1):
         if "\t" in line:
             report.add(
-                (number, line.index("\t") + 1), "a tab stands here", "YAML is indented with spaces; write spaces"
+                (number, line.index("\t") + 1), "there is a tab here", "YAML is indented with spaces; write spaces"
             )
 
 
@@ -133,7 +133,7 @@ class _Events:
         """Refuse what a person does not see by reading one line: aliases, anchors, tags."""
         if isinstance(event, yaml.AliasEvent):
             wrong = f"alias *{_short(event.anchor)} is not allowed in a map"
-            self.stop(event, wrong, "write the value out, so each line stands alone")
+            self.stop(event, wrong, "write the value out, so each line is complete")
         if event.anchor is not None:
             wrong = f"anchor &{_short(event.anchor)} is not allowed in a map"
             self.refuse(event, wrong, "write the value out where it is used")
@@ -178,7 +178,7 @@ def _directives(events: _Events, start: yaml.Event) -> None:
 
 def _node(events: _Events, event: yaml.Event, depth: int) -> Node:
     if depth > MAX_DEPTH:
-        events.stop(event, f"nested deeper than {MAX_DEPTH} levels", "no key of a map goes that deep")
+        events.stop(event, f"nested deeper than {MAX_DEPTH} levels", "no key of a map is that deep")
     if isinstance(event, yaml.ScalarEvent):
         return _scalar(events, event)
     if isinstance(event, yaml.SequenceStartEvent):
@@ -200,7 +200,7 @@ def _entries(events: _Events, start: yaml.Event, depth: int) -> Entries:
         value = _node(events, events.next(), depth + 1)
         if key.text in entries:
             first = entries[key.text][0].at[0]
-            wrong = f"key `{_short(key.text)}` stands twice; the first is in line {first}"
+            wrong = f"key `{_short(key.text)}` is there twice; the first is in line {first}"
             events.report.add(key.at, wrong, "keep one of them")
         else:
             entries[key.text] = (key, value)

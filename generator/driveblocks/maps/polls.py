@@ -154,7 +154,7 @@ def _used(drive: Drive, address: int) -> bool:
 
 
 def schedule(polls: tuple[Poll, ...]) -> tuple[int, ...]:
-    """The order in which the standing poll goes through the reads, as indices.
+    """The order in which the standing poll takes the reads, as indices.
 
     All fast ones, twice if there is but one, then the next slow one: at most every third request is slow.
     """
@@ -165,10 +165,10 @@ def schedule(polls: tuple[Poll, ...]) -> tuple[int, ...]:
 
 
 def wire_ms(poll: Poll, bit_rate: int, bits: int, turn_round_ms: float, silence_ms: float | None = 0.0) -> float:
-    """How long a read holds the line, with its turn-round and, in RTU, the silence behind each of both frames.
+    """How long a read holds the line, with its turn-round and, in RTU, the silence after each of both frames.
 
     `bits` are those of a character, 10 or 11. The silence is that of MODBUS over Serial Line V1.02, 2.5.1.1, or the
-    drive's own `silence_ms` where that is longer; None stands for ASCII, which needs none.
+    drive's own `silence_ms` where that is longer; None for ASCII, which needs none.
     """
     character = 1000 * bits / bit_rate
     if silence_ms is None:

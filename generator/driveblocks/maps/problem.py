@@ -46,19 +46,19 @@ class Report:
     file: str
     problems: list[Problem] = field(default_factory=list)
     partial: bool = False
-    """Set when a part of the file could not be read: what seems to be missing may stand in that part."""
+    """Set when a part of the file could not be read: what seems to be missing may be in that part."""
 
     def add(self, place: Place, wrong: str, right: str) -> None:
         """Note a mistake at a 1-based line and column. Raises MapError when there are more than anyone reads."""
         self.problems.append(Problem(self.file, place[0], place[1], wrong, right))
         if len(self.problems) >= MAX_PROBLEMS:
             wrong = f"more than {MAX_PROBLEMS} mistakes, of which the first are shown"
-            line = max(self.problems).line + 1  # so that it stands behind all others
+            line = max(self.problems).line + 1  # so that it comes after all others
             self.problems.append(Problem(self.file, line, 1, wrong, "correct these and check again"))
             self.raise_if_any()
 
     def miss(self, place: Place, wrong: str, right: str) -> None:
-        """Note that something is missing, unless it may stand in a part of the file that could not be read."""
+        """Note that something is missing, unless it may be in a part of the file that could not be read."""
         if not self.partial:
             self.add(place, wrong, right)
 

@@ -1,14 +1,14 @@
-"""What tells one state of a map from another."""
+"""What distinguishes one state of a map from another."""
 
 from dataclasses import fields, replace
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Worded
-from driveblocks.st.fingerprint import fingerprint
+from structured_text.language.fingerprint import fingerprint
 
 
 def revision(drive: Drive) -> int:
-    """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it stands."""
+    """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is."""
     return int(fingerprint([repr(english(drive))]), 16)
 
 

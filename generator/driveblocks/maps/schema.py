@@ -49,7 +49,7 @@ def _entry(cls: type, definitions: dict[str, Schema]) -> Schema:
 def _property(key: Key, definitions: dict[str, Schema]) -> Schema:
     described = {"description": f"{key.doc}. Example: {key.example}"}
     shape = _shape(key.shape, definitions)
-    # draft 7 readers ignore what stands beside a $ref
+    # draft 7 readers ignore what is beside a $ref
     return {**described, "allOf": [shape]} if "$ref" in shape else {**described, **shape}
 
 

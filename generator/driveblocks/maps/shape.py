@@ -69,7 +69,7 @@ def required_of(cls: type) -> tuple[Key, ...]:
 
 
 def shape_of(hint: Any) -> Shape:
-    """The shape that a type hint stands for. Raises TypeError."""
+    """The shape that a type hint describes. Raises TypeError."""
     origin = get_origin(hint)
     if origin is Annotated:
         return next(extra for extra in get_args(hint)[1:] if isinstance(extra, Form))

@@ -30,7 +30,7 @@ class _Words:
     wrong: str
     right: str
     at_start: bool = False
-    """Whether the mistake stands where the reading began."""
+    """Whether the mistake is where the reading began."""
 
 
 _QUOTE_IT = "quote a text that holds , : {{ }} [ ] and close every quote"
@@ -41,7 +41,7 @@ _WORDS = (
     _Words(
         "",
         ("mapping values are not allowed",),
-        "a colon stands where no key can be",
+        "there is a colon where no key can be",
         "quote a text that holds a colon and a space; else check the indentation of this line",
     ),
     _Words(
@@ -96,7 +96,7 @@ _WORDS = (
     _Words("block scalar", ("",), "a text begins on the line of its `|` or `>`", "begin it on the next line", True),
     _Words("directive", ("",), *_NO_DIRECTIVE, True),
     _Words("", ("incompatible YAML", "YAML directive", "duplicate tag handle"), *_NO_DIRECTIVE),
-    _Words("", ("document start",), "this stands outside the map", "a map has no lines that start with % or ..."),
+    _Words("", ("document start",), "this is outside the map", "a map has no lines that start with % or ..."),
 )
 
 

@@ -43,7 +43,7 @@ def _hexadecimal(text: str) -> str:
 
 
 def _merge(_: str) -> str:
-    return "write the keys out, so each line stands alone"
+    return "write the keys out, so each line is complete"
 
 
 _BOOLEAN = "YAML 1.1 reads it as TRUE or FALSE"

@@ -13,7 +13,7 @@ from driveblocks.maps.shape import keys_of
 Plain = dict[str, Any]
 _NUMBERED = re.compile(r"(.*?)([0-9]+)")
 _FIRST = ("value", "code", "id")
-"""What a named entry is known by; it stands before the name."""
+"""What a named entry is known by; it comes before the name."""
 
 
 def of_drive(drive: Drive, stem: str) -> Plain:
@@ -129,7 +129,7 @@ def plain(value: Any) -> Any:
 
 
 def _entry(entry: Entry) -> Plain:
-    """An entry under the keys of the map; what it leaves out is left out again, but for true and false.
+    """An entry under the keys of the map; what it omits is omitted again, but for true and false.
 
     A named entry has the manual's wording as `name_zh` and the corrected one as `text_zh`.
     """

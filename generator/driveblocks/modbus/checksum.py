@@ -17,7 +17,7 @@ MODBUS = table(0xA001)
 
 
 def crc16(data: bytes, start: int = START, changes: tuple[int, ...] = MODBUS) -> int:
-    """CRC-16 of some bytes; its low byte goes on the wire first."""
+    """CRC-16 of some bytes; its low byte is sent first."""
     crc = start
     for byte in data:
         crc = crc >> 8 ^ changes[(crc ^ byte) & 0xFF]

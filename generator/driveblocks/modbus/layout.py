@@ -31,7 +31,7 @@ KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
 
 @dataclass(frozen=True)
 class Manners:
-    """How a drive refuses, and what is tolerated. As it stands: what the standard says."""
+    """How a drive refuses, and what is tolerated. By default: what the standard says."""
 
     add: int | None = 0x80
     """A refusal is function code + add with one byte of reason."""
@@ -61,7 +61,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Layout:
-    """A body taken apart in one direction, as far as it goes."""
+    """A body taken apart in one direction, as far as possible."""
 
     direction: Direction
     body: bytes
@@ -174,6 +174,12 @@ def granted(body: bytes, direction: Direction) -> Layout:
     size = behind + (count if len(body) >= behind else 2)
     parts = (*_filled([*head, *tail]), *_surplus(body[behind + count :]))
     return Layout(direction, body, parts, size, two_byte_count=wide)
+
+
+def request(body: bytes) -> Layout | None:
+    """A request as the standard has it; None if its length is wrong. Of other functions nobody knows the length."""
+    found = granted(body, "request") if len(body) >= 2 else None
+    return None if found is None or found.missing or found.two_byte_count else found
 
 
 def _is_wide(body: bytes, at: int) -> bool:

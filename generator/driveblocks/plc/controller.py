@@ -3,12 +3,12 @@
 import sys
 from collections import Counter
 
-from driveblocks.host.embedded import EmbeddedInstance, EmbeddedLibrary
 from driveblocks.maps.model import Drive
 from driveblocks.plc.guard import Guard
 from driveblocks.plc.mailbox import Mailbox
 from driveblocks.plc.port import Port
 from driveblocks.plc.wiring import DriveBlock, Wiring
+from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 
 MOST_MS = 65535
 PORT_FAILS = 1
@@ -16,7 +16,7 @@ PORT_FAILS = 1
 
 
 class Controller:
-    """A program at a port. Without a guard everything leaves."""
+    """A program at a port. Without a guard everything is sent."""
 
     def __init__(
         self,

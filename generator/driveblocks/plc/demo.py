@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import driveblocks
-from driveblocks.host.engine import Value
 from driveblocks.plc import wanted
 from driveblocks.plc.session import Session
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import Value
 
 PROGRAM = "three_makes.st"
 RAMP, COAST = 40, 60
@@ -47,7 +47,7 @@ def _all(pin: str, *names: str) -> dict[str, Value]:
 
 ACTS = (
     Act(
-        "power-up: every drive is told to stop, and then read",
+        "power-up: every drive gets a stop, and is then read",
         {"PumpHertz": 40.0, "FanHertz": 30.0, **SCALES},
         then=_all("Ready") | {"HardStopOk": False},
     ),
@@ -63,7 +63,7 @@ ACTS = (
         then={"Fan.Fault": True, "Fan.Running": False, **_all("Running", "Pump1", "Pump2")},
     ),
     Act(
-        "reset: the run pin falls, Reset rises; the fault goes, nothing starts",
+        "reset: the run pin falls, Reset rises; fault gone, nothing starts",
         {"FanOn": False, "Reset": True},
         happens=SimulatedDrive.clear_cause,
         then={"Fan.Fault": False, "Fan.Running": False, **_all("Ready", "Fan")},
@@ -87,7 +87,7 @@ class Demo:
 
     @property
     def wrong(self) -> str:
-        """What has not come true; empty behind the last step."""
+        """What has not come true; empty after the last step."""
         left = [self._act] if self._act else self._waiting[:1]
         return f"this did not come true: {left[0].says}" if left else ""
 

@@ -1,4 +1,4 @@
-"""The way out of the process: bounded, once it is known whether the drives stand."""
+"""The way out of the process: bounded, once it is known whether the drives are at standstill."""
 
 import os
 import sys

@@ -1,19 +1,19 @@
-"""The end of a run: every drive is stopped past the program, for a bounded time, and it is read whether it stands."""
+"""The end of a run: every drive is stopped past the program, for a bounded time, and read for its standstill."""
 
 import queue
 from dataclasses import dataclass, field
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
-from driveblocks.modbus.frame import seal
+from driveblocks.modbus.frame import opened, seal
+from driveblocks.modbus.layout import granted
 from driveblocks.plc.clock import Clock
 from driveblocks.plc.gate import Gate
 from driveblocks.plc.guard import stop_request
-from driveblocks.plc.wire import opened
 from driveblocks.simulator.pattern import Pattern, of_condition
 
 WITHIN_US = 10_000_000
-"""How long it is tried where no drive block says within which time its motor stands."""
+"""How long it is tried where no drive block gives the time to standstill."""
 LEAST_US = 2_000_000
 """How long it is tried at least: eight drives are not stopped and read in less."""
 REPLY_US = 300_000
@@ -22,10 +22,10 @@ SILENCE_US = 20_000
 """Before each request, at least: an adapter may keep the end of a reply back for 16 ms."""
 SILENT_CHARACTERS = 3.5
 CHATTER_US = 1_000_000
-"""A line on which somebody goes on speaking for so long is not waited for."""
+"""A line on which somebody keeps speaking for this long is not waited for."""
 LOOK_US = 2_000
 HURRY_US = 50_000
-"""As REPLY_US, for who does not wait: the request itself has to leave."""
+"""As REPLY_US, for those who do not wait: the request itself has to be sent."""
 SILENT = "no reply to the stop"
 
 Bell = queue.SimpleQueue[None]
@@ -45,7 +45,7 @@ class Ending:
     def ask(self, reason: str, *, insists: bool = False) -> None:
         """End the run; who insists while it ends does not wait any longer.
 
-        A terminal that goes brings a signal, the end of the input and a failing screen at once: these do not insist.
+        A terminal that closes brings a signal, the end of the input and a failing screen at once: these do not insist.
         """
         if self.reason and insists:
             self.hurry = True
@@ -64,7 +64,7 @@ class Speech:
 
 
 class Stopper:
-    """Stops drives, and reads whether they stand."""
+    """Stops drives, and reads whether they are at standstill."""
 
     def __init__(self, gate: Gate, clock: Clock, ending: Ending, speech: Speech) -> None:
         """On a port that was taken from the program."""
@@ -83,7 +83,7 @@ class Stopper:
     def stop(self, drives: dict[int, Drive], within_us: int = WITHIN_US) -> dict[int, str]:
         """Stop them all; what cannot be confirmed of each, empty where its standstill is proved.
 
-        A stop goes to every drive before any is asked whether it stands.
+        A stop is sent to every drive before any is asked for its standstill.
         """
         end = self._clock.now_us() + within_us
         told = dict.fromkeys(drives, SILENT)
@@ -94,7 +94,7 @@ class Stopper:
         return told
 
     def _confirm(self, stopped: list[int], drives: dict[int, Drive], told: dict[int, str], end: int) -> None:
-        """Read whether drives that have acknowledged their stop stand."""
+        """Read whether drives that have acknowledged their stop are at standstill."""
         for unit in stopped:
             if self._goes_on(end):
                 told[unit] = self._moves(unit, drives[unit])
@@ -119,15 +119,16 @@ class Stopper:
         return (
             ""
             if all(_holds(each, words) for each in patterns)
-            else "stop acknowledged, its status does not prove that it stands"
+            else "stop acknowledged, its status does not prove standstill"
         )
 
     def _read(self, unit: int, function: int, register: int) -> int | None:
         reply = self._ask(bytes([unit, function, *register.to_bytes(2, "big"), 0, 1]), 5)
-        return int.from_bytes(reply[3:5], "big") if reply[2:3] == b"\x02" else None
+        words = granted(reply, "reply").words if reply else ()
+        return words[0] if len(words) == 1 else None
 
     def _ask(self, body: bytes, length: int) -> bytes:
-        """A request, and its reply of so many bytes, both without checksum; empty if there is none."""
+        """A request, and its reply of this number of bytes, both without checksum; empty if there is none."""
         self._be_silent()
         request = self._sent = seal("ascii" if self._ascii else "rtu", body)
         self._port.send(request)
@@ -165,10 +166,8 @@ class Stopper:
         return int(len(frame) * self._character_us)
 
     def _reply(self, text: bytes, length: int) -> bytes:
-        if self._ascii:
-            return opened(text, ascii_mode=True) or b""
-        whole = text[: length + 2]
-        return whole[:-2] if len(whole) == length + 2 and seal("rtu", whole[:-2]) == whole else b""
+        body = opened("ascii", text) if self._ascii else opened("rtu", text[: length + 2])
+        return body if body is not None and len(body) == length else b""
 
 
 def _holds(pattern: Pattern, words: dict[int, int | None]) -> bool:

@@ -9,7 +9,7 @@ PATIENCE_S = 0.5
 """How long a port may take to accept or to hand over bytes; it never should wait."""
 
 MOST_HEARD = 1000
-"""Bytes that are kept of a line on which somebody goes on speaking; no frame and its echo are longer."""
+"""Bytes that are kept of a line on which somebody keeps speaking; no frame and its echo are longer."""
 
 
 class GivenUp(Exception):  # noqa: N818  (nothing is wrong with the port)

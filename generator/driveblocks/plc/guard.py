@@ -1,14 +1,15 @@
-"""What may leave on a real port: reads, and the stops of the maps; all else only to drives that a person let run."""
+"""What may be sent on a real port: reads, and the stops of the maps; all else only to drives that a person let run."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
-from driveblocks.plc.wire import opened
+from driveblocks.modbus import frame, layout
 from driveblocks.simulator.pattern import of_write
 
 READS = frozenset({1, 2, 3, 4})
+WRITES = frozenset({6, 16})
 STOPS = frozenset({"stop", "coast_stop", "quick_stop", "jog_stop"})
 
 
@@ -28,13 +29,12 @@ def stop_request(unit: int, drive: Drive) -> bytes:
     return bytes([unit, 16]) + place + b"\0\1\2" + word
 
 
-def writes(body: bytes) -> tuple[int, int] | None:
+def writes(request: layout.Layout) -> tuple[int, int] | None:
     """Register and word of a request that writes just one; None for any other."""
-    if len(body) == 6 and body[1] == 6:
-        return int.from_bytes(body[2:4], "big"), int.from_bytes(body[4:6], "big")
-    if len(body) == 9 and body[1] == 16 and body[4:7] == b"\0\1\2":
-        return int.from_bytes(body[2:4], "big"), int.from_bytes(body[7:9], "big")
-    return None
+    address, words = request.number("address"), request.words
+    if address is None or request.function not in WRITES or len(words) != 1 or not request.agrees:
+        return None
+    return address, words[0]
 
 
 class Guard:
@@ -47,26 +47,27 @@ class Guard:
         self._stops = {unit: frozenset(stops(drive)) for unit, drive in units.items()}
         self._free = free
         self.dropped: Counter[str] = Counter() if dropped is None else dropped
-        """How many frames did not leave, by what they were."""
+        """How many frames were not sent, by what they were."""
 
-    def passes(self, frame: bytes) -> bool:
-        """Whether a frame may leave; what is no whole, good request never does."""
-        what = self._judge(frame)
+    def passes(self, text: bytes) -> bool:
+        """Whether a frame may be sent; what is no whole, good request never is."""
+        what = self._judge(text)
         if what:
             self.dropped[what] += 1
         return not what
 
-    def _judge(self, frame: bytes) -> str:
-        """Why a frame must not leave; empty if it may."""
-        body = opened(frame, ascii_mode=True) or opened(frame, ascii_mode=False)
-        if body is None:
+    def _judge(self, text: bytes) -> str:
+        """Why a frame must not be sent; empty if it may."""
+        body = frame.opened("ascii", text) or frame.opened("rtu", text)
+        request = layout.request(body or b"")
+        if request is None:
             return "what is no request"
-        unit, function = body[0], body[1]
+        unit, function = request.body[:2]
         if unit == 0:
             return "broadcast"
-        if (function in READS and len(body) == 6) or unit in self._free:
+        if function in READS or unit in self._free:
             return ""
-        write = writes(body)
+        write = writes(request)
         if write is not None and write in self._stops.get(unit, ()):
             return ""
         if write is None:

@@ -3,8 +3,8 @@
 import os
 from collections.abc import Callable
 
-from driveblocks.host.engine import Value
 from driveblocks.plc.script import Setting, Variables, setting
+from structured_text.engines.engine import Value
 
 
 class Keyboard:

@@ -2,16 +2,16 @@
 
 from collections import deque
 
-from driveblocks.host.embedded import EmbeddedInstance
-from driveblocks.host.embedded.certainty import known
 from driveblocks.plc.wiring import Wiring
+from structured_text.engines.embedded import EmbeddedInstance
+from structured_text.engines.embedded.certainty import known
 
 MOST_BYTES = 255
 """What a line takes in one scan."""
 
 
 class Mailbox:
-    """Hands received bytes to a program before its scan, and takes what it sends behind it."""
+    """Hands received bytes to a program before its scan, and takes what it sends after it."""
 
     def __init__(self, instance: EmbeddedInstance, wiring: Wiring) -> None:
         """For an instance of the program."""

@@ -20,7 +20,7 @@ class Pace:
         self._counts: dict[int, int] = {}
 
     def add(self, took_us: int, behind_us: int) -> int:
-        """One scan, done so long behind the time when the next was due; how many are left out now."""
+        """One scan, done this long after the time when the next was due; how many are left out now."""
         missed = max(0, behind_us) // self.scan_us
         self.scans += 1
         self.late += behind_us > 0
@@ -31,7 +31,7 @@ class Pace:
         return missed
 
     def share_us(self, percent: float) -> int:
-        """The time within which so many percent of the scans were done."""
+        """The time within which this percentage of the scans was done."""
         wanted, seen = self.scans * percent / 100, 0
         for step in sorted(self._counts):
             seen += self._counts[step]

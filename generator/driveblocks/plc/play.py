@@ -42,7 +42,7 @@ class Play:
         self._waiting.sort(key=lambda each: each.at_us)
 
     def _sentences(self, line: str) -> list[str]:
-        """What a key stands for, or the line itself."""
+        """What a key means, or the line itself."""
         found = _KEY.fullmatch(line)
         if found is None:
             return [line]

@@ -70,7 +70,7 @@ class WirePort:
 
 
 class DevicePort:
-    """A port of the machine; one that goes is looked for again, once a second.
+    """A port of the machine; one that disappears is looked for again, once a second.
 
     `device` has `read() -> bytes`, `write(bytes)` and `close()`, and `opened` makes it; all of them raise OSError.
     """

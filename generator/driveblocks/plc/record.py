@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 from xml.sax.saxutils import escape
 
-from driveblocks.host.engine import Value
+from structured_text.engines.engine import Value
 
 MOST_CHANGES = 20_000
 """Changes of one variable that a picture holds; older ones are forgotten."""
@@ -17,7 +17,9 @@ _MARK = "<!-- a picture of driveblocks run -->"
 PICTURE = re.compile(rb"<svg [^>]*>\n" + re.escape(_MARK.encode()))
 """How a picture begins."""
 
-_LEFT, _RIGHT, _LANE, _HIGH, _TOP, _WIDTH = 200, 30, 44, 26, 34, 1000
+_LEFT, _PLOT, _RIGHT, _LANE, _HIGH, _TOP = 200, 770, 30, 44, 26, 34
+_CHARACTER, _NUMBER = 8, 60
+"""Room for a character of a name, and for the number beside it."""
 
 
 class Writer(Protocol):
@@ -58,6 +60,7 @@ class Timing:
         """Begin."""
         self._port = port
         self._changes: dict[str, deque[tuple[int, float]]] = {name: deque(maxlen=MOST_CHANGES) for name in names}
+        self._left = max(_LEFT, max(map(len, names), default=0) * _CHARACTER + _NUMBER)
         self._end_us = 1
 
     def add(self, at_us: int, values: Mapping[str, Value]) -> None:
@@ -71,14 +74,12 @@ class Timing:
 
     def svg(self) -> str:
         """The picture."""
-        height = _TOP + _LANE * len(self._changes) + 30
+        width, height = self._left + _PLOT + _RIGHT, _TOP + _LANE * len(self._changes) + 30
         parts = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {_WIDTH} {height}" font-family="sans-serif" '
-            'font-size="13">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" '
+            'font-size="13" fill="#222">',
             _MARK,
-            "<style>svg{background:#fff}text{fill:#222}.g{stroke:#ddd}.l{stroke:#05c;fill:none;stroke-width:1.5}"
-            "@media(prefers-color-scheme:dark){svg{background:#181818}text{fill:#ddd}.g{stroke:#444}.l{stroke:#6af}}"
-            "</style>",
+            f'<rect width="{width}" height="{height}" fill="#fff"/>',
             f'<text x="10" y="20">{escape(self._port)}</text>',
             *self._grid(height),
         ]
@@ -87,14 +88,14 @@ class Timing:
         return "\n".join([*parts, "</svg>", ""])
 
     def _x(self, at_us: int) -> float:
-        return _LEFT + (_WIDTH - _LEFT - _RIGHT) * at_us / self._end_us
+        return self._left + _PLOT * at_us / self._end_us
 
     def _grid(self, height: int) -> list[str]:
         step = next(each for each in _steps() if self._end_us / each <= 12)
         parts = []
         for at in range(0, self._end_us + 1, step):
             x = self._x(at)
-            parts.append(f'<line class="g" x1="{x:.1f}" x2="{x:.1f}" y1="{_TOP}" y2="{height - 24}"/>')
+            parts.append(f'<line stroke="#ddd" x1="{x:.1f}" x2="{x:.1f}" y1="{_TOP}" y2="{height - 24}"/>')
             parts.append(f'<text x="{x:.1f}" y="{height - 8}" text-anchor="middle">{at / 1e6:g} s</text>')
         return parts
 
@@ -112,8 +113,8 @@ class Timing:
         most = "" if high in (0.0, 1.0) else f"{high:g}"
         return [
             f'<text x="10" y="{top + 26}">{escape(name)}</text>',
-            f'<text x="{_LEFT - 6}" y="{top + 16}" text-anchor="end">{most}</text>',
-            f'<polyline class="l" points="{" ".join(points)}"/>',
+            f'<text x="{self._left - 6}" y="{top + 16}" text-anchor="end">{most}</text>',
+            f'<polyline fill="none" stroke="#05c" stroke-width="1.5" points="{" ".join(points)}"/>',
         ]
 
 

@@ -8,11 +8,11 @@ import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from driveblocks import console
-from driveblocks.host.engine import Value
 from driveblocks.plc import record
 from driveblocks.plc.port import reason
 from driveblocks.plc.record import Timing, Trace
+from structured_text.engines.engine import Value
+from structured_text.visible import file_name
 
 MOST_WAITING = 5_000
 """Scans that may wait to be written."""
@@ -111,7 +111,7 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
         for row in rows:
             made.add(*row)
 
-    return Recorder(console.name(path), keep, waits=waits)
+    return Recorder(file_name(path), keep, waits=waits)
 
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
@@ -125,7 +125,7 @@ def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Reco
             made.add(*row)
         _Plain(path).write(made.svg())
 
-    return Recorder(console.name(path), keep, waits=waits)
+    return Recorder(file_name(path), keep, waits=waits)
 
 
 def _spare(path: Path, mine: re.Pattern[bytes]) -> None:

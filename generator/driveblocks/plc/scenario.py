@@ -59,14 +59,14 @@ def _set(name: str) -> Callable[[SimulatedDrive, Words], None]:
 
 VERBS = (
     Verb("trip", rf" (?P<fault>\S.*?){UNIT}", "trip OC 2", "a fault, by its code, short display or name in the map"),
-    Verb("clear", UNIT, "clear", "the fault's cause goes; the fault stays until it is reset",
+    Verb("clear", UNIT, "clear", "the fault's cause is gone; the fault stays until it is reset",
          lambda drive, _: drive.clear_cause()),
     Verb("reset", UNIT, "reset 2", "somebody resets the fault at the keypad", lambda drive, _: drive.reset()),
     Verb("power", SWITCH + UNIT, "power off 2", "supply off or on",
          lambda drive, words: drive.power(on=_on(words))),
     Verb("inhibit", SWITCH + UNIT, "inhibit on 2", "a safe torque off, or another interlock",
          lambda drive, words: drive.inhibit(on=_on(words))),
-    Verb("local", SWITCH + UNIT, "local on 2", "the keypad rules: commands are acknowledged and not followed",
+    Verb("local", SWITCH + UNIT, "local on 2", "the keypad is in control: commands are acknowledged and not followed",
          _set("local")),
     Verb("warning", SWITCH + UNIT, "warning on 2", "a warning", _set("warning")),
     Verb("run", rf" (?P<hz>[0-9]{{1,3}}(\.[0-9]+)?) ?Hz{UNIT}", "run 20 Hz 2", "somebody starts it at the keypad",
@@ -74,9 +74,9 @@ VERBS = (
     Verb("stop", UNIT, "stop 2", "somebody stops it at the keypad", lambda drive, _: drive.keypad_stop()),
     Verb("load", PERCENT + UNIT, "load 80 % 2", "the motor's load",
          lambda drive, words: setattr(drive, "load", round(float(words["percent"] or 0)))),
-    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin so long after a request"),
-    Verb("drop", PERCENT + LASTS, "drop 10 % for 5 s", "so many of all frames, to and fro, get lost"),
-    Verb("damage", PERCENT + LASTS, "damage 1 %", "so many of all frames arrive with a wrong bit"),
+    Verb("late", rf" (?P<late>{TIME}){LASTS}{UNIT}", "late 80 ms for 5 s 2", "replies begin this long after a request"),
+    Verb("drop", PERCENT + LASTS, "drop 10 % for 5 s", "this share of all frames, both ways, is lost"),
+    Verb("damage", PERCENT + LASTS, "damage 1 %", "this share of all frames arrives with a wrong bit"),
 )  # fmt: skip
 """Without a unit, what happens to a drive happens to all; without `for`, it lasts."""
 _BY_WORD = {verb.word: verb for verb in VERBS}
@@ -88,7 +88,7 @@ def read(path: Path, drives: Mapping[int, Drive]) -> list[Happening]:
 
 
 def loads(text: str, name: str, drives: Mapping[int, Drive]) -> list[Happening]:
-    """The same from a text; `name` stands in messages."""
+    """The same from a text; `name` is the one in messages."""
     report = Report(name)
     if not re.sub(r"(?m)^\s*#.*$", "", text).strip():
         raise MapError([Problem(name, 1, 1, "nothing happens here", f"write {_EXAMPLE}")])
@@ -147,7 +147,7 @@ class _Step:
         yield from self._made(verb, value, found.groupdict())
 
     def _wrong(self, value: Scalar, before: str, wrong: str, right: str) -> None:
-        """Note a mistake behind the part of a text that is right."""
+        """Note a mistake after the part of a text that is right."""
         line, column = value.at
         there = len(before) + (not value.plain) + (before != value.text)
         self._report.add((line, column + there), wrong, right)

@@ -1,4 +1,4 @@
-"""What a person sees of a run: a live table on a terminal, lines elsewhere. Whose port it is stands on all of it."""
+"""What a person sees of a run: a live table on a terminal, lines elsewhere. All of it shows whose port it is."""
 
 import sys
 from collections import deque
@@ -13,8 +13,8 @@ from rich.table import Table
 from rich.text import Text
 
 from driveblocks import console
-from driveblocks.host.engine import Value
 from driveblocks.plc.view import Seen, View, spelled
+from structured_text.engines.engine import Value
 
 HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."
 BAD, GOOD = "bold red1", "bold green4"
@@ -83,13 +83,13 @@ class Lines:
 
 @dataclass(frozen=True)
 class Heading:
-    """What stands above a table: whose port it is, and the program."""
+    """What is above a table: whose port it is, and the program."""
 
     label: str
     title: str
     real: bool
     remark: str = WHY
-    """What the last column of the table tells."""
+    """What the last column of the table shows."""
 
 
 class Plots:
@@ -122,7 +122,7 @@ class Plots:
 
 
 class LiveTable:
-    """A table on a terminal, drawn anew in its place; what is said goes above it."""
+    """A table on a terminal, drawn anew in its place; messages go above it."""
 
     def __init__(self, heading: Heading) -> None:
         """Begin."""
@@ -160,11 +160,11 @@ class Desk:
         self._console.file.write(f"\x1b[{self._console.height};1H")
 
     def say(self, text: str) -> None:
-        """One line below the table; all of them stay behind the end."""
+        """One line below the table; all of them stay after the end."""
         self._said.append(text)
 
     def show(self, view: View) -> None:
-        """Draw everything but the last row, and leave the cursor where it is."""
+        """Draw everything but the last row, and keep the cursor where it is."""
         self._view = view
         self._plots.add(view)
         height = self._console.height - 1
@@ -195,7 +195,7 @@ def _parts(heading: Heading, view: View, plots: Plots) -> list[Table | Text]:
     if view.port_error:
         parts.append(Text(f"the port does not work: {view.port_error}", BAD))
     if view.dropped:
-        parts.append(Text(f"{view.dropped} frames not sent: only reads and stops leave", "bold"))
+        parts.append(Text(f"{view.dropped} frames not sent: only reads and stops are", "bold"))
     if view.shown:
         parts += [Text(), _values(view.shown)]
     return parts

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Protocol
 
-from driveblocks.host.engine import Message, Value
+from structured_text.engines.engine import Message, Value
 
 _UNITS = {"ms": 1_000, "s": 1_000_000, "min": 60_000_000}
 _TIME = re.compile(r"([0-9]{1,12}(?:\.[0-9]{1,12})?)\s*(ms|s|min)")

@@ -7,7 +7,6 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from driveblocks.host.engine import ScanError
 from driveblocks.maps.model import Drive
 from driveblocks.plc.clock import Clock
 from driveblocks.plc.controller import Controller
@@ -21,6 +20,7 @@ from driveblocks.plc.recorder import Recorder
 from driveblocks.plc.script import Setting
 from driveblocks.plc.view import View, look
 from driveblocks.plc.watchdog import Watchdog
+from structured_text.engines.engine import ScanError
 
 LOOK_US = 200_000
 """Between two looks for the screen."""
@@ -241,7 +241,7 @@ def _names(controller: Controller) -> dict[int, list[str]]:
 
 
 def _within_us(controller: Controller) -> int:
-    """The longest time within which a motor of the program has to stand."""
+    """The longest time within which a motor of the program has to be at standstill."""
     longest = max((controller.number(f"{each.path}.StopWithinMs") for each in controller.wiring.drives), default=0)
     return max(LEAST_US, longest * 1000) if longest else WITHIN_US
 

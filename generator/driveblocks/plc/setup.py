@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 
 from driveblocks import console
-from driveblocks.host.engine import BuildError, ScanError
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
@@ -29,6 +28,8 @@ from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.simulator.drive import SimulatedDrive
+from structured_text.engines.engine import BuildError, ScanError
+from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
 USUAL = {"BitRate": 9600, "CharacterBits": 10}
@@ -37,11 +38,11 @@ SHORTEST_WATCHDOG_US, LONGEST_WATCHDOG_US = 10_000, 600_000_000
 RECKONED_WATCHDOG_US = 30_000_000
 """With --fast, which keeps no motor waiting; a busy computer must not spoil it."""
 LEAVE_S = 1.5
-"""How long the process may take to end when it is known whether the drives stand."""
+"""How long the process may take to end when it is known whether the drives are at standstill."""
 FILES_S = 1.0
 """How much of this its files may take."""
 PATIENT = 10
-"""With --fast, so many times as long."""
+"""With --fast, this many times as long."""
 RECORDED = ("Running", "Fault", "StopConfirmed", "OutputFrequencyHz")
 """Outputs of each drive block that are recorded where nobody names others."""
 
@@ -63,7 +64,7 @@ class Setup:
         self._stack = ExitStack()
         self._path = demo.path() if options.demo else options.program or Path()
         if console.terminal().is_terminal:
-            console.write(f"{self.label}  compiling {console.name(self._path.name)}")
+            console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
         self._probe = self._probed()
@@ -84,7 +85,7 @@ class Setup:
     # ------------------------------------------------------------ program
 
     def _load(self) -> source.Loaded:
-        name = console.name(catalog.shown(self._path))
+        name = file_name(catalog.shown(self._path))
         try:
             return source.load(name, _text(self._path, name), self._maps, self._options.name)
         except BuildError as error:
@@ -146,12 +147,12 @@ class Setup:
         if self._options.form is not None:
             form = self._options.form.upper()
             if len(form) != 3 or form[0] not in "78" or form[1] not in "NEO" or form[2] not in "12":
-                raise Refused(f"--format {self._options.form} is none; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+                raise Refused(f"--format {self._options.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
             return form
         bits = self._line("CharacterBits")
         found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
         if found is None:
-            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves the format open; write --format")
+            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves no format; write --format")
         return found
 
     def _simulates(self) -> list[Wanted]:
@@ -245,20 +246,20 @@ class Setup:
 
     def _records(self) -> None:
         """Open what is to be recorded. Raises Refused."""
-        where, names = f"{self.label}, {console.name(self._path.name)}", self._session.recorded
+        where, names = f"{self.label}, {file_name(self._path.name)}", self._session.recorded
         ways = (self._options.trace, recorder.trace), (self._options.picture, recorder.picture)
         try:
             for path, way in ways:
                 if path is not None:
                     self._session.recorders.append(way(path, names, where, waits=self._options.fast))
         except OSError as error:
-            raise Refused(f"{console.name(error.filename)}: {error.strerror}") from None
+            raise Refused(f"{file_name(error.filename)}: {error.strerror}") from None
 
     def _script(self, controller: Controller) -> list[script.Setting]:
         path = self._options.script
         if path is None:
             return []
-        name = console.name(path)
+        name = file_name(path)
         try:
             return script.read(name, _text(path, name), controller.instance)
         except script.ScriptError as error:
@@ -282,7 +283,7 @@ class Setup:
             for note in self._session.controller.wiring.notes:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not self._free:
-                self._session.told.put("only reads and stops leave; if a simulator is there, add --simulated")
+                self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
             for one in self._wanted:
                 for line in one.told():
                     self._session.told.put(line)
@@ -290,7 +291,7 @@ class Setup:
             return self._report(self._fast(screen) if self._options.fast else self._live(screen))
 
     def _screen(self) -> Screen:
-        terminal, title = console.terminal(), console.name(self._path.name)
+        terminal, title = console.terminal(), file_name(self._path.name)
         drawn = terminal.is_terminal and not terminal.is_dumb_terminal and not terminal.legacy_windows
         if drawn and not self._options.fast:
             heading = Heading(self._head(), title, self._options.real)
@@ -332,7 +333,7 @@ class Setup:
         self._departure.begin(self._status(result), f"{self.label}  {result.reason}\n{self._verdict(result)}")
 
     def _verdict(self, result: Result) -> str:
-        """Which drives stand, and which perhaps do not."""
+        """Which drives are at standstill, and which perhaps are not."""
         return "".join(f"{self.label}  {line}\n" for line in (*_stands(result), *self._untrue()))
 
     def _untrue(self) -> list[str]:
@@ -342,7 +343,7 @@ class Setup:
         return 1 if result.crashed or result.unconfirmed or self._untrue() else 0
 
     def _report(self, result: Result) -> int:
-        """Say how it went, first whether the drives stand; the exit status."""
+        """Say how it went, first whether the drives are at standstill; the exit status."""
         _print(self._verdict(result))
         self._departure.printed()
         dropped = sorted(self._session.controller.dropped.items())

@@ -18,13 +18,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from driveblocks.host.embedded.certainty import present
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.plc.bus import Bus
 from driveblocks.plc.clock import RealClock
 from driveblocks.plc.scenario import Act, Happening, said
 from driveblocks.plc.wanted import Wanted
+from structured_text.engines.embedded.certainty import present
 
 HOST = "127.0.0.1"
 LOOK_S = 0.001

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from driveblocks.host.embedded import EmbeddedEngine, EmbeddedLibrary
-from driveblocks.host.engine import BuildError, Message, Source
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.model import Drive
 from driveblocks.render import library
 from driveblocks.render.text import Language, languages
-from driveblocks.st.parser import ParseError, parse
-from driveblocks.st.tree import Program, Unit
+from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
+from structured_text.engines.engine import BuildError, Message, Source
+from structured_text.language.parser import ParseError, parse
+from structured_text.language.tree import Program, Unit
 
 _WORD = re.compile(r"[A-Za-z]\w*")
 

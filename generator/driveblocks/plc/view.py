@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from driveblocks.host.embedded.certainty import known
-from driveblocks.host.engine import Value
 from driveblocks.plc.controller import Controller
 from driveblocks.render.reasons import REASONS
+from structured_text.engines.embedded.certainty import known
+from structured_text.engines.engine import Value
 
 _STARTING = {reason.code for reason in REASONS if reason.name in ("STARTING", "RAMPING", "RUNS")}
 _WHY = {reason.code: reason.en for reason in REASONS}
@@ -77,7 +77,7 @@ def _state(pin: dict[str, Value]) -> str:
         way = "reverse" if pin["Reverse"] else "forward"
         return f"{way}, at speed" if pin["AtSpeed"] else f"{way}"
     if pin["StopConfirmed"]:
-        return "stands"
+        return "standstill"
     return "starting" if pin["Reason"] in _STARTING else "stopping"
 
 

@@ -22,7 +22,7 @@ FACTORY_HZ, HIGHEST_HZ = 50, 600
 REFERENCE = "ReferenceScale"
 """Counts per Hz; every other scale is Hz, A, V or kW per count."""
 COUNTS_PER_HERTZ, PER_COUNT = "100", "0.01"
-"""What a scale is that the manual leaves open, unless its user sets it."""
+"""What a scale is that the manual does not give, unless its user sets it."""
 LEAST, MOST = Decimal("0.1"), Decimal(1000)
 FINEST, COARSEST = Decimal("0.01"), Decimal(10)
 WIDTH = 68
@@ -71,7 +71,7 @@ class Wanted:
 
 
 def open_scales(drive: Drive) -> dict[str, int]:
-    """The scales that a drive's manual leaves open, by their names in VFD_Settings, each with its register."""
+    """The scales that a drive's manual does not give, by their names in VFD_Settings, each with its register."""
     operation, found = drive.operation, dict[str, int]()
     reference = drive.register_at(operation.reference.register)
     if operation.reference.means == "frequency" and not (reference and reference.scale):
@@ -85,7 +85,7 @@ def open_scales(drive: Drive) -> dict[str, int]:
 
 
 def words(named: Sequence[str]) -> list[Word]:
-    """The drives of texts in which commas or spaces may stand between them."""
+    """The drives of texts with commas or spaces between them."""
     found = [_WORD.fullmatch(word) for each in named for word in each.replace(",", " ").split()]
     return [Word(one["name"], one["unit"] or "", tuple(one["facts"].split(":")[1:])) for one in found if one]
 
@@ -146,7 +146,7 @@ def _judge_scale(drive: Drive, name: str, number: str, wrong: str) -> None:
     scales = open_scales(drive)
     if name not in scales:
         left = ", ".join(scales) or "no scale"
-        raise Refused(f"{wrong} cannot be set; the manual of {drive.prefix} leaves open: {left}")
+        raise Refused(f"{wrong} cannot be set; the manual of {drive.prefix} does not give: {left}")
     least, most = (LEAST, MOST) if name == REFERENCE else (FINEST, COARSEST)
     if not _NUMBER.fullmatch(number) or not least <= Decimal(number) <= most:
         unit = "counts per Hz" if name == REFERENCE else "per count"

@@ -3,18 +3,15 @@
 from collections import deque
 from collections.abc import Iterator, Sequence
 
-from driveblocks.modbus.checksum import crc16, lrc
-from driveblocks.modbus.frame import seal
+from driveblocks.modbus import frame, layout
 from driveblocks.simulator.drive import SimulatedDrive
 
 _LONGEST = 520
 """Characters that no request has."""
 _MOST_WAITING = 2 * _LONGEST
 """Characters that wait for the wire; what comes faster than it can carry is lost, as in a buffer that is full."""
-_LENGTHS = {3: 8, 4: 8, 6: 8, 8: 8}
-"""Bytes of an RTU request by its function; of 10H its byte count says, of others their checksum."""
 _PATIENCE_US = 50_000
-"""Behind this silence a request that has begun is given up."""
+"""After this silence a request that has begun is given up."""
 
 
 class Wire:
@@ -60,15 +57,14 @@ class Wire:
 
     def _answer(self, body: bytes) -> None:
         self._pass(self._asked_us)
-        for turn_us, frame in self.replies(body):
-            self._said.append((self._asked_us + turn_us, frame))
+        self._said.extend((self._asked_us + turn_us, reply) for turn_us, reply in self.replies(body))
 
     def replies(self, body: bytes) -> Iterator[tuple[int, bytes]]:
         """What the drives reply to a request, each with the time until it begins."""
         for drive in self.drives:
             reply = drive.reply(body)
             if reply is not None:
-                yield drive.turn_us, seal("ascii" if self._ascii else "rtu", reply)
+                yield drive.turn_us, frame.seal("ascii" if self._ascii else "rtu", reply)
 
     def given_up(self, data: bytes) -> None:
         """Characters that are no request."""
@@ -84,11 +80,11 @@ class Wire:
         self._give_up(now_us)
         heard = b""
         while self._said:
-            begin, frame = self._said.popleft()
-            ended = max(0, min(len(frame), int((now_us - begin) / self._character_us)))
-            heard += frame[:ended]
-            if ended < len(frame):
-                self._said.appendleft((begin + ended * self._character_us, frame[ended:]))
+            begin, reply = self._said.popleft()
+            ended = max(0, min(len(reply), int((now_us - begin) / self._character_us)))
+            heard += reply[:ended]
+            if ended < len(reply):
+                self._said.appendleft((begin + ended * self._character_us, reply[ended:]))
                 break
         return heard
 
@@ -102,7 +98,7 @@ class Wire:
 
 
 def _beginnings(text: bytes, *, ascii_mode: bool) -> Iterator[int]:
-    """Where a request may begin that ends here; other units' frames may stand before it."""
+    """Where a request may begin that ends here; other units' frames may come before it."""
     yield 0
     if ascii_mode:
         yield max(0, text.rfind(b":"))
@@ -116,22 +112,5 @@ def _beginnings(text: bytes, *, ascii_mode: bool) -> Iterator[int]:
 
 def opened(text: bytes, *, ascii_mode: bool) -> bytes | None:
     """A whole request without its checksum; None where it is not whole, or wrong."""
-    if ascii_mode:
-        return _characters(text)
-    if len(text) < 4 or crc16(text[:-2]) != int.from_bytes(text[-2:], "little"):
-        return None
-    wanted = _LENGTHS.get(text[1], len(text))
-    if text[1] == 16:
-        wanted = 9 + text[6] if len(text) > 6 else 0
-    return text[:-2] if len(text) == wanted else None
-
-
-def _characters(text: bytes) -> bytes | None:
-    """The body of a MODBUS ASCII frame; None where it is not whole, or wrong."""
-    if not text.startswith(b":") or not text.endswith(b"\r\n"):
-        return None
-    digits = text[1:-2]
-    if len(digits) < 6 or len(digits) % 2 or digits.strip(b"0123456789ABCDEF"):
-        return None
-    body = bytes.fromhex(digits.decode("ascii"))
-    return body[:-1] if lrc(body[:-1]) == body[-1] else None
+    body = frame.opened("ascii" if ascii_mode else "rtu", text)
+    return None if body is None or layout.request(body) is None else body

@@ -3,12 +3,22 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from driveblocks.host.embedded.certainty import present
-from driveblocks.host.engine import BuildError, Message
-from driveblocks.st import tree
-from driveblocks.st.tree import Binding, Block, Direction, Expression, FunctionBlock, Pou, Program, VarDecl, VarKind
-from driveblocks.st.types import Elementary
-from driveblocks.st.walk import statements
+from structured_text.engines.embedded.certainty import present
+from structured_text.engines.engine import BuildError, Message
+from structured_text.language import tree
+from structured_text.language.tree import (
+    Binding,
+    Block,
+    Direction,
+    Expression,
+    FunctionBlock,
+    Pou,
+    Program,
+    VarDecl,
+    VarKind,
+)
+from structured_text.language.types import Elementary
+from structured_text.language.walk import statements
 
 LINES = {"MB_LINE8", "MB_LINE32"}
 BYTE_LINES = {"MB_BYTELINE8", "MB_BYTELINE32"}
@@ -41,7 +51,7 @@ class Wiring:
     rx_chars: str
     tx_chars: str
     pins: dict[str, str | None]
-    """Inputs of the line that the port fills: a variable, or the pin itself where the call leaves it alone."""
+    """Inputs of the line that the port fills: a variable, or the pin itself where the call omits it."""
     restart: tuple[str, ...]
     drives: tuple[DriveBlock, ...]
     inputs: tuple[str, ...]
@@ -52,7 +62,7 @@ class Wiring:
 
 @dataclass(frozen=True)
 class _Frame:
-    """A POU as one of its instances: `prefix` stands before its variables."""
+    """A POU as one of its instances: `prefix` comes before its variables."""
 
     pou: Pou
     prefix: str = ""
@@ -114,7 +124,7 @@ def _feeding(call: _Call, names: set[str] | None = None) -> Iterator[str]:
 
 
 def _port(line: _Call, written: set[str]) -> Wiring:
-    """The wiring as far as the line tells it."""
+    """The wiring as far as the line shows it."""
     pins = {name: _pin(line, name, written) for name in ("ELAPSEDMS", "PORTLATEMS", "PORTERRORID")}
     notes = []
     if pins["ELAPSEDMS"] is None and not isinstance(_source(line, "ELAPSEDMS"), str):
@@ -224,7 +234,7 @@ def _written(calls: list[_Call], frame: _Frame) -> Iterator[str]:
 
 
 def _source(call: _Call, name: str) -> str | Expression | None:
-    """What a pin is fed by: the path of a variable, another expression, or None where the call leaves it alone."""
+    """What a pin is fed by: the path of a variable, another expression, or None where the call omits it."""
     binding = call.bindings.get(name)
     if binding is None or binding.value is None:
         return None

@@ -48,7 +48,7 @@ def least(terms: Sequence[Term]) -> Values:
 
 
 def _zeros(solver: z3.Solver, wishes: list[Term]) -> None:
-    """Grant as many wishes as can hold together, by halves."""
+    """Add as many of the terms as can hold together, half of them at a time."""
     if not wishes:
         return
     solver.push()

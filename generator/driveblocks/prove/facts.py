@@ -5,13 +5,16 @@ Taken from the map itself, not from what the generator made of it.
 
 from collections.abc import Iterable, Iterator
 
-from driveblocks.maps.model import Bits, Command, Condition, Drive, Step
+from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
+from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
+from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
-from driveblocks.st.writing import word
+from driveblocks.render.drive import MEASURES
+from structured_text.language.writing import word
 
 PINS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
@@ -20,7 +23,16 @@ PINS = {
 """What a drive can show -> the pin."""
 MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
+SENT = dict(
+    zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
+)
+"""What the control calls a command."""
 ALL = 0xFFFF
+NEAR = (
+    "AtSpeed = (Running AND Diagnosis.OutputFrequencyValid AND (OutputFrequencyHz >= Speed.AskedHz - REAL#0.5) "
+    "AND (OutputFrequencyHz <= Speed.AskedHz + REAL#0.5))"
+)
+"""When AtSpeed is shown where the drive does not say so itself."""
 
 
 def facts(drive: Drive) -> dict[str, str]:
@@ -37,6 +49,8 @@ def facts(drive: Drive) -> dict[str, str]:
         "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
         **_read(drive),
         **_shown(drive),
+        **_reference(drive),
+        "holds_ms": _every(_holds_ms(drive)),
         "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
@@ -121,6 +135,7 @@ def _read(drive: Drive) -> dict[str, str]:
     fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
     return {
         "words_taken": _every(taken),
+        "settings_read": _settings(drive),
         "turns": _every(turns),
         "oldest": _every(f"StatusAgeMs >= Age{number}" for number in fast),
         "one_is_oldest": _any(f"StatusAgeMs = Age{number}" for number in fast),
@@ -145,8 +160,24 @@ def _read(drive: Drive) -> dict[str, str]:
     }
 
 
+def _settings(drive: Drive) -> str:
+    """When all polls were answered that bring what the reference rests on."""
+    wanted = {one.register for one in drive.operation.reference.verify}
+    if drive.operation.own_maximum:
+        wanted.add(drive.operation.own_maximum.register)
+    if not wanted:
+        return "SettingsRead"
+    numbered = enumerate(polls(drive), 1)
+    brings = [n for n, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+    come = _every(f"Since{number}" for number in brings)
+    return (
+        f"(SettingsRead = (Was.SettingsRead AND NOT Anew AND NOT Verify OR {come})) "
+        f"AND (NOT (Anew OR Verify) OR {_every(f'NOT Since{n} OR Fresh AND (Entry = {n})' for n in brings)})"
+    )
+
+
 def _shown(drive: Drive) -> dict[str, str]:
-    """That the pins show what the map says of the words that were read, and what the line is told of the drive."""
+    """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
     manners, silence = reply(drive)["form"], drive.serial.silence
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
@@ -155,14 +186,54 @@ def _shown(drive: Drive) -> dict[str, str]:
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
         if one.shows in PINS:
             pins.append(f"{PINS[one.shows]} = ({holds})")
+    tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
+        f"Slot.TwoByteCount = {tolerant}".upper(),
         f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
         f"Slot.ExceptionAdd = {manners['add']}",
         f"Slot.ErrorFunction = {manners['function']}",
         f"Slot.ErrorAddress = {word(manners['address'])}",
         f"Slot.BusyReason = {busy}",
     ]
-    return {"said": _every(said), "pins": _every(pins), "told": _every(told)}
+    return {
+        "said": _every(said),
+        "pins": _every(pins),
+        "told": _every(told),
+        "at_speed": "TRUE" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
+        "unchecked": f"(ManualChecked <> {checked(drive)})" if drive.manual.second_hand else "FALSE",
+        "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
+        "valid": _every(_valid(drive, one) for one in drive.operation.measures),
+    }
+
+
+def _valid(drive: Drive, one: Measured) -> str:
+    """When a measure may be shown as valid: it is young, and its scale is known."""
+    reads, row, (name, unit, setting) = enumerate(polls(drive), 1), drive.register_at(one.register), MEASURES[one.shows]
+    number = next(number for number, poll in reads if poll.address <= one.register < poll.address + poll.words)
+    known = row is not None and row.scale is not None and UNIT_NAMES.get(row.unit or "") == unit
+    scaled = "TRUE" if known else f"(Settings.{setting} > 0.0) AND (Settings.{setting} <= 1.0E6)"
+    return f"NOT Diagnosis.{name}Valid OR CommOk AND (Reads.Age{number} <= Usual.StaleMs) AND {scaled}"
+
+
+def _reference(drive: Drive) -> dict[str, str]:
+    """When the errors of a reference are so that depend on what the map knows of its scale."""
+    row = drive.register_at(drive.operation.reference.register)
+    scaled = row is not None and row.scale is not None
+    percent = scaled and drive.operation.reference.means == "percent_of_maximum"
+    usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
+    return {
+        "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
+        "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
+    }
+
+
+def _holds_ms(drive: Drive) -> Iterator[str]:
+    """For how long each word of a command has to stay."""
+    for one in drive.operation.commands:
+        if one.does in SENT:
+            for step, hold in enumerate([*(each.for_ms or 0 for each in one.first), 0]):
+                sent = f"(Control.Sent = {SENT[one.does]}) AND (Control.StepNumber = {step})"
+                yield f"NOT ({sent}) OR (Orders.HoldMs = {hold})"
 
 
 def _proof_reads(drive: Drive) -> list[int]:

@@ -7,15 +7,15 @@ from functools import cached_property
 
 import z3
 
-from driveblocks.host.engine import Source
 from driveblocks.prove import observer
 from driveblocks.prove.example import nothing
 from driveblocks.prove.rules import Subject
 from driveblocks.prove.sorts import UnsupportedError, initial, leaves, sort
 from driveblocks.prove.terms import Obligation, Store, Terms
-from driveblocks.st.checker import check
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Checked, Function, Pou, VarKind
+from structured_text.engines.engine import Source
+from structured_text.language.checker import check
+from structured_text.language.parser import parse
+from structured_text.language.tree import Checked, Function, Pou, VarKind
 
 BEFORE = "Was."
 """What the name of a term begins with that is not an input of the call."""
@@ -23,7 +23,7 @@ BEFORE = "Was."
 
 @dataclass(frozen=True)
 class Model:
-    """A call. `before`: the memory that it finds; `inputs`: with its inputs; `after`: what it leaves."""
+    """A call. `before`: the memory that it finds; `inputs`: with its inputs; `after`: the memory after it."""
 
     subject: Subject
     pou: Pou
@@ -66,7 +66,10 @@ class Model:
         return ((path, term) for path, term in self.before.items() if re.split(r"[.\[]", path)[0] not in shared)
 
     def _observe(self, now: Store, before: Store) -> Store:
-        terms = Terms(now | {f"WAS.{path}": term for path, term in before.items()} | _unset(self.subject))
+        terms = Terms(
+            now | {f"WAS.{path}": term for path, term in before.items()} | _unset(self.subject),
+            exact=self.subject.exact,
+        )
         terms.block(self.checked.blocks[observer.name(self.pou).upper()], "", {})
         return {name: terms.store[name.upper()] for name in self.subject.conditions()}
 
@@ -129,7 +132,7 @@ def _model(subject: Subject, pou: Pou, checked: Checked) -> Model:
 
 
 def run(pou: Pou, inputs: Store, *, exact: bool = False) -> tuple[Store, list[Obligation]]:
-    """What a call leaves, and what has to hold in it for all compilers to agree."""
+    """The memory after a call, and what has to hold in it for all compilers to agree."""
     terms = Terms(dict(inputs), exact=exact)
     terms.block(pou, "", {name: name for name in in_outs(pou)})
     return terms.store, terms.obligations

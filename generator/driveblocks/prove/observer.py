@@ -6,8 +6,8 @@ it). Constants of all blocks may be used where all blocks that have one of that 
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from driveblocks.st.tree import Block, Checked, Function, Literal, Pou, VarDecl, VarKind
-from driveblocks.st.types import Type
+from structured_text.language.tree import Block, Checked, Function, Literal, Pou, VarDecl, VarKind
+from structured_text.language.types import Type
 
 NAME = "Rules_of_"
 """How the observer of a block is called."""
@@ -26,8 +26,15 @@ def text(pou: Pou, checked: Checked, conditions: Mapping[str, str]) -> str:
     lines += [f"  {_name(each, pou)} : {_type(each.type, pou)};" for each in kept(pou)]
     lines += [f"  Was : {pou.name}_in_{pou.name};", *(f"  {each} : BOOL;" for each in conditions)]
     lines += ["END_VAR", "VAR CONSTANT", *_constants(pou, checked, conditions), "END_VAR"]
-    lines += [f"  {each} := {condition};" for each, condition in conditions.items()]
+    lines += [f"  {_assigned(each, condition)}" for each, condition in conditions.items()]
     return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
+
+
+def _assigned(name: str, condition: str) -> str:
+    """What a rule claims is looked at only where it applies: there a divisor is known not to be 0."""
+    if "Then" not in name:
+        return f"{name} := {condition};"
+    return f"{name} := FALSE; IF {name.replace('Then', 'When')} THEN {name} := {condition}; END_IF;"
 
 
 def kept(pou: Pou) -> Iterator[VarDecl]:

@@ -1,7 +1,8 @@
 """Operators and standard functions of ST on terms, and what has to hold for all compilers to agree on the result.
 
-Arithmetic of REALs, and what is converted to or from them, is left free unless it is asked for: any value may come,
-which proves less, never more. Comparisons of REALs are exact, those with what is no number included.
+Products and quotients of REALs, and what is converted to or from them, are left free unless they are asked for: any
+value may come, which proves less, never more. Sums and comparisons of REALs are exact, those with what is no number
+included.
 """
 
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from typing import TypeAlias
 import z3
 
 from driveblocks.prove.sorts import SINGLE, UnsupportedError, sort
-from driveblocks.st.types import Elementary, Kind, Type, plain
+from structured_text.language.types import Elementary, Kind, Type, plain
 
 Term: TypeAlias = z3.ExprRef
 Demand = Callable[[str, Term], None]

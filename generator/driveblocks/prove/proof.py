@@ -15,7 +15,7 @@ WORK = 60_000_000
 """Steps of the solver for one question, after which its answer is unknown; no clock, so that all machines agree."""
 
 STEPS = ("simplify", "propagate-values", "solve-eqs", "fpa2bv", "simplify", "bit-blast", "sat")
-"""How a solver goes about REALs that are reckoned with."""
+"""How a solver treats REALs that are computed with."""
 TRUE = z3.BoolVal(True)
 CALLS = "call by call"
 """What is asked of a call that finds what always holds."""

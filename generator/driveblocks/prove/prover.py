@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 
 import z3
 
-from driveblocks.host.engine import Source as Text
 from driveblocks.maps.collection import Source
 from driveblocks.prove import rules
 from driveblocks.prove.example import Values, least
@@ -18,6 +17,7 @@ from driveblocks.prove.replay import Call, Replay
 from driveblocks.prove.rules import Subject
 from driveblocks.render import library
 from driveblocks.render.text import languages
+from structured_text.engines.engine import Source as Text
 
 GENERIC = "every drive"
 """How the blocks are called that every drive shares."""

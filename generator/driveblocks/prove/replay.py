@@ -9,16 +9,16 @@ from dataclasses import dataclass
 
 import z3
 
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import ScanError, Source, Value
 from driveblocks.prove import observer
 from driveblocks.prove.example import Values
 from driveblocks.prove.model import BEFORE, Model, in_outs
 from driveblocks.prove.proof import Question
 from driveblocks.prove.sorts import leaves
-from driveblocks.st.tree import FunctionBlock
-from driveblocks.st.types import Elementary, Kind
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import ScanError, Source, Value
+from structured_text.language.tree import FunctionBlock
+from structured_text.language.types import Elementary, Kind
 
 
 @dataclass(frozen=True)

@@ -3,13 +3,13 @@
 import re
 from collections.abc import Iterator, Sequence
 
-from driveblocks.host.engine import Value
 from driveblocks.prove.model import BEFORE
 from driveblocks.prove.proof import CALLS, Verdict
 from driveblocks.prove.prover import Proof, Proved
 from driveblocks.prove.replay import Call, known_paths
-from driveblocks.st.tree import VarKind
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
+from structured_text.engines.engine import Value
+from structured_text.language.tree import VarKind
 
 ENGINE = "z3"
 REPLAYED, NOT_REPLAYED = "replayed on the embedded engine", "not replayed: it rests on REALs that were left free"

@@ -28,7 +28,7 @@ class Subject:
     `restart`: the condition under which a call begins anew, whatever the memory holds; empty: there is none.
     `given`: what the caller promises of the inputs. `means`: words for conditions, in order. `always`: what holds of
     the memory after every call. `inside`: the instance of another subject, whose promises are proved here.
-    `exact`: it reckons with REALs, which others leave free; its obligations are its own.
+    `exact`: it computes with REALs, which others leave free; its obligations are its own.
     `by_caller`: it is the caller that sees to a restart in the first call.
     """
 

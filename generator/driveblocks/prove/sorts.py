@@ -9,8 +9,8 @@ from itertools import product
 
 import z3
 
-from driveblocks.st.tree import Array, Block, Expression, Literal, Name, Struct, Unary, VarDecl, VarKind
-from driveblocks.st.types import Elementary, Kind, Type, plain
+from structured_text.language.tree import Array, Block, Expression, Literal, Name, Struct, Unary, VarDecl, VarKind
+from structured_text.language.types import Elementary, Kind, Type, plain
 
 SINGLE = z3.Float32()
 """The sort of REAL."""

@@ -14,7 +14,7 @@ import z3
 from driveblocks.prove import operations
 from driveblocks.prove.operations import Term, both, choice, inverse
 from driveblocks.prove.sorts import UnsupportedError, initial, leaves, number
-from driveblocks.st.tree import (
+from structured_text.language.tree import (
     Array,
     Assign,
     Binary,
@@ -40,7 +40,7 @@ from driveblocks.st.tree import (
     VarKind,
     While,
 )
-from driveblocks.st.types import REAL, Elementary, Type, plain
+from structured_text.language.types import REAL, Elementary, Type, plain
 
 Store = dict[str, Term]
 """What every scalar is, by its path."""
@@ -148,7 +148,7 @@ class Terms:
         self._fork(self.value(condition), lambda: self.statements(body), lambda: self._branches(others, otherwise))
 
     def _fork(self, condition: Term, then: Run, otherwise: Run) -> None:
-        """Run both ways, and join what they leave."""
+        """Run both ways, and join their results."""
         if z3.is_true(condition):
             then()
         elif z3.is_false(condition):
@@ -300,7 +300,7 @@ class Terms:
         kind = _elementary(each.operand_type if each.op in _COMPARISONS else each.type)
         if each.op in _COMPARISONS:
             return operations.compare(each.op, left, right, kind)
-        if self.exact and kind is REAL:
+        if kind is REAL and (self.exact or each.op in ("+", "-")):
             return operations.arithmetic(each.op, left, right)
         return operations.binary(each.op, left, right, kind, self._demand)
 

@@ -1,7 +1,7 @@
 """CRC-16 and LRC, by MODBUS over Serial Line V1.02, 6.2.2 and 6.2.1.
 
 The CRC is stated as what it is, the rest of a division of polynomials over GF(2), and looked up from there: bits go
-in as the line sends them, lowest first, and the rest stands mirrored.
+in as the line sends them, lowest first, and the remainder is mirrored.
 """
 
 GENERATOR = 0x18005
@@ -32,7 +32,7 @@ _CHANGE = change(GENERATOR)
 
 
 def crc16(data: bytes, start: int = START) -> int:
-    """CRC-16 of some bytes; its low byte goes on the wire first."""
+    """CRC-16 of some bytes; its low byte is sent first."""
     crc = start
     for byte in data:
         crc = crc >> 8 ^ _CHANGE[(crc ^ byte) & 0xFF]

@@ -72,7 +72,7 @@ class Commands:
         self.jogging = False
         self.reset_asked = False
         self.stopped = False
-        """Whether the last acknowledged telegram was a stop, and nothing but stops was told since."""
+        """Whether the last acknowledged telegram was a stop, and nothing but stops was sent since."""
         self.released = True
         """Whether run and jog pins count: not from a reset on until all of them were FALSE."""
 
@@ -115,7 +115,7 @@ class Commands:
         return stops_more or reset_rose
 
     def _decided(self, pins: Pins) -> tuple[str, str]:
-        """The command to tell, and what is wrong with what was asked."""
+        """The command to send, and what is wrong with what was asked."""
         if self.reset_asked and self.stopped:
             return "fault_reset", "OK"
         if pins.stops:

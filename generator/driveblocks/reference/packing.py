@@ -1,7 +1,7 @@
 """Frames in the registers of a PLC whose serial instruction takes one byte (8 bits) or two (16 bits) from each.
 
 Source: JSCC instructions, section 6, tables D0 to D8: 8-bit mode for RTU, 16-bit mode for ASCII, the first of two
-characters in the high byte, and nothing in the low byte behind the last of an odd number.
+characters in the high byte, and nothing in the low byte after the last of an odd number.
 """
 
 from collections.abc import Sequence

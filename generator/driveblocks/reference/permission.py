@@ -47,7 +47,7 @@ def ram_only(drive: Drive) -> Iterator[int]:
 
 @dataclass(frozen=True)
 class Write:
-    """A ladder user's wish to write a register."""
+    """A ladder user's request to write a register."""
 
     address: int
     value: int = 0
@@ -56,7 +56,7 @@ class Write:
 
 
 class Judge:
-    """Says of every wish to write a register of a drive which result it has."""
+    """Says of every request to write a register of a drive which result it has."""
 
     def __init__(self, drive: Drive) -> None:
         """Look up once what the map has at each address."""
@@ -126,7 +126,7 @@ def _identified(drive: Drive) -> Iterator[tuple[str, int]]:
 
 
 def _later(id_: str, steps: int) -> str:
-    """The id that comes some steps behind another: A2-01 -> A2-03."""
+    """The id that comes some steps after another: A2-01 -> A2-03."""
     return re.sub(r"[0-9]+$", lambda digits: str(int(digits[0]) + steps), id_)
 
 

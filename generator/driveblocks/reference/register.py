@@ -50,7 +50,7 @@ def is_unknown(row: Register, word: int) -> bool:
 
 
 def count(row: Register, word: int) -> int:
-    """The number that a word stands for: two's complement where the map says so."""
+    """The number that a word means: two's complement where the map says so."""
     return word - 0x10000 if row.signed and word > 0x7FFF else word
 
 

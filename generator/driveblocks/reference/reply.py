@@ -24,7 +24,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Manners:
-    """How a drive refuses, and what is tolerated. As it stands: what the standard says."""
+    """How a drive refuses, and what is tolerated. By default: what the standard says."""
 
     add: int | None = 0x80
     """A refusal is function code + add with one byte of reason."""

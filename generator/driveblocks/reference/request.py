@@ -16,7 +16,7 @@ BUILDABLE = frozenset({3, 4, 6, 8, 16})
 
 @dataclass(frozen=True)
 class Asked:
-    """A request: what goes into the request block, and what a reply is compared with."""
+    """A request: what the request block gets, and what a reply is compared with."""
 
     function: int
     unit: int = 1

@@ -86,7 +86,7 @@ class SpeedReference:
         return (hertz / whole * 100 if self.percent else hertz) / self.factor
 
     def _counted(self, counts: Fraction, limited: bool) -> Encoded:
-        """The count as a word; what noise leaves within half a count below zero is zero."""
+        """The count as a word; noise within half a count below zero counts as zero."""
         below = {counts * (1 + part) < -HALF for part in (-SLACK, SLACK)}
         results = frozenset("NEGATIVE" if each else "OK" for each in below)
         if counts < -HALF:

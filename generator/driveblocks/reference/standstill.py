@@ -1,4 +1,4 @@
-"""What proves that the motor stands: all conditions of the map at once."""
+"""What proves standstill: all conditions of the map at once."""
 
 from collections.abc import Mapping
 

@@ -14,7 +14,7 @@ class Texts(NamedTuple):
 
 
 def has(drive: Drive, suffix: str, entries: Iterable[Worded]) -> bool:
-    """Whether a function tells of some entries in En or Zh: Chinese needs the manual's, or that of one of them."""
+    """Whether a function has some entries in En or Zh: Chinese needs the manual's, or that of one of them."""
     return suffix == "En" or drive.manual.written_in == "zh" or any(one.zh is not None for one in entries)
 
 
@@ -48,7 +48,7 @@ def error_number(entry: ErrorCode) -> int | None:
 
 
 def bit(drive: Drive, address: int, number: int) -> Texts | None:
-    """The text of a bit; a field goes by its lowest bit."""
+    """The text of a bit; a field is known by its lowest bit."""
     row = drive.register_at(address)
     if row is None or row.address.first != address:
         return None

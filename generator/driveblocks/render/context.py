@@ -144,7 +144,7 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Con
     return {
         "name": names.block(drive.prefix, symbol(row) + suffix),
         "address_text": address_text(row.address.first),
-        "title": _inside_a_sentence(row.name or ""),
+        "title": inside_a_sentence(row.name or ""),
         "own": row.own,
         "note": _elsewhere(row.note or ""),
         "source": source_of(drive, row.source or section.source),
@@ -156,8 +156,8 @@ def _elsewhere(text: str) -> str:
     return text.replace("`absent`", "`absent` in the map of the drive")
 
 
-def _inside_a_sentence(name: str) -> str:
-    """A name as it stands inside a sentence; an abbreviation such as CPF stays as it is."""
+def inside_a_sentence(name: str) -> str:
+    """A name as it is inside a sentence; an abbreviation such as CPF stays as it is."""
     return name if name[1:2].isupper() else name[:1].lower() + name[1:]
 
 

@@ -27,7 +27,7 @@ MEASURES = {
     "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
     "output_power": ("OutputPower", "KW", "PowerScale"),
 }
-"""What a register can show -> the pin, its unit, and the setting that stands in for a scale."""
+"""What a register can show -> the pin, its unit, and the setting that replaces a scale."""
 PINNED = ("output_frequency", "output_current")
 """The measures that are outputs of the block; the rest are members of Diagnosis."""
 STATUS = {
@@ -216,7 +216,7 @@ def _fault(drive: Drive) -> Context:
 
 
 def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
-    """The reads that tell what the reference means."""
+    """The reads that show what the reference means."""
     operation = drive.operation
     registers = {each.register for each in operation.reference.verify}
     registers |= {operation.own_maximum.register} if operation.own_maximum else set()
@@ -224,7 +224,7 @@ def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
 
 
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
-    """The reads that tell whether there is a fault, and which."""
+    """The reads that show whether there is a fault, and which."""
     shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
     fault = _fault(drive)
     words = [fault["word"]] if fault["word"] else fault["words"]

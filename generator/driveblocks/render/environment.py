@@ -11,14 +11,14 @@ from driveblocks.maps import form
 from driveblocks.maps.model import Condition
 from driveblocks.modbus.checksum import MODBUS
 from driveblocks.render import constants, expression, results
-from driveblocks.st import writing
-from driveblocks.st.fingerprint import body, fingerprint, stream
+from structured_text.language import writing
+from structured_text.language.fingerprint import body, fingerprint, stream
 
 ABI = 2
 """Version of the shared types; blocks of one ABI number fit together."""
 
 WIDE = 80
-"""Characters of an expression that still stands on one line."""
+"""Characters of an expression that still fits on one line."""
 
 _SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)
 _INNER = re.compile(r"  (\w+) : ")
@@ -171,7 +171,7 @@ def condition(one: Condition) -> str:
 
 
 def crc_table(octets: int = 1) -> str:
-    """The 256 words of the CRC table, eight to a row: the change by one byte, or by it and a zero behind it."""
+    """The 256 words of the CRC table, eight to a row: the change by one byte, or by it and a zero after it."""
     entries = [entry if octets == 1 else entry >> 8 ^ MODBUS[entry & 0xFF] for entry in MODBUS]
     words = [writing.word(entry) for entry in entries]
     return ",\n".join("    " + ", ".join(words[at : at + 8]) for at in range(0, len(words), 8))

@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple, TypeVar
 
 from driveblocks.maps.form import Span
-from driveblocks.st.writing import word
+from structured_text.language.writing import word
 
 T = TypeVar("T")
 
@@ -52,7 +52,7 @@ def more(number: int) -> str:
 
 
 def statements(items: Sequence[T]) -> list[Sequence[T]]:
-    """The items, so many at once as one statement may have."""
+    """The items, as many at once as one statement may have."""
     return [items[at : at + TERMS] for at in range(0, len(items), TERMS)]
 
 

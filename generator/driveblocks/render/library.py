@@ -1,4 +1,4 @@
-"""The files of the ST library: generic blocks, then the blocks of each drive, each behind what it uses."""
+"""The files of the ST library: generic blocks, then the blocks of each drive, each after what it uses."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -54,7 +54,7 @@ LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
 PACKERS = {"Pack": "Outgoing", "Unpack": "Incoming"}
-"""Blocks, and the buffer of their example: what goes out and what comes in never share one."""
+"""Blocks, and the buffer of their example: what is sent and what is received never share one."""
 
 
 @dataclass(frozen=True)

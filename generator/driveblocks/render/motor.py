@@ -14,7 +14,7 @@ PATIENCE_MS = 500
 
 
 def motor(drive: Drive) -> Context:
-    """For motor/: the drive's name and what it is to be told, and the factory settings of its line."""
+    """For motor/: the drive's name and what is sent to it, and the factory settings of its line."""
     values = drive_block(drive)
     return {
         "drive": drive,
@@ -35,7 +35,7 @@ def motor(drive: Drive) -> Context:
 
 
 def _pause(drive: Drive) -> int:
-    """Silence that a Modbus master of the PLC has to be told to keep, ms: it knows of 3.5 characters alone."""
+    """Silence that a Modbus master of the PLC has to be set to, ms: by itself it keeps 3.5 characters."""
     silence = drive.serial.silence and drive.serial.silence.milliseconds
     return ceil(silence) + 1 if silence else 0
 

@@ -7,8 +7,8 @@ from driveblocks.maps.view import UNPROVED
 from driveblocks.render import context
 from driveblocks.render.environment import render
 from driveblocks.render.library import File
-from driveblocks.st.tree import Checked, Function, FunctionBlock, VarDecl, VarKind
-from driveblocks.st.types import Type
+from structured_text.language.tree import Checked, Function, FunctionBlock, VarDecl, VarKind
+from structured_text.language.types import Type
 
 _TITLE = re.compile(r"\(\* \w+: (.*?)\n\s+-{20,}", re.DOTALL)
 _LOOPS = re.compile(r"^ {3}Loops {4}(.*?)\n {3}Body", re.DOTALL | re.MULTILINE)
@@ -52,7 +52,7 @@ def _results(files: list[File]) -> str:
 
 
 def _heading(folder: str, known: dict[str, context.Identity], files: list[File]) -> str:
-    """The family whose blocks stand in a folder, by the prefix of their names."""
+    """The family whose blocks are in a folder, by the prefix of their names."""
     if folder == "line":
         return "The line: one block per RS-485 port"
     if folder == "vfd":

@@ -61,7 +61,7 @@ def _listed(drive: Drive) -> Iterator[int]:
 
 
 def _with_aliases(drive: Drive, addresses: Iterable[int | None]) -> set[int]:
-    """Those of some addresses that are known, and the same with the bit by which a drive leaves its memory alone."""
+    """Those of some addresses that are known, and the same with the bit by which a drive spares its memory."""
     bit = drive.storage.add or 0
     return {alias for one in addresses if one is not None for alias in (one, one | bit)}
 

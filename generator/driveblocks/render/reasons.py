@@ -21,7 +21,7 @@ REASONS = (
     Reason(1, "READY", "stopped; a rising run or jog pin starts it", "已停机，等待启动信号", "nothing"),
     Reason(2, "RAMPING", "on its way to the reference", "加减速中", "wait"),
     Reason(3, "STARTING", "the start is on its way to the drive", "正在启动", "wait"),
-    Reason(4, "STOPPING", "waits until the drive proves that it stands", "正在停机", "wait; see `StopOverdue`"),
+    Reason(4, "STOPPING", "waits until the drive proves standstill", "正在停机", "wait; see `StopOverdue`"),
     Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
     Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing"),
     # the line
@@ -71,7 +71,7 @@ REASONS = (
     Reason(20, "DISABLED", "Enable is FALSE", "未使能", "set `Enable`"),
     Reason(21, "STOP_PIN", "QuickStop or CoastStop is TRUE", "快速停机或自由停机信号有效", "release it"),
     Reason(22, "STOP_ALL", "all drives of the line are being stopped", "全部停机中", "release `StopAll` of the line"),
-    Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start anew"),
+    Reason(23, "BOTH", "forward and reverse together", "同时给定正转和反转", "release one, then start again"),
     Reason(
         24,
         "HELD",
@@ -126,7 +126,7 @@ REASONS = (
         "correct the setting that the page names",
     ),
     Reason(34, "UNREAD", "the settings of the drive are not read yet", "参数尚未读取", "wait"),
-    Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start anew"),
+    Reason(35, "WRITE_WAITS", "a parameter is being written", "正在写参数", "wait, then start again"),
     # the drive
     Reason(
         40,
@@ -135,7 +135,7 @@ REASONS = (
         "故障，见FaultCode",
         "remove the cause, then a rising `FaultReset`",
         "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of it is listed "
-        "under [gaps](#what-the-manual-leaves-open)",
+        "under [gaps](#what-the-manual-does-not-say)",
     ),
     Reason(41, "NOT_READY", "the drive is not ready", "变频器未就绪", "its own enable, its terminals, its keypad"),
     Reason(
@@ -169,7 +169,7 @@ REASONS = (
     Reason(
         46,
         "BY_ITSELF",
-        "the drive ran or stopped without being told by this block",
+        "the drive ran or stopped without a command of this block",
         "变频器自行启停",
         "keypad, terminals, STO, automatic restart",
     ),

@@ -79,12 +79,12 @@ RESULTS = (
     Result(63, "LINE_SETTING", "the connection rests on this setting", "通讯所依赖的参数, 不可写入"),
     Result(64, "STORE_REGISTER", "only VFD_Store writes this register", "此寄存器只由VFD_Store写入"),
     Result(65, "UNKNOWN_ADDRESS", "not listed, and AllowUnknown is FALSE", "地址未列出, 且AllowUnknown为FALSE"),
-    Result(66, "NOT_STOPPED", "only while the motor is known to stand", "仅在确认停机后可写入"),
+    Result(66, "NOT_STOPPED", "only while the motor is known to be at standstill", "仅在确认停机后可写入"),
     Result(67, "RANGE", "value out of range", "数值超出范围"),
     Result(68, "NOT_SENT", "was not sent in time", "未能及时发送"),
     Result(69, "NO_LINE", "the line is not called", "总线功能块未被调用"),
     Result(70, "LOST", "the block was not called while it was busy", "功能块在忙时未被调用"),
-    Result(71, "TOO_SOON", "too soon behind the last store", "距上次保存时间太短"),
+    Result(71, "TOO_SOON", "too soon after the last store", "距上次保存时间太短"),
     # settings
     Result(72, "BAD_SETTING", "a setting is 65535, which switches off nothing there", "设定值65535在此处无效"),
     # the drive itself

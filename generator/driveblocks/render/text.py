@@ -9,7 +9,7 @@ from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
 from driveblocks.render.context import Context, source_of
-from driveblocks.st.writing import string
+from structured_text.language.writing import string
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def missing(drive: Drive, languages: list[Language]) -> str:
 
 
 def told(drive: Drive, languages: list[Language]) -> Drive:
-    """The map as blocks in some languages tell it: for English alone, without a word in another language."""
+    """The map as blocks in some languages show it: for English alone, without a word in another language."""
     if any(language.suffix != "En" for language in languages):
         return drive
     return english(drive)

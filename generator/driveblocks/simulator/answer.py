@@ -1,5 +1,6 @@
 """What a simulated drive replies, by MODBUS Application Protocol V1.1b3 and its map's limits and refusals."""
 
+from driveblocks.modbus import layout
 from driveblocks.modbus.request import READS
 from driveblocks.simulator.machine import Machine
 from driveblocks.simulator.memory import inside
@@ -19,7 +20,7 @@ class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of th
 
 
 def answer(machine: Machine, request: bytes) -> bytes | None:
-    """The reply; None where nobody listens, the request is cut short, or all are told."""
+    """The reply; None where nobody listens, the request is cut short, or it is a broadcast."""
     called = request[:1] == bytes([machine.unit])
     everyone = machine.table.broadcast is not None and request[:1] == bytes([machine.table.broadcast])
     if not machine.powered or not (called or everyone) or not _whole(machine, request):
@@ -35,12 +36,10 @@ def answer(machine: Machine, request: bytes) -> bytes | None:
 
 
 def _whole(machine: Machine, request: bytes) -> bool:
-    """Whether the request is as long as its function says; of other functions nobody knows."""
+    """Whether a request is as long as its function says; of other functions nobody knows."""
     if len(request) < 2 or request[1] not in machine.table.functions:
         return len(request) >= 2
-    if request[1] == 16:
-        return len(request) >= 7 and len(request) == 7 + request[6]
-    return len(request) == SHORT
+    return layout.request(request) is not None
 
 
 def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:

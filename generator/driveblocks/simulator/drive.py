@@ -5,7 +5,7 @@ from driveblocks.simulator.machine import Machine
 
 
 class SimulatedDrive(Machine):
-    """A drive of a family at a unit address, powered and standing. Time passes by `step` alone."""
+    """A drive of a family at a unit address, powered, at standstill. Time passes by `step` alone."""
 
     def reply(self, request: bytes) -> bytes | None:
         """The reply to a request, both without checksum (unit, function, data); None for silence."""

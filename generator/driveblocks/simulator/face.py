@@ -121,7 +121,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
 
 
 def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
-    """Ways to help a fact: nothing; an alternative as it stands; or one bit of one that 0 would fulfil, turned."""
+    """Ways to help a fact: nothing; an alternative as it is; or one bit of one that 0 would fulfil, turned."""
     if fact.wanted:
         return [(), *fact.any]
     turned = [

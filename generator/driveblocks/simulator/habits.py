@@ -31,9 +31,9 @@ class Habits:
     settle_ms: int = 0
     """From a step's word to the state that it leads to."""
     resumes: bool = False
-    """After a reset, a run bit that still stands acts again."""
+    """After a reset, a run bit that is still set acts again."""
     auto_restart: bool = False
-    """It keeps its command and reference over a loss of power, and goes on running."""
+    """It keeps its command and reference over a loss of power, and continues to run."""
     keeps_fault_code: bool = False
     """The fault's register shows the last fault after a reset; else 0."""
     scale: Decimal = Decimal("0.01")

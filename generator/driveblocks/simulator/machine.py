@@ -15,7 +15,7 @@ from driveblocks.simulator.table import Gauge, table
 
 
 class Machine:
-    """A drive of a family at a unit address, powered and standing. Time passes by `step` alone."""
+    """A drive of a family at a unit address, powered, at standstill. Time passes by `step` alone."""
 
     def __init__(
         self,
@@ -69,11 +69,11 @@ class Machine:
 
     @property
     def mode(self) -> str:
-        """Standing, ramping up, running, ramping down, coasting, or fault."""
+        """Standstill, ramping up, running, ramping down, coasting, or fault."""
         if self.fault:
             return "fault"
         if not self.motor.driven:
-            return "coasting" if self.motor.shaft else "standing"
+            return "coasting" if self.motor.shaft else "standstill"
         if self.motor.output == self._goal():
             return "running"
         return "ramping down" if abs(self.motor.output) > abs(self._goal()) else "ramping up"
@@ -85,7 +85,7 @@ class Machine:
 
     @property
     def asked_hertz(self) -> float:
-        """The speed that it goes to; 0 while it stops or has let go."""
+        """The speed that it is to reach; 0 while it stops or its output is off."""
         return self._goal() / 1000 if self.motor.driven else 0.0
 
     @property
@@ -170,7 +170,7 @@ class Machine:
             self._lost()
 
     def _goal(self) -> int:
-        """Where the output frequency goes, in thousandths of a hertz."""
+        """What the output frequency is to reach, in thousandths of a hertz."""
         return 0 if self._stopping else self._asked()
 
     def _asked(self) -> int:
@@ -221,11 +221,11 @@ class Machine:
         self.state = self._next = None
 
     def clear_cause(self) -> None:
-        """The cause of a fault goes; the fault stays until it is reset."""
+        """The cause of a fault is gone; the fault stays until it is reset."""
         self.cause = False
 
     def reset(self) -> None:
-        """Reset a fault, by bus or keypad; it works only while its cause is gone and the motor stands."""
+        """Reset a fault, by bus or keypad; it works only while its cause is gone and the motor is at standstill."""
         if not self.fault or self.cause or self.motor.shaft or not self.powered:
             return
         self.fault = 0
@@ -319,7 +319,7 @@ class Machine:
             self._run(reverse=effect.endswith("reverse"), jog=effect.startswith("jog"))
 
     def _hold(self) -> None:
-        """A run word that still stands acts again, where it needs neither an edge nor a state."""
+        """A run word that is still set acts again, where it needs neither an edge nor a state."""
         held = [move for move in self.table.moves if move.guard is None and not any(n.before for n in move.needs)]
         whole = {move.pattern.register: (0, 0) for move in held}
         fired = [move for move in held if self._fires(move, whole)]

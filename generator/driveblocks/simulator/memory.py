@@ -26,7 +26,7 @@ class Memory:
         return self.words.get(self.home(address), 0)
 
     def home(self, address: int) -> int:
-        """The register that an address stands for: it may have the bit for RAM added."""
+        """The register that an address means: it may have the bit for RAM added."""
         plain = address - self.storage.add
         return plain if self.storage.add and inside(self.storage.areas, plain) else address
 
@@ -50,7 +50,7 @@ class Memory:
         return True
 
     def lose(self, kept: Iterable[int] = ()) -> None:
-        """What the loss of power leaves: what is stored, and some registers."""
+        """What a loss of power keeps: what is stored, and some registers."""
         self.words = {**{address: self[address] for address in kept}, **self.stored}
         self.changed = {}
 

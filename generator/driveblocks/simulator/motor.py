@@ -12,7 +12,7 @@ class Motor:
     driven: bool = False
 
     def start(self) -> None:
-        """The drive takes hold of the motor: a standing one begins at 0, a coasting one where its shaft is."""
+        """The drive switches its output on: from 0 at standstill, from the shaft's speed while coasting."""
         if not self.driven:
             self.output, self.driven = self.shaft, True
 

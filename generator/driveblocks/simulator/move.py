@@ -24,7 +24,7 @@ class Need:
     before: bool
     """The register's word before the write, as for an edge; otherwise the word as it is now."""
     for_ms: int
-    """How long it must have stood there."""
+    """How long it must have been there."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def moves(drive: Drive) -> tuple[Move, ...]:
     """Every move of a map; the states of steps that several commands share only once.
 
     A step that waits for a state makes the next write act in that state only. Another step that the next write of
-    its register contradicts makes an edge or a pulse of it; one that nothing contradicts must still stand.
+    its register contradicts makes an edge or a pulse of it; one that nothing contradicts must still be there.
     """
     found = dict.fromkeys(move for command in drive.operation.commands for move in _path(command))
     return tuple(sorted(found, key=lambda move: EFFECTS.index(move.effect)))

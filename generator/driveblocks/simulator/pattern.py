@@ -35,7 +35,7 @@ def of_condition(condition: Condition | State) -> Pattern:
 
 
 def of_write(write: Command | Step) -> Pattern:
-    """What a command or a step leaves in its register; bits that it keeps do not count."""
+    """What is in its register after a command or a step; bits that it keeps do not count."""
     if write.value is not None:
         return Pattern(write.register, WORD, write.value & WORD)
     return Pattern(write.register, _mask((*write.set, *write.clear)), _mask(write.set))

@@ -24,7 +24,7 @@ def codes(drive: Drive) -> dict[str, int | None]:
     """The code of each reason: the map's; the standard's where the map has none for it.
 
     A code without a number in the manual gets that of another document. `read_only` falls back to `address`,
-    `quantity` to `value`; None stands for a reason for which this drive does not refuse.
+    `quantity` to `value`; None is a reason for which this drive does not refuse.
     """
     found = {reason: _number(drive, reason) for reason in REASONS}
     found["value"] = found["value"] or STANDARD["value"]

@@ -207,7 +207,7 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
 
 
 def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
-    """Parameters are the areas, and writable rows of sections in which no command stands; the rest is never stored."""
+    """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
     told = {*(step.register for command in drive.operation.commands for step in command.first)}
     told |= {each.register for each in drive.operation.commands} | {drive.operation.reference.register}

@@ -119,7 +119,7 @@ class PtyLink:
             return b""
 
     def close(self) -> None:
-        """The terminal goes."""
+        """The terminal closes."""
         for descriptor in (self._own, self._other):
             os.close(descriptor)
 

@@ -17,7 +17,7 @@ from driveblocks.stand.link import Link
 
 LISTEN_US = 3_000_000
 QUIET_US = 50_000
-"""Silence before a question; on a line that is never so quiet, it is asked behind `MOST_WAIT_US`."""
+"""Silence before a question; on a line that is never so quiet, it is asked after `MOST_WAIT_US`."""
 MOST_WAIT_US = 1_000_000
 REPLY_US = 500_000
 TIMES = 2

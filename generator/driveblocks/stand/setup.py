@@ -83,7 +83,7 @@ class Setup:
         if not 300 <= words.baud <= 1_000_000:
             found.append(f"--baud {words.baud} is no rate; write 300 to 1000000")
         if not _FORM.fullmatch(words.form):
-            found.append(f"--format {words.form} is none; write 8N1, 8E1, 8O1, 8N2 or 7E1")
+            found.append(f"--format {words.form} is no format; write 8N1, 8E1, 8O1, 8N2 or 7E1")
         return found
 
     # ------------------------------------------------------------ the run

@@ -1,4 +1,4 @@
-"""What is wrong in a manual, what it leaves out, and what it forbids or warns of, as cards."""
+"""What is wrong in a manual, what it does not say, and what it forbids or warns of, as cards."""
 
 from collections.abc import Iterator
 

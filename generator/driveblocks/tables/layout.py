@@ -23,7 +23,7 @@ Line = tuple[str, object]
 
 
 def table(*columns: str, wide: Iterable[str] = (), numbers: Iterable[str] = ()) -> Table:
-    """A table with a rule under its head; `wide` columns share what is left and fold, `numbers` stand to the right."""
+    """A table with a rule under its head; `wide` columns share what is left and fold, `numbers` are aligned right."""
     made = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True, header_style="bold")
     for column in columns:
         if column in wide:
@@ -46,7 +46,7 @@ def listing(columns: tuple[str, ...], rows: Iterable[tuple[str, ...]], wide: Ite
 
 
 def own_head(words: Iterable[str]) -> str:
-    """What stands over the manual's own words."""
+    """What is above the manual's own words."""
     text = "".join(words)
     return "中文" if holds_chinese(text) and not _KANA.search(text) else "as printed"
 
@@ -68,7 +68,7 @@ def facts(*lines: Line) -> Table:
 
 
 def choices(rows: Iterable[tuple[str, ...]]) -> Table | None:
-    """Codes with their meaning in English and as printed, to stand beside a label; None without any."""
+    """Codes with their meaning in English and as printed, to be shown beside a label; None without any."""
     grid = Table.grid(padding=(0, 2, 0, 0))
     grid.add_column(no_wrap=True, justify="right")
     for row in rows:

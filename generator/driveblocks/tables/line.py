@@ -55,7 +55,7 @@ def _baud(code: BaudCode) -> str:
 
 
 def _format(code: FormatCode) -> str:
-    """As people write it, 8E1, where the manual gives all three parts; else each part, with what it leaves open."""
+    """As people write it, 8E1, where the manual gives all three parts; else each part, with what it does not give."""
     if code.data_bits is None or code.stop_bits is None:
         return (
             f"{code.code} = parity {code.parity}, {code.data_bits or '?'} data bits, {code.stop_bits or '?'} stop bits"

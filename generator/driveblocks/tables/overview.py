@@ -122,7 +122,7 @@ def _fault_code(drive: Drive) -> str:
         return f"{address_text(faults.present)}  ({faults.source})"
     bits = faults.bits
     return (
-        f"the bits of {address_text(bits.first)} to {address_text(bits.last)}  ({bits.source})" if bits else "not told"
+        f"the bits of {address_text(bits.first)} to {address_text(bits.last)}  ({bits.source})" if bits else "not given"
     )
 
 

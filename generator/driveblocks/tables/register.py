@@ -154,7 +154,7 @@ def _values(row: Register) -> Iterator[RenderableType]:
     if not row.values:
         return
     if row.masks:
-        yield "Each value is a single bit; the manual leaves open whether they may combine."
+        yield "Each value is a single bit; the manual does not say whether they may combine."
     rows = ((str(value.value), _hex(value), value.name, value.own, value.note or "") for value in row.values)
     yield Padding(listing(("value", "hex", "name", OWN, "note"), rows, ("name", OWN, "note")), (0, 0, 1, 0))
 

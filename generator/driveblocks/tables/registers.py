@@ -14,7 +14,7 @@ LEGEND = (
     "use: r read, w write\n"
     "unit: 0.1 V = one count is 0.1 V, * = only under a condition, ? = no scale given\n"
     "see: E erratum, A something the manual does not say, N note\n"
-    "`driveblocks show DRIVE ADDRESS` tells all of these"
+    "`driveblocks show DRIVE ADDRESS` prints all of these"
 )
 
 
@@ -42,7 +42,7 @@ def _section(section: Section, marks: "_Marks") -> Iterator[RenderableType]:
 
 
 def section_facts(section: Section) -> Table:
-    """Where a section stands in the manual and what holds for all of it."""
+    """Where a section is in the manual and what holds for all of it."""
     series = [
         f"{one.ids} from {address_text(one.base)}" + (f", apart from {listed(one.apart)}" if one.apart else "")
         for one in section.series
@@ -66,7 +66,7 @@ def area_facts(area: Area) -> Table:
 
 
 class _Marks:
-    """Which registers have more to tell than their row shows."""
+    """Which registers have more than their row shows."""
 
     def __init__(self, drive: Drive) -> None:
         self.errata = references.addresses(erratum.about for erratum in drive.errata)

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import readable, writable
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.request import Sources, runs
 from driveblocks.testing.script import Probe, Script
+from structured_text.language.writing import word
 
 END = 0xFFFF
 """The last address."""

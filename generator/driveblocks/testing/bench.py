@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.request import Asked
-from driveblocks.st.writing import byte, dword, flag, real, string, word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.script import Item, Probe, Script
+from structured_text.language.writing import byte, dword, flag, real, string, word
 
 GENERIC = "modbus"
 """Folder of the programs that test what all drives share."""
@@ -46,7 +46,7 @@ def fill(box: str, data: bytes) -> list[str]:
 
 
 def changed(box: str, usual: bytes, data: bytes) -> list[str]:
-    """Statements that put bytes into Adu or Chars where others stand by now."""
+    """Statements that put bytes into Adu or Chars where others are by now."""
     filled = fill(box, data)
     return [filled[index] for index in range(len(data)) if data[index : index + 1] != usual[index : index + 1]]
 

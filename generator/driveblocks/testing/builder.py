@@ -4,10 +4,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.reference.request import Asked, body
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import WORDS
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import word
 
 LINE = "MODBUS over Serial Line V1.02"
 PROTOCOL = "MODBUS Application Protocol V1.1b3"
@@ -16,7 +16,7 @@ MOST = {3: 125, 4: 125, 16: 123}
 """Registers per frame by the standard."""
 
 UNTOUCHED = b"\xaa" * 12
-"""What stands in the frame before; a request that is refused leaves it."""
+"""What is in the frame before; a request that is refused keeps it."""
 
 NUMBERS = (0x0000, 0x00FF, 0xFF00, 0xFFFF)
 UNITS = (0, 1, 247, 248, 256, 257, 65535)

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from driveblocks.reference.checksum import crc16, lrc
-from driveblocks.st.writing import byte, word
 from driveblocks.testing import bench
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import byte, word
 
 LINE = "MODBUS over Serial Line V1.02"
 

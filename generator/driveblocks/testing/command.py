@@ -1,4 +1,4 @@
-"""Programs for the command block: what each combination of pins tells the drive, and sequences of them."""
+"""Programs for the command block: what each combination of pins sends to the drive, and sequences of them."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, replace
@@ -19,7 +19,7 @@ _PINS = {
 """Name in the reference model -> pin: run_forward -> RunForward."""
 
 KEPT = 0xFFFF
-"""What stands in every command register, unless a case says otherwise."""
+"""What is in every command register, unless a case says otherwise."""
 
 STOPS = ("enable", "stop", "quick_stop", "coast_stop")
 
@@ -32,8 +32,8 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     if not drive.operation.in_one_word:
         return
     for subject, title, steps in (
-        ("Command", "what each combination of pins tells the drive", _combinations()),
-        ("Sequence", "what the pins tell the drive one after the other", _sequences()),
+        ("Command", "what each combination of pins sends to the drive", _combinations()),
+        ("Sequence", "what the pins send to the drive one after the other", _sequences()),
         ("JogForward", "jogging forward, and how it ends", _jogs("jog_forward", "jog_reverse")),
         ("JogReverse", "jogging in reverse, and how it ends", _jogs("jog_reverse", "jog_forward")),
         ("FaultReset", "a fault reset, and what it holds back", _resets()),
@@ -154,19 +154,19 @@ def _resets() -> Iterator[tuple[str, Pins]]:
     yield from _named("nothing to acknowledge", ("reset_acknowledged",), ("run_forward", "stop_acknowledged"), ())
     yield from _named("before its stop is acknowledged", ("fault_reset",), ("reset_acknowledged",), (), *over)
     early = ("run_forward",), ("fault_reset", "stop_acknowledged"), ("stop_acknowledged",), ("reset_acknowledged",)
-    yield from _named("no stop was told that could be acknowledged", ("reset_acknowledged",), (), *early)
+    yield from _named("no stop was sent that could be acknowledged", ("reset_acknowledged",), (), *early)
     yield from _named("with the pin held on", ("fault_reset", "run_forward"), ("fault_reset",), ("fault_reset", "stop"))
 
 
 def _reset_stops() -> Iterator[tuple[str, Pins]]:
-    """A reset under a stop that stands, and beside one that rises."""
+    """A reset under a stop that is TRUE, and beside one that rises."""
     for stop in ("-enable", "stop", "quick_stop", "coast_stop"):
         steady = (stop,), (stop, "stop_acknowledged"), (stop, "fault_reset"), (stop,), (stop, "reset_acknowledged")
         yield from _named("under a steady stop", *steady, (stop,), ())
         rising = ("stop_acknowledged",), ("fault_reset",), (stop,), (stop, "stop_acknowledged"), (stop,)
-        yield from _named("a stop goes first when it rises", *rising, (stop, "reset_acknowledged"), ())
+        yield from _named("a stop is sent first when it rises", *rising, (stop, "reset_acknowledged"), ())
         late = ("stop_acknowledged",), ("fault_reset",), (stop, "reset_acknowledged"), (stop, "stop_acknowledged"), ()
-        yield from _named("acknowledged while the stop goes first", *late)
+        yield from _named("acknowledged while the stop is sent first", *late)
 
 
 def _jogs(jog: str, other: str) -> Iterator[tuple[str, Pins]]:
@@ -201,4 +201,4 @@ _COMMANDS: tuple[tuple[str, ...], ...] = (
     (), ("run_forward",), ("run_reverse",), ("jog_forward",), ("jog_reverse",), MOTIONS, ("quick_stop",),
     ("coast_stop",), (), ("stop_acknowledged",), ("fault_reset",), ("reset_acknowledged",), (),
 )  # fmt: skip
-"""Pins that tell each command once."""
+"""Pins that give each command once."""

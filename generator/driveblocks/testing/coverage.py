@@ -9,11 +9,11 @@ from typing import Protocol, TypeVar, runtime_checkable
 
 import yaml
 
-from driveblocks.host.coverage import Branches, Lines
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Source
-from driveblocks.host.matiec import MatiecEngine
 from driveblocks.testing.outcome import FAILED, PASSED, Outcome, Result
+from structured_text.engines.coverage import Branches, Lines
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Source
+from structured_text.engines.matiec import MatiecEngine
 
 _Key = TypeVar("_Key")
 

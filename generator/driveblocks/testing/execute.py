@@ -4,18 +4,18 @@ import struct
 import time
 from dataclasses import dataclass
 
-from driveblocks.host.engine import EngineError, Instance, Library, ScanError, Value
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result
 from driveblocks.testing.record import recorded
 from driveblocks.testing.script import Check, Program
+from structured_text.engines.engine import EngineError, Instance, Library, ScanError, Value
 
 SCAN_NS = 10_000_000
-"""How far the clock goes from scan to scan."""
+"""How far the clock advances from scan to scan."""
 
 
 @dataclass(frozen=True)
 class Setting:
-    """Where a program runs: engine, drive or `modbus`, what stands before its path, seconds that it may take."""
+    """Where a program runs: engine, drive or `modbus`, what comes before its path, seconds that it may take."""
 
     engine: str
     unit: str
@@ -24,7 +24,7 @@ class Setting:
 
 
 def execute(library: Library, program: Program, setting: Setting) -> Result:
-    """Run a program. Raises nothing of the engine's: what goes wrong is an outcome of the checks that it hits."""
+    """Run a program. Raises nothing of the engine's: what goes wrong is an outcome of the checks that it affects."""
     start = time.perf_counter()
     run = _Run(program, setting, start + setting.seconds)
     try:
@@ -75,7 +75,7 @@ class _Run:
             )
 
     def _go_on(self, instance: Instance, stage: int) -> None:
-        """Let the program stand where it would after a good scan: a bad one may have left it behind."""
+        """Put the program where it would be after a good scan: a bad one may have stopped short of it."""
         if instance["Stage"] != stage:
             instance["Stage"] = stage
         if instance["Report.Checks"] != len(self.outcomes):
@@ -167,7 +167,7 @@ def _text(data: bytes) -> str:
 
 
 def _real(value: float) -> str:
-    """A REAL with as few digits as tell it from its neighbours."""
+    """A REAL with as few digits as distinguish it from its neighbours."""
     texts = (f"{value:.{digits}g}" for digits in range(6, 10))
     return next((text for text in texts if _single(float(text)) == value), f"{value:.9g}")
 

@@ -57,7 +57,7 @@ def _open() -> Script:
 
 
 def _padded(frame: bytes) -> bytes:
-    """A frame with four more bytes behind it, which are there but were not sent."""
+    """A frame with four more bytes after it, which are there but were not sent."""
     return frame + b"\x00" * 4
 
 

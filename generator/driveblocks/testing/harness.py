@@ -5,13 +5,13 @@ from importlib.resources import files
 
 FOLDER = "harness"
 PER_SCAN = 32
-"""Most checks of one scan: so many failures find room in the report."""
+"""Most checks of one scan: the report has room for this number of failures."""
 
 NAMES = (
     "VFD_Failure", "VFD_Failures", "VFD_Report", "VFD_CheckBytes", "VFD_CheckWord", "VFD_CheckNumber", "VFD_CheckFlag",
     "VFD_CheckBetween", "VFD_CheckReal", "VFD_CheckText", "VFD_CheckAdu", "VFD_CheckChars",
 )  # fmt: skip
-"""Types and blocks each behind what it uses."""
+"""Types and blocks, each after what it uses."""
 
 SIMULATION = (
     "VFD_TestTimes", "VFD_TestFlags", "VFD_TestFate", "VFD_TestSeen", "VFD_TestPins", "VFD_TestMotor", "VFD_TestHear",

@@ -6,9 +6,9 @@ A suite per program and engine; a case per scene, and per check of what is no sc
 from pathlib import Path
 from xml.etree import ElementTree
 
-from driveblocks.console import visible
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
 from driveblocks.testing.record import table
+from structured_text.visible import visible
 
 
 def write(run: Run, path: Path) -> None:

@@ -3,15 +3,15 @@
 from collections.abc import Iterator
 
 from driveblocks.reference.packing import pack, unpack
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import word
 
 BOXES = {"Adu": 256, "Chars": 513}
 """The arrays and how many bytes they hold."""
 
 STALE = 0xDEAD
-"""What stands in registers that are not written."""
+"""What is in registers that are not written."""
 
 
 def scripts() -> Iterator[Script]:
@@ -48,7 +48,7 @@ def _packed(box: str, bits: int, count: int, data: bytes) -> Iterator[Item]:
     for index in ends:
         yield bench.is_word(f"Registers[{index}]", word(registers[index]), f"register {index}")
     if len(registers) < 3:
-        yield bench.is_word("Registers[2]", word(STALE), "register behind")
+        yield bench.is_word("Registers[2]", word(STALE), "register after it")
 
 
 def _unpacked(box: str, bits: int, count: int, data: bytes) -> Iterator[Item]:

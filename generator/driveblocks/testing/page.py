@@ -11,7 +11,7 @@ _HEAD = f"""# The test programs
 
 Everything in this folder is written by `driveblocks build` from the vendor maps; nothing in the library needs it.
 `driveblocks test` runs these programs on your computer. They are plain Structured Text, so a controller can run them
-too: on the bench, without a drive, to see that its compiler makes of the blocks what they should be.
+too: on the bench, without a drive, to see that its compiler translates the blocks correctly.
 
 1. Import the library in the order of `../iec61131/order.txt`, then the files named in `iec61131/order.txt`: those of
    `harness`, those of `modbus`, and those of your drive. A controller short of memory takes one program at a time.
@@ -21,7 +21,7 @@ too: on the bench, without a drive, to see that its compiler makes of the blocks
    scan counts as {SCAN_MS} ms, however fast the task is.
 3. When `Done` is TRUE, `Failures` must be 0 and `Checks` the number in the table below.
 4. Otherwise `FirstFailed` is the number of the first check that failed. The comments of the program carry these
-   numbers, with what is checked and where it stands in the manual; `Expected` and `Actual` are the two values.
+   numbers, with what is checked and where it is in the manual; `Expected` and `Actual` are the two values.
 
 What the checks expect comes from the example frames of the manuals and from a model of the blocks that shares no code
 with what writes them.

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Numbered, Write, parameters
-from driveblocks.st.writing import flag, word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
+from structured_text.language.writing import flag, word
 
 END = 0xFFFF
 """The last address, and the last word."""

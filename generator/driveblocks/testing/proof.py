@@ -47,7 +47,7 @@ def _said(words: dict[int, int]) -> str:
 
 def _standstill(drive: Drive, stem: str) -> Script:
     spec = drive.operation.standstill
-    program = bench.script(drive, stem, "Standstill", "what proves that the motor stands", spec.source)
+    program = bench.script(drive, stem, "Standstill", "what proves standstill", spec.source)
     bench.declare(program, Proof=f"{drive.prefix}_Standstill")
     table = Table(program)
     addresses = list(dict.fromkeys(condition.register for condition in spec.all))

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from driveblocks.docs.canvas import Canvas
-from driveblocks.host.engine import EngineError, Instance, Library, Value
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.script import SCAN_MS, Program
+from structured_text.engines.engine import EngineError, Instance, Library, Value
 
 INPUTS = (
     "Enable", "RunForward", "RunReverse", "JogForward", "JogReverse", "QuickStop", "CoastStop", "FaultReset",

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Register, Section
 from driveblocks.reference.register import decode, engineering
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.naming import register_block, scale_block
 from driveblocks.testing.script import Probe, Script
 from driveblocks.testing.table import Table
+from structured_text.language.writing import word
 
 PER_WORD = 32
 """Outputs that one check compares, as bits of a DWORD."""

@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Manners, manners, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
+from structured_text.language.writing import word
 
 STALE = (0xDEAD, 0xBEEF, 0xF00D)
-"""What stands in the words before each reply: one that is not believed must leave it."""
+"""What is in the words before each reply: one that is not believed must keep it."""
 
 STANDARD_ADD = 0x80
 ELSEWHERE = 0x5001
@@ -31,7 +31,7 @@ _REQUEST = {
 
 @dataclass(frozen=True)
 class Case:
-    """A reply (body without checksum) to an open request; `length` where the block is told another."""
+    """A reply (body without checksum) to an open request; `length` where the block is given another."""
 
     about: str
     asked: Asked
@@ -63,7 +63,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 
 def question(model: Requests, function: int) -> Asked:
-    """A request of two registers, if the drive takes so many; its limits do not matter to replies."""
+    """A request of two registers, if the drive takes two; its limits do not matter to replies."""
     most = model.rtu if "rtu" in model.drive.serial.mode.modes else model.ascii
     counts = {3: most.read, 4: most.read, 16: most.write}
     known = model.functions[8].sub_functions if 8 in model.functions else ()
@@ -119,14 +119,14 @@ def _table(program: Script, subject: Subject, base: Asked) -> Table:
 
 
 def _padded(right: bytes) -> bytes:
-    """A reply with two more bytes behind it, which are there but not received."""
+    """A reply with two more bytes after it, which are there but not received."""
     return right + b"\x00\x00"
 
 
 def _row(table: Table, subject: Subject, base: Asked, case: Case) -> None:
     found = parse(subject.manners, case.asked, case.data)
     usual = _padded(answer(base))
-    assert not any(case.data[len(usual) :])  # noqa: S101  (nothing but zeros is behind it, in any case)
+    assert not any(case.data[len(usual) :])  # noqa: S101  (nothing but zeros follows, in any case)
     changed = bench.changed("Adu", usual, case.data[: len(usual)])
     words = (*found.words, *STALE[len(found.words) :])
     asked_ = {variable: getattr(case.asked, name) for name, (variable, _, _) in _REQUEST.items()}

@@ -1,4 +1,4 @@
-"""Programs for a drive's request block: every limit from both sides, and which of two mistakes is told."""
+"""Programs for a drive's request block: every limit from both sides, and which of two mistakes is reported."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields, replace
@@ -14,7 +14,7 @@ from driveblocks.testing.script import Script
 from driveblocks.testing.table import Table
 
 UNTOUCHED = 0xAA
-"""What stands in the frame before each request: a request that is refused must leave it."""
+"""What is in the frame before each request: a request that is refused must keep it."""
 
 PATTERN = (0xA5C3, 0x5A3C, 0x0000, 0xFFFF, 0x8001, 0x0180)
 """Words to write, over and over."""
@@ -60,7 +60,7 @@ _PINS = {
 
 @dataclass(frozen=True)
 class Case:
-    """A request, what it is about, and where the limit stands in the manual."""
+    """A request, what it is about, and where the limit is in the manual."""
 
     about: str
     asked: Asked
@@ -292,7 +292,7 @@ def _sub_functions(model: Requests) -> Iterator[Case]:
 
 
 def _two_mistakes(model: Requests, asked: Asked) -> Iterator[Case]:
-    """Two mistakes at once: the block tells the one that it looks for first."""
+    """Two mistakes at once: the block reports the one that it looks for first."""
     for (one, first), (other, second) in combinations(_mistakes(model, asked), 2):
         if {field.name for field in fields(Asked) if field.name in first and field.name in second}:
             continue

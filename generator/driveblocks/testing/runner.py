@@ -5,15 +5,15 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
-from driveblocks.host.discovery import EMBEDDED
-from driveblocks.host.engine import Engine, EngineError, Library, Source
 from driveblocks.maps.view import UNPROVED
-from driveblocks.st.collector import paused
 from driveblocks.testing.coverage import Counted, Coverage
 from driveblocks.testing.execute import Setting, execute
 from driveblocks.testing.outcome import ERROR, PASSED, Outcome, Result, Run
 from driveblocks.testing.suite import ROOT
 from driveblocks.testing.unit import Unit
+from structured_text.engines.discovery import EMBEDDED
+from structured_text.engines.engine import Engine, EngineError, Library, Source
+from structured_text.language.collector import paused
 
 SECONDS = 120.0
 """Time limit of one program, for one that never ends; the longest takes some hundredths of a second."""

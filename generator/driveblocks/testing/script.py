@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
 
-from driveblocks.st.writing import comment, flowing, paragraph, remarked
 from driveblocks.testing.harness import PER_SCAN
+from structured_text.language.writing import comment, flowing, paragraph, remarked
 
 MOST_STAGES = 100
 """Stages of one program; what needs more becomes several programs."""
@@ -30,7 +30,7 @@ class Probe:
     size: int = 4
     """Bytes that it compares; for Adu and Chars."""
     names: tuple[str, ...] = ()
-    """What the bits stand for, from bit 0; for Bytes."""
+    """What the bits mean, from bit 0; for Bytes."""
 
     @property
     def call(self) -> str:
@@ -46,7 +46,7 @@ SCAN_MS = 20
 
 @dataclass(frozen=True)
 class Span:
-    """How long a stage goes on: until a condition holds, a time at most; without a condition just that time."""
+    """How long a stage lasts: until a condition holds, a time at most; without a condition just that time."""
 
     until: str
     ms: int
@@ -66,7 +66,7 @@ class Span:
 
 @dataclass(frozen=True)
 class Stage:
-    """What is done in one scan, or over a span of time: what it is about, where that stands in the manual.
+    """What is done in one scan, or over a span of time: what it is about, where that is in the manual.
 
     Statements and checks; over a span the statements at its begin, the checks at its end. `scene` is where it belongs.
     """
@@ -91,7 +91,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Program:
-    """A finished program: where its file goes, its text, and its checks by number, from 1."""
+    """A finished program: the place of its file, its text, and its checks by number, from 1."""
 
     folder: str
     name: str
@@ -160,7 +160,7 @@ class Script:
         self.stages.append(Stage(words, source, part))
 
     def programs(self) -> Iterator[Program]:
-        """The finished programs: one, or several with a number behind the name; none without stages."""
+        """The finished programs: one, or several with a number after the name; none without stages."""
         chunks = list(_chunks(self.stages))
         for number, chunk in enumerate(chunks, 1):
             name = f"{self.name}{number}" if len(chunks) > 1 else self.name
@@ -188,7 +188,7 @@ def _count(items: Sequence[Item]) -> int:
 
 
 class _Printer:
-    """Prints one program and notes on which line each check stands."""
+    """Prints one program and notes on which line each check is."""
 
     def __init__(self, script: Script, name: str, stages: list[Stage]) -> None:
         self.script, self.name, self.stages = script, name, stages

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Sequence
 
 from driveblocks.reference.permission import MOST_READ
 from driveblocks.reference.reply import Manners, parse
-from driveblocks.st.writing import word
 from driveblocks.testing import bench, builder, checksum, framing, packing, reply, text
 from driveblocks.testing.script import Script
+from structured_text.language.writing import word
 
 PROTOCOL = "MODBUS Application Protocol V1.1b3"
 

@@ -6,11 +6,11 @@ from fractions import Fraction
 from driveblocks.maps.model import Drive
 from driveblocks.reference.single import stored
 from driveblocks.reference.speed import SpeedReference
-from driveblocks.st.writing import word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
 from driveblocks.testing.table import Table
+from structured_text.language.writing import word
 
 Case = tuple[str, float, float, float, float]
 """What it is about; SpeedReferenceHz, MaximumHz, FullScaleHz, ReferenceScale."""
@@ -46,7 +46,7 @@ def _table(program: Script, model: SpeedReference) -> Table:
     table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
     table.column("WantedHz", "REAL", 0.0, "AskedHz that it must give, Hz")
     table.column("Lowest", "UINT", 0, "Value that it must give, at least")
-    table.column("Highest", "UINT", 0, "... and at most: more only where REAL leaves two")
+    table.column("Highest", "UINT", 0, "... and at most: more only where REAL allows two")
     table.do(
         f"Encode({pins});",
         bench.is_number("Encode.ErrorID", "WantedError", "ErrorID"),

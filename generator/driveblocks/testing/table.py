@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from driveblocks.st.writing import byte, dword, flag, real, word
 from driveblocks.testing.script import Item, Script
+from structured_text.language.writing import byte, dword, flag, real, word
 
 _LITERALS: dict[str, Callable[[Any], str]] = {
     "BOOL": flag, "BYTE": byte, "WORD": word, "DWORD": dword, "UINT": str, "REAL": real,

@@ -6,10 +6,10 @@ from typing import Protocol
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.reference import text as reference
-from driveblocks.st.writing import string, word
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
 from driveblocks.testing.script import Probe, Script
+from structured_text.language.writing import string, word
 
 
 class Language(Protocol):

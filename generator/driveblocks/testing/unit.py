@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass
 
-from driveblocks.host.engine import Source
 from driveblocks.testing import harness
 from driveblocks.testing.script import Suite
 from driveblocks.testing.suite import ROOT
+from structured_text.engines.engine import Source
 
 
 @dataclass(frozen=True)
 class Unit:
-    """A suite and the library that it tests, each behind what it uses."""
+    """A suite and the library that it tests, each after what it uses."""
 
     suite: Suite
     blocks: tuple[Source, ...]

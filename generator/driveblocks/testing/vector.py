@@ -10,7 +10,7 @@ from driveblocks.testing.naming import scale_block
 from driveblocks.testing.script import Item, Script
 
 ABSENT = 0x00
-"""What stands in a PLC register's low byte that is not sent, printed as --."""
+"""What is in a PLC register's low byte that is not sent, printed as --."""
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:

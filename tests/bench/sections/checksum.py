@@ -79,7 +79,7 @@ def _words(rows: Rows) -> Iterator[str]:
     free = ratio(rows, "block", 256, build="unforced")
     yield from prose(f"""
         `MB_Crc16` takes {short(middle)} x the plain C table over 64 bytes and {short(found)} x over 256: {verdict} the
-        aim of {AIM} x. It takes two bytes at a time from two tables, which halves the writes; and writes are what
+        aim of {AIM} x. It takes two bytes at a time from two tables, which halves the writes; writes are what
         costs, since matiec asks before each one whether a debugger holds the variable. Compiled so that nothing can be
         forced, the same block takes {short(free)} x over 256 bytes. Called by another block, the frame is copied in and
         out, which is how matiec passes an in-out. Over 8 bytes the calls themselves count: {short(small)} x, or

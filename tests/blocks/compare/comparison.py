@@ -8,17 +8,17 @@ from itertools import islice
 from tests.blocks.compare.pou import Pou, Text, shipped
 from tests.blocks.compare.stimulus import stimuli
 from tests.blocks.compare.subject import EmbeddedSubject, MatiecSubject, Subject
-from tests.host.compare.lockstep import ABSENT, Difference, State, first_unlike
-from tests.host.compare.scenarios import Inputs
+from tests.structured_text.engines.compare.lockstep import ABSENT, Difference, State, first_unlike
+from tests.structured_text.engines.compare.scenarios import Inputs
 
-from driveblocks.host.discovery import EMBEDDED
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.embedded.library import EmbeddedLibrary
-from driveblocks.host.engine import Engine, Library, ScanError
-from driveblocks.host.matiec.library import MatiecLibrary
+from structured_text.engines.discovery import EMBEDDED
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import Engine, Library, ScanError
+from structured_text.engines.matiec.library import MatiecLibrary
 
 AS_USERS = 64
-"""Every so many scans the states are also read and compared as users read them."""
+"""Every this many scans the states are also read and compared as users read them."""
 
 Libraries = Mapping[str, Library]
 
@@ -47,7 +47,7 @@ def _subject(name: str, library: Library, pou: Pou) -> Subject:
 
 
 def compare(pou: Pou, runs: Sequence[Subject], scans: int, seed: int) -> Difference | None:
-    """Drive all through so many scans; the first difference from the first run, or the first ScanError, or None."""
+    """Drive all through this many scans; the first difference from the first run, or the first ScanError, or None."""
     first, others = runs[0], runs[1:]
     for number, inputs in enumerate(islice(stimuli(pou, seed), scans)):
         errors = _step(runs, inputs)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from driveblocks.host.embedded.usage import walk
-from driveblocks.st import tree
-from driveblocks.st.tree import Block, VarKind
-from driveblocks.st.walk import bodies
+from structured_text.engines.embedded.usage import walk
+from structured_text.language import tree
+from structured_text.language.tree import Block, VarKind
+from structured_text.language.walk import bodies
 
 Arm = tuple[tuple[str, int], ...]
 """Inputs by name with the values that lead into a branch of a CASE or into its ELSE, outermost first."""

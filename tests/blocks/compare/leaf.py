@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from driveblocks.host.embedded.values import members
-from driveblocks.st.tree import Array, Block, Direction, Struct
-from driveblocks.st.types import REAL, Kind, Type
+from structured_text.engines.embedded.values import members
+from structured_text.language.tree import Array, Block, Direction, Struct
+from structured_text.language.types import REAL, Kind, Type
 
 
 @dataclass(frozen=True)

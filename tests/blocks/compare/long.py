@@ -16,9 +16,9 @@ from concurrent.futures import ProcessPoolExecutor
 from tests.blocks.compare.comparison import Libraries, beside, build, compare, subjects
 from tests.blocks.compare.pou import Pou, shipped
 
-from driveblocks.host.discovery import MATIEC_NAMES, survey
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine
 
 SCANS = 100_000
 

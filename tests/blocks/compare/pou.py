@@ -14,13 +14,13 @@ from tests.blocks.compare.landmark import Arm, arms, callees, literals
 from tests.blocks.compare.leaf import Leaf, leaves
 from tests.blocks.library import alone
 
-from driveblocks.host.engine import Source
-from driveblocks.st import tree
-from driveblocks.st.checker import check
-from driveblocks.st.lexer import tokenize
-from driveblocks.st.parser import parse
-from driveblocks.st.tree import Array, Block, Checked, Direction, Parameter, Struct
-from driveblocks.st.types import Elementary, Kind, Type
+from structured_text.engines.engine import Source
+from structured_text.language import tree
+from structured_text.language.checker import check
+from structured_text.language.lexer import tokenize
+from structured_text.language.parser import parse
+from structured_text.language.tree import Array, Block, Checked, Direction, Parameter, Struct
+from structured_text.language.types import Elementary, Kind, Type
 
 AROUND = "around.st"
 """The source that holds the blocks around functions."""

@@ -16,12 +16,12 @@ from tests.blocks.compare.pou import Pou
 from tests.blocks.compare.value import Values
 from tests.blocks.damage import Line, damaged, frame, line
 from tests.blocks.library import shipped
-from tests.host.compare.scenarios import Inputs
+from tests.structured_text.engines.compare.scenarios import Inputs
 
-from driveblocks.host.engine import Value
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Manners, manners
 from driveblocks.reference.request import Asked
+from structured_text.engines.engine import Value
 
 PER_LINE = 8
 """Replies to one open request before the next."""
@@ -36,7 +36,7 @@ def scenario(pou: Pou, values: Values, seed: int) -> Iterator[Inputs] | None:
 
 
 def kind_of(pou: Pou) -> str:
-    """The name of a POU behind the prefix of its layer or drive."""
+    """The name of a POU after the prefix of its layer or drive."""
     return pou.name.partition("_")[2]
 
 

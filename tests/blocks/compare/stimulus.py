@@ -1,4 +1,4 @@
-"""What is set before each scan of a POU: first nothing, then every landmark in turn, then by chance without end.
+"""What is set before each scan of a POU: first nothing, then every landmark in turn, then at random without end.
 
 The inputs depend on the POU's text, on the maps and on the seed alone. A pin that a scan does not name stays as it was,
 arrays too, so that what a block left behind meets the next scan.
@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from tests.blocks.compare.pou import Pou
 from tests.blocks.compare.scenario import SCENARIOS, kind_of, scenario
 from tests.blocks.compare.value import Values
-from tests.host.compare.draws import Draws
-from tests.host.compare.scenarios import Inputs
+from tests.structured_text.engines.compare.draws import Draws
+from tests.structured_text.engines.compare.scenarios import Inputs
 
-from driveblocks.st.types import Kind
+from structured_text.language.types import Kind
 
 SCENARIO = 0.75
 LANDMARK = 0.2
@@ -42,7 +42,7 @@ def stimuli(pou: Pou, seed: int) -> Iterator[Inputs]:
 
 
 def enough(pou: Pou) -> int:
-    """Scans that reach every line and outcome: all landmarks, then fewer or more by chance as it hangs together."""
+    """Scans that reach every line and outcome: all landmarks, then fewer or more at random as it hangs together."""
     return 1 + landmarks(pou) + (HANGING_TOGETHER if kind_of(pou) in SCENARIOS else ON_ITS_OWN)
 
 

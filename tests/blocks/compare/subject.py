@@ -14,15 +14,15 @@ from typing import Any, Literal, Protocol
 
 from tests.blocks.compare.leaf import Leaf
 from tests.blocks.compare.pou import Pou
-from tests.host.compare.lockstep import State
-from tests.host.compare.scenarios import Inputs
+from tests.structured_text.engines.compare.lockstep import State
+from tests.structured_text.engines.compare.scenarios import Inputs
 
-from driveblocks.host.embedded.library import EmbeddedInstance, EmbeddedLibrary
-from driveblocks.host.engine import Value
-from driveblocks.host.matiec.layout import ArrayNode, Memory, Scalar
-from driveblocks.host.matiec.library import MatiecInstance, MatiecLibrary
-from driveblocks.st.tree import Array
-from driveblocks.st.types import Kind
+from structured_text.engines.embedded.library import EmbeddedInstance, EmbeddedLibrary
+from structured_text.engines.engine import Value
+from structured_text.engines.matiec.layout import ArrayNode, Memory, Scalar
+from structured_text.engines.matiec.library import MatiecInstance, MatiecLibrary
+from structured_text.language.tree import Array
+from structured_text.language.types import Kind
 
 Image = tuple[object, ...]
 Setter = Callable[[Value], None]

@@ -11,8 +11,8 @@ from tests.blocks.compare.pou import shipped
 from tests.blocks.compare.stimulus import enough, stimuli
 from tests.blocks.compare.subject import EmbeddedSubject
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine
 
 SEED = 7
 FOLDERS = sorted({pou.folder for pou in shipped().pous.values()})

@@ -7,8 +7,8 @@ from tests.blocks.compare import long
 from tests.blocks.compare.comparison import build
 from tests.blocks.compare.pou import AROUND, read, shipped
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Source
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 
 def _run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:

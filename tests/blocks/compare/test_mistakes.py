@@ -7,8 +7,8 @@ from tests.blocks.compare.comparison import Libraries, build, compare, subjects
 from tests.blocks.compare.pou import AROUND, Text, read, shipped
 from tests.blocks.compare.subject import Subject
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Engine, Source, Value
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Engine, Source, Value
 
 SCANS = 1000
 SEED = 7
@@ -65,7 +65,7 @@ def test_a_difference_from_matiec_is_found(matiec: Engine) -> None:
 
 
 def test_an_error_of_one_engine_is_a_difference() -> None:
-    """An index out of bounds ends a scan on the embedded engine; it is told with its place."""
+    """An index out of bounds ends a scan on the embedded engine; it is reported with its place."""
     wrong = _edited([("modbus/MB_BuildRead.st", "Adu[0]", "Adu[Quantity + 200]")])
     libraries = {**build({"right": EmbeddedEngine()}), **build({"wrong": EmbeddedEngine()}, wrong)}
     pou = shipped().pous["MB_BuildRead"]

@@ -8,10 +8,10 @@ from hashlib import shake_128
 from math import inf, isfinite, nan
 
 from tests.blocks.compare.pou import Pin, Pou
-from tests.host.compare.draws import Draws, single
+from tests.structured_text.engines.compare.draws import Draws, single
 
-from driveblocks.host.engine import Value
-from driveblocks.st.types import Kind
+from structured_text.engines.engine import Value
+from structured_text.language.types import Kind
 
 NOISE_BYTES = 1 << 16
 REALS = (

@@ -12,8 +12,8 @@ from driveblocks.export.part import shelf as made_shelf
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
 from driveblocks.render import library, text
-from driveblocks.st.fingerprint import fingerprint, stream
-from driveblocks.st.tree import ArraySpec, Function, NamedSpec, Pou, Spec, TypeDecl, VarDecl, VarKind
+from structured_text.language.fingerprint import fingerprint, stream
+from structured_text.language.tree import ArraySpec, Function, NamedSpec, Pou, Spec, TypeDecl, VarDecl, VarKind
 
 Files = dict[str, str]
 SECTIONS = {
@@ -119,7 +119,7 @@ def declarations_are_equal(found: Read) -> None:
 
 
 def _variables(found: Read, part: Part) -> Iterator[tuple[str, str, str, tuple[str, ...], str]]:
-    """What is declared: an array of constants is a variable behind the others, a function's variable is temporary."""
+    """What is declared: an array of constants is a variable after the others, a function's variable is temporary."""
     element = part.element
     declared = element.spec.fields if isinstance(element, TypeDecl) else _all(element)  # type: ignore[attr-defined]  # a structure
     for one in sorted(declared, key=lambda each: each.constant):
@@ -138,7 +138,7 @@ def _all(pou: Pou) -> list[VarDecl]:
 
 
 def _type(found: Read, spec: Spec | None) -> str:
-    """A type in upper case, the name of an array replaced by what it stands for."""
+    """A type in upper case, the name of an array replaced by what it means."""
     if isinstance(spec, NamedSpec):
         part = found.parts.get(spec.name.upper())
         if spec.name == "TON":

@@ -63,7 +63,7 @@ def edited(module: str, old: str, new: str) -> Callable[[Shelf], checks.Files]:
 
 @dataclass(frozen=True)
 class Planted:
-    """A mistake: its name, the module, what stands there, what instead, and the check that tells."""
+    """A mistake: its name, the module, what is there, what instead, and the check that tells."""
 
     name: str
     module: str
@@ -204,7 +204,7 @@ PLANTED = (
         "made[:0] = type_lines(part, names)",
     ),
     Planted(
-        "what an array stands for is not told",
+        "what an array means is not told",
         "library",
         "made += [*head(part), f",
         "made += [f",

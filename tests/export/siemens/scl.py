@@ -216,7 +216,7 @@ class _Reader:
             self.take(";")
 
     def variable(self, section: str) -> None:
-        """One declaration with the comment behind it."""
+        """One declaration with the comment after it."""
         written = self.next.text.strip('"')
         name = self.named(keep=False)
         if self.block.variable(name):

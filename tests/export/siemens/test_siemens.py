@@ -14,9 +14,9 @@ from tests.shapes import shapes
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.siemens import library
-from driveblocks.host.embedded.engine import EmbeddedEngine
-from driveblocks.host.engine import Library, Source
-from driveblocks.st.parser import parse
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Library, Source
+from structured_text.language.parser import parse
 
 INSTRUCTIONS = Path(__file__).parent / "instructions.st"
 
@@ -199,7 +199,7 @@ REFUSED = [
     "Caller.st:16:3: expected a plain (* comment *); SCL would read it as something else",
     "Colour.st:3:3: Colour: SCL has types of structures alone, without an initial value",
     "Grid.st:3:10: SCL has no arrays of arrays; a structure around the inner one can be written",
-    "Half.st:2:10: Half: SCL gives no value to a result that a path leaves out",
+    "Half.st:2:10: Half: SCL gives no value to a result that a path does not set",
     "Half.st:7:3: Kept: a function has no initial values in SCL; assign it in the body",
     "Half.st:10:13: DWORD_TO_REAL: SCL has no such function, or means something else by it",
     "Plain.st:5:12: LWORD: an S7-1200 has no such type",
@@ -314,7 +314,7 @@ class Module:
         self.port = running().instance("SI_Port")
 
     def receive(self, seconds: float = 0.01, scans: int = 1) -> None:
-        """Scans that receive, so many seconds apart."""
+        """Scans that receive, this many seconds apart."""
         for _ in range(scans):
             self.port["TxCount"], self.port["Meter"] = 0, seconds
             self.port.scan()

@@ -76,8 +76,8 @@ APART = {"接点动作"}
 """Where two words meet and make a term that is not meant."""
 
 UNNUMBERED = {
-    0x0007: "the range stands in the name",
-    0x0008: "the range stands in the name",
+    0x0007: "the range is in the name",
+    0x0008: "the range is in the name",
     0x000F: "a bit's text gives both values",
     0x0185: "the number is a word in English",
 }

@@ -18,7 +18,7 @@ from tests.native.exhaustive.bench import Bench, Finding
 from tests.native.exhaustive.checks import CHECKS, Report, run
 from tests.native.exhaustive.embedded import PARTS, embedded
 
-from driveblocks.host.discovery import MATIEC_NAMES
+from structured_text.engines.discovery import MATIEC_NAMES
 
 PROCESSES = 2
 
@@ -51,7 +51,7 @@ def without_matiec(names: Sequence[str]) -> int:
 
 
 def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool) -> Iterator[Report]:
-    """The reports of some checks as they come; a check that could not be done is told as one that differs."""
+    """The reports of some checks as they come; a check that could not be done is reported as one that differs."""
     with ProcessPoolExecutor(PROCESSES) as pool:
         jobs = {pool.submit(run, name, benches, short=short): name for name in names}
         for job in as_completed(jobs):

@@ -10,7 +10,7 @@ from tests.native.driver import run
 from tests.native.exhaustive.scan import AnyScan
 
 EXAMPLES = 5
-"""Differences that are told one by one."""
+"""Differences that are reported one by one."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Trial:
-    """Records for a scan, what it must answer to all of them, and how a record is told in words.
+    """Records for a scan, what it must answer to all of them, and how a record is reported in words.
 
     `head` fills in-outs. Raises ValueError if records or answers do not divide into `count`.
     """

@@ -9,11 +9,11 @@ from tests.native.exhaustive.bench import Finding
 from tests.native.exhaustive.checks import Report
 from tests.native.exhaustive.words import some
 
-from driveblocks.host.embedded import EmbeddedEngine
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import register
 from driveblocks.reference.checksum import crc16, lrc
 from driveblocks.reference.naming import name_of
+from structured_text.engines.embedded import EmbeddedEngine
 
 LINE = "embedded"
 

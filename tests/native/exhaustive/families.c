@@ -10,7 +10,7 @@ static int is_edge(unsigned word)
     return word < 8 || (word & (word - 1)) == 0 || word == 0xFFFF;
 }
 
-/* The next of these words; 65536 behind the last. */
+/* The next of these words; 65536 after the last. */
 static unsigned next_edge(unsigned word)
 {
     return word < 8 || word == 0xFFFF ? word + 1 : word == 0x8000 ? 0xFFFF : 2 * word;

@@ -41,7 +41,7 @@ def lengths(short: bool) -> Sequence[int]:
 
 
 def noise(size: int) -> bytes:
-    """Bytes by chance, the same on every run."""
+    """Random bytes, the same on every run."""
     return random.Random(size).randbytes(size)
 
 
@@ -55,7 +55,7 @@ def _length(counts: Sequence[int]) -> Callable[[int], str]:
 
 
 def sealing(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
-    """Every Length of bytes by chance into frames."""
+    """Every Length of random bytes into frames."""
     counts, adu, chars = lengths(short), noise(256), noise(513)
     for scan, model, head, box in (
         (SEAL, framing.rtu_seal, adu, adu),
@@ -83,7 +83,7 @@ def opening(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
 
 
 def _rtu(count: int, damage: bool) -> bytes:
-    """A frame of some bytes; where there is none of this length, bytes by chance."""
+    """A frame of some bytes; where there is none of this length, random bytes."""
     whole = framing.rtu_seal(noise(count - 2)) if count <= 256 and count >= 2 else Framed("LENGTH")
     data = whole.data or noise(256)[: min(count, 256)].ljust(count, b"\0")
     return _damaged(data, bytes(range(256))) if damage else data

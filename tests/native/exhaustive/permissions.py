@@ -25,7 +25,7 @@ def table() -> str:
 
 
 def runs(allowed: frozenset[int]) -> bytes:
-    """For each address how many permitted registers stand there in a row: up to that many are permitted."""
+    """For each address how many permitted registers follow in a row: as many are permitted."""
     longest = array("I", bytes(4 * 0x10000))
     for address in reversed(range(0x10000)):
         if address in allowed:

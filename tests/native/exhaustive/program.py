@@ -19,10 +19,10 @@ from tests.native.exhaustive import (
 )
 from tests.native.exhaustive.bench import Bench
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
 from driveblocks.maps.model import Drive
 from driveblocks.render.results import code
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
 
 SCANS: tuple[scan.AnyScan, ...] = (
     *words.SCANS,
@@ -36,7 +36,7 @@ RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM", "NO_FULL_SCALE"
 
 
 def text() -> str:
-    """The whole driver behind its prelude."""
+    """The whole driver after its prelude."""
     shared = [_part("scans"), scan.table(SCANS), _part("checksums"), _part("permissions"), permissions.table()]
     families = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
     families += [_family(drive) for drive in shipped().values()]

@@ -163,7 +163,7 @@ def _patterns(bench: Bench, prefix: str, pins: list[Patterns]) -> tuple[Finding,
 
 
 def rules(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
-    """The driver's rule against the reference model, at the limits, beside halves and by chance."""
+    """The driver's rule against the reference model, at the limits, beside halves and at random."""
     for prefix, drive in shipped().items():
         pins = [*_tried(SpeedReference(drive), 100 if short else 4000)]
         for bench in benches:
@@ -212,7 +212,7 @@ def _tried(model: SpeedReference, several: int) -> Iterator[Patterns]:
 
 
 def _around_half(model: SpeedReference, chance: random.Random) -> Iterator[Patterns]:
-    """A frequency within two REALs of a half between two words, with a maximum, a full scale and a scale by chance."""
+    """A frequency within two REALs of a half between two words, with a maximum, a full scale and a scale at random."""
     maximum, full = stored(chance.uniform(10.0, 400.0)), stored(chance.uniform(10.0, 400.0))
     scale = stored(chance.uniform(0.5, 150.0))
     half = chance.randrange(model.highest) + Fraction(1, 2)

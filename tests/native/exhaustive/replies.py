@@ -106,7 +106,7 @@ def _replies(asked: Asked, function: int, short: bool) -> Iterator[Reply]:
     for length in (*range(10), *range(250, 260), 0x100, 0x8000, 0xFFFF) if short else range(0x10000):
         yield Reply(length, bytes([asked.unit, function, due]) + ADU[3:6])
         if length > LONGEST and length % 16:
-            continue  # refused for its length, whatever stands in it
+            continue  # refused for its length, whatever is in it
         yield Reply(length, bytes([asked.unit, function, 0, due, *ADU[4:6]]))
         yield Reply(length, bytes([asked.unit, function]) + echo)
         yield Reply(length, bytes([asked.unit, function, 0x50, 0x01, 0, 7]))

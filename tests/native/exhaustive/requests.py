@@ -41,7 +41,7 @@ SCANS = (READ, MULTIPLE, SINGLE, DIAGNOSTICS, *map(of_drive, shipped()))
 WORDS = noise(250)
 ADU = noise(256)
 OPEN = struct.pack("=6H", 99, 99, 99, 99, 99, 99)
-"""What stands in the open request before a block writes it."""
+"""What is in the open request before a block writes it."""
 
 VALUES = tuple(array("H", WORDS))
 

@@ -8,7 +8,7 @@ class Scan:
     """Pins of a block, each as a path: `Length`, `Adu`, `Adu[3]`, `Request.Quantity`.
 
     A record holds `given`, an answer `answered`; before each scan, in-outs named in `filled` get again what the head
-    of the input holds. An answer such as `Words[:WordCount]` is the whole array, with 0 behind the first WordCount.
+    of the input holds. An answer such as `Words[:WordCount]` is the whole array, with 0 after the first WordCount.
     """
 
     block: str

@@ -1,5 +1,5 @@
 /* Records through blocks: `scan NAME IN OUT`. A record is the pins that a scan is given, an answer those that it gives,
- * both in the machine's own form without gaps. The functions that make the scans stand behind this text; each is one
+ * both in the machine's own form without gaps. The functions that make the scans follow this text; each is one
  * instance that lives through all records, as in a PLC. */
 typedef struct {
     const char *name;
@@ -44,7 +44,7 @@ static void give_first(const void *array, size_t size, size_t room)
     give(nothing, room - size);
 }
 
-/* A text as its length and 127 bytes, of which those behind the text are 0. */
+/* A text as its length and 127 bytes, of which those after the text are 0. */
 static void give_text(STRING text)
 {
     uint8_t answer[128] = {text.len};

@@ -1,4 +1,4 @@
-"""Whether the motor stands: all pairs of words, against a truth table for each word from the reference model."""
+"""Whether the motor is at standstill: all pairs of words, against a truth table of each word from the model."""
 
 import tempfile
 from collections.abc import Iterator, Sequence

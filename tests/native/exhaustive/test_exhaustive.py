@@ -14,8 +14,8 @@ from tests.native.exhaustive.checks import CHECKS, run
 from tests.native.exhaustive.embedded import PARTS, embedded
 from tests.native.exhaustive.permissions import ALLOWED
 
-from driveblocks.host.embedded import EmbeddedEngine
-from driveblocks.host.engine import Source
+from structured_text.engines.embedded import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 NEEDS = "needs matiec: no line of it is found, `driveblocks doctor` says where it is looked for"
 

@@ -85,7 +85,7 @@ def _scaled(drive: Drive, row: Register, words: Sequence[int]) -> Trial:
 
 
 def fault_numbers(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
-    """Each fault word alone, whole; every pair of bits; words by chance."""
+    """Each fault word alone, whole; every pair of bits; random words."""
     yield from judged(benches, (_numbered(drive, short) for drive in NUMBERED))
 
 

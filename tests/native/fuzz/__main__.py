@@ -22,8 +22,8 @@ from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
 from tests.native.fuzz.seeds import seeds
 from tests.native.sanitize.sanitizers import Checked, found_lines
 
-from driveblocks.host.discovery import MATIEC_NAMES
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.discovery import MATIEC_NAMES
+from structured_text.engines.matiec import MatiecEngine
 
 LONGEST = 600
 """Bytes of an input: a little more than the longest frame of characters with what stands before it."""

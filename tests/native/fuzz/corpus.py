@@ -1,4 +1,4 @@
-"""Inputs of the fuzz targets as text: a line of hexadecimal digits and, behind `#`, the ErrorID that it gives and why.
+"""Inputs of the fuzz targets as text: a line of hexadecimal digits and, after `#`, the ErrorID that it gives and why.
 
 `corpus/` holds what libFuzzer kept as the fewest inputs that reach everything it reached; `regressions/` what once
 went wrong, or would have if it had been tried.
@@ -37,7 +37,7 @@ def _read(text: str) -> Iterator[Input]:
             digits, mark, words = line.partition(" # ")
             code, _, why = words.partition(" ")
             if not mark:
-                raise ValueError(f"no ErrorID behind the bytes: {line}")
+                raise ValueError(f"no ErrorID after the bytes: {line}")
             yield Input(bytes.fromhex(digits.strip("-")), int(code), why)
 
 

@@ -10,7 +10,7 @@ from tests.native.sanitize.pins import pous
 from tests.native.sanitize.program import drivers
 from tests.native.sanitize.sanitizers import CLANGS, FIRM, Checked, runs
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 HERE = Path(__file__).parent
 SHARED = ("rtu_open", "ascii_decode", "parse_reply")
@@ -26,7 +26,7 @@ def targets() -> dict[str, str]:
 
 
 def text(engine: MatiecEngine) -> str:
-    """The C behind prelude.h."""
+    """The C after prelude.h."""
     library = pous(engine)
     return "\n".join([drivers(library, library), *_parts()])
 

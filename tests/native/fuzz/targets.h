@@ -97,7 +97,7 @@ static unsigned target_ascii_decode(Bytes *bytes)
     return decode_frame(&frame, body, &length);
 }
 
-/* Seven bytes of settings, the open request, the length that is told if the first bit says so, the body. */
+/* Seven bytes of settings, the open request, the length that is reported if the first bit says so, the body. */
 static unsigned target_parse_reply(Bytes *bytes)
 {
     static MB_PARSEREPLY parse;

@@ -106,7 +106,7 @@ def test_the_corpus_is_small_and_reaches_every_error_id_of_a_request_and_a_reply
 
 def test_a_line_without_an_error_id_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.txt").write_text("0103\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="no ErrorID behind the bytes: 0103"):
+    with pytest.raises(ValueError, match="no ErrorID after the bytes: 0103"):
         corpus.read(tmp_path / "bad.txt")
 
 

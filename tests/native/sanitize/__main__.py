@@ -19,7 +19,7 @@ from tests.native.driver import told_lines
 from tests.native.sanitize.campaign import Outcome, Program, build, campaign
 from tests.native.sanitize.sanitizers import compilers, found_lines
 
-from driveblocks.host.discovery import MATIEC_NAMES
+from structured_text.engines.discovery import MATIEC_NAMES
 
 
 def programs(given: argparse.Namespace) -> Iterator[Program]:

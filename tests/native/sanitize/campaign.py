@@ -14,8 +14,8 @@ from tests.native.sanitize.pins import Pou, pous
 from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
 
 PARSER_INPUTS = 10_000_000
 """Blocks that take apart what comes from outside."""
@@ -24,7 +24,7 @@ SHARE = 2_500_000
 """The most that one process runs, so that every core has work to the end."""
 SECONDS = 3600.0
 EVERY = "*"
-"""The name that stands for every block."""
+"""The name that means every block."""
 
 
 def inputs(pou: Pou) -> int:
@@ -78,7 +78,7 @@ def build(engine: MatiecEngine, checked: Checked, texts: Sequence[Source] = (), 
 
 
 def at_once(program: Program, seed: int, count: int) -> Outcome:
-    """So many inputs to each block, one behind the other in one process; ends at the first find."""
+    """This many inputs to each block, one after the other in one process; ends at the first find."""
     return execute(Share(program, EVERY, seed, count))
 
 

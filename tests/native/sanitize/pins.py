@@ -11,10 +11,10 @@ from pathlib import Path
 
 from tests.blocks.library import alone
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
-from driveblocks.host.matiec.declarations import Unit, read_declarations
-from driveblocks.host.matiec.header import ArrayType, Block, CType, Function, Header, StructType, read_header
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
+from structured_text.engines.matiec.declarations import Unit, read_declarations
+from structured_text.engines.matiec.header import ArrayType, Block, CType, Function, Header, StructType, read_header
 
 DIRECTIONS = {"VAR_INPUT": "in", "VAR_OUTPUT": "out", "VAR_IN_OUT": "inout"}
 _READ_ONLY = re.compile(r"^  (\w+) : \w+;\s*\(\*[^*]*read only", re.MULTILINE)

@@ -6,8 +6,8 @@ from tests.blocks.library import BLOCKS, alone
 from tests.native.driver import Driver
 from tests.native.sanitize.sanitizers import Checked
 
-from driveblocks.host.engine import Source
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.engine import Source
+from structured_text.engines.matiec import MatiecEngine
 
 ACCESSES = ("read_own", "write_own", "read_inout", "write_inout", "read_field", "write_field")
 LENGTHS = {"own": 5, "inout": 256, "field": 3}

@@ -37,7 +37,7 @@ LIKELY = {
 
 
 def text(pous: Sequence[Pou], library: Sequence[Pou]) -> str:
-    """The program for some of a library, to be compiled behind prelude.h. It takes a name, a seed and a number."""
+    """The program for some of a library, to be compiled after prelude.h. It takes a name, a seed and a number."""
     return f"{drivers(pous, library)}\n{_main(pous)}"
 
 
@@ -158,7 +158,7 @@ def _copy(pin: Pin) -> str:
 
 
 def _fill(pou: Pou, place: Callable[[Pin], str]) -> Iterator[str]:
-    """Input by chance, by the types and names of the pins."""
+    """Input at random, by the types and names of the pins."""
     given = [pin for pin in pou.pins if pin.direction != "out"]
     telling = f"&{pou.c_name}_telling"
     bits = [pin for pin in given if pin.type == "BOOL"]
@@ -171,7 +171,7 @@ def _fill(pou: Pou, place: Callable[[Pin], str]) -> Iterator[str]:
 
 
 def _chance(pin: Pin, place: str, telling: str) -> Iterator[str]:
-    """Statements that give a pin a value by chance. Raises ValueError for a type that no block of the library has."""
+    """Statements that give a pin a value at random. Raises ValueError for a type that no block of the library has."""
     if array := arrays(pin):
         yield f"noise({place}.table, one_in(4) ? sizeof {place}.table : {min(16, array[1])});"
     elif own := fields(pin):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.native.driver import lines, version
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 FIRM = ("-fno-sanitize-recover=all", "-fno-omit-frame-pointer", "-fno-wrapv", "-g1", "-O1")
 """`-fno-wrapv`: the blocks' sums must not wrap, so the sanitizer may look for it, though matiec's C is compiled with it

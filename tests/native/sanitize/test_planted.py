@@ -5,7 +5,7 @@ from tests.native.driver import run
 from tests.native.sanitize import planted
 from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 
 def tools() -> list[tuple[MatiecEngine, Checked]]:

@@ -14,7 +14,7 @@ from tests.native.sanitize.planted import FAULTS, spoilt
 from tests.native.sanitize.program import text
 from tests.native.sanitize.sanitizers import Checked, compilers, found_lines, why_none
 
-from driveblocks.host.matiec import MatiecEngine
+from structured_text.engines.matiec import MatiecEngine
 
 INPUTS = 20_000
 PARSED = {"CHF_Reply", "JSCC_Reply", "SN300G5_Reply", "MB_ParseReply", "MB_RtuOpen", "MB_AsciiDecode"}
@@ -94,4 +94,4 @@ def test_a_fault_in_a_block_is_found(name: str) -> None:
     outcome = execute(Share(spoilt_program(found_lines()[0].name), name, 1, 1_000_000))
     assert outcome.finds, "nothing was found"
     assert FAULTS[name][2] in outcome.finds[0]
-    assert f"FOUND {name}, seed 1, input " in outcome.finds[0], "what to repeat is told, and the input"
+    assert f"FOUND {name}, seed 1, input " in outcome.finds[0], "what to repeat is reported, and the input"

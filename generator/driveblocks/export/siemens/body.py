@@ -3,9 +3,9 @@
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.words import ELEMENTARY, FORMAL, RESERVED, UNNAMED, converts
-from driveblocks.st import walk
-from driveblocks.st.lexer import tokenize
-from driveblocks.st.tree import (
+from structured_text.language import walk
+from structured_text.language.lexer import tokenize
+from structured_text.language.tree import (
     Assign,
     Binary,
     Call,
@@ -36,7 +36,7 @@ def body(part: Part, names: Names) -> str:
 
 
 class _Body:
-    """Collects what is put in front of, or behind, the words of one body."""
+    """Collects what is put before, or after, the words of one body."""
 
     def __init__(self, part: Part, names: Names) -> None:
         pou = part.element
@@ -52,7 +52,7 @@ class _Body:
         for statement in walk.statements(self.pou.body):
             self.statement(statement)
         if self.result and not _settles(self.pou.body, self.result):
-            self.refuse(self.pou.name_at, f"{self.pou.name}: SCL gives no value to a result that a path leaves out")
+            self.refuse(self.pou.name_at, f"{self.pou.name}: SCL gives no value to a result that a path does not set")
         self.comments()
         made, whole = "", self.part.unit.text
         here = whole.index(self.part.body, self.pou.blocks[-1].end if self.pou.blocks else self.pou.name_at)
@@ -82,7 +82,7 @@ class _Body:
         self.names.refuse(self.part, at, text)
 
     def put(self, at: int, text: str) -> None:
-        """Put a text in front of an offset, behind what was put there already."""
+        """Put a text before an offset, after what was put there already."""
         self.puts[at] = self.puts.get(at, "") + text
 
     def statement(self, statement: Statement) -> None:
@@ -139,7 +139,7 @@ class _Body:
                 self.expression(argument.value)
 
     def inputs(self, call: Call, found: Part) -> None:
-        """A function of SCL has no defaults: each input stands in the call, by its name."""
+        """A function of SCL has no defaults: each input is in the call, by its name."""
         wanted = _parameters(found, VarKind.INPUT) | _parameters(found, VarKind.IN_OUT)
         self.given(call, found.name, wanted)
 
@@ -152,7 +152,7 @@ class _Body:
             self.given(call, instance.name, _parameters(found, VarKind.IN_OUT))
 
     def given(self, call: Call, name: str, wanted: dict[str, str]) -> None:
-        """Refuse a call by position, or one that leaves out what SCL wants."""
+        """Refuse a call by position, or one that omits what SCL wants."""
         named = {argument.name.upper() for argument in call.arguments if argument.name and argument.value}
         if any(argument.name is None for argument in call.arguments):
             self.refuse(call.at, f"{name}: expected each argument by its name")

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Iterator
 from driveblocks.export.part import Part
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.words import ELEMENTARY, STANDARD_ACCESS, SYSTEM, quoted
-from driveblocks.st.library import fold
-from driveblocks.st.tree import (
+from structured_text.language.library import fold
+from structured_text.language.tree import (
     ArrayInitial,
     ArraySpec,
     Comment,
@@ -80,7 +80,7 @@ def _section(part: Part, one: VarDecl, names: Names) -> str:
 
 
 def lines(part: Part, variables: Iterable[VarDecl], names: Names) -> Iterator[str]:
-    """Declarations, each with its comment behind it."""
+    """Declarations, each with its comment after it."""
     for one in variables:
         first, *rest = _initial(part, one.initial, names) if one.initial is not None else [""]
         made = [f"      {quoted(one.name)} : {spelled(part, one.spec, names)}{first}", *rest]

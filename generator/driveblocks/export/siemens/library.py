@@ -9,7 +9,7 @@ from driveblocks.export.siemens.declaration import head, opening, spelled, type_
 from driveblocks.export.siemens.names import Names
 from driveblocks.export.siemens.page import page, source
 from driveblocks.render.context import identity
-from driveblocks.st.tree import ArraySpec, Function, Spec, TypeDecl
+from structured_text.language.tree import ArraySpec, Function, Spec, TypeDecl
 
 PLATFORM = "siemens"
 PORT = "SI_Port"
@@ -52,7 +52,7 @@ def _shared(shelf: Shelf) -> Iterator[tuple[str, str, str, Sequence[Part]]]:
 
 
 def _types(parts: Iterable[Part], names: Names) -> str:
-    """The structures; what arrays stand for is told at the top, since SCL gives them no name."""
+    """The structures; a list at the top says what each array is, since SCL gives them no name."""
     made: list[str] = []
     for part, spec in _specs(parts):
         if isinstance(spec, ArraySpec):

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 
 from driveblocks.export.part import Part
-from driveblocks.st.problems import Problem
-from driveblocks.st.tree import ArraySpec, TypeDecl
+from structured_text.language.problems import Problem
+from structured_text.language.tree import ArraySpec, TypeDecl
 
 
 @dataclass
@@ -24,7 +24,7 @@ class Names:
         return self.parts.get(name.upper())
 
     def array(self, name: str) -> ArraySpec | None:
-        """The array that a name stands for, if it is the type of one."""
+        """The array that a name means, if it is the type of one."""
         part = self.find(name)
         if part is None or not isinstance(part.element, TypeDecl):
             return None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from driveblocks.export.part import Part, Shelf
 from driveblocks.render.context import identity
 from driveblocks.render.environment import ABI, render
-from driveblocks.st.tree import Function, TypeDecl
+from structured_text.language.tree import Function, TypeDecl
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ def _words(text: str) -> dict[str, str]:
 ELEMENTARY = _words("Bool Byte Word DWord SInt Int DInt USInt UInt UDInt Real LReal Time")
 """Elementary types that an S7-1200 has, too."""
 SYSTEM = _words("PORT Send_P2P Receive_P2P Receive_Reset Modbus_Comm_Load Modbus_Master R_TRIG F_TRIG")
-"""Types and blocks of the PLC itself: they stand without quotes. No version, so that TIA Portal takes its own."""
+"""Types and blocks of the PLC itself: they are written without quotes. No version, so that TIA Portal takes its own."""
 SYSTEM |= {"TON": "TON_TIME", "TOF": "TOF_TIME", "TP": "TP_TIME"}
 STANDARD_ACCESS = frozenset({"MODBUS_MASTER"})
 """Instructions that work on memory of a block: it must not have optimized access."""

@@ -8,7 +8,7 @@ _VERBS = {"r": "read", "w": "written"}
 
 
 def known(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
-    """The row of an address that is to be read (`r`) or written (`w`); notes what stands against it."""
+    """The row of an address that is to be read (`r`) or written (`w`); notes what forbids it."""
     found = drive.row_at(address)
     if found is None:
         report.miss(place, f"{address_text(address)} is in no register table", "name a listed register")
@@ -25,7 +25,7 @@ def known(drive: Drive, address: int, use: str, place: Place, report: Report) ->
 
 
 def cyclic(drive: Drive, address: int, place: Place, report: Report) -> Register | None:
-    """The row of an address that is written again and again; notes what stands against it, a store first of all."""
+    """The row of an address that is written again and again; notes what forbids it, a store first of all."""
     stored = _stored(drive, address)
     if stored is None:
         return known(drive, address, "w", place, report)
@@ -57,7 +57,7 @@ def ram_span(drive: Drive, area: Area) -> Span | None:
 
 
 def carried(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
-    """The row of an address that a frame reads or writes, None in an area; notes what stands against it."""
+    """The row of an address that a frame reads or writes, None in an area; notes what forbids it."""
     for area in drive.areas:
         ram = ram_span(drive, area)
         if ram is not None and address in ram:

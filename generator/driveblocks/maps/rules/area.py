@@ -15,7 +15,7 @@ _STORAGE_KEYS = {
     "unexplained": (),
 }
 _Claim = tuple[Place, str]
-"""Who has a span of addresses: where a message goes, and the words for it."""
+"""Who has a span of addresses: the place of a message, and the words for it."""
 
 
 def check(drive: Drive, report: Report) -> None:

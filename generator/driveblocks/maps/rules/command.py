@@ -1,4 +1,4 @@
-"""Rules on commands: their registers, their values or bits, and what they leave set."""
+"""Rules on commands: their registers, their values or bits, and what stays set after them."""
 
 from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Command, Does, Drive, Range, Register
@@ -39,7 +39,7 @@ def check(drive: Drive, report: Report) -> None:
 
 
 def _releases(drive: Drive, command: Command, report: Report) -> None:
-    """Note a stop that leaves a run bit as it is, and a direction that leaves that of the other one."""
+    """Note a stop that keeps a run bit, and a direction that keeps that of the other one."""
     if not (command.set or command.clear) or drive.register_at(command.register) is None:
         return
     ours = meaning.image(command.writes)
@@ -52,7 +52,7 @@ def _releases(drive: Drive, command: Command, report: Report) -> None:
             left = [number for where, number in made if where == register and (where, number) not in ours]
             if left:
                 bits = ", ".join(f"{number:X}" for number in sorted(left))
-                wrong = f"`{command.does}` leaves bit {bits} as it is, which `{other.does}` sets"
+                wrong = f"`{command.does}` does not change bit {bits}, which `{other.does}` sets"
                 report.add(command.place("clear"), wrong, "add it to `clear`, so that the two never act together")
 
 

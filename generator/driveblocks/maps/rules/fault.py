@@ -93,7 +93,7 @@ def _fault_bits(drive: Drive, relation: BitRelation, ids: dict[str, Fault], repo
 def _fault_bit(bit: Bit, number: int, due: dict[str, int], ids: dict[str, Fault], report: Report) -> None:
     fault = ids.get(bit.id or "")
     if bit.id in due:
-        wrong = f"fault bit {bit.id} stands twice in the fault words"
+        wrong = f"fault bit {bit.id} is twice in the fault words"
         report.add(
             bit.place("id"), wrong, f"as bit of the words it has the numbers {due[bit.id]:02X}H and {number:02X}H"
         )
@@ -127,7 +127,7 @@ def _corroborated(error: ErrorCode, report: Report) -> None:
     for item in numbers[1:]:
         if item.value != numbers[0].value:
             wrong = f"`{item.document}` has {item.value} for this error, `{numbers[0].document}` has {numbers[0].value}"
-            report.add(item.place("value"), wrong, "correct one of them, or leave out what does not speak of it")
+            report.add(item.place("value"), wrong, "correct one of them, or leave out what is not about it")
 
 
 def _error_form(drive: Drive, form: ErrorForm, report: Report) -> None:

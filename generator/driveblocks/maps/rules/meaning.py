@@ -68,7 +68,7 @@ class _Said:
     """Whether it is a value, of the word or of a field; else a bit, or bits, without values."""
     bits: tuple[int, ...] = ()
     alone: bool = True
-    """FALSE: the name of a register that several commands write, or of a field, which tells nothing of one value."""
+    """FALSE: the name of a register that several commands write, or of a field, which says nothing about one value."""
 
     @property
     def meaning(self) -> Meaning:
@@ -76,7 +76,7 @@ class _Said:
 
     @property
     def holds(self) -> bool:
-        """Whether the drive is told this; else it is told the contrary."""
+        """Whether the drive is asked for this; else it is asked for the contrary."""
         return (self.on or self.value) != term.negated(self.name, self.zh)
 
     def __str__(self) -> str:
@@ -85,7 +85,7 @@ class _Said:
 
 Write = Command | Step
 Image = dict[tuple[int, int], bool]
-"""What stands in bits of registers: register and bit -> set or not."""
+"""What is in bits of registers: register and bit -> set or not."""
 
 
 def written(one: Write) -> dict[int, bool]:
@@ -97,7 +97,7 @@ def written(one: Write) -> dict[int, bool]:
 
 
 def image(writes: Iterable[Write]) -> Image:
-    """What stands in the registers after these writes."""
+    """What is in the registers after these writes."""
     return {(one.register, number): on for one in writes for number, on in written(one).items()}
 
 

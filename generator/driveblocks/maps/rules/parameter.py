@@ -105,7 +105,7 @@ def _series(series: Series, section: Section, report: Report) -> None:
 
 
 def _places(series: Series, section: Section, group: str, numbers: Span, report: Report) -> None:
-    """Note a row that stands where the series has the place of another id: it has lost its own."""
+    """Note a row that is where the series has the place of another id: it has lost its own."""
     apart = {numbered(id_) for id_ in series.apart}
     digits = len(series.ids.partition("..")[0]) - len(group)
     for row in section.registers:
@@ -129,9 +129,9 @@ def _rows(section: Section, group: str, numbers: Span) -> Iterator[tuple[int, Re
 def _follows(series: Series, row: Register, due: int, report: Report) -> None:
     if row.id in series.apart:
         if row.address.first == due:
-            wrong = f"{row.id} is named as apart, but stands in the series"
+            wrong = f"{row.id} is named as apart, but is in the series"
             report.add(series.place("apart"), wrong, "remove it from `apart`")
     elif row.address.first != due:
         stands, put = address_text(row.address.first), address_text(due)
-        wrong = f"{row.id} stands at {stands}, but the series {series.ids} puts it at {put}"
+        wrong = f"{row.id} is at {stands}, but the series {series.ids} puts it at {put}"
         report.add(row.place("address"), wrong, "correct the address, or name the id under `apart` of the series")

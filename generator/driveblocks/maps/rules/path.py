@@ -44,7 +44,7 @@ def _step(step: Step, states: set[str], report: Report) -> None:
 def _passes(drive: Drive, command: Command, report: Report) -> None:
     """Note a write after which the registers hold what another motion writes, the other way or from a reset.
 
-    It starts from all that a stop, or a reset after it, can leave: what that stop wrote, and anything elsewhere.
+    It starts from all that a stop, or a reset after it, can end in: what that stop wrote, and anything elsewhere.
     """
     others = [one for one in drive.operation.commands if one.does in MOVES and _contrary(command, one)]
     told: set[tuple[int, str]] = set()

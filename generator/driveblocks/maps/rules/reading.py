@@ -8,7 +8,7 @@ from driveblocks.maps.problem import Place, Report
 
 
 def check(drive: Drive, report: Report) -> None:
-    """Note pins or an identity that no plan of reads can serve; what is not readable was told where it stands."""
+    """Note pins or an identity that no plan of reads can serve; what is not readable was reported at its place."""
     if report.problems:
         return
     plans: list[tuple[Callable[[Drive], object], Place]] = [(polls, drive.operation.place("status"))]

@@ -38,12 +38,12 @@ class Known:
         self.finders: dict[str, Callable[[str], list[str]]] = {"register": self._registers, "bit": self._bits}
 
     def resolve(self, refs: tuple[str, ...], place: Place, report: Report) -> list[str]:
-        """The canonical names that references cover; notes one that names nothing, or that stands twice."""
+        """The canonical names that references cover; notes one that names nothing, or that is there twice."""
         found: list[str] = []
         seen: set[str] = set()
         for ref in refs:
             if ref in seen:
-                report.add(place, f"`{ref}` stands twice in one list", "keep one of them")
+                report.add(place, f"`{ref}` is twice in one list", "keep one of them")
             seen.add(ref)
             names = self._of(*ref.partition(" ")[::2])
             if not names:

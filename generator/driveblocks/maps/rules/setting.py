@@ -157,7 +157,7 @@ def _same(code: Code, value: Value, setting: Setting, report: Report) -> None:
 
 
 def _said(words: str) -> set[tuple[str, str | int]]:
-    """What the words for a code say in a notation that leaves no doubt: 9600 bit/s, RTU, <8, N, 1>, 偶校验."""
+    """What the words for a code say in an unambiguous notation: 9600 bit/s, RTU, <8, N, 1>, 偶校验."""
     said: set[tuple[str, str | int]] = {("baud", int(rate[:9])) for rate in _RATE.findall(words)}
     said |= {("mode", mode.lower()) for mode in _MODE.findall(words)}
     said |= {("parity", parity) for word, parity in _PARITY_WORDS if word in words}

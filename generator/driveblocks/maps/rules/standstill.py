@@ -1,4 +1,4 @@
-"""Rules on what proves that the motor stands: a status that says so, and an output frequency of 0, both at once."""
+"""Rules on what proves standstill: a status that says so, and an output frequency of 0, both at once."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ _SPEED = ("frequency", "speed", "频率", "转速", "速度")
 _STANDS = ("stop", "standby", "standstill", "zero speed", "停", "待机", "零速")
 _TURNS = ("running", "turning", "rotating", "operating", "operation enabled", "运行", "运转", "正转", "反转", "旋转")
 _OTHER = ("fault", "error", "故障")
-"""Words for a state in which the motor may stand or turn."""
+"""Words for a state in which the motor may be at standstill or turn."""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -33,7 +33,7 @@ def check(drive: Drive, report: Report) -> None:
         if stands is False:
             asked = _called(drive, condition)[0] or f"{condition.equals:04X}H"
             wrong = f"standstill asks {address_text(condition.register)} for `{asked}`"
-            report.add(condition.place("equals"), wrong, "ask for the state in which the motor stands")
+            report.add(condition.place("equals"), wrong, "ask for the state in which the motor is at standstill")
     if len(report.problems) == before:
         _while_running(drive, report)
 
@@ -55,7 +55,7 @@ def _says_frequency_is_0(drive: Drive, condition: Condition) -> bool:
 
 
 def _verdict(drive: Drive, condition: Condition) -> bool | None:
-    """Whether a condition asks for a state that is called standing (True) or not (False), or None.
+    """Whether a condition asks for a state that is called standstill (True) or not (False), or None.
 
     Of the bits of a mask, one that is called so is enough.
     """

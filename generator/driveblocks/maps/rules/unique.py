@@ -1,4 +1,4 @@
-"""What may stand only once: keys that tell entries apart, and numbers that no two spans may share."""
+"""What may be there only once: keys that distinguish entries, and numbers that no two spans may share."""
 
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
@@ -21,7 +21,7 @@ def unique(
         if value is None:
             continue
         if value in first:
-            wrong = f"{what} {shown(value)} stands twice"
+            wrong = f"{what} {shown(value)} is there twice"
             report.add(entry.place(key), wrong, f"the first is in line {first[value].at[0]}; keep one or correct this")
         else:
             first[value] = entry

@@ -90,7 +90,7 @@ def _same(setting: Setting, reaction: Reaction, report: Report) -> None:
 
 
 def _meant(name: str, zh: str) -> tuple[Reacts, ...]:
-    """What a name may stand for; everything, where it holds no term for a stop or a run."""
+    """What a name may mean; everything, where it holds no term for a stop or a run."""
     means = term.of(name, zh)
     if term.COAST in means:
         return ("coast_stop",)

@@ -44,7 +44,7 @@ def _midst(can: Ability) -> Iterator[tuple[str, list[Step]]]:
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
     yield "while a start waits for its answer", [Step("no answer", lost, why("STARTING"), 500), Step("", ms=100)]
     yield (
-        "after a start in vain",
+        "after a start without an answer",
         [
             Step("it is refused", {"Fate.RefusesWrites": True, "RunForward": True}, why("REFUSED"), 1500),
         ],

@@ -1,4 +1,4 @@
-"""Scenes of what a line says of itself: how late its stops can be, what it counts, how fast it goes round."""
+"""Scenes of what a line says of itself: how late its stops can be, what it counts, how long a round of polls takes."""
 
 from collections.abc import Iterator
 from dataclasses import replace

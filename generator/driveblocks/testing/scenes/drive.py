@@ -15,7 +15,7 @@ from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import Pattern, of_condition
 from driveblocks.simulator.table import Gauge, Table, table
-from driveblocks.st.writing import byte, comment, word
+from structured_text.language.writing import byte, comment, word
 
 Context = dict[str, Any]
 
@@ -23,7 +23,7 @@ KINDS = {"stop": 1, "quick_stop": 2, "coast_stop": 3, "jog_stop": 4}
 ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8}
 MAXIMUM_HZ = 50
 PLACES = 16
-"""Registers that it keeps; those that tests write find room behind those that its commands need."""
+"""Registers that it keeps; those that tests write are after those that its commands need."""
 
 
 @cache
@@ -45,7 +45,7 @@ def name(drive: Drive) -> str:
 
 
 def text(drive: Drive, faults: Iterable[int]) -> str:
-    """The block; `faults` are those that it may be told to have."""
+    """The block; `faults` are those that a test may give it."""
     made = table(drive, Habits(maximum_hz=MAXIMUM_HZ))
     return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(faults)))
 
@@ -342,7 +342,7 @@ def _holds(box: str, pattern: Pattern, at: dict[int, int]) -> str:
 
 
 def _after(made: Table, at: dict[int, int]) -> list[Context]:
-    """States that the word of a stop may lead to, once the motor stands."""
+    """States that the word of a stop may lead to, once the motor is at standstill."""
     led = [move for move in made.moves if move.effect == STATE]
     return [
         {

@@ -31,13 +31,13 @@ def lines(can: Ability) -> Iterator[Scene]:
     yield scene("a port that is busy", POWER, run(), *_busy())
     yield scene("a port that is stuck", POWER, run(), *_stuck())
     yield scene("a port that hears itself", *_echo())
-    yield scene("time that stands still", POWER, run(), *_time())
+    yield scene("no time passes", POWER, run(), *_time())
     yield scene("a stop that is refused", POWER, run(), *_refused_stop())
     yield scene("a slow line that keeps the silence itself", *_slow())
     if len(can.drive.serial.mode.modes) > 1:
         yield scene("MODBUS ASCII", *_ascii())
     yield scene("another master", POWER, *_foreign())
-    yield scene("a scan that is too long", POWER, *_late_scan())  # the last: it is told for ten seconds
+    yield scene("a scan that is too long", POWER, *_late_scan())  # the last: it is reported for ten seconds
 
 
 def _two(unit: int) -> Step:
@@ -157,11 +157,11 @@ def _busy() -> Iterator[Step]:
 def _stuck() -> Iterator[Step]:
     yield Step("the contact is closed", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
     stuck: Shows = {"Pins.TxBusy": True, "RunForward": False, "Pins.HardReset": False}
-    yield Step("no stop leaves: it is overdue", stuck, "Motor.StopOverdue", 3000, {
+    yield Step("no stop is sent: it is overdue", stuck, "Motor.StopOverdue", 3000, {
         "(WaitedMs >= Bus.WorstStopMs) AND (WaitedMs <= Bus.WorstStopMs + 100)": True,
         "Seen.Driven": True, "HardStop.HardStopOk": False, "Bus.StopOverdue": True,
     })  # fmt: skip
-    yield Step("it leaves", {"Pins.TxBusy": False}, "Motor.StopConfirmed", 5000, STANDS)
+    yield Step("it is sent", {"Pins.TxBusy": False}, "Motor.StopConfirmed", 5000, STANDS)
 
 
 def _echo() -> Iterator[Step]:
@@ -176,7 +176,7 @@ def _time() -> Iterator[Step]:
 
 
 def _refused_stop() -> Iterator[Step]:
-    yield Step("it goes on asking", {"Fate.RefusesWrites": True, "RunForward": False}, ms=1500, shows={
+    yield Step("it keeps asking", {"Fate.RefusesWrites": True, "RunForward": False}, ms=1500, shows={
         "StopConfirmed": False, "Seen.Driven": True, "Slots[0].Refusals >= 2": True,
     })  # fmt: skip
     yield Step("until it obeys", {"Fate.RefusesWrites": False}, "Motor.StopConfirmed", 4000, STANDS)

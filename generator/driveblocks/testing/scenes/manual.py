@@ -7,16 +7,16 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.permission import readable
-from driveblocks.st.writing import byte, dword, word
 from driveblocks.testing.scenes.drive import manners
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import Script
+from structured_text.language.writing import byte, dword, word
 
 READS, WRITES = (3, 4), (6, 8, 16)
 MOST_READ, MOST_WRITTEN = 4, 4
 """Registers of one request in a slot, beside polls."""
 STOP, PARAMETER = 0, 2
-"""Compartments: a write goes as a stop, which is sent at once; a read as a parameter."""
+"""Compartments: a write is posted as a stop, which is sent at once; a read as a parameter."""
 
 MORE = More(
     blocks={

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from driveblocks.maps.model import Drive
-from driveblocks.st.writing import word
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import word
 
 TOLD = "Seen.UntoldMs < 50"
 """The drive has just been told to stop."""

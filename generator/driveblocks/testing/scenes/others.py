@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_encode, rtu_seal
-from driveblocks.st.writing import byte
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, manners
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import byte
 
 MORE = More(
     other=True,

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Write, readable, writable
-from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import codes, settled
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import word
 
 BLOCKS = {
     "Reader": ("VFD_ReadParameter", "under test: reads a parameter"),

@@ -72,7 +72,7 @@ class Promise:
 
     @property
     def cut(self) -> int:
-        """CutToContactMs: three polls in vain, a poll and a stop to each drive, all attempts of a stop, two scans."""
+        """CutToContactMs: three unanswered polls, a poll and a stop to each drive, all tries of a stop, two scans."""
         asked = 3 * (self._poll + self._more + self.longest - self.turn_round)
         silent = max(asked, self.offline + self._more)
         each = self.drives * (self._poll + self._stop + 2 * self._more)

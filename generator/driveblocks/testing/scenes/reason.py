@@ -17,7 +17,7 @@ REASONS = {
 def unreached(can: Ability) -> dict[str, str]:
     """Reasons that no scene of a family shows, and why."""
     found = {
-        "RELEASED": "it stands in Diagnosis.StopReason alone, where a scene looks for it",
+        "RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it",
         "UNREAD": "the settings are read before the stop after power-up is confirmed",
     }
     if not can.drive.manual.second_hand:

@@ -5,12 +5,12 @@ from dataclasses import dataclass, field, replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
-from driveblocks.st.writing import flag, real
 from driveblocks.testing import bench
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import counts_per_hertz, environment, name
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.script import SCAN_MS, Item, Probe, Script, Span, Stage
+from structured_text.language.writing import flag, real
 
 Value = bool | int | float | str | tuple[int, int]
 """What a pin is given or must show: of a check, two numbers are the lowest and the highest; text is an expression."""

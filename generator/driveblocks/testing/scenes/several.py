@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import most
 from driveblocks.reference.permission import Judge, Write, readable, writable
-from driveblocks.st.writing import word
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.motor import NOTHING_STARTED
 from driveblocks.testing.scenes.parameter import BLOCKS, CALLS, WITHIN_MS, does, error, idle, meant, place_of
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import word
 
 MOST_READ, MOST_WRITTEN = 4, 3
 """Registers of a block."""
@@ -44,7 +44,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
 
 
 def _runs(addresses: frozenset[int], length: int) -> Iterator[int]:
-    """The first of so many addresses that follow one another."""
+    """The first of this many addresses that follow one another."""
     return (each for each in sorted(addresses) if all(each + more in addresses for more in range(length)))
 
 
@@ -160,7 +160,7 @@ def _asks(function: int, place: int, count: int) -> Shows:
 
 
 def _turns(place: int) -> Iterator[Step]:
-    """Two readers that never rest leave a writer its turn, and a writer leaves them theirs."""
+    """Between two readers that never rest a writer gets its turn, and they get theirs."""
     yield Step("two are at it", {".Rivals": True, ".Place": word(place)}, ms=400, shows={"Seen.Reads > 8": True})
     begin: Shows = {".Writing": True, ".Given": word(3), ".Within": 8000, ".Mark": "Slots[0].Ask[2].Number"}
     yield Step("a third comes", begin, ms=20, shows={"Writer.Busy": True, "Writer.Done": False, "Seen.Others": 0})
@@ -219,7 +219,7 @@ def _in_time(place: int) -> Iterator[Step]:
     mailbox: Shows = {".Writing": True, "Pins.TxBusy": True, ".Slips": True}
     yield Step("the next is in the mailbox", mailbox, "Writer.Error", 1000, error("Writer", "SILENCE"))
     freed |= {".Slips": False, "Fate.HoldMs": 0, "Pins.Settings.TurnRoundMs": 30, "Pins.Settings.LongestMs": 60}
-    yield Step("it does not leave it any more", freed, ms=600, shows={
+    yield Step("it is not sent any more", freed, ms=600, shows={
         "Seen.Others": 0, "CommOk": True,
     })  # fmt: skip
     usual: Shows = {"Fate.Skips": True, ".Within": 0, ".Writing": True}
@@ -232,7 +232,7 @@ def _in_time(place: int) -> Iterator[Step]:
 def _pulse(place: int) -> Iterator[Step]:
     """Execute need not stay; a result lasts one call at least, and a new edge begins anew whatever was before."""
     yield Step("Execute for one scan", {".Reading": True, ".Place": word(place)}, ms=20, shows={"Reader.Busy": True})
-    yield Step("it goes on", {".Reading": False}, "Reader.Done", 1000, {"Reader.Busy": False, "Reader.Error": False})
+    yield Step("it continues", {".Reading": False}, "Reader.Done", 1000, {"Reader.Busy": False, "Reader.Error": False})
     yield Step("for one call", ms=20, shows={"Reader.Done": False, "Reader.Busy": False})
     refuses: Shows = {"Fate.RefusesReads": True, ".Reading": True}
     yield Step("a read that is refused", refuses, ms=20, shows={"Reader.Busy": True, "Reader.Error": False})
@@ -268,7 +268,7 @@ def _not_called(place: int) -> Iterator[Step]:
     yield Step("it is called for a moment", {"Pins.NoLine": False}, ms=20, shows=calm)
     yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm)
     told = error("Reader", "NO_LINE") | error("Writer", "NO_LINE")
-    yield Step("that is told", {}, "Reader.Error AND Writer.Error", 3000, told | {
+    yield Step("that is reported", {}, "Reader.Error AND Writer.Error", 3000, told | {
         ".WaitedMs": (90 * SCAN_MS, 110 * SCAN_MS),
     })  # fmt: skip
     back: Shows = {"Pins.NoLine": False, "Pins.NoDrive": False, ".Reading": False, ".Writing": False}

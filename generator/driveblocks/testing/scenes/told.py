@@ -1,23 +1,23 @@
-"""Scenes of the slot: what a drive block tells its line, and memory that is not blank when the PLC begins."""
+"""Scenes of the slot: what a drive block hands to its line, and memory that is not blank when the PLC begins."""
 
 from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.model import Command, Drive
 from driveblocks.reference.command import Commands
-from driveblocks.st.writing import word
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import busy, manners
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
+from structured_text.language.writing import word
 
 KEPT = 0x5A5A
-"""What stands in a command register beside the commands' own bits."""
+"""What is in a command register beside the commands' own bits."""
 SETTINGS: dict[str, int] = {
     "TurnRoundMs": 35, "LongestMs": 70, "BootMs": 7000, "FollowWithinMs": 2000, "StaleMs": 3000, "RefreshMs": 700,
 }  # fmt: skip
 USUAL: dict[str, int] = {"LongestMs": 500, "BootMs": 10000}
-"""What stands in for settings that are 0, where neither map nor drive says it."""
+"""What replaces settings that are 0, where neither map nor drive says it."""
 
 
 MORE = More(
@@ -103,7 +103,7 @@ LEFT: Shows = {
     "Ask[2].Quantity": 9, "Ask[3].Number": 35, "Ask[0].Number": 12, "Answer[0].Number": 13,
     "Answer[1].Tries": 3, "Answer[3].Tries": 3,
 }  # fmt: skip
-"""What may stand in a slot that nobody has cleared: a drive online, a command and a parameter that wait."""
+"""What may be in a slot that nobody has cleared: a drive online, a command and a parameter that wait."""
 
 
 def _not_blank(drive: Drive) -> Iterator[Step]:

@@ -94,7 +94,7 @@ static float some_real(const Telling *telling)
     }
 }
 
-/* Bits by chance, now and then few or many of them. */
+/* Bits at random, now and then few or many of them. */
 static uint64_t some_bits(void)
 {
     uint64_t bits = chance();

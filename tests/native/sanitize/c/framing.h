@@ -81,7 +81,7 @@ static const char *MB_RTUSEAL_right(const MB_RTUSEAL *x, const MB_RTUSEAL *was)
     if (x->ADULENGTH.value != due.length || memcmp(x->ADU.value.table, due.bytes, due.length))
         return "the frame is wrong";
     int kept = !memcmp(x->ADU.value.table + due.length, was->ADU.value.table + due.length, 256 - due.length);
-    return kept ? NULL : "bytes behind the frame are changed";
+    return kept ? NULL : "bytes after the frame are changed";
 }
 
 static void MB_ASCIIENCODE_fill(MB_ASCIIENCODE *x)

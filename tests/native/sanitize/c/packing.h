@@ -29,7 +29,7 @@ static unsigned packed(const WORD *registers, unsigned at, unsigned each)
         if (EACH == 2 && count % 2 && (x->REGISTERS.value.table[used - 1] & 0xFF))                                     \
             return "the low byte of the last register is not empty";                                                   \
         return memcmp(x->REGISTERS.value.table + used, was->REGISTERS.value.table + used, 2 * (513 - used))            \
-                   ? "registers behind are changed"                                                                    \
+                   ? "registers after are changed"                                                                    \
                    : NULL;                                                                                             \
     }                                                                                                                  \
     static void MB_UNPACK##BOX##BITS##_fill(MB_UNPACK##BOX##BITS *x)                                                   \
@@ -49,7 +49,7 @@ static unsigned packed(const WORD *registers, unsigned at, unsigned each)
             if (x->BOX.value.table[at] != packed(was->REGISTERS.value.table, at, EACH))                                \
                 return "a character is wrong";                                                                         \
         if (memcmp(x->BOX.value.table + count, was->BOX.value.table + count, MOST - count))                            \
-            return "characters behind are changed";                                                                    \
+            return "characters after are changed";                                                                    \
         if (!one_in(16))                                                                                               \
             return NULL;                                                                                               \
         START(MB_PACK##BOX##BITS, back);                                                                               \

@@ -86,7 +86,7 @@ static void take_body(Frame *frame, unsigned number)
     memcpy(frame->bytes, BODY_BYTES + BODIES[number].at, frame->length);
 }
 
-/* A reply to a line, one in eight as it is: damaged before it gets its checksum, or behind, or both. */
+/* A reply to a line, one in eight as it is: damaged before it gets its checksum, or after, or both. */
 static void receive(Frame *frame, const Line *line, int framing)
 {
     static Frame other;

@@ -1,7 +1,7 @@
 /* Runs one block or function on as many inputs as asked for; the first that is wrong ends the program with its input in
  * hexadecimal: the state before the scan, bytes in the order of the array, numbers as such. */
 #ifndef SECONDS_WITHOUT_END
-#define SECONDS_WITHOUT_END 30 /* of the processor, for so many inputs: */
+#define SECONDS_WITHOUT_END 30 /* of the processor, for this many inputs: */
 #endif
 #ifndef INPUTS_BETWEEN_ALARMS
 #define INPUTS_BETWEEN_ALARMS 4096
@@ -146,7 +146,7 @@ static void run_one(const Entry *entry, uint64_t seed, uint64_t count)
     printf("\n");
 }
 
-/* NAME SEED COUNT; the name * stands for every block and function. A line on each: how often it gave which ErrorID. */
+/* NAME SEED COUNT; the name * means every block and function. A line on each: how often it gave which ErrorID. */
 static int run_entries(const Entry *entries, unsigned count, int argc, char **argv)
 {
     int found = 0;

@@ -1,0 +1,62 @@
+"""The embedded engine: ST compiled to Python in this process, with no tool but Python."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from structured_text.engines.embedded.compiler import Compiler
+from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.engine import BuildError, Message, Source
+from structured_text.language.checker import check
+from structured_text.language.parser import ParseError, parse
+from structured_text.language.problems import Problem, SourceError
+from structured_text.language.tree import Unit
+
+# Turns of loops in one scan. A frame of 256 bytes needs hundreds; a scan of a million takes some 0.1 s here.
+LOOP_LIMIT = 1_000_000
+
+
+class EmbeddedEngine:
+    """Runs ST in this process.
+
+    Where compilers could differ, such as an intermediate result that overflows its type, a scan raises ScanError.
+    `loop_limit`: turns of loops that one scan may take (the look that ends a WHILE counts as one).
+    `coverage`: count the lines that run.
+    """
+
+    name = "embedded"
+
+    def __init__(self, *, loop_limit: int = LOOP_LIMIT, coverage: bool = False) -> None:
+        """Choose."""
+        self.coverage = coverage
+        self.loop_limit = loop_limit
+
+    def build(self, sources: Sequence[Source]) -> EmbeddedLibrary:
+        """Compile the sources as one text in the given order. Raises BuildError."""
+        units = _parsed(sources)
+        try:
+            checked = check(units)
+        except SourceError as error:
+            raise BuildError([_message(each) for each in error.problems]) from error
+        compiler = Compiler(checked, self.coverage)
+        if compiler.messages:
+            raise BuildError(compiler.messages)
+        return EmbeddedLibrary(compiler, self.loop_limit)
+
+
+def _parsed(sources: Sequence[Source]) -> list[Unit]:
+    """Parse all sources, so that the errors of all are reported at once. Raises BuildError."""
+    units: list[Unit] = []
+    problems: list[Problem] = []
+    for source in sources:
+        try:
+            units.append(parse(source.text, source.path))
+        except ParseError as error:
+            problems += error.problems
+    if problems:
+        raise BuildError([_message(each) for each in problems])
+    return units
+
+
+def _message(problem: Problem) -> Message:
+    return Message(problem.path, problem.line, problem.column, problem.text)

@@ -1,0 +1,177 @@
+"""What a build gives: instances, function calls, configurations, and the lines that were run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from itertools import repeat
+from types import FrameType
+from typing import Any
+
+from structured_text.engines.coverage import Branches, Lines
+from structured_text.engines.embedded.calls import function_name, returned
+from structured_text.engines.embedded.compiler import Compiler
+from structured_text.engines.embedded.faults import FAULTS, running, scan_error
+from structured_text.engines.embedded.global_variables import GlobalsView, globals_block, globals_of
+from structured_text.engines.embedded.invocation import body_name
+from structured_text.engines.embedded.paths import Paths
+from structured_text.engines.embedded.values import read, written
+from structured_text.engines.engine import Message, Value
+from structured_text.language import tree
+from structured_text.language.standard import BLOCKS
+from structured_text.language.tree import Block, Direction
+
+
+class EmbeddedInstance:
+    """An instance of a function block or program; `scan` is made for it alone, to cost one call."""
+
+    __slots__ = ("_globals", "_paths", "_root", "scan")
+
+    scan: Callable[..., None]
+
+    def __init__(
+        self, paths: Paths, root: Any, scan: Callable[..., None], shared: tuple[Paths, Any] | None = None
+    ) -> None:
+        """Take the inner instance, the function that runs it, and the globals, if there are any."""
+        self._paths = paths
+        self._root = root
+        self._globals = shared
+        self.scan = scan
+
+    def __getitem__(self, path: str) -> Value:
+        """Read a variable of its own, else a global. KeyError."""
+        try:
+            return self._paths.read(self._root, path)
+        except KeyError:
+            if self._globals is None:
+                raise
+            paths, root = self._globals
+            return paths.read(root, path)
+
+    def __setitem__(self, path: str, value: Value) -> None:
+        """Write a variable of its own, else a global. KeyError, ValueError."""
+        try:
+            self._paths.write(self._root, path, value)
+        except KeyError:
+            if self._globals is None:
+                raise
+            paths, root = self._globals
+            paths.write(root, path, value)
+
+    def state(self) -> dict[str, Value]:
+        """Every scalar, path in upper case -> value, in the order of declaration."""
+        return self._paths.state(self._root)
+
+
+class EmbeddedLibrary:
+    """Compiled sources."""
+
+    def __init__(self, compiler: Compiler, loop_limit: int) -> None:
+        """Take what the compiler has made; a scan may take `loop_limit` turns of loops."""
+        self.compiler = compiler
+        self.loop_limit = loop_limit
+        self._paths: dict[Block, Paths] = {}
+        self._globals = globals_block(compiler)
+
+    def blocks(self) -> Iterator[str]:
+        """The function blocks and programs in source order, spelled as declared."""
+        for unit in self.compiler.checked.units:
+            for each in unit.elements:
+                if isinstance(each, tree.FunctionBlock | tree.Program):
+                    yield each.name
+
+    def instance(self, type_name: str) -> EmbeddedInstance:
+        """Make an instance of a block or program of the sources, or of a standard block. KeyError."""
+        block = self._block(type_name.upper())
+        made = globals_of(self.compiler)
+        root = self.compiler.instance(block, made)
+        known, slots = self._globals
+        shared = (self.paths(known), GlobalsView(made, slots)) if slots else None
+        return EmbeddedInstance(self.paths(block), root, self._scanner(block, root), shared)
+
+    def paths(self, block: Block) -> Paths:
+        """The paths of a block."""
+        if block not in self._paths:
+            self._paths[block] = Paths(block)
+        return self._paths[block]
+
+    def call(self, function: str, arguments: Mapping[str, Value]) -> Value:
+        """Call a function by its formal parameters; one that is left out has its default. KeyError, ScanError.
+
+        Arrays and structures that are bound to in-outs are copies: the caller's list stays as it was.
+        """
+        found = self.compiler.checked.functions.get(function.upper())
+        if found is None:
+            raise KeyError(f"there is no function {function}")
+        given = {name.upper(): value for name, value in arguments.items()}
+        if unknown := [each for each in given if each not in found.parameters]:
+            raise KeyError(f"{function} has no parameter {', '.join(unknown)}")
+        inner = [
+            self._argument(each, given)
+            for name, each in found.parameters.items()
+            if each.direction is not Direction.OUTPUT
+        ]
+        run = self.compiler.run
+        run.budget = repeat(None, self.loop_limit)
+        try:
+            result = self.compiler.function(found)(*inner)
+        except FAULTS as error:
+            raise scan_error(error, self.compiler.accesses) from error
+        return read(found.type, result[0] if returned(found) else result)
+
+    def running(self, frame: FrameType | None) -> list[Message]:
+        """Where a thread is in compiled ST, the innermost place first; each text is the name of a block or function.
+
+        `frame` is the thread's, of `sys._current_frames()`; the thread may go on meanwhile.
+        """
+        checked = self.compiler.checked
+        names = {function_name(each): each.name for each in checked.functions.values()}
+        pous: list[tree.FunctionBlock | tree.Program] = [*checked.blocks.values(), *checked.programs.values()]
+        names |= {body_name(each.type): each.name for each in pous if each.type is not None}
+        return [
+            Message(code.co_filename, line, column, names.get(code.co_name, code.co_name))
+            for code, line, column in running(frame)
+        ]
+
+    def coverage(self) -> Lines:
+        """How often each line with a statement has run: path -> line -> hits. Empty unless built for coverage."""
+        return self._counters("hits_")
+
+    def branches(self) -> Branches:
+        """How often each outcome of each decision came about: path -> outcome -> hits. Empty unless for coverage."""
+        return self._counters("outcomes_")
+
+    def _counters(self, prefix: str) -> dict[str, dict[Any, int]]:
+        found = {name: each for name, each in self.compiler.objects.items() if name.startswith(prefix)}
+        return {name.removeprefix(prefix): dict(sorted(hits.items())) for name, hits in found.items()}
+
+    # ------------------------------------------------------------ in detail
+
+    def _block(self, name: str) -> Block:
+        pou = self.compiler.checked.blocks.get(name) or self.compiler.checked.programs.get(name)
+        block = pou.type if pou else BLOCKS.get(name)
+        if block is None:
+            raise KeyError(f"there is no function block or program {name}")
+        return block
+
+    def _argument(self, parameter: Any, given: dict[str, Value]) -> Any:
+        value = self.compiler.shapes.maker(parameter.type, parameter.default)(None)
+        name = parameter.name.upper()
+        return written(parameter.type, value, given[name]) if name in given else value
+
+    def _scanner(self, block: Block, root: Any) -> Callable[..., None]:
+        """The `scan` of an instance: clock, budget, body, and the way from an exception to a ScanError."""
+        run, body, accesses = self.compiler.run, self.compiler.body(block), self.compiler.accesses
+        limit = self.loop_limit if block in self.compiler.looping else 0
+
+        def scan(now_ns: int | None = None) -> None:
+            """Run the body once with the clock at `now_ns` nanoseconds (None: as it is). Raises ScanError."""
+            if now_ns is not None:
+                run.now = now_ns
+            if limit:
+                run.budget = repeat(None, limit)
+            try:
+                body(root)
+            except FAULTS as error:
+                raise scan_error(error, accesses) from error
+
+        return scan

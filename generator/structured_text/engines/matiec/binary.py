@@ -1,0 +1,84 @@
+"""A shared library in this process, and all that is known of how it was made."""
+
+import ctypes
+import signal
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from structured_text.engines.engine import EngineError, Message
+from structured_text.engines.matiec.counters import Counters
+from structured_text.engines.matiec.declarations import Declarations
+from structured_text.engines.matiec.header import ConfigurationC
+from structured_text.engines.matiec.plan import Plan
+
+_TRAPS = {
+    signal.SIGFPE: "a division by zero, or of the least integer by -1",
+    signal.SIGSEGV: "an access to memory that is not there, as by an array index far out of its bounds",
+}
+
+
+@dataclass
+class Binary:
+    """The shared library and the C functions in it, by name; `guard` is what runs its scans, if anything."""
+
+    path: Path
+    guard: ctypes.c_void_p | None = None
+    handle: ctypes.PyDLL = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Load it. Raises EngineError."""
+        try:
+            self.handle = ctypes.PyDLL(str(self.path))
+        except OSError as error:
+            raise EngineError(f"cannot load the library that the C compiler made: {error}") from error
+
+    def attach(self, guard: ctypes.c_void_p | None) -> None:
+        """Let `guard` run the scans."""
+        self.guard = guard
+        self.function("dbk_attach", ctypes.c_void_p)(guard)
+
+    def function(self, name: str, *arguments: type[ctypes.c_void_p | ctypes.c_int64]) -> Callable[..., int]:
+        """Give a C function that takes `arguments` and gives an int64."""
+        found = self.handle[name]
+        found.argtypes = arguments
+        found.restype = ctypes.c_int64
+        return found
+
+    def sizes(self, count: int) -> list[int]:
+        """Read the table of sizes and offsets."""
+        return list((ctypes.c_int64 * max(count, 1)).in_dll(self.handle, "dbk_sizes"))
+
+    def counts(self, table: str, size: int) -> list[int]:
+        """Read the counters `dbk_hits` or `dbk_begun`."""
+        return list((ctypes.c_uint64 * size).in_dll(self.handle, table))
+
+    def places(self, count: int) -> list[int | None]:
+        """Read the addresses of what a CONFIGURATION holds."""
+        return list((ctypes.c_void_p * max(count, 1)).in_dll(self.handle, "dbk_places"))
+
+
+@dataclass(frozen=True)
+class Built:
+    """All that is known of a build."""
+
+    folder: Path
+    binary: Binary
+    plan: Plan
+    declared: Declarations
+    configuration: ConfigurationC | None
+    warnings: tuple[Message, ...]
+    places: Mapping[str, tuple[str, int]]
+    counters: Counters | None
+
+    def place(self, name: str) -> tuple[str, int]:
+        """File and line where a block or function is declared; line 0 if that is not in the sources."""
+        return self.places.get(name, (name, 0))
+
+
+def cause(number: int) -> str:
+    """Say what ended a scan with this signal."""
+    if number == getattr(signal, "SIGVTALRM", None):
+        return "the watchdog: it took many seconds, so it holds a loop without end"
+    name = signal.Signals(number).name
+    return f"{name}: {_TRAPS[signal.Signals(number)]}" if number in _TRAPS else name

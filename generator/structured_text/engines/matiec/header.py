@@ -1,0 +1,220 @@
+"""What the C of iec2c declares: types, function blocks, programs, functions and what a CONFIGURATION holds.
+
+`POUS.h`, and the headers of matiec's library for the standard blocks, declare everything by a handful of macros in a
+fixed form, so they are read line by line and not as C.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import lru_cache
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class ArrayType:
+    """`typedef struct { base table[n][m]; } name;` - the C knows lengths, not the bounds of the ST."""
+
+    base: str
+    lengths: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class StructType:
+    """A structure: (C type, name) of each field."""
+
+    fields: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class EnumType:
+    """An enumeration; the names without the type's prefix."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class AliasType:
+    """Another name for a type: a subrange, an alias, or either with an initial value of its own."""
+
+    base: str
+
+
+CType = ArrayType | StructType | EnumType | AliasType
+
+
+class Storage(Enum):
+    """How a block holds a variable."""
+
+    VALUE = "__DECLARE_VAR"  # struct {value; flags}
+    POINTER = "__DECLARE_EXTERNAL"  # struct {*value; flags}: VAR_EXTERNAL
+    BLOCK_POINTER = "__DECLARE_EXTERNAL_FB"  # a plain pointer: VAR_EXTERNAL of a block type
+    LOCATED = "__DECLARE_LOCATED"  # struct {*value; flags}: AT %...
+    BLOCK = ""  # the block itself
+
+
+@dataclass(frozen=True)
+class Member:
+    """A variable of a block. `interface`: an input, output or in-out."""
+
+    name: str
+    type: str
+    storage: Storage
+    interface: bool
+
+
+@dataclass(frozen=True)
+class Block:
+    """A function block or program by its C name."""
+
+    name: str
+    members: tuple[Member, ...]
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function: its result type, and (C type, name, by pointer) of each parameter after EN and ENO."""
+
+    name: str
+    result: str
+    parameters: tuple[tuple[str, str, bool], ...]
+
+
+@dataclass
+class Header:
+    """All declarations of a header by C name, in its order."""
+
+    types: dict[str, CType] = field(default_factory=dict)
+    blocks: dict[str, Block] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
+
+
+_DECLARATION = re.compile(
+    r"""^__DECLARE_ARRAY_TYPE\((?P<array>\w+),(?P<base>\w+),(?P<lengths>(?:\[\d+\])+)\)
+    | ^__DECLARE_STRUCT_TYPE\((?P<struct>\w+),(?P<fields>[^()]*)\)
+    | ^__DECLARE_ENUMERATED_TYPE\((?P<enum>\w+),(?P<names>[^()]*)\)
+    | ^__DECLARE_DERIVED_TYPE\((?P<alias>\w+),(?P<of>\w+)\)
+    | ^typedef\ struct\ \{\n(?P<members>[^{}]*)\}\ (?P<block>\w+);
+    | ^//\ FUNCTION\n(?P<result>\w+)\ (?P<function>\w+)\((?P<parameters>[^()]*)\);""",
+    re.MULTILINE | re.VERBOSE,
+)
+_MEMBER = re.compile(
+    r"^\s*(?P<macro>__DECLARE_\w+)\((?P<type>\w+),\s*(?P<name>\w+)\)|^\s*(?P<fb>\w+) (?P<instance>\w+);"
+)
+_FIELD = re.compile(r"(\w+)\s+(\w+)\s*;")
+_PARAMETER = re.compile(r"(\w+) (\*?)(\w+)")
+
+
+def read_header(text: str) -> Header:
+    """Read POUS.h, or a header of standard blocks. What is in no known form is left out."""
+    header = Header()
+    for match in _DECLARATION.finditer(text):
+        if name := match["array"]:
+            lengths = tuple(int(each) for each in re.findall(r"\d+", match["lengths"]))
+            header.types[name] = ArrayType(match["base"], lengths)
+        elif name := match["struct"]:
+            header.types[name] = _struct(match["fields"])
+        elif name := match["enum"]:
+            header.types[name] = EnumType(tuple(each.partition("__")[2] for each in re.findall(r"\w+", match["names"])))
+        elif name := match["alias"]:
+            header.types[name] = AliasType(match["of"])
+        elif name := match["block"]:
+            header.blocks[name] = Block(name, tuple(_members(match["members"])))
+        else:
+            header.functions[match["function"]] = _function(match)
+    return header
+
+
+def _struct(fields: str) -> StructType | AliasType:
+    pairs = _FIELD.findall(fields)
+    return StructType(tuple(pairs)) if pairs else AliasType(fields.strip())
+
+
+def _members(text: str) -> Iterator[Member]:
+    interface = False
+    for line in text.splitlines():
+        if "//" in line:
+            interface = "Interface" in line
+        elif match := _MEMBER.match(line):
+            if match["macro"]:
+                yield Member(match["name"], match["type"], Storage(match["macro"]), interface)
+            else:
+                yield Member(match["instance"], match["fb"], Storage.BLOCK, interface)
+
+
+def _function(match: re.Match[str]) -> Function:
+    parameters = []
+    for type_name, star, name in _PARAMETER.findall(match["parameters"]):
+        plain = name.removeprefix("__") if star else name
+        if plain not in ("EN", "ENO"):
+            parameters.append((type_name, plain, bool(star)))
+    return Function(match["function"], match["result"], tuple(parameters))
+
+
+@lru_cache
+def read_standard_blocks(folder: Path) -> dict[str, Block]:
+    """The blocks that matiec's own headers define, by name. Raises OSError."""
+    found: dict[str, Block] = {}
+    for file in sorted(folder.glob("*FB.h")):
+        for name, block in read_header(file.read_text(encoding="utf-8", errors="replace")).blocks.items():
+            found.setdefault(name, block)
+    return found
+
+
+@dataclass(frozen=True)
+class Global:
+    """A global variable: its owner (configuration or resource), its C type and how it is held."""
+
+    owner: str
+    name: str
+    type: str
+    storage: Storage
+
+
+@dataclass
+class ConfigurationC:
+    """What `<Configuration>.c` and `<Resource>.c` hold; programs as (resource, name, type)."""
+
+    name: str
+    files: list[str]
+    globals: list[Global] = field(default_factory=list)
+    resources: list[str] = field(default_factory=list)
+    programs: list[tuple[str, str, str]] = field(default_factory=list)
+
+
+_GLOBAL = re.compile(r"^__DECLARE_(GLOBAL|GLOBAL_FB|GLOBAL_LOCATED)\((\w+),(\w+),(\w+)\)", re.MULTILINE)
+_GLOBAL_STORAGE = {"GLOBAL": Storage.VALUE, "GLOBAL_FB": Storage.BLOCK, "GLOBAL_LOCATED": Storage.LOCATED}
+_PROGRAM = re.compile(r"^(\w+) (\w+)__(\w+);\n#define \3 \2__\3$", re.MULTILINE)
+_LOCATION = re.compile(r"__LOCATED_VAR\((\w+),(\w+),")
+
+
+def read_configuration(folder: Path) -> ConfigurationC | None:
+    """Read the files of the CONFIGURATION, if iec2c wrote any. Raises OSError."""
+    texts = {file.name: file.read_text(encoding="utf-8", errors="replace") for file in sorted(folder.glob("*.c"))}
+    main = next((name for name, text in texts.items() if "\n// CONFIGURATION " in text), None)
+    if main is None:
+        return None
+    match = re.search(r"^// CONFIGURATION (\w+)$", texts[main], re.MULTILINE)
+    configuration = ConfigurationC(match[1] if match else Path(main).stem.upper(), [main])
+    _add_globals(configuration, texts[main])
+    for resource in re.findall(r"^  (\w+)_init__\(\);$", texts[main], re.MULTILINE):
+        name = next((name for name, text in texts.items() if f"\n// RESOURCE {resource}\n" in text), None)
+        if name is not None:
+            configuration.files.append(name)
+            configuration.resources.append(resource)
+            _add_globals(configuration, texts[name])
+            configuration.programs += [(owner, each, type_) for type_, owner, each in _PROGRAM.findall(texts[name])]
+    return configuration
+
+
+def _add_globals(configuration: ConfigurationC, text: str) -> None:
+    for kind, type_name, owner, name in _GLOBAL.findall(text):
+        configuration.globals.append(Global(owner, name, type_name, _GLOBAL_STORAGE[kind]))
+
+
+def read_locations(folder: Path) -> dict[str, str]:
+    """C type by C name of every place that an AT names. Raises OSError."""
+    file = folder / "LOCATED_VARIABLES.h"
+    text = file.read_text(encoding="utf-8", errors="replace") if file.is_file() else ""
+    return {name: type_name for type_name, name in _LOCATION.findall(text)}

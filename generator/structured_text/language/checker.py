@@ -1,0 +1,141 @@
+"""Typed trees: names, types and calls of several files resolved together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import is_not
+
+from structured_text.language.collector import paused
+from structured_text.language.library import Library
+from structured_text.language.problems import CheckError, Problem
+from structured_text.language.report import Report
+from structured_text.language.resolve import Resolver
+from structured_text.language.semantics.configurations import check_configuration
+from structured_text.language.semantics.declarations import declare_pou, declare_type
+from structured_text.language.semantics.expressions import INFERENCE
+from structured_text.language.semantics.order import sort_callees
+from structured_text.language.semantics.scope import Scope
+from structured_text.language.semantics.statements import check_statements
+from structured_text.language.semantics.variables import check_globals, check_type, check_variables
+from structured_text.language.tree import (
+    Analysis,
+    Checked,
+    Configuration,
+    Function,
+    FunctionBlock,
+    Pou,
+    Program,
+    TypeDecl,
+    Unit,
+    Unsupported,
+)
+from structured_text.language.types import VOID
+
+
+def check(units: Sequence[Unit]) -> Checked:
+    """Resolve and type files as one text in the given order. Raises CheckError with everything that is wrong.
+
+    Raises ValueError as `analyse` does.
+    """
+    checked, problems = analyse(units)
+    if problems:
+        raise CheckError(problems)
+    return checked
+
+
+def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
+    """As `check`, but give what could be typed together with the problems, for those who go on nevertheless.
+
+    The trees are completed in place, once: asked again for the same files, it gives what it gave. Raises ValueError for
+    a file that was analysed with others before, since its tree refers to those.
+    """
+    found = _analysed(units)
+    if found is None:
+        report = Report()
+        with paused():
+            checked = _checked(Library(list(units), report), report)
+        found = Analysis(checked, report.problems())
+        for unit in units:
+            unit.analysis = found
+    return found.checked, list(found.problems)
+
+
+def _analysed(units: Sequence[Unit]) -> Analysis | None:
+    """What was made of these very files, in this order, before. Raises ValueError as `analyse` does."""
+    for unit in units:
+        known = unit.analysis.checked.units if unit.analysis is not None else units
+        if len(known) != len(units) or any(map(is_not, known, units)):
+            raise ValueError(f"{unit.path} was analysed with other files already: parse it again")
+    return units[0].analysis if units else None
+
+
+def _checked(library: Library, report: Report) -> Checked:
+    """Check everything: first what is declared, then what is in it."""
+    checked, resolver = Checked(units=library.units), Resolver(library)
+    _sort_elements(checked, resolver)
+    pous: list[Pou] = [*checked.functions.values(), *checked.blocks.values(), *checked.programs.values()]
+    for pou in pous:
+        report.unit = pou.unit
+        declare_pou(resolver, pou)
+    outside = Scope(library, report, INFERENCE)
+    check_globals(outside, resolver)
+    _check_types(outside, checked)
+    calls = {id(pou): _check_pou(outside.around(pou.symbols), pou) for pou in pous}
+    sort_callees(checked, calls, report)
+    for configuration in checked.configurations.values():
+        report.unit = configuration.unit
+        check_configuration(outside.around(configuration.symbols), configuration)
+    return checked
+
+
+def _sort_elements(checked: Checked, resolver: Resolver) -> None:
+    """Fill the tables; resolve the types; report what is unsupported."""
+    for unit in checked.units:
+        resolver.report.unit = unit
+        for element in unit.elements:
+            if isinstance(element, Unsupported):
+                _unsupported(resolver.report, element)
+            elif isinstance(element, TypeDecl):
+                declare_type(resolver, element)
+                checked.types.setdefault(element.name.upper(), element.type)
+            elif isinstance(element, Function):
+                checked.functions.setdefault(element.name.upper(), element)
+            elif isinstance(element, FunctionBlock):
+                checked.blocks.setdefault(element.name.upper(), element)
+            elif isinstance(element, Program):
+                checked.programs.setdefault(element.name.upper(), element)
+            elif isinstance(element, Configuration):
+                checked.configurations.setdefault(element.name.upper(), element)
+
+
+def _unsupported(report: Report, element: Unsupported) -> None:
+    """Report METHOD, NAMESPACE and the like."""
+    text = f"{element.word} {element.name} is not in the Structured Text of the second edition: {_INSTEAD}"
+    report.add(element.at, "unsupported", text)
+
+
+def _check_types(scope: Scope, checked: Checked) -> None:
+    """Check the initial values of the declared types."""
+    for unit in checked.units:
+        scope.report.unit = unit
+        for element in unit.elements:
+            if isinstance(element, TypeDecl) and element.name.upper() in checked.types:
+                check_type(scope, element)
+
+
+def _check_pou(scope: Scope, pou: Pou) -> set[str]:
+    """Check the variables and statements of one POU; the functions that it calls."""
+    scope.report.unit = pou.unit
+    check_variables(scope, pou)
+    for extra in pou.extras:
+        _unsupported(scope.report, extra)
+    if isinstance(pou, FunctionBlock) and pou.heritage:
+        scope.report.add(pou.name_at, "unsupported", f"{pou.heritage} is not in the second edition: {_INSTEAD}")
+    check_statements(scope, pou.body)
+    if isinstance(pou, Function) and pou.name.upper() not in scope.written and pou.type is not VOID:
+        text = f"expected an assignment to {pou.name} somewhere in FUNCTION {pou.name}: it gives the result"
+        scope.report.add(pou.name_at, "no-result", text)
+    return scope.called
+
+
+_INSTEAD = "use a function block with an input that selects what to do"

@@ -1,0 +1,62 @@
+"""Record again how matiec runs the corpus and the blocks of the library.
+
+`python -m tests.structured_text.engines.traces.record`.
+
+Both lines are run and must agree: a block on which they differ is no canonical text, and nothing is recorded for it.
+"""
+
+import sys
+from collections.abc import Sequence
+
+from tests.blocks.compare.comparison import build, compare, subjects
+from tests.blocks.compare.pou import shipped
+from tests.structured_text.engines.compare.cases import Case, load_cases
+from tests.structured_text.engines.compare.lockstep import Run, lockstep, states
+from tests.structured_text.engines.traces import library
+from tests.structured_text.engines.traces.trace import SEED, Trace, path_of, write
+
+from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.engine import Engine
+
+
+def main() -> int:
+    """Record every case and block; 1 if the lines differ on one, 2 if one of them is missing."""
+    candidates = [each for each in survey().candidates() if each.name in MATIEC_NAMES]
+    engines = [each.engine for each in candidates if each.engine is not None]
+    for each in candidates:
+        print(f"{each.name}: {'records' if each.engine else 'does not record'}, {each.note}")
+    if len(engines) < len(MATIEC_NAMES):
+        return 2
+    differences = [text for case in load_cases().values() if (text := _record(case, engines))]
+    differences += _record_library(engines)
+    print("\n".join(differences), end="\n" if differences else "")
+    return 1 if differences else 0
+
+
+def _record(case: Case, engines: Sequence[Engine]) -> str:
+    """Record one case; what the lines differ in, if they do."""
+    difference = lockstep(case, [Run(engine, case) for engine in engines], case.trace, SEED)
+    if difference is not None:
+        return f"not recorded, the lines differ: {difference}"
+    kept = tuple(states(case, engines[0], case.trace, SEED))
+    changed = write(Trace(case.name, SEED, tuple(each.name for each in engines), kept))
+    size = path_of(case.name).stat().st_size
+    print(f"{case.name}: {len(kept)} scans, {size} bytes, {'written' if changed else 'unchanged'}")
+    return ""
+
+
+def _record_library(engines: Sequence[Engine]) -> list[str]:
+    """Record the library, one file per folder; what the lines differ in."""
+    libraries = build({each.name: each for each in engines})
+    differences = [compare(pou, subjects(libraries, pou), library.scans(pou), SEED) for pou in shipped().pous.values()]
+    if any(differences):
+        return [f"the library is not recorded, the lines differ: {each}" for each in differences if each is not None]
+    for folder in library.folders():
+        changed = library.write(folder, libraries[engines[0].name])
+        size = library.path_of(folder).stat().st_size
+        print(f"library, {folder}: {size} bytes, {'written' if changed else 'unchanged'}")
+    return []
+
+
+if __name__ == "__main__":
+    sys.exit(main())
