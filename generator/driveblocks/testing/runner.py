@@ -1,4 +1,4 @@
-"""Run suites on engines: build each unit once per engine, run its programs, and continue whatever goes wrong."""
+"""Run suites on engines: build once per engine, run its programs, and keep going whatever goes wrong."""
 
 import time
 from collections.abc import Iterable, Iterator, Sequence
@@ -12,7 +12,7 @@ from driveblocks.testing.outcome import ERROR, PASSED, Outcome, Result, Run
 from driveblocks.testing.suite import ROOT
 from driveblocks.testing.unit import Unit
 from structured_text.engines.discovery import EMBEDDED
-from structured_text.engines.engine import Engine, EngineError, Library
+from structured_text.engines.engine import Engine, EngineError, Library, Source
 from structured_text.language.collector import paused
 
 SECONDS = 120.0
@@ -36,7 +36,7 @@ def run(
     with paused(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
             sums = [each for each in coverage if each.engine == engine.name]
-            for unit, built in zip(units, _builds(engine, units, pool), strict=True):
+            for unit, built in zip(units, _builds(engine, units, pool, together=not sums), strict=True):
                 results += _results(engine, unit, built, seconds)
                 results += [trouble for each in sums for trouble in _counted(each, unit, built)]
     return Run(results, time.perf_counter() - start)
@@ -52,14 +52,30 @@ def _counted(coverage: Coverage, unit: Unit, built: _Built) -> Iterator[Result]:
         yield Result(coverage.engine, unit.suite.name, "coverage", (outcome,))
 
 
-def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor) -> Iterable[_Built]:
+def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor, *, together: bool) -> Iterable[_Built]:
     build = partial(_built, engine)
-    return map(build, units) if engine.name == EMBEDDED else pool.map(build, units)
+    if engine.name != EMBEDDED:
+        return pool.map(build, (unit.sources for unit in units))
+    whole = _whole(units) if together else None
+    built = build(whole) if whole else None
+    if built is None or isinstance(built, EngineError):
+        return map(build, (unit.sources for unit in units))
+    return [built] * len(units)
 
 
-def _built(engine: Engine, unit: Unit) -> _Built:
+def _whole(units: Sequence[Unit]) -> list[Source] | None:
+    """All sources, what units share but once, so that it is compiled once; None where they differ in it."""
+    found: dict[str, Source] = {}
+    for unit in units:
+        for source in unit.sources:
+            if found.setdefault(source.path, source) != source:
+                return None
+    return [*found.values()]
+
+
+def _built(engine: Engine, sources: Sequence[Source]) -> _Built:
     try:
-        return engine.build(unit.sources)
+        return engine.build(sources)
     except EngineError as error:
         return error
 

@@ -1,6 +1,7 @@
 """Scenes of one motor: power-up, starts, speeds, stops, faults, and who is in charge."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes.ability import Ability
@@ -9,8 +10,8 @@ from driveblocks.testing.script import SCAN_MS, Script
 from structured_text.language.writing import word
 
 TOLD = "Seen.UntoldMs < 50"
-"""The drive has just got a stop."""
-POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"})
+"""The drive has just received a stop."""
+POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
 PINS = {
     "run_forward": "RunForward",
     "run_reverse": "RunReverse",
@@ -40,7 +41,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 def run(shows: Shows | None = None) -> Step:
     """A start forward, up to the speed."""
     wanted = RUNNING | {"Seen.Starts": 1} | (shows or {})
-    return Step("RunForward starts it", {"RunForward": True}, "Motor.AtSpeed", 3000, wanted)
+    return Step("RunForward starts it", {"RunForward": True}, "Motor.AtSpeed", 3000, wanted, brisk=True)
 
 
 def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
@@ -852,6 +853,6 @@ def _wrong_setting() -> Iterator[Step]:
 def _unset() -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.TurnRoundMs": 0, "Pins.Settings.LongestMs": 0, "Pins.KeepsSilence": False}
     yield Step("power-up", sets, "Motor.Ready", 4000)
-    yield run()
+    yield replace(run(), brisk=False)
     yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True})
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)

@@ -56,7 +56,17 @@ NOISE = {
 
 START = (
     Step("power-up", ms=100),
-    Step("ready", {"Pins.Acknowledge": True}, "Motor.Ready", 3000, {"Reason": "READY", "Bus.ForeignFrames": 0}),
+    Step(
+        "ready",
+        {"Pins.Acknowledge": True},
+        "Motor.Ready",
+        3000,
+        {
+            "Reason": "READY",
+            "Bus.ForeignFrames": 0,
+        },
+        brisk=True,
+    ),
 )
 """... and nothing that another master has said before counts."""
 

@@ -113,7 +113,7 @@ def meant(drive: Drive) -> frozenset[int]:
 
 def idle() -> Step:
     """Power-up, and nothing asked."""
-    return Step("power-up", IDLE, "Motor.Ready", 2000, {"Reason": "READY"})
+    return Step("power-up", IDLE, "Motor.Ready", 2000, {"Reason": "READY"}, brisk=True)
 
 
 def does(block: str, place: int, until: str, shows: Shows, **sets: Value) -> Iterator[Step]:

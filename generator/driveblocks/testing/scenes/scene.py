@@ -1,7 +1,7 @@
 """A scene: what a user does and what happens to the drive, step by step, and what the pins must show."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
@@ -45,6 +45,8 @@ class Step:
     until: str = ""
     ms: int = 3000
     shows: Mapping[str, Value] = field(default_factory=dict)
+    brisk: bool = False
+    """In scans twice as long, so that a way that many scenes go takes few of them."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +60,19 @@ class Scene:
 def scene(words: str, *steps: Step | Iterable[Step]) -> Scene:
     """A scene of steps and of runs of steps."""
     flat = [one for each in steps for one in ([each] if isinstance(each, Step) else each)]
-    return Scene(words, tuple(flat))
+    return Scene(words, tuple(_paced(flat)))
+
+
+def _paced(steps: Iterable[Step]) -> Iterator[Step]:
+    """The steps, with the length of a scan where it changes."""
+    brisk = False
+    for step in steps:
+        if step.brisk != brisk:
+            pace = {"Pins.ElapsedMs": 2 * SCAN_MS if step.brisk else SCAN_MS}
+            yield replace(step, sets=pace | dict(step.sets))
+        else:
+            yield step
+        brisk = step.brisk
 
 
 @dataclass(frozen=True)
