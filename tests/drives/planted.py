@@ -259,7 +259,7 @@ PLANTED = (
     ),
     Planted(
         "a stop waits for the one before",
-        "  NewHalt := Asked.Halted AND (NOT HaltedMemory OR (Asked.StopKind > Round.Rank));",
+        "  NewHalt := Asked.Halted AND (NOT HaltedMemory OR (Asked.StopKind > Rounds.Rank));",
         "  NewHalt := Asked.Halted AND NOT HaltedMemory;",
         test_stop.test_a_harder_stop_replaces_a_softer_one,
         CIA,

@@ -19,7 +19,7 @@ PLANTED = (
     (ENDS, ENDS.replace("Asked.MonitorOnly OR ", ""), "JSCC, MonitorOnly, nothing, at speed", {"contact", "close"}),
     (ENDS, ENDS.replace(" OR Asked.SpeedOnly", ""), "JSCC, SpeedOnly, StopAll pulse, at speed", {"contact", "close"}),
     # the mode is taken in the call of the restart, and no stop is sent
-    ("PostStop := Round.Posts;", "PostStop := Round.Posts AND NOT Asked.SpeedOnly;",
+    ("PostStop := Rounds.Posts;", "PostStop := Rounds.Posts AND NOT Asked.SpeedOnly;",
      "CHF, full control, Restart into SpeedOnly, at speed", {"stop", "prompt"}),
 )  # fmt: skip
 SEEDS = 6

@@ -58,7 +58,7 @@ def _sign(scope: Scope, value: Unary) -> None:
         scope.add(value.at, "stray-sign", text)
     elif value.op == "+" and not isinstance(value.operand, Literal):
         scope.add(value.at, "stray-sign", "matiec refuses + in front of anything but a number: leave it out")
-    elif value.op == "NOT" and _compares_reals(value.operand):
+    elif value.op == "NOT" and (_compares_reals(value.operand) or _joins_comparisons(value.operand)):
         text = "STruC++ makes C++ of it that does not compile: store the comparison in a BOOL first, and negate that"
         scope.add(value.at, "negated-comparison", text)
 
@@ -70,6 +70,14 @@ def _compares_reals(value: Expression) -> bool:
     if value.op in _COMPARISONS:
         return value.operand_type.kind is Kind.REAL
     return _compares_reals(value.left) or _compares_reals(value.right)
+
+
+def _joins_comparisons(value: Expression) -> bool:
+    """Whether an expression joins comparisons, of anything, and nothing else."""
+    if not isinstance(value, Binary) or value.op in _COMPARISONS:
+        return False
+    sides = (value.left, value.right)
+    return all(isinstance(each, Binary) and (each.op in _COMPARISONS or _joins_comparisons(each)) for each in sides)
 
 
 def _binary(scope: Scope, value: Binary) -> None:

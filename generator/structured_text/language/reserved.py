@@ -56,10 +56,11 @@ OTHER_KEYWORDS = _words(
     """
 )
 
-# Names of standard functions and blocks beside those that are typed here.
+# Names of standard functions and blocks beside those that are typed here. ROUND is a function of STruC++, which takes
+# the call of a block of that name for a call of this function.
 STANDARD_NAMES = _words(
     """
-    TRUNC ADD_TIME SUB_TIME CONCAT_DATE_TOD DERIVATIVE HYSTERESIS INTEGRAL PID RAMP
+    TRUNC ROUND ADD_TIME SUB_TIME CONCAT_DATE_TOD DERIVATIVE HYSTERESIS INTEGRAL PID RAMP
     """
 )
 

@@ -144,7 +144,7 @@ _REMARKS = """
 406 string-conversion      INT_TO_STRING and its kind
 407 string-order           < and > on strings
 408 bool-shift             SHL, SHR, ROL and ROR of a BOOL
-409 negated-comparison     NOT over a bracketed comparison of REALs
+409 negated-comparison     NOT over a bracketed comparison of REALs, or over several
 """
 _HOUSE = """
 501 taken-back             with --select: a value that a call has decided and used is assigned again
