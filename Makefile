@@ -66,10 +66,11 @@ drives:               ## drive blocks at length: planted mistakes, the matrix, 1
 matrix:               ## every mode x event x state on second models of the drives, TIMES=4 each, and random walks; matiec: faster
 	$(PY) -m tests.second.long --times $(or $(TIMES),4)
 
-prove:                ## every rule for every family, the terms against the engine in 10^4 calls per block, and 100 planted changes
+prove:                ## every rule for every family and made-up drive, 10^4 calls per block on the engine, 100 planted changes
 	$(DB) prove
 	$(PY) -m tests.prove.agreement
 	$(PY) -m tests.prove.mutants
+	$(PY) -m pytest -n auto -m long tests/prove
 
 mutants:              ## 300 single changes of the blocks that run a motor, SEED=611: which of them `driveblocks test` finds
 	$(PY) -m tests.testing.mutants --seed $(or $(SEED),611)

@@ -63,7 +63,7 @@ def give_up_output() -> None:
 
 
 class _Console(Console):
-    """A console that makes texts visible before it colours them and reckons their width."""
+    """A console that makes texts visible before it colours them and computes their width."""
 
     def render_str(self, text: str, **options: Any) -> Text:
         """A text, or one in a cell of a table."""

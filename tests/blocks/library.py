@@ -52,7 +52,7 @@ def alone(folder: Path = BLOCKS) -> list[Source]:
     """The files of what can be called by itself: all but line and drive blocks, which run against drives elsewhere."""
     types = "|".join((*LINE_TYPES, *DRIVE_TYPES))
     line = re.compile(
-        rf"line/.*|vfd/V.*|.*_(?:Drive|Reads|Orders|ParameterGate|Identity)\.st|types/(?:{types}|MB_(?:Slots|Tracks)\d+)\.st"
+        rf"line/.*|vfd/V.*|device/.*|.*_(?:Drive|Reads|Orders|ParameterGate|Identity)\.st|types/(?:{types}|MB_(?:Slots|Tracks)\d+)\.st"
     )
     return [each for each in sources(folder) if not line.fullmatch(each.path)]
 

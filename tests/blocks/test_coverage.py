@@ -25,6 +25,8 @@ IN_TIME = (
     *(f"{family}_{part}.st" for family in ("invt_chf/CHF", "jscc/JSCC", "shuen_sn300g5/SN300G5") for part in PARTS),
 )
 """What runs in time: scenes reach most of it, tests/line and tests/drives the rest."""
+ELSEWHERE = "/MB_Device.st"
+"""What has no program: tests/line reaches all of it."""
 MOST_LINES, MOST_BRANCHES = 93.0, 88.0
 """What the scenes of the shipped maps reach of that, at least."""
 
@@ -47,7 +49,11 @@ def timed(path: str) -> bool:
 
 def unexplained(measured: Coverage) -> list[str]:
     """What never ran or came about, without a reason, in blocks that do not run in time."""
-    return [str(each) for each in measured.misses if not each.why and not timed(each.path)]
+    return [
+        str(each)
+        for each in measured.misses
+        if not each.why and not timed(each.path) and not each.path.endswith(ELSEWHERE)
+    ]
 
 
 @pytest.fixture(scope="module")

@@ -108,7 +108,7 @@ def test_syntax_errors_end_with_2(tmp_path: Path) -> None:
     result = run("--ignore", "ST0", path)
     assert result.exit_code == 2
     assert result.stdout == f"{path}:5:9: ST001 syntax: expected `:=` or `(`, found =\n"
-    assert result.stderr == f"{path}: not judged beyond its syntax\n"
+    assert result.stderr == f"{path}: not checked beyond its syntax\n"
 
 
 def test_a_broken_file_silences_no_other(tmp_path: Path, loop: Path) -> None:
@@ -126,7 +126,7 @@ def test_a_broken_file_silences_no_other(tmp_path: Path, loop: Path) -> None:
     ]
     assert result.stderr.splitlines() == [
         f"{tmp_path / 'missing.st'}:1:1: cannot be read: No such file or directory",
-        f"{broken}: not judged beyond its syntax",
+        f"{broken}: not checked beyond its syntax",
     ]
 
 

@@ -148,6 +148,20 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
     assert (result.exit_code, result.output) == (2, "run.txt:1:8: the program has no variable Go\n")
 
 
+@pytest.mark.parametrize(
+    ("block", "advice"),
+    [
+        ("ACME_Drive", "if ACME_Drive is of a map of your own, name that by --map"),
+        ("LX_Line8", "LX_Line8 is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of the folder openplc"),
+    ],
+)
+def test_a_block_that_is_not_there_is_told_with_what_to_do(program: Path, block: str, advice: str) -> None:
+    program.write_text(ONE.replace("JSCC_Drive", block), encoding="utf-8")
+    done = run(program)
+    assert done.exit_code == 2
+    assert done.stderr.splitlines()[-1] == advice
+
+
 def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Path) -> None:
     Path("run.txt").write_text("at 2s: Start := TRUE; Hz := 10\nat 5s: Start := FALSE\n", encoding="utf-8")
     files = ("--trace", "t.csv", "--picture", "t.svg")

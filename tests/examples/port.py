@@ -1,12 +1,26 @@
 """A serial port between a program and simulated drives, in virtual time: what is sent and received are real frames."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from driveblocks.reference.checksum import crc16
-from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Instance
 
 SCAN_MS = 10
+
+
+class Answering(Protocol):
+    """A drive, or whatever else answers on the line."""
+
+    unit: int
+    turn_us: int
+
+    def step(self, ms: int) -> None:
+        """Time passes."""
+
+    def reply(self, request: bytes) -> bytes | None:
+        """The reply to a request, both without checksum; None for silence."""
 
 
 def sealed(frame: bytes) -> bytes:
@@ -19,7 +33,7 @@ class Port:
     """The variables `RxCount`, `RxChars`, `TxCount` and `TxChars` of a program on one end, drives on the other."""
 
     program: Instance
-    drives: list[SimulatedDrive]
+    drives: Sequence[Answering]
     character_ms: float
     now: float = 0.0
     sent: list[bytes] = field(default_factory=list)

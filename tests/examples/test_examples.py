@@ -1,9 +1,11 @@
 """The examples as a user would take them: short, clean, and run against simulated drives by the bytes on the wire."""
 
 import re
+from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
+import pytest
 from tests.blocks.library import built, shipped, sources
 from tests.examples.port import Port
 
@@ -13,8 +15,8 @@ from structured_text.language.lint import lint_sources
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
-NAMES = ("one_motor", "three_makes", "hand_off_auto")
-PARTS = ("types/", "modbus/MB_Hex", "line/", "vfd/VFD_", "invt_chf/", "jscc/", "shuen_sn300g5/")
+NAMES = ("one_motor", "three_makes", "hand_off_auto", "meter_and_sensor")
+PARTS = ("types/", "modbus/MB_Hex", "line/", "vfd/VFD_", "device/", "invt_chf/", "jscc/", "shuen_sn300g5/")
 SPARE = re.compile(r"Text|_Request\.|_Reply\.|_Command\.|32")
 """Blocks that the examples do not use."""
 TEXTS = {name: (FOLDER / f"{name}.st").read_text(encoding="utf-8") for name in NAMES}
@@ -32,9 +34,9 @@ def test_every_example_is_short_clean_and_tried() -> None:
     assert lint_sources((each.path, each.text) for each in FILES) == []
 
 
-def test_the_readme_names_every_one() -> None:
+def test_the_readme_leads_to_each() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert [name for name in NAMES if f"(examples/{name}.st)" not in readme] == []
+    assert all(f"(examples/{name}.st)" in readme for name in NAMES)
 
 
 class Plant:
@@ -205,6 +207,71 @@ def test_a_speed_that_is_no_number_stops_it_and_hand_is_not_spoilt(engine: Engin
     plant.run(100, StartButton=True)
     plant.run(9000, StartButton=False)
     assert plant.drives[0].hertz == 40
+
+
+@dataclass
+class Unit:
+    """A meter or a sensor: registers by function code and address, and what was written."""
+
+    unit: int
+    registers: dict[tuple[int, int], int]
+    turn_us: int = 40_000
+    alive: bool = True
+    written: list[bytes] = field(default_factory=list)
+
+    def step(self, ms: int) -> None:
+        """Nothing in it moves."""
+
+    def reply(self, request: bytes) -> bytes | None:
+        """What it has, refused where it has nothing."""
+        unit, function, address = request[0], request[1], int.from_bytes(request[2:4], "big")
+        if not self.alive:
+            return None
+        if function not in (3, 4):
+            self.written.append(request)
+            return request[:6]
+        words = [self.registers.get((function, address + index)) for index in range(request[5])]
+        if None in words:
+            return bytes([unit, function + 0x80, 2])
+        data = b"".join(word.to_bytes(2, "big") for word in words if word is not None)
+        return bytes([unit, function, len(data)]) + data
+
+
+def test_a_meter_and_a_sensor_beside_a_motor(engine: Engine) -> None:
+    plant = Plant(engine, "MeterAndSensor", ["CHF"], 10)
+    (drive,) = plant.drives
+    meter, sensor = Unit(10, {(4, 0x0100): 0x86A0, (4, 0x0101): 0x0001}), Unit(11, {(3, 0): 250})
+    plant.port.drives = [drive, meter, sensor]
+    plant.run(5000, HardStopClosed=True)
+    assert plant.says("EnergyValid", "BarValid") == [True, True]
+    assert plant.says("KilowattHours") == [pytest.approx(1000.0)]
+    assert plant.says("Bar") == [pytest.approx(2.5)]
+    # the pressure starts the pump, and stops it
+    plant.run(6000, Auto=True)
+    assert drive.hertz == 40
+    sensor.registers[3, 0] = 410
+    plant.run(8000)
+    assert (drive.hertz, plant.says("Motor.StopConfirmed")) == (0, [True])
+    sensor.registers[3, 0] = 0x10000 - 20
+    plant.run(8000)
+    assert (drive.hertz, plant.says("Bar")) == (40, [pytest.approx(-0.2)])
+    # a pressure that nobody knows stops it; the others are still read
+    sensor.alive = False
+    plant.run(12000)
+    assert (drive.hertz, plant.says("BarValid", "EnergyValid", "Motor.CommOk")) == (0, [False, True, True])
+    # with a dead sensor a stop leaves within the promised time all the same, and nothing is overdue
+    sensor.alive = True
+    plant.run(10000)
+    assert drive.hertz == 40
+    sensor.alive = False
+    longest = plant.program["Bus.WorstStopMs"]
+    assert isinstance(longest, int)
+    assert STOP in plant.run(longest // 10 * 10, HardStopClosed=False)
+    plant.run(8000)
+    assert plant.says("Motor.StopConfirmed", "Bus.StopOverdue") == [True, False]
+    # the counter is set to 0 once by a press
+    plant.run(1000, ClearButton=True)
+    assert meter.written == [bytes.fromhex("0A0602000005")]
 
 
 def test_three_makes(engine: Engine) -> None:

@@ -4,7 +4,7 @@ import re
 from functools import cache
 
 from tests.blocks.library import sources
-from tests.line.vline import PARAMETER, Bench, Config, Drive, line_sources
+from tests.line.vline import PARAMETER, STOP, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
 from structured_text.engines.embedded import EmbeddedEngine
@@ -185,6 +185,13 @@ def falls_silent(bench: Bench) -> None:
     assert bench["OnlineCount"] == 0
 
 
+def no_motor(bench: Bench) -> None:
+    """A unit that has none, beside a drive."""
+    bench.fill(1, STOP, 3, 0, quantity=0)
+    bench.ready().set(StopAll=True)
+    bench.run(100)
+
+
 TOURS = (
     (falls_silent, Config(drives=8, turn_ms=400, longest_ms=400)),
     (long_dead, Config(drives=8)),
@@ -199,6 +206,7 @@ TOURS = (
     (full_counts, Config(drives=1)),
     (own_stops, Config(drives=1)),
     (stalls, Config(drives=2)),
+    (no_motor, Config(drives=2)),
 )
 """What chance seldom finds."""
 

@@ -33,6 +33,18 @@ def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
     assert bench.answer(2, STOP) == "OK"
 
 
+@pytest.mark.parametrize(
+    "name", ["TurnRest", "TurnPoll", "Slot", "Chosen", "Walk", "PollAt", "ProbeAt", "LastPoll", "Index"]
+)
+@pytest.mark.parametrize("how", ["pin", "late", "first"])
+def test_no_slot_that_does_not_exist_outlives_a_restart(how: str, name: str) -> None:
+    """Memory that was left by something else named the slot whose turn it is, which was looked at beyond the array."""
+    bench = Bench().ready()
+    bench.block[name] = 200
+    restart(bench, how)
+    assert bench.run(600)
+
+
 def test_what_may_still_be_answered_is_waited_out() -> None:
     bench = Bench(Config(longest_ms=300)).ready()
     restart(bench, "pin")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import count
 from random import Random
+from typing import Self
 
 from tests.blocks.library import sources
 from tests.line.drives import KINDS, Kind
@@ -254,7 +255,7 @@ class Bench:
             self.scan()
         return self.sent[before:]
 
-    def ready(self) -> "Bench":
+    def ready(self) -> Self:
         """Scan until every drive that lives is online and the echo is known."""
         self.run(1000 + self.config.longest_ms)
         assert all(self.slot(index, "Online") == drive.alive for index, drive in enumerate(self.drives))

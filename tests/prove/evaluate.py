@@ -115,6 +115,7 @@ OPERATIONS: dict[int, Callable[..., str]] = {
     z3.Z3_OP_FPA_GT: _compared(">"),
     z3.Z3_OP_FPA_LE: _compared("<="),
     z3.Z3_OP_FPA_GE: _compared(">="),
+    z3.Z3_OP_FPA_ABS: lambda _, a: f"abs({a})",
     z3.Z3_OP_FPA_NEG: lambda _, a: f"-{a}",
     z3.Z3_OP_FPA_IS_NAN: lambda _, a: f"{a} != {a}",
     z3.Z3_OP_FPA_ADD: lambda _, _rounding, a, b: f"single({a} + {b})",

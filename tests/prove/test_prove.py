@@ -7,11 +7,14 @@ from pathlib import Path
 import pytest
 from lxml import etree
 from tests.prove import agreement, mutants
+from tests.shapes import texts
 from typer.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
+from driveblocks.maps.page import skeleton
 from driveblocks.prove import prover, report, rules
+from driveblocks.prove.facts import facts
 from driveblocks.prove.proof import Verdict
 from driveblocks.prove.prover import Proved
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -128,6 +131,20 @@ def test_some_of_them_are_judged_as_the_list_says(change: str) -> None:
         assert mutants.judged(one)
     else:
         assert mutants.equivalent(one)
+
+
+MAPS = [pytest.param(name, marks=() if name == "pulse" else pytest.mark.long) for name in (*texts(), "new")]
+
+
+@pytest.mark.parametrize("name", MAPS)
+def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
+    """Paths of states, pulses, several registers and active-low bits; and what `driveblocks new` writes."""
+    path = tmp_path / f"{name}.yaml"
+    path.write_text(texts()[name] if name in texts() else skeleton(), "utf-8")
+    (source,) = collection.read(catalog.chosen([str(path)]))
+    made = dict(prover.texts([source]))[name]
+    found = prover.proved(name, made, rules.family(facts(source.drive)))
+    assert not [report.told(each) for proved in found for each in proved.proofs if not each.good]
 
 
 def test_the_page_names_every_rule_of_the_design() -> None:

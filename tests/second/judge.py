@@ -298,7 +298,7 @@ class Judge:
         bench, now = self.bench, self.bench.now
         if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
             return
-        calm = now - unit.unknown_us > CALM_US
+        calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1)  # the dead have their turn on the wire, too
         good = bench.shows("CommOk", index)
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)

@@ -70,7 +70,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     problems = [each for each in lint_sources([*library, *sources], selection, wanted) if each.path in own]
     print_problems(problems, output)
     broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
-    unjudged = [*unread, *(f"{path}: not judged beyond its syntax" for path in broken)]
+    unjudged = [*unread, *(f"{path}: not checked beyond its syntax" for path in broken)]
     if unjudged:
         _stop("\n".join(unjudged))
     if problems:

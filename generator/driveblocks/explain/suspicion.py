@@ -73,7 +73,7 @@ def _standard(one: Layout) -> Iterator[Told]:
 
 
 def _request(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
-    """What the drive's request block refuses; a reply that repeats address and quantity is judged the same."""
+    """What the drive's request block refuses; a reply that repeats address and quantity is checked the same way."""
     asked = asked_by(one, ascii_mode=ascii_mode)
     reading = asked.function in READS
     if one.direction == "reply" and reading:

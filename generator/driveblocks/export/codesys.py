@@ -1,6 +1,6 @@
 """The dialect of PLCopen's XML that CODESYS and its relatives import: declarations also as text, and folders.
 
-Imports go by name, so that what is replaced by an update and what belongs to the user lie in files of their own.
+Imports go by name, so that what is replaced by an update and what belongs to the user are in files of their own.
 """
 
 from collections.abc import Iterable

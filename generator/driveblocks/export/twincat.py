@@ -1,6 +1,6 @@
 """TwinCAT 3: a file per type, block and program, as "Add existing item" takes it, and projects of them.
 
-What an update replaces lies in `library`; what is the user's lies in `motor`, with projects that link the files.
+What an update replaces is in `library`; what is the user's is in `motor`, with projects that link the files.
 
 The form is that of files in public projects: TcPlcObject 1.1.0.1, which the oldest builds of them have, UTF-8 with a
 byte order mark, CRLF. Ids are made of names, so that a rebuild is no diff.

@@ -30,7 +30,7 @@ _COLUMNS = (
 
 
 def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
-    """A page's text with the part between its markers made anew; `folder` is where the page lies, for its links.
+    """A page's text with the part between its markers made again; `folder` is that of the page, for its links.
 
     Raises ValueError without markers.
     """

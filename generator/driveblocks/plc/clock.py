@@ -1,4 +1,4 @@
-"""Time for a scan loop: of the machine, or as fast as it can be reckoned."""
+"""Time for a scan loop: of the machine, or as fast as it can be computed."""
 
 import time
 from typing import Protocol

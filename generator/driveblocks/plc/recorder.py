@@ -28,7 +28,7 @@ class Recorder:
     """Takes a row from each scan. Where the file does not keep up, rows are dropped and counted."""
 
     def __init__(self, name: str, keep: Callable[[Iterator[Row]], None], *, waits: bool = False) -> None:
-        """`keep` writes rows, and may raise OSError; `waits`: a scan may wait, since its time is reckoned."""
+        """`keep` writes rows, and may raise OSError; `waits`: a scan may wait, since its time is computed."""
         self._name = name
         self._rows: queue.Queue[Row] = queue.Queue(MOST_WAITING)
         self._waits = waits

@@ -55,7 +55,7 @@ class Session:
         self.watchdog = Watchdog()
         self.pace = Pace(scan_us)
         self.typed: queue.SimpleQueue[str] = queue.SimpleQueue()
-        """Lines of a person, from another thread; what they do is reckoned between two scans."""
+        """Lines of a person, from another thread; what they do happens between two scans."""
         self.play: Play | None = None
         """What happens to simulated drives."""
         self.script: Sequence[Setting] = ()

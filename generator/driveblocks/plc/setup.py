@@ -89,7 +89,7 @@ class Setup:
         try:
             return source.load(name, _text(self._path, name), self._maps, self._options.name)
         except BuildError as error:
-            raise Refused(str(error)) from None
+            raise Refused(f"{error}{source.advice(str(error))}") from None
 
     def _controller(self) -> Controller:
         loaded = self._loaded

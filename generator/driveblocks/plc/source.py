@@ -17,6 +17,8 @@ from structured_text.language.parser import ParseError, parse
 from structured_text.language.tree import Program, Unit
 
 _WORD = re.compile(r"[A-Za-z]\w*")
+_UNKNOWN = re.compile(r"expected the name of a type, found ([A-Za-z]\w*_\w+)")
+_PORTS = {prefix for platform, (prefix, _) in library.PLATFORMS.items() if platform != library.BYTES}
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,17 @@ def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> 
     built = EmbeddedEngine().build([*files, Source(path, text)])
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
+
+
+def advice(wrong: str) -> str:
+    """What to do about a block that is not known: it is of a platform, or of a map of the user's own. Or nothing."""
+    found = _UNKNOWN.search(wrong)
+    if found is None:
+        return ""
+    prefix = found[1].partition("_")[0]
+    if prefix in _PORTS:
+        return f"\n{found[1]} is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of the folder openplc"
+    return f"\nif {found[1]} is of a map of your own, name that by --map"
 
 
 def known(named: Sequence[Path] = ()) -> list[Map]:

@@ -3,7 +3,7 @@
 Taken from the map itself, not from what the generator made of it.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
 from driveblocks.maps.names import UNIT_NAMES
@@ -51,6 +51,8 @@ def facts(drive: Drive) -> dict[str, str]:
         **_shown(drive),
         **_reference(drive),
         "holds_ms": _every(_holds_ms(drive)),
+        "at_a_write": _every(_writes(commands, "(Control.Sent <> {name}) OR (Control.StepNumber <= {last})")),
+        "all_written": _every(_writes(commands, "(Control.Send.Order <> {name}) OR (Control.Send.OrderStep = {last})")),
         "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
@@ -225,6 +227,11 @@ def _reference(drive: Drive) -> dict[str, str]:
         "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
         "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
     }
+
+
+def _writes(commands: Mapping[str, Command], form: str) -> Iterator[str]:
+    """Something about each command and the number of its last write, from 0."""
+    return (form.format(name=SENT[does], last=len(one.writes) - 1) for does, one in commands.items() if does in SENT)
 
 
 def _holds_ms(drive: Drive) -> Iterator[str]:

@@ -31,7 +31,7 @@ def text(pou: Pou, checked: Checked, conditions: Mapping[str, str]) -> str:
 
 
 def _assigned(name: str, condition: str) -> str:
-    """What a rule claims is looked at only where it applies: there a divisor is known not to be 0."""
+    """What a rule claims is checked only where it applies: there a divisor is known not to be 0."""
     if "Then" not in name:
         return f"{name} := {condition};"
     return f"{name} := FALSE; IF {name.replace('Then', 'When')} THEN {name} := {condition}; END_IF;"

@@ -173,6 +173,8 @@ def function(family: str, terms: list[Term], kinds: list[Elementary], result: Ty
         return _chosen(family, terms)
     if family == "CONVERT":
         return convert(terms[0], kinds[0], result)
+    if family == "ABS" and terms[0].sort() == SINGLE:
+        return z3.fpAbs(terms[0])
     raise UnsupportedError(f"the function {family}")
 
 

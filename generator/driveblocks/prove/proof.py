@@ -134,7 +134,7 @@ def _claims(world: Store, word: str, count: int) -> tuple[Term, ...]:
 
 
 def answers(asked: Iterable[Question], *, reach: bool = True, exact: bool = False) -> Iterator[Answer]:
-    """What became of each question, those with the same facts together; `reach`: premises are looked at, too."""
+    """What became of each question, those with the same facts together; `reach`: premises are checked, too."""
     groups: dict[tuple[int, ...], list[Question]] = {}
     for each in asked:
         groups.setdefault(tuple(fact.get_id() for fact in each.known), []).append(each)
@@ -146,7 +146,7 @@ def answers(asked: Iterable[Question], *, reach: bool = True, exact: bool = Fals
 
 
 def _solver(*, exact: bool) -> z3.Solver:
-    """A solver that remembers from one question to the next; REALs that are reckoned with need another one."""
+    """A solver that remembers from one question to the next; REALs that are computed with need another one."""
     solver = z3.Then(*STEPS).solver() if exact else z3.SolverFor("QF_BVFP")
     solver.set("rlimit", WORK)
     return solver

@@ -78,7 +78,7 @@ class Terms:
     """Runs bodies on a store of terms."""
 
     def __init__(self, store: Store, *, exact: bool = False) -> None:
-        """Begin with what every scalar is; `exact`: REALs are reckoned with, too."""
+        """Begin with what every scalar is; `exact`: REALs are computed with, too."""
         self.exact = exact
         self.store = store
         self.guard: Term = z3.BoolVal(True)

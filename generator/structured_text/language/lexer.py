@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from structured_text.language.reserved import KEYWORDS
 from structured_text.language.tree import Comment
 
-# A comment of a form that the second edition has; `(*` inside it is looked at afterwards. Possessive: never quadratic.
+# A comment of a form that the second edition has; `(*` inside it is checked afterwards. Possessive: never quadratic.
 _COMMENT = r"\(\*[^*]*+\*++(?:[^)*][^*]*+\*++)*+\)"
 _DATE = r"\d{4}-\d\d?-\d\d?(?:-\d\d?:\d\d?(?::[\d.]+)?)?|\d\d?:\d\d?(?::\d+(?:\.\d+)?)?"
 _TYPED_NUMBER = r"[+-]?(?:\d[\d_]*\#\w+|\d[\d_]*(?:\.\d[\d_]*)?[eE][+-]?\d+(?!\w)|\w+(?:\.\d\w*)*)"

@@ -19,7 +19,7 @@ def check(drive: Drive, report: Report) -> None:
     ids = unique(drive.faults.codes, "id", "fault", report)
     for code, fault in codes.items():
         if not 1 <= code <= 0xFFFF:
-            report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes lie within 1 to FFFFH")
+            report.add(fault.place("code"), f"fault code {code}", "0 means no fault; codes are 1 to FFFFH")
     _fault_registers(drive, codes, report)
     _present(drive, report)
     if drive.faults.bits is not None:
@@ -111,7 +111,7 @@ def _errors(drive: Drive, report: Report) -> None:
     most = 0xFF if form is not None and form.kind == "exception" else 0xFFFF
     for code, error in codes.items():
         if not 1 <= code <= most:
-            report.add(error.place("code"), f"error code {code}", f"codes lie within 1 to {most}")
+            report.add(error.place("code"), f"error code {code}", f"codes are 1 to {most}")
     for error in drive.errors.codes:
         _corroborated(error, report)
     if form is not None:

@@ -41,7 +41,7 @@ def _modes(serial: Serial, report: Report) -> None:
 def _unit(serial: Serial, report: Report) -> None:
     unit = serial.unit
     if not 0 <= unit.min <= unit.max <= 255:
-        report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "they lie within 1 to 247")
+        report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "they are 1 to 247")
     elif unit.max > STANDARD_UNITS and unit.above_247 is None:
         wrong = f"unit addresses to {unit.max}, but the standard reserves 248 to 255"
         report.miss(unit.place("max"), wrong, "write 247, or add `above_247:` with the place where the manual says so")
@@ -112,7 +112,7 @@ def _function(function: Function, report: Report) -> None:
             report.add(sub.place("code"), f"sub-function {sub.code:X}H", "a sub-function is a word, 0000H to FFFFH")
     if not 1 <= function.code <= 0x7F:
         wrong = f"function {function.code:02X}H is no Modbus function"
-        report.add(function.place("code"), wrong, "function codes lie within 01H to 7FH")
+        report.add(function.place("code"), wrong, "function codes are 01H to 7FH")
     else:
         _sent(function, report)
     if function.sub_functions and function.code != 0x08:

@@ -12,9 +12,9 @@ from driveblocks.testing.script import SCAN_MS, Script
 MORE = More(
     blocks={
         "Command": ("VFD_Run", "under test: the command in hand"),
-        "Known": ("VFD_Seen", "what it is told of the drive"),
-        "Wish": ("VFD_Asked", "what it is told of the pins"),
-        "Stage1": ("UINT", "the state that it is told"),
+        "Known": ("VFD_Seen", "what it gets about the drive"),
+        "Wish": ("VFD_Asked", "what it gets about the pins"),
+        "Stage1": ("UINT", "the state that it gets"),
         "Answers": ("UINT", "Number that is answered"),
         "Anew": ("BOOL", "its command has just been posted"),
         "Way": ("BOOL", "the drive shows which way it turns"),
@@ -211,6 +211,6 @@ def _ran() -> Iterator[Step]:
     yield from _posted()
     yield Step("nobody answers", {".Answers": 7}, ms=20, shows={"Command.Failed": True, "Command.Taken": False})
     yield Step("it runs", {"Known.Moving": True}, ms=40, shows={"Command.Ends": 0, "Command.RunsAgain": False})
-    yield Step("it stands", {"Known.Moving": False, "Known.ProofRead": True}, ms=20, shows={
+    yield Step("at standstill", {"Known.Moving": False, "Known.ProofRead": True}, ms=20, shows={
         "Command.Ends": REASONS["BY_ITSELF"], "Command.RunsAgain": False,
     })  # fmt: skip

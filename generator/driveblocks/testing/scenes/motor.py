@@ -10,7 +10,7 @@ from driveblocks.testing.script import SCAN_MS, Script
 from structured_text.language.writing import word
 
 TOLD = "Seen.UntoldMs < 50"
-"""The drive has just been told to stop."""
+"""The drive has just received a stop."""
 POWER = Step("power-up", until="Motor.Ready", ms=2000, shows={"Reason": "READY"}, brisk=True)
 PINS = {
     "run_forward": "RunForward",
@@ -46,7 +46,7 @@ def run(shows: Shows | None = None) -> Step:
 
 def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
     """Wait for StopConfirmed."""
-    return Step("the motor stands", {}, "Motor.StopConfirmed", ms, STANDS | (shows or {}))
+    return Step("the motor is at standstill", {}, "Motor.StopConfirmed", ms, STANDS | (shows or {}))
 
 
 # ---------------------------------------------------------------- starts
@@ -88,7 +88,7 @@ def _power_up(can: Ability) -> Iterator[Step]:
         "Motor.Diagnosis.CanCoastStop": can.can("coast_stop"),
         "Motor.Diagnosis.CanResetFault": can.can("fault_reset"),
     }
-    yield Step("a stop is sent, though it stands", {"Fate.Dumb": False}, "Motor.Ready", 3000, told)
+    yield Step("a stop is sent, though it is at standstill", {"Fate.Dumb": False}, "Motor.Ready", 3000, told)
     yield Step("nothing starts", ms=500, shows=NOTHING_STARTED | abilities | {"HardStop.HardStopOk": False})
     yield Step("the contact closes by an edge", {"Pins.HardReset": True}, ms=50, shows={"HardStop.HardStopOk": True})
 
@@ -220,7 +220,7 @@ def _turns_round() -> Iterator[Step]:
 def _too_early() -> Iterator[Step]:
     yield Step("released", {"RunForward": False}, "Seen.Stopping", 300, {"StopConfirmed": False})
     yield Step("set while it ramps down", {"RunForward": True}, ms=150, shows={"Reason": "NOT_STOPPED"})
-    yield Step("it stands, and starts nothing", ms=2000, shows=STANDS | {"Seen.Starts": 1, "Reason": "NOT_STOPPED"})
+    yield Step("still, and it starts nothing", ms=2000, shows=STANDS | {"Seen.Starts": 1, "Reason": "NOT_STOPPED"})
     yield Step("released", {"RunForward": False}, "Motor.Ready", 500)
     yield Step("a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, {"Seen.Starts": 2})
 
@@ -229,7 +229,7 @@ def _touch() -> Iterator[Step]:
     for _ in range(2):
         yield Step("for one scan", {"RunForward": True}, ms=20)
         yield Step("released: a new stop", {"RunForward": False}, ms=40, shows={"Slots[0].StopAgain": False})
-        yield Step("it stands", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
+        yield Step("at standstill", {}, "Motor.Ready", 3000, {"Seen.Driven": False})
     yield Step("nothing comes after", ms=500, shows={"Seen.Driven": False, "StopConfirmed": True})
 
 
@@ -274,7 +274,7 @@ def _quick() -> Iterator[Step]:
     late = "UINT_TO_DINT(WaitedMs) <= UINT_TO_DINT(Motor.Diagnosis.StopAloneMs) + 20"
     for _ in range(2):
         yield Step("Enable falls", {"Enable": False}, "Seen.UntoldMs < 20", 400, {late: True})
-        yield Step("it stands", {"RunForward": False, "Enable": True}, "Motor.Ready", 3000)
+        yield Step("at standstill", {"RunForward": False, "Enable": True}, "Motor.Ready", 3000)
         yield Step("once more", {"RunForward": True}, "Motor.AtSpeed", 3000)
 
 
@@ -296,7 +296,7 @@ def _stronger(can: Ability) -> Iterator[Step]:
     yield Step("its repetitions are as strong", pins, "Seen.Stops > Mark", 1000, {
         "Seen.StopKind": can.kind("coast_stop"), "Slots[0].StopAgain": True,
     })  # fmt: skip
-    yield Step("it stands", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
+    yield Step("at standstill", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000, STANDS)
 
 
 def _jog_ends(can: Ability) -> Iterator[Step]:
@@ -312,7 +312,7 @@ def _jog_ends(can: Ability) -> Iterator[Step]:
 
 def _jog_alone() -> Iterator[Step]:
     """The line knows which stop comes first."""
-    yield Step("both stops are told after power-up", ms=100, shows={"Seen.StopKind": 4})
+    yield Step("both stops are sent after power-up", ms=100, shows={"Seen.StopKind": 4})
     yield Step("it jogs", {"JogForward": True}, "ABS(Seen.Milli - 5000) <= 200", 1500, {"Seen.Order": 7})
     gone: Shows = {"Pins.NoDrive": True, "Pins.AttendMs": 200, ".Mark": "Seen.Stops"}
     yield Step("the line ends it", gone, "Seen.Stops > Mark", 1500, {"Seen.StopKind": 4})
@@ -406,7 +406,7 @@ def _trip(can: Ability) -> Iterator[Step]:
     yield Step(
         "a stop is sent, so that no run word is left", ms=500, shows={"Seen.Stops >= 2": True, "StopOverdue": False}
     )
-    yield Step("the motor stands", {}, "Seen.Milli = 0", 4000, {"Reason": "FAULT", "Seen.Starts": 1})
+    yield Step("the motor is at standstill", {}, "Seen.Milli = 0", 4000, {"Reason": "FAULT", "Seen.Starts": 1})
     yield Step("the first fault is kept", ms=300, shows={
         "Motor.Diagnosis.FirstFaultCode": can.code, "Motor.Diagnosis.FaultBack1": can.code,
         "Motor.Diagnosis.FirstFaultMs > 200": True, "Motor.Diagnosis.FirstFaultMs < 5000": True,
@@ -443,7 +443,7 @@ def _gone(can: Ability) -> Iterator[Step]:
             "FaultReset", {"FaultReset": True}, "NOT Motor.Fault", 4000, {"Seen.Resets >= 1": True, "FaultCode": 0}
         )
         yield Step(
-            "it stands, ready", {}, "Motor.StopConfirmed AND Motor.Ready", 3000, {"Reason": "READY", "Seen.Starts": 1}
+            "still, and ready", {}, "Motor.StopConfirmed AND Motor.Ready", 3000, {"Reason": "READY", "Seen.Starts": 1}
         )
     else:
         sets: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True}
@@ -461,7 +461,7 @@ def _trip_still(can: Ability) -> Iterator[Step]:
 
 def _vain(can: Ability) -> Iterator[Step]:
     yield Step("it trips", {"Fate.Trips": can.codes[1], "Fate.Cause": True}, "Motor.Fault", 1500)
-    yield Step("the motor stands", {"RunForward": False}, "Seen.Milli = 0", 4000)
+    yield Step("the motor is at standstill", {"RunForward": False}, "Seen.Milli = 0", 4000)
     yield Step("FaultReset", {"FaultReset": True}, "Seen.Resets >= 1", 3000, {"Fault": True})
     slow: Shows = {"Pins.ElapsedMs": 5 * SCAN_MS, "Pins.MaxScanMs": 5 * SCAN_MS}
     yield Step("ten seconds have not helped", slow, why("NO_RESET"), 2600, {"Fault": True, "Ready": False})
@@ -477,7 +477,7 @@ def _vain(can: Ability) -> Iterator[Step]:
 
 def _reset_held(can: Ability) -> Iterator[Step]:
     yield Step("it trips", {"Fate.Trips": can.codes[1]}, "Motor.Fault", 1500)
-    yield Step("the motor stands", {}, "Seen.Milli = 0", 4000)
+    yield Step("the motor is at standstill", {}, "Seen.Milli = 0", 4000)
     yield Step("FaultReset is refused", {"FaultReset": True}, ms=1500, shows={
         "Fault": True, "Reason": "NO_RESET", "Seen.Resets": 0, "Seen.Starts": 1,
     })  # fmt: skip
@@ -597,7 +597,7 @@ def _damaged() -> Iterator[Step]:
     yield Step("it runs on", {"Fate.Damaged": False}, ms=500, shows=RUNNING | {"Seen.Starts": 1})
     yield Step("for good", {"Fate.Damaged": True}, "NOT Motor.CommOk", 6000, {"Ready": False, "Running": False})
     yield Step(
-        "and well again: it stands", {"Fate.Damaged": False}, "Motor.StopConfirmed", 6000, STANDS | {"Seen.Starts": 1}
+        "well again: at standstill", {"Fate.Damaged": False}, "Motor.StopConfirmed", 6000, STANDS | {"Seen.Starts": 1}
     )
 
 
@@ -667,7 +667,7 @@ def _tries(can: Ability) -> Iterator[Step]:
     register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
     lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(register), "Fate.Local": True, "RunForward": True}
     before: Shows = {".Mark": "Seen.Writes - Seen.References"}
-    yield Step("four times in vain", lost | before, why("NO_RUN"), 6000, {
+    yield Step("four times unanswered", lost | before, why("NO_RUN"), 6000, {
         "Seen.Writes - Seen.References - Mark": (4, 5), "Seen.Driven": False,
     })  # fmt: skip
     well: Shows = {"Fate.Unsaid": False, "Fate.Local": False, "RunForward": False}
@@ -702,7 +702,7 @@ def _warning() -> Iterator[Step]:
 
 def _no_supply() -> Iterator[Step]:
     yield Step("SupplyOff stops it", {"SupplyOff": True}, TOLD, 500, {"Reason": "NO_SUPPLY"})
-    yield Step("it stands", {}, "Motor.StopConfirmed", 3000, STANDS | {"Reason": "NO_SUPPLY"})
+    yield Step("at standstill", {}, "Motor.StopConfirmed", 3000, STANDS | {"Reason": "NO_SUPPLY"})
     yield Step("its silence is no alarm", {"Fate.NoPower": True}, ms=2500, shows={
         "StopOverdue": False, "CommOk": False, "Reason": "NO_SUPPLY", "Bus.StopOverdue": False,
     })  # fmt: skip
@@ -772,16 +772,16 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     yield Step("StopAll", all_, ms=600, shows={"ErrorID": 53, "Seen.References": "Mark", "Reason": "STOP_ALL"})
     over: Shows = {"Pins.StopAll": False, "SpeedReferenceHz": 25.0, "Fate.KeypadRun": True}
     yield Step("over", over, "(Seen.References > Mark) AND Motor.Running", 2000)
-    yield Step("a reference that is none is told", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
+    yield Step("a wrong reference is reported", {"SpeedReferenceHz": -1.0}, why("REFERENCE"), 500, {"ErrorID": 13})
     yield Step("so is what is missing", {"SpeedReferenceHz": 25.0, "StopWithinMs": 0}, why("MISSING"), 500)
     unread: Shows = {"Fate.RefusesReads": True, "Pins.Settings.StaleMs": 600, "StopWithinMs": 5000}
     yield Step("it cannot be read", unread, "NOT Motor.CommOk", 2000, {"Slots[0].Online": True})
     blind: Shows = {"SpeedReferenceHz": 15.0, ".Mark": "Seen.References"}
-    yield Step("no reference goes to a drive that nobody sees", blind, ms=1000, shows={"Seen.References": "Mark"})
+    yield Step("no reference is sent to a drive that nobody sees", blind, ms=1000, shows={"Seen.References": "Mark"})
     seen: Shows = {"Fate.RefusesReads": False, "Pins.Settings.StaleMs": 0}
     yield Step("it is read again", seen, "Motor.CommOk AND (Seen.References > Mark)", 2000, {"Seen.Starts": 0})
     yield Step("Enable FALSE does", {"Enable": False, "StopWithinMs": 5000}, "Seen.Stopping", 500)
-    yield Step("it stands", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
+    yield Step("at standstill", {}, "(Seen.Milli = 0) AND NOT Motor.Running", 3000, {"Seen.Starts": 0})
 
 
 def _calm(can: Ability) -> Iterator[Step]:

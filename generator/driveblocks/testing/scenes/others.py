@@ -15,7 +15,7 @@ MORE = More(
     other=True,
     blocks={
         "Printed": ("MB_Adu", "characters that come"),
-        "Inject": ("UINT", "how many; they come with the next scan, behind a reply"),
+        "Inject": ("UINT", "how many; they come with the next scan, after a reply"),
         "Place": ("UINT", "next character"),
         "Late": ("UINT", "late replies that its slots count"),
         "Hurry": ("BOOL", "the speed is another one in every scan"),
@@ -91,7 +91,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
         yield scene("an echo of another write", START, *_other_write(drive, modes[0]))
     if manners(drive).two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
-    yield scene("a late reply behind a stop", START, run(), *_late_stop())
+    yield scene("a late reply after a stop", START, run(), *_late_stop())
     if can.drive.serial.unit.max > can.drive.serial.unit.min:
         yield scene("late replies of one of two drives", START, *_late_other(can))
     yield scene("an echo that comes and goes", START, *_echo())
@@ -185,7 +185,7 @@ def _late_stop() -> Iterator[Step]:
     late: Shows = {"Fate.HoldMs": 100, "Pins.Settings.LongestMs": 300, "RunForward": False}
     for _ in range(2):
         yield Step("replies come late", late, ms=60, shows={"CommOk": True})
-        yield Step("another stop behind each", {"Enable": False}, ms=100, shows={"Bus.ForeignFrames": 0})
+        yield Step("another stop after each", {"Enable": False}, ms=100, shows={"Bus.ForeignFrames": 0})
         yield Step("no longer", {"Enable": True}, ms=300, shows={"Bus.ForeignFrames": 0})
     yield Step("in time again", {"Fate.HoldMs": 0}, "Motor.StopConfirmed", 4000, STANDS | {
         "Bus.ForeignFrames": 0, "Bus.LateReplies >= 1": True, "Slots[0].LongestReplyMs": (60, 320),
@@ -234,7 +234,7 @@ def _busy(can: Ability) -> Iterator[Step]:
 
 
 def _hurry() -> Iterator[Step]:
-    """What is written again and again leaves the reads their turn."""
+    """Between repeated writes the reads keep their turn."""
     begin: Shows = {".Hurry": True, "SpeedReferenceHz": 34.0, ".Mark": "Seen.Reads + Seen.References"}
     yield Step("35 Hz, more or less", begin, ms=2000, shows={
         "Running": True, "CommOk": True, "Seen.Reads + Seen.References - Mark": (31, 999), "Seen.References > 12": True,
@@ -260,7 +260,7 @@ def _slots(can: Ability) -> Iterator[Step]:
         "Bus.ErrorSlot": 1, "Other.Ready": False,
     })  # fmt: skip
     yield Step("the port is worse", {"Pins.PortErrorID": 3}, ms=60, shows={"Bus.ErrorSlot": 0, "Bus.ErrorID": 57})
-    yield Step("time stands for a moment", {"Pins.PortErrorID": 0, "Pins.ElapsedMs": 0}, ms=400, shows={
+    yield Step("no time passes for a moment", {"Pins.PortErrorID": 0, "Pins.ElapsedMs": 0}, ms=400, shows={
         "Bus.ErrorID": 55, "Bus.ErrorSlot": 1,
     })  # fmt: skip
     again: Shows = {"Bus.ErrorSlot": 1, "Slots[0].LineErrorID = 55": True, "Slots[1].LineErrorID = 55": True}

@@ -53,9 +53,9 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("how often a stop is repeated", POWER, run(), *_repeated())
     yield scene("how often where it cannot be read", POWER, run(), *_unread())
     yield scene("how often a refused stop is", POWER, run(), *_refused())
-    yield scene("how often a dead drive is told to stop", POWER, run(), *_dead())
+    yield scene("how often a dead drive gets a stop", POWER, run(), *_dead())
     if can.shows("ready"):
-        yield scene("a drive that is not ready is told to stop", POWER, *_not_ready())
+        yield scene("a drive that is not ready gets a stop", POWER, *_not_ready())
     if can.can("fault_reset") and can.drive.operation.in_one_word:
         yield scene("how often a fault reset is tried", POWER, *_resets(can))
     yield scene("how soon silence is overdue", POWER, run(), *_silent())
@@ -76,7 +76,7 @@ def _repeated() -> Iterator[Step]:
     yield Step("twice a second", FROM_HERE, ms=3000, shows={
         ".Stops": (4, 6), "Slots[0].StopAgain": True, "StopOverdue": False, "Reason": "STOPPING",
     })  # fmt: skip
-    yield Step("until it stands", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000)
+    yield Step("until standstill", {"Fate.RunsOn": False}, "Motor.StopConfirmed", 3000)
     yield Step("then no more", FROM_HERE, ms=1500, shows=STANDS | {".Stops": 0})
 
 
@@ -85,7 +85,7 @@ def _unread() -> Iterator[Step]:
     yield Step("it acknowledges, and cannot be read", unread | FROM_HERE, ms=2700, shows={".Stops": 1})
     yield Step("again after three seconds", ms=1000, shows={".Stops": 2, "CommOk": True, "StopConfirmed": False})
     well: Shows = {"Fate.RunsOn": False, "Fate.RefusesReads": False}
-    yield Step("until it stands", well, "Motor.StopConfirmed", 5000, STANDS)
+    yield Step("until standstill", well, "Motor.StopConfirmed", 5000, STANDS)
 
 
 def _refused() -> Iterator[Step]:
@@ -135,7 +135,7 @@ def _resets(can: Ability) -> Iterator[Step]:
 
 
 def _another_fault(can: Ability) -> Iterator[Step]:
-    """A fault that nobody has looked at is not reset."""
+    """A fault that was not read is not reset."""
     yield Step("in charge again", {"MonitorOnly": False, ".Mute": False, "FaultReset": False}, ms=1000)
     begin: Shows = {".Mark": "Seen.Resets", ".Mute": True, "FaultReset": True}
     yield Step("a reset that is not answered", begin, "Seen.Resets > Mark", 3000, {"Fault": True})

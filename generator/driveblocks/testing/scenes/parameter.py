@@ -28,12 +28,12 @@ BLOCKS = {
     "Place": ("WORD", "register"),
     "Count": ("UINT", "how many"),
     "Given": ("WORD", "what is written there"),
-    "Given2": ("WORD", "... behind it"),
-    "Given3": ("WORD", "... behind that"),
+    "Given2": ("WORD", "... after it"),
+    "Given3": ("WORD", "... after that"),
     "Unknown": ("BOOL", "its pin AllowUnknown"),
     "Within": ("UINT", "its pin WithinMs"),
     "Minimum": ("UINT", "its pin MinimumS"),
-    "Stores": ("UDINT", "times that the drive was told to store"),
+    "Stores": ("UDINT", "number of stores of the drive"),
     "Upset": ("BOOL", "one of the rivals has not got its answer"),
     "Hastes": ("BOOL", "Reader begins anew in the call after a failure"),
     "Slips": ("BOOL", "the port takes characters in the scan in which the writer gives up"),
@@ -95,7 +95,7 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("a start while a parameter is written", idle(), *_waits(place))
     if can.drive.storage.method == "enter_register":
         yield scene("parameters are stored", idle(), *_stored(place))
-        yield scene("parameters are stored in vain", idle(), *_not_stored(can.drive))
+        yield scene("parameters are stored without success", idle(), *_not_stored(can.drive))
 
 
 def place_of(drive: Drive) -> int | None:

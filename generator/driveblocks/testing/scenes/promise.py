@@ -1,4 +1,4 @@
-"""How late the stops of a line can be, reckoned here as docs/line.md says: what its figures are compared with."""
+"""How late the stops of a line can be, computed here as docs/stop.md says: what its figures are compared with."""
 
 from dataclasses import dataclass
 

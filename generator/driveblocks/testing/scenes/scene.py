@@ -34,7 +34,7 @@ HERTZ = 0.2
 
 @dataclass(frozen=True)
 class Step:
-    """What is set, until when it goes on, and what must be so then.
+    """What is set, until when it lasts, and what must be so then.
 
     Names without a dot are pins: `sets` of Pins, `shows` of the drive block. Without `until` it lasts `ms`; with it,
     it must come true within them.
@@ -133,7 +133,7 @@ _FAST = "(Motor.Running AND (Seen.Milli = Seen.AskedMilli) AND (Seen.Milli <> 0)
 
 
 def _path(name_: str, where: str) -> str:
-    """A variable of the program: with a dot as it stands, one before it means the program's own."""
+    """A variable of the program: with a dot as it is, one before it means the program's own."""
     return name_.removeprefix(".") if "." in name_ else f"{where}.{name_}"
 
 
@@ -204,7 +204,7 @@ SCALES = {
     "FrequencyScale": 0.01, "CurrentScale": 0.01, "VoltageScale": 0.01,
     "DcVoltageScale": 0.01, "PowerScale": 0.01,
 }  # fmt: skip
-"""Settings that stand in for scales that a manual does not give: those of the simulated drive."""
+"""Settings in place of scales that a manual does not give: those of the simulated drive."""
 
 
 def _plant(drive: Drive, more: More) -> str:

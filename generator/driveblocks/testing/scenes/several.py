@@ -122,7 +122,7 @@ def _fails_at(results: dict[int, str], place: int, bad: int) -> bool:
 
 
 def _by_hand(drive: Drive) -> Iterator[Step]:
-    """Whoever asks in the slot itself is judged, too: the high byte of the last word says why not."""
+    """A request written to the slot itself is checked, too: the high byte of the last word says why not."""
     place = min(readable(drive))
     rows = [("no register to read", 3, 0, "QUANTITY"), ("too many to read", 3, 5, "QUANTITY")]
     rows += [("no register to write", 6, 0, "QUANTITY"), ("too many to write", 16, 4, "QUANTITY")]

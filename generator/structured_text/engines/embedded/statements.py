@@ -26,7 +26,7 @@ _LONGEST_CHAIN = 16
 
 @dataclass(slots=True)
 class _Link:
-    """One branch of a chain, and what happens before the next one is looked at."""
+    """One branch of a chain, and what happens before the next one is tested."""
 
     branch: ast.If
     before_next: list[ast.stmt]

@@ -1,6 +1,6 @@
 """Where matiec is on this machine: `iec2c` and the folder of its library.
 
-Only MATIEC_HOME and PATH are looked at: nothing is run that nobody has named.
+Only MATIEC_HOME and PATH are searched: nothing is run that nobody has named.
 
 Layouts known: a folder of its own (`iec2c` beside `lib/`); Beremiz (`matiec/` in its folder); OpenPLC Editor up to 3
 (`matiec/`, and a copy in `editor/arduino/bin/`); OpenPLC Editor 4 (`resources/bin/`, `resources/sources/MatIEC/lib`);
