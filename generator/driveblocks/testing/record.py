@@ -19,8 +19,10 @@ OUTPUTS = (
 )  # fmt: skip
 """Pins that the drive block shows."""
 _NAMES = {number: name for name, number in REASONS.items()}
-ROWS = 16
-"""Lines of a table: the last ones before the failure."""
+ROWS, EARLIER = 16, 8
+"""Lines of a table: the last ones before the failure, and of those before only what changes a pin or is a write."""
+READS = ("03", "04")
+"""Function codes that change nothing in a drive."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +68,9 @@ def _moments(instance: Instance, program: Program, steps: dict[int, str], last: 
         instance.scan()
         if stage >= begin:
             yield _moment(instance, ms, steps.get(stage, ""))
-            ms += SCAN_MS
+            elapsed = instance["Pins.ElapsedMs"]
+            assert isinstance(elapsed, int)  # noqa: S101  (a UINT)
+            ms += elapsed
 
 
 def _moment(instance: Instance, ms: int, step: str) -> Moment:
@@ -97,15 +101,19 @@ def _characters(box: Value, count: Value) -> str:
 
 
 def table(record: Sequence[Moment]) -> str:
-    """The last lines before the failure: each change of a pin and each frame."""
-    rows = [["ms", "set", "shown", "Reason", "Hz", "motor", "frame"]]
+    """The last lines before the failure: each change of a pin and each frame; before them, what reads do not hide."""
+    rows: list[list[str]] = []
+    telling: list[bool] = []
     before: tuple[object, ...] = ()
     for one in record:
         frames = [*([f"> {one.sent}"] if one.sent else []), *([f"< {one.heard}"] if one.heard else [])]
         for frame in frames or ([""] if one.pins != before or one is record[-1] else []):
             rows.append(_row(one, frame))
+            telling.append(one.pins != before or frame[5:7] not in READS)
+            before = one.pins
         before = one.pins
-    kept = [rows[0], *rows[1:][-ROWS:]]
+    earlier = [row for row, tells in zip(rows[:-ROWS], telling[:-ROWS], strict=True) if tells]
+    kept = [["ms", "set", "shown", "Reason", "Hz", "motor", "frame"], *earlier[-EARLIER:], *rows[-ROWS:]]
     widths = [max(len(row[column]) for row in kept) for column in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in kept]
     return "\n".join(line.rstrip() for line in lines)
@@ -119,13 +127,15 @@ def _row(one: Moment, frame: str) -> list[str]:
 # ---------------------------------------------------------------- as a picture
 
 WIDTH, LEFT, TOP, ROW, HIGH = 1000, 150, 60, 24, 14
+TITLE = 105
+"""Characters of a title that find room."""
 
 
 def picture(title: str, record: Sequence[Moment]) -> str:
     """A timing diagram: pins that change, the speed, and when frames are sent and heard."""
     lanes = [*_lanes(record, "inputs", INPUTS), *_lanes(record, "outputs", OUTPUTS)]
     canvas = Canvas(title, WIDTH, TOP + ROW * (len(lanes) + 3) + 50)
-    canvas.text(16, 24, title, "head")
+    canvas.text(16, 24, title if len(title) <= TITLE else f"{title[: TITLE - 1]}…", "head")
     scale = (WIDTH - LEFT - 20) / max(record[-1].ms + SCAN_MS, 1)
     _steps(canvas, record, scale, ROW * (len(lanes) + 3))
     for lane, (name, kind) in enumerate(lanes):

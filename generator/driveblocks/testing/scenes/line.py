@@ -23,6 +23,7 @@ def lines(can: Ability) -> Iterator[Scene]:
     if can.drive.serial.unit.max > unit:
         yield scene("StopAll stops two motors", POWER, run(), *_stop_all(unit + 1))
         yield scene("one dead drive, and the other", POWER, run(), *_one_dead(unit + 1))
+    yield scene("StopAll stops a motor whose block is not called", POWER, run(), *_stop_uncalled())
     yield scene("two blocks on one slot", POWER, run(), *_shared(unit))
     yield scene("one address twice", POWER, *_doubled(unit))
     yield scene("a line that is not called", POWER, run(), *_no_line())
@@ -63,6 +64,16 @@ def _stop_all(unit: int) -> Iterator[Step]:
     })  # fmt: skip
     yield Step("one of them again", {"RunForward": False}, "Motor.Ready", 500)
     yield Step("by a new edge", {"RunForward": True}, "Motor.AtSpeed", 3000, {"Seen.Starts": 2, "OtherSeen.Starts": 1})
+
+
+def _stop_uncalled() -> Iterator[Step]:
+    """By a stop of the line's own, at once."""
+    gone: Shows = {"Pins.NoDrive": True, "Pins.AttendMs": 5000}
+    yield Step("its block is not called", gone, ms=100, shows={"Seen.Driven": True, "Slots[0].Unattended": False})
+    all_: Shows = {"Pins.StopAll": True, ".Mark": "Seen.Stops"}
+    yield Step("StopAll", all_, "Seen.Stops > Mark", 300, {"Slots[0].Unattended": False})
+    back: Shows = {"Pins.NoDrive": False, "Pins.StopAll": False, "RunForward": False}
+    yield Step("the block is back", back, "Motor.Ready", 5000, STANDS | {"Seen.Starts": 1})
 
 
 def _one_dead(unit: int) -> Iterator[Step]:

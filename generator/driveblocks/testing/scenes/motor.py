@@ -157,7 +157,10 @@ def _not_able(does: str) -> Iterator[Step]:
     yield Step("it says so", {pin: True}, ms=300, shows=NOTHING_STARTED | {
         "Reason": "NOT_ABLE", "Error": True, "ErrorID": 16, "Ready": False,
     })  # fmt: skip
-    yield Step("the pin falls", {pin: False}, "Motor.Ready", 2000, {"Error": False, "Reason": "READY"})
+    yield Step("forward instead, but no new edge", {pin: False, "RunForward": True}, ms=60, shows=NOTHING_STARTED | {
+        "Error": False, "ErrorID": 0,
+    })  # fmt: skip
+    yield Step("the pin falls", {"RunForward": False}, "Motor.Ready", 2000, {"Error": False, "Reason": "READY"})
 
 
 def _speeds(can: Ability) -> Iterator[Step]:
@@ -832,8 +835,6 @@ def _heartbeat(can: Ability) -> Iterator[Step]:
     }
     name, shows = fed[can.feeds]
     yield Step(name, sets, ms=3000, shows=RUNNING | shows)
-    for _ in range(6):
-        yield Step("in time", ms=4 * SCAN_MS, shows=RUNNING)
     rarely: Shows = {"Fate.Dumb": True} if can.feeds == "read" else {"Pins.Settings.WatchdogMs": 30}
     yield Step("too rarely for it", rarely, why("HEARTBEAT"), 1500, {"Running": True})
 

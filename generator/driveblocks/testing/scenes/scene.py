@@ -46,7 +46,7 @@ class Step:
     ms: int = 3000
     shows: Mapping[str, Value] = field(default_factory=dict)
     brisk: bool = False
-    """In scans twice as long: a path that is common to the scenes takes few of them."""
+    """In scans twice as long, of which it takes fewer: for what most scenes begin with."""
 
 
 @dataclass(frozen=True)
