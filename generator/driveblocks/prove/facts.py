@@ -162,15 +162,20 @@ def _read(drive: Drive) -> dict[str, str]:
     }
 
 
-def _settings(drive: Drive) -> str:
-    """When all polls were answered that bring what the reference rests on."""
+def _settings_reads(drive: Drive) -> list[int]:
+    """The numbers of the polls that bring what the reference rests on."""
     wanted = {one.register for one in drive.operation.reference.verify}
     if drive.operation.own_maximum:
         wanted.add(drive.operation.own_maximum.register)
-    if not wanted:
-        return "SettingsRead"
     numbered = enumerate(polls(drive), 1)
-    brings = [n for n, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+    return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+
+
+def _settings(drive: Drive) -> str:
+    """When all of them were answered."""
+    brings = _settings_reads(drive)
+    if not brings:
+        return "SettingsRead"
     come = _every(f"Since{number}" for number in brings)
     return (
         f"(SettingsRead = (Was.SettingsRead AND NOT Anew AND NOT Verify OR {come})) "
@@ -197,7 +202,13 @@ def _shown(drive: Drive) -> dict[str, str]:
         f"Slot.ErrorAddress = {word(manners['address'])}",
         f"Slot.BusyReason = {busy}",
     ]
+    ready = [_holds(drive, each) for one in drive.operation.status if one.shows == "ready" for each in one.any]
+    verify = [(Decoded(drive).holds(each), _holds(drive, each)) for each in drive.operation.reference.verify]
     return {
+        "ready_shown": f"(CommOk AND ({_any(ready)}))" if ready else "TRUE",
+        "verified": _every(word for _, word in verify),
+        "settings_since": _every(f"Reads.Since{number}" for number in _settings_reads(drive)),
+        "settings_said": _every(f"({decoded}) = ({word})" for decoded, word in verify),
         "said": _every(said),
         "pins": _every(pins),
         "told": _every(told),
@@ -224,6 +235,7 @@ def _reference(drive: Drive) -> dict[str, str]:
     percent = scaled and drive.operation.reference.means == "percent_of_maximum"
     usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
     return {
+        "scale_known": "TRUE" if scaled else f"({usable})",
         "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
         "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",
     }
