@@ -1,5 +1,6 @@
 """`python -m structured_text` on plain files, as its README shows."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,19 +10,19 @@ import pytest
 from structured_text.cli import main
 
 COUNTER = """FUNCTION_BLOCK Counter
-VAR_INPUT Step : INT; END_VAR
+VAR_INPUT Amount : INT; END_VAR
 VAR_OUTPUT Count : INT; END_VAR
-  IF Step > 0 THEN
-    Count := Count + Step;
+  IF Amount > 0 THEN
+    Count := Count + Amount;
   ELSE
     Count := 0;
   END_IF;
 END_FUNCTION_BLOCK
 """
-MAIN = """PROGRAM Main
+MAIN = """PROGRAM Counting
 VAR_OUTPUT Count : INT; Odd : BOOL; END_VAR
-VAR Counts : Counter; Step : INT; END_VAR
-  Counts(Step := Step);
+VAR Counts : Counter; Amount : INT; END_VAR
+  Counts(Amount := Amount);
   Count := Counts.Count;
   Odd := Count MOD 2 = 1;
 END_PROGRAM
@@ -30,7 +31,7 @@ TEST = """PROGRAM CountsUp
 VAR_OUTPUT Done : BOOL; Failures : UINT; END_VAR
 VAR Counts : Counter; Scan : INT; END_VAR
   Scan := Scan + 1;
-  Counts(Step := 3);
+  Counts(Amount := 3);
   IF Counts.Count <> 3 * Scan THEN
     Failures := Failures + 1;
   END_IF;
@@ -49,7 +50,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_program_runs_and_its_changes_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["run", "counter.st", "main.st", "--scans", "3", "--set", "Step=5"]) == 0
+    assert main(["run", "counter.st", "main.st", "--scans", "3", "--set", "Amount=5"]) == 0
     assert capsys.readouterr().out.split("\n")[:3] == [
         "       0 ms  Count=5  Odd=TRUE",
         "      10 ms  Count=10  Odd=FALSE",
@@ -73,8 +74,8 @@ def test_tests_pass_and_what_they_do_not_reach_is_listed(folder: Path, capsys: p
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("Count + Step", "Count - Step", "FAILED  CountsUp: 4 failures"),
-        ("Count + Step", "Count / (Step - 3)", "FAILED  CountsUp: counter.st:5:"),
+        ("Count + Amount", "Count - Amount", "FAILED  CountsUp: 4 failures"),
+        ("Count + Amount", "Count / (Amount - 3)", "FAILED  CountsUp: counter.st:5:"),
     ],
 )
 def test_a_mistake_fails(folder: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, said: str) -> None:
@@ -100,7 +101,7 @@ def test_lint_prints_its_findings(folder: Path, capsys: pytest.CaptureFixture[st
     [
         (["run", "counter.st"], "name one program by --program: there is none"),
         (["run", "counter.st", "main.st", "--set", "Speed=1"], "--set Speed=1: there is no such variable"),
-        (["run", "counter.st", "main.st", "--set", "Step"], "--set Step: write NAME=VALUE"),
+        (["run", "counter.st", "main.st", "--set", "Amount"], "--set Amount: write NAME=VALUE"),
         (["run", "counter.st", "main.st", "--show", "Speed"], "--show Speed: there is no such variable"),
         (["test", "counter.st", "main.st"], "no PROGRAM has outputs Done : BOOL and Failures"),
         (["test", "nowhere.st"], "nowhere.st:1:1: cannot be read: No such file or directory"),
@@ -128,6 +129,16 @@ def test_the_shipped_test_programs_run_by_it(capsys: pytest.CaptureFixture[str])
     tests = blocks / "tests/iec61131"
     assert main(["test", *named, str(tests / "harness"), str(tests / "modbus/MB_TestChecksums.st")]) == 0
     assert "passed  MB_TestChecksums" in capsys.readouterr().out
+
+
+def test_what_the_readme_shows_runs(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    readme = (Path(__file__).parents[2] / "generator/structured_text/README.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^python -m structured_text (.*)$", readme, re.MULTILINE)
+    assert [command.split()[0] for command in commands] == ["lint", "run", "test"]
+    assert [main(each.split()) for each in commands] == [0, 0, 0]
+    (program,) = re.findall(r"^```python\n(.*?)^```$", readme, re.MULTILINE | re.DOTALL)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.stdout == "{'AMOUNT': 2, 'COUNT': 2}\n", done.stderr
 
 
 def test_it_starts_as_a_module(folder: Path) -> None:
