@@ -43,7 +43,7 @@ def said(*words: str, status: int = 0) -> str:
         (["chf:ReferenceScale=1"], "chf: `ReferenceScale=1` cannot be set; the manual of CHF does not give: "),
         (["jscc:ReferenceScale=x"], "jscc: `ReferenceScale=x` is no scale; write 0.1 to 1000 counts per Hz"),
         (["jscc", "--baud", "7"], "--baud 7 is no rate"),
-        (["jscc", "--format", "9N1"], "--format 9N1 is none"),
+        (["jscc", "--format", "9N1"], "--format 9N1 is no format"),
         (["jscc", "--port", ""], "--port names no port"),
         (["jscc", "--for", 400 * "9" + "s"], "is no time; write 10ms"),
         (["jscc", "--for", "soon"], "--for: `soon` is no time"),

@@ -89,7 +89,7 @@ def test_each_row(row: Row) -> None:
 def test_the_fault_says_both_results_and_what_to_do() -> None:
     """A message that a person can act on."""
     text = fault("(u1 + u2) / 2", "UINT", U, u1=65535, u2=3)
-    assert "65538 leaves UINT" in text
+    assert "65538 exceeds UINT" in text
     assert "the standard goes on with 2" in text
     assert "store it first" in text
 
@@ -114,5 +114,5 @@ def test_a_number_whose_type_nothing_tells_is_the_same_in_all_that_compilers_cho
     expression: str, value: float, agreed: str
 ) -> None:
     text = fault(expression, "BOOL", "r1 : REAL;", r1=value)
-    assert text.startswith("nothing tells the type of this number")
+    assert text.startswith("nothing gives the type of this number")
     assert agreed in text
