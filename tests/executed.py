@@ -5,6 +5,7 @@ and reads frames; every call of a function of the generator is noted with its mo
 """
 
 import ast
+import io
 import os
 import pty
 import socket
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator, Sequence
+from contextlib import redirect_stderr, redirect_stdout
 from inspect import CO_OPTIMIZED
 from pathlib import Path
 from types import FrameType
@@ -124,6 +126,15 @@ def executed(folder: Path) -> set[str]:
             if result.exception is not None and not isinstance(result.exception, SystemExit):
                 raise result.exception
         drives.terminate()
+    from structured_text.cli import main
+
+    sys.settrace(note)
+    try:
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+            for word in ("lint", "run"):
+                main([word, str(folder / "bad.st")])
+    finally:
+        sys.settrace(None)
     return seen
 
 

@@ -90,7 +90,7 @@ def test_the_fault_says_both_results_and_what_to_do() -> None:
     """A message that a person can act on."""
     text = fault("(u1 + u2) / 2", "UINT", U, u1=65535, u2=3)
     assert "65538 exceeds UINT" in text
-    assert "the standard goes on with 2" in text
+    assert "the standard continues with 2" in text
     assert "store it first" in text
 
 
