@@ -2,8 +2,9 @@
 
     python3 generator/bootstrap.py demo    set up, then run the main job on the drives of vendor_maps/
     python3 generator/bootstrap.py test    set up, then run every test, as continuous integration does
+    python3 generator/bootstrap.py test --quick    a part of them in under two minutes, and what it left out
 
-Both make a virtual environment `.venv` in the checkout and install the project and what it needs into it.
+All make a virtual environment `.venv` in the checkout and install the project and what it needs into it.
 """
 
 import difflib
@@ -37,6 +38,10 @@ TEST = (
     ("types", "mypy"),
     ("tests", "pytest", "-n", "auto", "--dist", "worksteal", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
+QUICK = (
+    "docs", "examples", "explain", "maps", "modbus", "reference", "render", "simulator", "structured_text/language",
+)  # fmt: skip
+"""Folders of tests that answer soon: maps, their blocks as text, and the pages."""
 LAST_LINE = ("driveblocks", "test")
 """A step that says all in its last line when nothing is wrong."""
 
@@ -58,6 +63,8 @@ def main(arguments: list[str]) -> int:
     if {"-h", "--help"} & set(arguments):
         print(__doc__)
         return 0
+    if arguments == ["test", "--quick"]:
+        return quick()
     if len(arguments) != 1 or arguments[0] not in jobs:
         print(wrong(arguments, list(jobs)), file=sys.stderr)
         return 2
@@ -69,6 +76,18 @@ def main(arguments: list[str]) -> int:
         print(
             NEXT.format(blocks=ROOT / "blocks", sep=os.sep, driveblocks=BIN.relative_to(ROOT) / "driveblocks"), end=""
         )
+    return status
+
+
+def quick() -> int:
+    """Set up, run what answers soon, and say what was left out. Returns the exit status."""
+    if not set_up("[test]"):
+        return 2
+    chosen = [f"tests/{name}" for name in QUICK]
+    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "worksteal", *chosen)))
+    others = {path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("tests/**/test_*.py")}
+    left = sorted(each for each in others if not any(f"{each}/".startswith(f"{one}/") for one in chosen))
+    print(f"left out: {', '.join(left)}; `python3 generator/bootstrap.py test` runs them, too")
     return status
 
 

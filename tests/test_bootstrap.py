@@ -183,3 +183,22 @@ def test_ctrl_c_ends_quietly(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
         runpy.run_path(str(FILE), run_name="__main__")
     assert end.value.code == 130
     assert not capsys.readouterr().err
+
+
+def test_the_quick_test_says_what_it_left_out(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ran: list[tuple[str, ...]] = []
+    monkeypatch.setattr(bootstrap, "set_up", lambda extra: extra == "[test]")
+
+    def step(*command: str) -> int:
+        ran.append(command)
+        return 0
+
+    monkeypatch.setattr(bootstrap, "step", step)
+    assert bootstrap.main(["test", "--quick"]) == 0
+    folders = {each for each in ran[-1] if each.startswith("tests/")}
+    assert all((bootstrap.ROOT / each).is_dir() for each in folders)
+    left = capsys.readouterr().out.rpartition("left out: ")[2].partition(";")[0].split(", ")
+    assert {"tests", "tests/second", "tests/prove", "tests/testing"} <= set(left)
+    assert not folders & set(left)
