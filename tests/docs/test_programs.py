@@ -27,7 +27,8 @@ def _programs() -> dict[str, str]:
         for text in FENCE.findall(page.read_text(encoding="utf-8")):
             program = HARD_STOP.format(text) if page.stem == "VFD_HardStop" else text
             if page.name not in ELSEWHERE:
-                found[re.match(r"PROGRAM (\w+)\n", program)[1]] = program  # type: ignore[index]
+                (name,) = re.findall(r"\APROGRAM (\w+)\n", program)
+                found[name] = program
     return found
 
 

@@ -33,7 +33,7 @@ def both(pdu: ModbusPDU) -> list[tuple[str, bytes]]:
     return [(mode, framer.buildFrame(pdu)) for mode, framer in framers]
 
 
-def apart(pdu: ModbusPDU, direction: Direction, manners: Manners = Manners()) -> Fields:  # noqa: B008
+def apart(pdu: ModbusPDU, direction: Direction, manners: Manners = Manners()) -> Fields:  # noqa: B008 - frozen
     """What the frames of a PDU carry; the same in both modes, and their checksums hold."""
     found = set()
     for mode, frame in both(pdu):

@@ -118,7 +118,8 @@ def good(one: Mutant) -> bool:
 def judged(one: Mutant) -> str:
     """The first rule that is not proved of a change; empty: all are."""
     for unit, made in texts(one).items():
-        if not any(NAME.search(each.text) and NAME.search(each.text)[1] == one.block for each in made):  # type: ignore[index]
+        names = {each[1] for source in made if (each := NAME.search(source.text))}
+        if one.block not in names:
             continue
         try:
             found = _broken(unit, made)
