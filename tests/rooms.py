@@ -34,7 +34,8 @@ def room(module: str) -> str:
     return rest[0] if package == "driveblocks" and rest else package
 
 
-GRAPH = {name: set(imports(path, modules())) for name, path in modules().items()}
+MODULES = modules()
+GRAPH = {name: set(imports(path, MODULES)) for name, path in MODULES.items()}
 
 
 def reached(start: str) -> set[str]:

@@ -16,7 +16,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from tests.blocks.damage import damaged, line
-from tests.blocks.library import NAMES, shipped, sources
+from tests.blocks.library import NAMES, sources
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_decode, rtu_open
@@ -113,7 +114,7 @@ class Chain:
 
 def build() -> EmbeddedLibrary:
     """The shipped library and a chain for each drive."""
-    chains = "".join(CHAIN.format(prefix=prefix) for prefix in shipped())
+    chains = "".join(CHAIN.format(prefix=prefix) for prefix in drives())
     return EmbeddedEngine(loop_limit=TURNS).build([*sources(), Source("chains", chains)])
 
 
@@ -160,13 +161,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Damaged replies through the reply blocks.")
     parser.add_argument("--count", type=int, default=1_000_000, help="replies per drive")
     parser.add_argument("--seed", type=int, default=random.randrange(10**9), help="at random without it")
-    parser.add_argument("--drive", choices=list(shipped()), action="append", help="all without it")
+    parser.add_argument("--drive", choices=list(drives()), action="append", help="all without it")
     given = parser.parse_args(arguments)
     print(f"seed {given.seed}", flush=True)
     library, failed = build(), False
-    for prefix in given.drive or shipped():
-        tally = run(library, shipped()[prefix], given.count, given.seed)
-        print(report(shipped()[prefix], tally))
+    for prefix in given.drive or drives():
+        tally = run(library, drives()[prefix], given.count, given.seed)
+        print(report(drives()[prefix], tally))
         failed = failed or bool(tally.wrong)
     return int(failed)
 

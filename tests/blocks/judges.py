@@ -9,9 +9,10 @@ from functools import cache
 from typing import Any
 
 from tests.blocks import asking, driving, meanings, permissions, vectors
-from tests.blocks.library import Blocks, shipped
+from tests.blocks.library import Blocks
 from tests.blocks.test_reply import check_by_chance
 from tests.maps import test_facts
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.naming import name_of
@@ -134,5 +135,5 @@ def _named(names: str | tuple[str, ...], value: Any) -> dict[str, Any]:
 @cache
 def shipped_is_good() -> None:
     """The facts hold for the shipped maps as they are: otherwise every change would seem to be noticed."""
-    for drive in shipped().values():
+    for drive in drives().values():
         facts(drive)

@@ -1,13 +1,9 @@
 """The compiled blocks: one build per engine and process, and a short way to call a block or a function."""
 
-import functools
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
-from driveblocks.maps.model import Drive
 from driveblocks.render.library import DRIVE_TYPES, LINE_TYPES
 from driveblocks.render.results import RESULTS
 from structured_text.engines.engine import Engine, Instance, Library, Source, Value
@@ -65,12 +61,6 @@ def built(engine: Engine, key: str = "", texts: Iterable[Source] = ()) -> Blocks
     if (engine.name, key) not in _BUILT:
         _BUILT[engine.name, key] = Blocks(engine.build(list(texts) or sources()))
     return _BUILT[engine.name, key]
-
-
-@functools.cache
-def shipped() -> dict[str, Drive]:
-    """The shipped maps by prefix."""
-    return {drive.prefix: drive for drive in map(load, catalog.shipped())}
 
 
 def result(instance: Instance) -> str:

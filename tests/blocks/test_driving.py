@@ -4,12 +4,13 @@ from math import inf, nan
 
 import pytest
 from tests.blocks import driving
-from tests.blocks.library import built, result, scan, shipped
+from tests.blocks.library import built, result, scan
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from structured_text.engines.engine import Engine
 
-DRIVES = pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
+DRIVES = pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
 
 STOPS = {"SN300G5": (0x0000, 0x0000), "JSCC": (0x1000, 3), "CHF": (0x1000, 5)}
 """Command register and stop word, typed from the manuals; SN300G5: bits 0 and 1 cleared."""
@@ -204,5 +205,5 @@ WORDS = [
 def test_words_of_references(
     engine: Engine, prefix: str, given: driving.References, wanted: tuple[str, int, bool]
 ) -> None:
-    found = driving.encode(built(engine), shipped()[prefix], given)
+    found = driving.encode(built(engine), drives()[prefix], given)
     assert (found.result, found.value, found.limited) == wanted

@@ -4,7 +4,8 @@ import functools
 
 import pytest
 from tests.blocks import fuzz
-from tests.blocks.library import shipped, sources
+from tests.blocks.library import sources
+from tests.shipped import drives
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
@@ -13,9 +14,9 @@ from structured_text.engines.engine import Source
 library = functools.cache(fuzz.build)
 
 
-@pytest.mark.parametrize("prefix", shipped())
+@pytest.mark.parametrize("prefix", drives())
 def test_damaged_replies_are_judged_as_by_the_reference(prefix: str) -> None:
-    tally = fuzz.run(library(), shipped()[prefix], 20_000, seed=3, lines=100)
+    tally = fuzz.run(library(), drives()[prefix], 20_000, seed=3, lines=100)
     assert tally.wrong == []
     assert {"OK", "REFUSED", "SHORT", "LONG", "CHECKSUM", "NO_END", "NOT_HEX", "ODD_DIGITS"} <= set(tally.results)
     assert {"OTHER_UNIT", "OTHER_FUNCTION", "BYTE_COUNT", "OTHER_VALUE", "OTHER_ADDRESS"} <= set(tally.results)
@@ -39,5 +40,5 @@ def damaged_library(good: str, bad: str) -> EmbeddedLibrary:
 
 @pytest.mark.parametrize(("good", "bad"), FAULTS)
 def test_a_fault_in_the_blocks_is_found(good: str, bad: str) -> None:
-    tally = fuzz.run(damaged_library(good, bad), shipped()["CHF"], 6_000, seed=3, lines=60)
+    tally = fuzz.run(damaged_library(good, bad), drives()["CHF"], 6_000, seed=3, lines=60)
     assert tally.wrong

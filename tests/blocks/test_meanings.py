@@ -2,16 +2,17 @@
 
 import pytest
 from tests.blocks import meanings
-from tests.blocks.library import built, shipped
+from tests.blocks.library import built
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference.naming import name_of
 from driveblocks.render.results import RESULTS
 from structured_text.engines.engine import Engine
 
-DRIVES = pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
-DECODED = [(drive, row) for drive in shipped().values() for row in meanings.decoded(drive)]
-SCALED = [(drive, row) for drive in shipped().values() for row in meanings.scaled(drive)]
+DRIVES = pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
+DECODED = [(drive, row) for drive in drives().values() for row in meanings.decoded(drive)]
+SCALED = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive)]
 
 
 def ids(pairs: list[tuple[Drive, Register]]) -> list[str]:
@@ -53,7 +54,7 @@ def test_standstill_of_the_manuals(engine: Engine, prefix: str, pins: dict[str, 
     assert built(engine).run(f"{prefix}_Standstill", pins)["StandstillProven"] is wanted
 
 
-@pytest.mark.parametrize("drive", [drive for drive in shipped().values() if drive.faults.bits], ids=lambda d: d.prefix)
+@pytest.mark.parametrize("drive", [drive for drive in drives().values() if drive.faults.bits], ids=lambda d: d.prefix)
 def test_fault_numbers(engine: Engine, drive: Drive) -> None:
     meanings.check_fault_number(built(engine), drive)
 

@@ -2,8 +2,8 @@
 
 import pytest
 from tests.blocks import judges, mutation
-from tests.blocks.library import shipped
 from tests.maps.mutate import Change
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 
@@ -15,7 +15,7 @@ def test_changes_of_maps_are_noticed() -> None:
 
 
 def test_every_explanation_is_of_a_shipped_drive() -> None:
-    assert {drive for drive, _ in mutation.explained()} <= set(shipped())
+    assert {drive for drive, _ in mutation.explained()} <= set(drives())
 
 
 CHANGES = [
@@ -38,7 +38,7 @@ def test_a_changed_fact_turns_the_judges_of_blocks_red(prefix: str, old: str, ne
     assert mutation.verdict(original, change).endswith("blocks")
 
 
-@pytest.mark.parametrize("drive", shipped().values(), ids=list(shipped()))
+@pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
 def test_a_map_as_it_is_passes_every_judge(drive: Drive) -> None:
     original = next(one for one in mutation.originals() if one.drive.prefix == drive.prefix)
     assert not mutation.by_facts(drive)
@@ -47,4 +47,4 @@ def test_a_map_as_it_is_passes_every_judge(drive: Drive) -> None:
 
 
 def test_facts_are_asked_for_every_drive() -> None:
-    assert set(judges.NAMES) == set(shipped())
+    assert set(judges.NAMES) == set(drives())

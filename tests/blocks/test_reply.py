@@ -5,14 +5,15 @@ from dataclasses import replace
 
 import pytest
 from tests.blocks import answering, wire
-from tests.blocks.library import Blocks, built, shipped
+from tests.blocks.library import Blocks, built
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.reply import Answer, Manners, manners, parse
 from driveblocks.reference.request import Asked
 from structured_text.engines.engine import Engine
 
-DRIVES = pytest.mark.parametrize("prefix", shipped())
+DRIVES = pytest.mark.parametrize("prefix", drives())
 BEHIND = (b"\x00", b"\x00\x00", b"\xff", b"0", b":", b"\r\n")
 READ = Asked(3, 1, 0x2000, 2)
 WRITE = Asked(6, 1, 0x1000, value=5)
@@ -98,7 +99,7 @@ def test_refusals_by_a_write_reply(engine: Engine, asked: Asked, body: str, want
 
 def test_a_two_byte_count_is_taken_only_where_the_map_says_so(engine: Engine) -> None:
     body = bytes.fromhex("01 03 00 04 01 F4 00 05")
-    for prefix, drive in shipped().items():
+    for prefix, drive in drives().items():
         tolerant = any(one.kind == "two_byte_count" for one in drive.tolerances)
         found = wire.parse(built(engine), f"{prefix}_Reply", wire.opened(READ), body)
         assert found == (Answer("OK", (0x01F4, 5)) if tolerant else Answer("BYTE_COUNT"))
@@ -129,14 +130,14 @@ def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
 
 @DRIVES
 def test_replies_by_chance_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
-    seen = check_by_chance(built(engine), shipped()[prefix], 1200)
+    seen = check_by_chance(built(engine), drives()[prefix], 1200)
     assert {"OK", "REFUSED", "SHORT", "LONG", "BYTE_COUNT", "OTHER_FUNCTION", "OTHER_VALUE", "OTHER_ADDRESS"} <= seen
 
 
 @DRIVES
 @pytest.mark.parametrize("ascii_mode", [False, True], ids=["rtu", "ascii"])
 def test_any_single_changed_bit_of_a_frame_is_noticed(engine: Engine, prefix: str, ascii_mode: bool) -> None:
-    manner, chance, blocks = manners(shipped()[prefix]), random.Random(prefix), built(engine)
+    manner, chance, blocks = manners(drives()[prefix]), random.Random(prefix), built(engine)
     for asked in (READ, WRITE, SEVERAL, LOOP, Asked(3, 1, 0, 16)):
         frame = wire.frame(blocks, answering.good(manner, asked, chance), ascii_mode=ascii_mode)
         request = wire.opened(asked)

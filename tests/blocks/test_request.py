@@ -5,12 +5,13 @@ from dataclasses import replace
 import pytest
 from tests.blocks import wire
 from tests.blocks.asking import Asking, check_request
-from tests.blocks.library import built, result, shipped
+from tests.blocks.library import built, result
+from tests.shipped import drives
 
 from driveblocks.reference.request import Asked
 from structured_text.engines.engine import Engine
 
-DRIVES = pytest.mark.parametrize("prefix", shipped())
+DRIVES = pytest.mark.parametrize("prefix", drives())
 
 READ = Asked(3, 1, 0x2000, 1)
 LIMITS = [
@@ -52,7 +53,7 @@ def test_limits_of_the_manuals(engine: Engine, prefix: str, asked: Asked, wanted
 
 @DRIVES
 def test_every_limit_and_every_border_of_addresses(engine: Engine, prefix: str) -> None:
-    asking, blocks = Asking(shipped()[prefix]), built(engine)
+    asking, blocks = Asking(drives()[prefix]), built(engine)
     several = list(asking.limits())
     some = several if len(several) < 1500 else several[:: len(several) // 1500]
     seen = {check_request(blocks, asking, asked) for asked in some}
@@ -61,7 +62,7 @@ def test_every_limit_and_every_border_of_addresses(engine: Engine, prefix: str) 
 
 @DRIVES
 def test_requests_by_chance_give_the_reference_bytes_or_its_result(engine: Engine, prefix: str) -> None:
-    asking, blocks = Asking(shipped()[prefix], engine.name), built(engine)
+    asking, blocks = Asking(drives()[prefix], engine.name), built(engine)
     seen = {check_request(blocks, asking, asking.any()) for _ in range(800)}
     assert {"OK", "UNIT", "FUNCTION", "QUANTITY"} <= seen
 

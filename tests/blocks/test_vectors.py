@@ -2,12 +2,13 @@
 
 import pytest
 from tests.blocks import vectors, wire
-from tests.blocks.library import built, shipped
+from tests.blocks.library import built
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive, Frame
 from structured_text.engines.engine import Engine
 
-FRAMES = [(drive, frame) for drive in shipped().values() for frame in drive.frames]
+FRAMES = [(drive, frame) for drive in drives().values() for frame in drive.frames]
 IDS = [f"{drive.prefix}-{frame.id}" for drive, frame in FRAMES]
 EVERY = pytest.mark.parametrize(("drive", "frame"), FRAMES, ids=IDS)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from rich.cells import cell_len
-from tests.blocks.library import shipped
+from tests.shipped import drives
 from typer.testing import CliRunner, Result
 
 from driveblocks.cli import app
@@ -20,7 +20,7 @@ from driveblocks.maps import catalog
 READ = "01 03 20 00 00 01 8F CA"
 REPLY = "01 03 02 01 F4 B8 53"
 FAULTS = "01 03 0C 00 A3 00 18 00 00 00 00 00 42 20 00 8D E2"
-MAPS = dict(zip((path.stem for path in catalog.shipped()), shipped().values(), strict=True))
+MAPS = dict(zip((path.stem for path in catalog.shipped()), drives().values(), strict=True))
 
 
 def explain(*words: str, columns: int = 80, stdin: str | bytes | None = None) -> Result:

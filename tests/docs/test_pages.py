@@ -8,9 +8,10 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
-from tests.blocks.library import BLOCKS, built, shipped, sources
+from tests.blocks.library import BLOCKS, built, sources
 from tests.examples.port import Port
 from tests.shapes import shapes
+from tests.shipped import drives
 
 from driveblocks.docs import timing
 from driveblocks.docs.page import documents
@@ -25,7 +26,7 @@ from structured_text.engines.engine import Engine, Instance, Source
 from structured_text.language.lint import lint_sources
 
 FOLDER = Path(BLOCKS).parent / "docs"
-FAMILIES = sorted(shipped())
+FAMILIES = sorted(drives())
 SOURCES = {Path(each.path).stem: each for each in sources()}
 LANGUAGES = languages(["en"], "utf-8")
 _PIN = re.compile(r"^  (\w+) : (\w+)", re.MULTILINE)
@@ -110,7 +111,7 @@ def test_required_pins_are_those_without_which_nothing_starts() -> None:
 
 
 def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> None:
-    drive = shipped()["SN300G5"]
+    drive = drives()["SN300G5"]
     heard = replace(drive, manual=replace(drive.manual, second_hand=True))
     files = [*generic(LANGUAGES), *library_of("heard", heard, LANGUAGES)]
     text = documents(files, [heard])["docs/SN300G5_Drive.md"]
@@ -122,7 +123,7 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
 
 
 def test_the_page_of_a_users_map_names_it_in_commands_by_its_file() -> None:
-    drive = shipped()["JSCC"]
+    drive = drives()["JSCC"]
     files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
     text = documents(files, [drive], {"JSCC": "mine.yaml"})["docs/JSCC_Drive.md"]
     assert "`driveblocks show mine.yaml absent`" in text
@@ -138,7 +139,7 @@ def by_itself(drive: Drive) -> dict[str, str]:
 
 
 def test_the_page_says_what_a_drive_does_by_itself_and_what_the_manual_does_not_say() -> None:
-    said = by_itself(shipped()["SN300G5"])
+    said = by_itself(drives()["SN300G5"])
     assert list(said) == [
         "The cable is cut", "The drive trips", "The bus is in command", "The drive is of this family",
         "Its own maximum frequency",
@@ -158,7 +159,7 @@ def test_the_page_says_what_a_drive_does_by_itself_and_what_the_manual_does_not_
 
 @every_family
 def test_the_ladder_of_the_page_has_the_wires_of_the_first_motor(family: str) -> None:
-    motor = first_motor("plcopen", shipped()[family]).text
+    motor = first_motor("plcopen", drives()[family]).text
     drawn = [each.text for each in picture(f"{family}_Drive_ladder.svg").iter() if each.tag.endswith("text")]
     wired = re.findall(r"\w+ := ([^,()]+?)(?=[,)])", re.sub(r"\(\*.*?\*\)", "", motor, flags=re.DOTALL))
     assert len(wired) > 15
@@ -223,7 +224,7 @@ def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wirin
 
 @every_family
 def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
-    drive, text = shipped()[family], page(family)
+    drive, text = drives()[family], page(family)
     top = text.partition("\n## Find out before the first start\n")[2].partition("\n## ")[0]
     rows_ = text.partition("\n## What the manual does not say\n")[2].partition("\n## ")[0]
     count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
@@ -239,7 +240,7 @@ def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family
 def test_a_reset_over_the_bus_is_advised_where_there_is_one() -> None:
     for family in FAMILIES:
         (advice,) = re.findall(r"^\| 40 \|.*", page(family), re.MULTILINE)
-        can = any(one.does == "fault_reset" for one in shipped()[family].operation.commands)
+        can = any(one.does == "fault_reset" for one in drives()[family].operation.commands)
         assert ("rising `FaultReset`" in advice) == can
         assert ("the bus cannot reset it" in advice) != can
         assert "at the drive itself" not in page(family)
@@ -267,7 +268,7 @@ def test_no_text_of_a_block_has_an_apostrophe() -> None:
 
 def test_a_first_motor_wires_nine_inputs_at_most() -> None:
     """Ten with the number that a second-hand map asks for; the slot is no input."""
-    for drive in shipped().values():
+    for drive in drives().values():
         for second_hand in (False, True):
             one = replace(drive, manual=replace(drive.manual, second_hand=second_hand))
             for platform in PLATFORMS:
@@ -347,7 +348,7 @@ class Story:
         rate, bits = re.findall(r"BitRate := (\d+), CharacterBits := (\d+)", page(family))[0]
         self.program = library()[f"{family}_{form}"]
         self.program["HardStopClosed"] = self.program["NotStop"] = True
-        self.drive = SimulatedDrive(shipped()[family], shipped()[family].serial.unit.min)
+        self.drive = SimulatedDrive(drives()[family], drives()[family].serial.unit.min)
         self.port = Port(self.program, [self.drive], 1000 * int(bits) / int(rate))
         self.program["Hertz"] = 20.0
         if family == "JSCC":
@@ -390,7 +391,7 @@ def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
 
 @every_family
 def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> None:
-    story, drive = Story(family, "Bare"), shipped()[family]
+    story, drive = Story(family, "Bare"), drives()[family]
     story.run(3500)
     story.run(6000, Switch=True)
     story.run(4000, Switch=False)

@@ -6,9 +6,8 @@ from functools import cache
 
 from tests.blocks.library import sources
 from tests.shapes import shapes
+from tests.shipped import drives
 
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.render import library as blocks
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -29,7 +28,7 @@ _WANTED = re.compile(
 @cache
 def maps() -> dict[str, Drive]:
     """Every drive by the prefix of its blocks: those that ship, and the made-up ones."""
-    return {drive.prefix: drive for drive in (*map(load, catalog.shipped()), *shapes().values())}
+    return {drive.prefix: drive for drive in (*drives().values(), *shapes().values())}
 
 
 def texts(edit: Edit = str, kinds: Sequence[str] = (*FAMILIES, *MADE_UP)) -> list[Source]:

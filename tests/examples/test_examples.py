@@ -6,8 +6,9 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import built, shipped, sources
+from tests.blocks.library import built, sources
 from tests.examples.port import Port
+from tests.shipped import drives
 
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Engine, Source
@@ -45,7 +46,7 @@ class Plant:
     def __init__(self, engine: Engine, program: str, families: list[str], bits: int) -> None:
         """Drives at unit 1, 2 ... at 9600 bit/s."""
         self.program = built(engine, "examples", FILES).library.instance(program)
-        self.drives = [SimulatedDrive(shipped()[family], unit) for unit, family in enumerate(families, 1)]
+        self.drives = [SimulatedDrive(drives()[family], unit) for unit, family in enumerate(families, 1)]
         self.port = Port(self.program, self.drives, bits / 9.6)
 
     def run(self, ms: int, **pins: bool | float) -> list[bytes]:

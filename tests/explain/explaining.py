@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+from tests import shipped
+
 from driveblocks.explain.explanation import Explainer, Explanation
 from driveblocks.explain.paste import read
-from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.modbus.frame import seal
 
@@ -16,7 +17,7 @@ class Explain:
 
     def __init__(self) -> None:
         """Load every map once."""
-        drives = {drive.prefix: drive for drive in map(load, (EXAMPLE, *catalog.shipped()))}
+        drives = {"EX100": load(EXAMPLE), **shipped.drives()}
         self.of = {"": Explainer(), **{prefix: Explainer(drive) for prefix, drive in drives.items()}}
 
     def __call__(self, prefix: str, frame: str, request: str | None = None) -> Explanation:

@@ -3,24 +3,21 @@
 import functools
 from dataclasses import dataclass
 
-from tests.blocks.library import sources
+from tests.blocks import library as blocks
+from tests.shipped import BOTH, sources
 
 from driveblocks.export.part import Shelf, shelf
-from driveblocks.maps import catalog, collection
-from driveblocks.render import library, text
+from driveblocks.render import library
 from driveblocks.render.library import File
-
-BOTH = text.languages(["en", "zh"], "utf-8")
 
 
 @functools.cache
 def made() -> Shelf:
     """All shipped families in both languages."""
-    found = collection.read(catalog.shipped())
     files: list[File] = [*library.generic(BOTH)]
-    for source in found:
+    for source in sources():
         files.extend(library.drive(source.path.stem, source.drive, BOTH))
-    return shelf(files, {source.path.stem: source.drive for source in found}, BOTH)
+    return shelf(files, {source.path.stem: source.drive for source in sources()}, BOTH)
 
 
 @dataclass(frozen=True)
@@ -53,7 +50,7 @@ class Canon:
 def canon() -> dict[str, Canon]:
     """Every part of the library by its name, in the order of use."""
     made = {}
-    for source in sources():
+    for source in blocks.sources():
         folder, _, name = source.path.removesuffix(".st").partition("/")
         made[name] = Canon(folder, name, source.text)
     return made

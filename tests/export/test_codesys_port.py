@@ -8,7 +8,8 @@ from functools import cache
 from itertools import pairwise
 
 import pytest
-from tests.export.test_tc6 import LANGUAGES, stock
+from tests.export.test_tc6 import stock
+from tests.shipped import BOTH
 
 from driveblocks.render import library
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -94,7 +95,7 @@ def _built(name: str, text: str, stand_ins: Sequence[str]) -> Callable[[], Insta
 
 def portable() -> str:
     """CD_Port in portable ST."""
-    text = next(library.adapter("codesys", LANGUAGES)).text
+    text = next(library.adapter("codesys", BOTH)).text
     for old, new in PORT:
         text, count = re.subn(old, new, text, flags=re.DOTALL)
         assert count, old
@@ -264,7 +265,7 @@ def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
 @cache
 def _master(prefix: str) -> Callable[[], Instance]:
     drive = next(each for each in stock().drives.values() if each.prefix == prefix)
-    (file,) = library.programs("codesys", drive, LANGUAGES)
+    (file,) = library.programs("codesys", drive, BOTH)
     text = file.text.replace("slave := Drive1, ", "")
     return _built(f"{prefix}_Master", text, ["ModbusChannel"])
 

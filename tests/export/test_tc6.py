@@ -9,13 +9,13 @@ import pytest
 from tests.export.tc6_checks import CHECKS, Made, declarations, ladders, made, names, room, schema
 from tests.export.tc6_planted import PLANTED, Planted
 from tests.shapes import shapes
+from tests.shipped import BOTH, sources
 
 from driveblocks.export.part import Part, Shelf, shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.target import WRITERS
-from driveblocks.maps import catalog, collection
 from driveblocks.maps.revision import checked
-from driveblocks.render import library, text
+from driveblocks.render import library
 from driveblocks.render.library import File
 from driveblocks.render.results import code
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -23,7 +23,6 @@ from structured_text.engines.engine import Library, Source
 from structured_text.language.lint import lint_sources
 from structured_text.language.parser import parse
 
-LANGUAGES = text.languages(["en", "zh"], "utf-8")
 HEAD = "(* X: a sample\n   Purpose  none: & < > \" ' Ü 变频 ]] > *)\n"
 SAMPLE = (
     HEAD + "TYPE\n  X_Mix : STRUCT\n    One : INT := -5; (* a < b && c *)\n"
@@ -44,11 +43,10 @@ SAMPLE = (
 @cache
 def stock() -> Shelf:
     """The shipped library and a few samples with everything that a declaration can hold."""
-    sources = collection.read(catalog.shipped())
-    files = [*library.generic(LANGUAGES)]
-    files += [file for source in sources for file in library.drive(source.path.stem, source.drive, LANGUAGES)]
+    files = [*library.generic(BOTH)]
+    files += [file for source in sources() for file in library.drive(source.path.stem, source.drive, BOTH)]
     files += [File("types", f"X{number}", one) for number, one in enumerate(SAMPLE)]
-    return shelf(files, {source.path.stem: source.drive for source in sources}, LANGUAGES)
+    return shelf(files, {source.path.stem: source.drive for source in sources()}, BOTH)
 
 
 @cache
@@ -91,9 +89,9 @@ def test_a_ladder_keeps_the_comment_of_a_pin() -> None:
 
 def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_master() -> None:
     drive = shapes()["cia402"]
-    files = [*library.generic(LANGUAGES), *library.drive("cia402", drive, LANGUAGES)]
+    files = [*library.generic(BOTH), *library.drive("cia402", drive, BOTH)]
     for target in ("plcopen", "codesys"):
-        for one in made(WRITERS[target], shelf(files, {"cia402": drive}, LANGUAGES), target):
+        for one in made(WRITERS[target], shelf(files, {"cia402": drive}, BOTH), target):
             names(one)
             declarations(one)
             assert not any(name.endswith("_Master") for name in one.file.named())
@@ -178,7 +176,7 @@ def test_there_are_as_many_as_promised_and_no_check_is_for_nothing() -> None:
 
 def _parsed(text: str) -> Shelf:
     """A shelf of one part that nobody has checked: a writer must not count on that."""
-    return Shelf((Part("sample", parse(text, "sample/X.st")),), {}, tuple(LANGUAGES))
+    return Shelf((Part("sample", parse(text, "sample/X.st")),), {}, tuple(BOTH))
 
 
 @pytest.mark.parametrize(

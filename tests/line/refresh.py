@@ -6,10 +6,9 @@ from itertools import product
 from math import ceil
 from statistics import median
 
+from tests import shipped
 from tests.line.cline import CLine
 
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
 
@@ -132,7 +131,7 @@ def families(lines: Callable[[int], CLine]) -> list[str]:
     heads = "7 drives, 10 ms", "words read from status to status", "bit/s, 8E1", "the wire itself, ms"
     rows = [f"| {' | '.join((*heads, 'port keeps silence', 'line keeps it'))} |"]
     rows.append("|---|---|---|---|---|---|")
-    for drive in map(load, catalog.shipped()):
+    for drive in shipped.drives().values():
         reads = _round(drive)
         rates = sorted(code.baud for code in drive.serial.baud.codes) if drive.serial.baud else []
         told = drive.serial.silence

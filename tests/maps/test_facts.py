@@ -10,15 +10,13 @@ from pathlib import Path
 
 import pytest
 from tests.maps.facts import chf, glossary, jscc, sn300g5
+from tests.shipped import drives
 
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
 
 MAPS = Path(__file__).parents[2] / "vendor_maps"
 
-SN = load(MAPS / "shuen_sn300g5.yaml")
-JS = load(MAPS / "jscc.yaml")
-CH = load(MAPS / "invt_chf.yaml")
+SN, JS, CH = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF"))
 DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH}
 
 ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA}

@@ -6,14 +6,13 @@ from decimal import Decimal
 from itertools import combinations
 
 import pytest
+from tests.shipped import drives
 
-from driveblocks.maps import catalog
 from driveblocks.maps.form import Span
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Condition, Drive, Measured, Register, Scale
 from driveblocks.maps.polls import MOST_POLLS, Poll, polls, schedule, wire_ms
 
-SHIPPED = {drive.prefix: drive for drive in map(load, catalog.shipped())}
+SHIPPED = drives()
 
 
 def test_sn300g5_needs_three_reads() -> None:

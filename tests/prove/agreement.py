@@ -16,9 +16,9 @@ from functools import cache
 from random import Random
 from typing import Any
 
+from tests import shipped
 from tests.prove.evaluate import Program, signed
 
-from driveblocks.maps import catalog, collection
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
@@ -52,7 +52,7 @@ class Score:
 @cache
 def sources() -> dict[str, list[Source]]:
     """The texts of each family with what every drive shares."""
-    return dict(prover.texts(collection.read(catalog.shipped())))
+    return dict(prover.texts(shipped.sources()))
 
 
 @cache
@@ -60,7 +60,7 @@ def subjects(family: str) -> list[Model]:
     """The blocks of a family of which something is proved; of every drive those that all share."""
     if family == prover.GENERIC:
         return models(sources()[family], rules.shared())
-    drive = next(each.drive for each in collection.read(catalog.shipped()) if each.path.stem == family)
+    drive = next(each.drive for each in shipped.sources() if each.path.stem == family)
     return models(sources()[family], rules.family(facts(drive)))
 
 

@@ -17,11 +17,10 @@ from typing import Any
 
 import yaml
 import z3
+from tests import shipped
 from tests.drives.station import FAMILIES
 from tests.second.mutants import NAME, SWAPS, TOKEN, Mutant
 
-from driveblocks.maps import catalog, collection
-from driveblocks.maps.collection import Source as Map
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import models
@@ -83,7 +82,7 @@ def survivors() -> dict[str, dict[str, Any]]:
 
 def texts(one: Mutant | None = None) -> dict[str, list[Source]]:
     """The blocks of every family, with a change or without."""
-    return {unit: [_changed(each, one) for each in made] for unit, made in prover.texts(sources())}
+    return {unit: [_changed(each, one) for each in made] for unit, made in prover.texts(shipped.sources())}
 
 
 def _changed(source: Source, one: Mutant | None) -> Source:
@@ -91,15 +90,9 @@ def _changed(source: Source, one: Mutant | None) -> Source:
 
 
 @cache
-def sources() -> list[Map]:
-    """The maps of the families."""
-    return collection.read(catalog.shipped())
-
-
-@cache
 def subjects() -> dict[str, list[Subject]]:
     """What is proved of each family, and of every drive."""
-    made = {each.path.stem: rules.family(facts(each.drive)) for each in sources()}
+    made = {each.path.stem: rules.family(facts(each.drive)) for each in shipped.sources()}
     return {prover.GENERIC: rules.shared()} | made
 
 

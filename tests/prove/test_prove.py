@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from tests import shipped
 from tests.prove import agreement, mutants
 from tests.shapes import texts
 from typer.testing import CliRunner
@@ -35,7 +36,7 @@ def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_Hard
 @cache
 def everything() -> list[Proved]:
     """All proofs of what ships."""
-    return list(prover.run(collection.read(catalog.shipped())))
+    return list(prover.run(shipped.sources()))
 
 
 def proofs() -> Iterator[tuple[str, prover.Proof]]:

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import shipped
+from tests.shipped import drives
 
 from driveblocks.building import build
 from driveblocks.maps import catalog, collection
@@ -19,9 +19,7 @@ from structured_text.language.tree import Pou, TypeDecl, Unit
 
 ROOT = Path(__file__).parents[2]
 MAPS = [*catalog.shipped(), ROOT / "tests/maps/example.yaml"]
-NAMES = sorted(
-    {word for path in catalog.shipped() for word in path.stem.split("_") if len(word) > 2} | shipped().keys()
-)
+NAMES = sorted({word for path in catalog.shipped() for word in path.stem.split("_") if len(word) > 2} | drives().keys())
 CODE = sorted((ROOT / "generator").rglob("*.py"))
 TEMPLATES = sorted((ROOT / "generator").rglob("*.j2"))
 

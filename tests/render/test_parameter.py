@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from tests.blocks.library import shipped
+from tests.shipped import drives
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Step
@@ -14,14 +14,14 @@ from driveblocks.render.parameter import addresses, may_write, passing
 
 def with_id(id_: str, address: Span) -> Drive:
     """A drive whose only register with an id is this."""
-    drive = shipped()["JSCC"]
+    drive = drives()["JSCC"]
     row = replace(drive.sections[0].registers[2], id=id_, address=address)
     return replace(drive, sections=(replace(drive.sections[0], registers=(row,)),))
 
 
 def with_step(register: int) -> Drive:
     """A drive whose run command begins with a write to another register."""
-    drive = shipped()["CHF"]
+    drive = drives()["CHF"]
     run, *others = drive.operation.commands
     commands = (replace(run, first=(Step(register=register, value=1),)), *others)
     return replace(drive, operation=replace(drive.operation, commands=commands))
@@ -72,13 +72,13 @@ def test_a_range_of_ids_is_one_run() -> None:
 
 
 def test_two_areas_prove_no_number() -> None:
-    drive = shipped()["CHF"]
+    drive = drives()["CHF"]
     two = replace(drive, areas=(*drive.areas, replace(drive.areas[0], id="other", addresses=Span(0x0600, 0x0601))))
     assert addresses(two) is None
     assert parameters(two) == {}
 
 
 def test_what_passes_keeps_to_the_drives_functions_and_limits() -> None:
-    found = {prefix: passing(drive, plan(drive)) for prefix, drive in shipped().items()}
+    found = {prefix: passing(drive, plan(drive)) for prefix, drive in drives().items()}
     limits = {prefix: (one["read"], one["most_read"], one["most_written"]) for prefix, one in found.items()}
     assert limits == {"JSCC": (3, 4, 3), "CHF": (3, 4, 1), "SN300G5": (3, 4, 3)}

@@ -10,13 +10,12 @@ import pytest
 from tests.second.drive import Drive
 from tests.second.frames import rtu
 from tests.second.script import drive
+from tests.shipped import drives
 
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
-MAPS = {load(path).prefix: load(path) for path in catalog.shipped()}
+MAPS = drives()
 PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF"}
 SETTINGS: dict[str, dict[str, Any]] = {
     "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},

@@ -4,15 +4,16 @@ from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
-from driveblocks.maps import catalog, nodes
+from tests.shipped import drives
+
+from driveblocks.maps import nodes
 from driveblocks.maps.decode import decode
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Command, Drive, Frame, Step
 from driveblocks.maps.problem import Report
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
-MAPS = {drive.prefix: drive for drive in map(load, catalog.shipped())}
+MAPS = drives()
 SMALL = (Path(__file__).parents[1] / "maps" / "bad" / "small.yaml").read_text(encoding="utf-8")
 
 

@@ -1079,6 +1079,10 @@ class Drive(Entry):
         "what the manual does not say", "[{what: ..., about: [...], matters: ..., find_out: ...}]"
     )
 
+    def __hash__(self) -> int:
+        """Of equal maps the same; that of every fact would take as long as what is kept by map."""
+        return hash(self.prefix)
+
     def registers(self) -> Iterator[tuple[Section, Register]]:
         """Every row of every section, in the manual's order."""
         for section in self.sections:

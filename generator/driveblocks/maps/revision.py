@@ -1,17 +1,20 @@
 """What distinguishes one state of a map from another."""
 
 from dataclasses import fields, replace
+from functools import lru_cache
 from typing import Any
 
 from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
 
+@lru_cache
 def revision(drive: Drive) -> int:
     """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is."""
     return int(fingerprint([repr(english(drive))]), 16)
 
 
+@lru_cache
 def checked(drive: Drive) -> int:
     """The number by which a user says that the manual was checked: 1 to 65535, a hash of what can move the motor.
 
@@ -23,6 +26,7 @@ def checked(drive: Drive) -> int:
     return int(fingerprint([repr(plain.operation), repr(scales)]), 16) % 65535 + 1
 
 
+@lru_cache
 def english(drive: Drive) -> Drive:
     """A map without a word in another language."""
     plain: Drive = _english(drive)

@@ -1,6 +1,7 @@
 """Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 from driveblocks.maps import names
 from driveblocks.maps.model import Command, Condition, Drive, Measured
@@ -37,6 +38,7 @@ STATUS = {
 """What a drive can show -> the pin or variable."""
 
 
+@lru_cache
 def drive_block(drive: Drive) -> Context:
     """For Drive."""
     reads = polls(drive)

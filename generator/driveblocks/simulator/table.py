@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import lru_cache
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
@@ -135,6 +136,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     )
 
 
+@lru_cache
 def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
     names = [state.name for state in drive.operation.states]
     standing = (each for each in situations() if not each.fault and not each.running)

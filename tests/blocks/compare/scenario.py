@@ -15,7 +15,7 @@ from tests.blocks.asking import Asking
 from tests.blocks.compare.pou import Pou
 from tests.blocks.compare.value import Values
 from tests.blocks.damage import Line, damaged, frame, line
-from tests.blocks.library import shipped
+from tests.shipped import drives
 from tests.structured_text.engines.compare.scenarios import Inputs
 
 from driveblocks.maps.model import Drive
@@ -42,8 +42,8 @@ def kind_of(pou: Pou) -> str:
 
 def _drives(pou: Pou) -> list[Drive]:
     """The drive of a drive's block, or all."""
-    own = shipped().get(pou.name.partition("_")[0])
-    return [own] if own is not None else list(shipped().values())
+    own = drives().get(pou.name.partition("_")[0])
+    return [own] if own is not None else list(drives().values())
 
 
 def _lines(pou: Pou, chance: random.Random, in_ascii: bool) -> Iterator[tuple[Drive, Line]]:

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from tests.export.siemens.scl import Block, read
+from tests.shipped import BOTH, sources
 
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.part import shelf as made_shelf
-from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
 from driveblocks.render import library, text
 from structured_text.language.fingerprint import fingerprint, stream
@@ -44,9 +44,7 @@ class Read:
 @functools.cache
 def shelf() -> Shelf:
     """The shipped library."""
-    languages = text.languages(["en", "zh"], "utf-8")
-    sources = collection.read(list(catalog.shipped()))
-    return stocked({source.path.stem: text.told(source.drive, languages) for source in sources}, languages)
+    return stocked({source.path.stem: text.told(source.drive, BOTH) for source in sources()}, BOTH)
 
 
 def stocked(drives: dict[str, Drive], languages: list[text.Language]) -> Shelf:

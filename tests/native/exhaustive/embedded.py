@@ -4,10 +4,11 @@ import time
 from collections.abc import Iterator, Sequence
 
 from tests.blocks import meanings
-from tests.blocks.library import Blocks, built, scan, shipped
+from tests.blocks.library import Blocks, built, scan
 from tests.native.exhaustive.bench import Finding
 from tests.native.exhaustive.checks import Report
 from tests.native.exhaustive.words import some
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import register
@@ -41,7 +42,7 @@ def checksums(blocks: Blocks) -> Finding:
 
 def decoders(blocks: Blocks) -> Finding:
     """Each 61st word, and those that tell bits and values apart."""
-    rows = [(drive, row) for drive in shipped().values() for row in meanings.decoded(drive)]
+    rows = [(drive, row) for drive in drives().values() for row in meanings.decoded(drive)]
     wrong = [text for drive, row in rows for text in _decoder(blocks, drive, row)]
     return Finding(LINE, sum(len(some(row)) for _, row in rows), len(wrong), tuple(wrong[:5]), "each 61st word")
 
@@ -57,7 +58,7 @@ def _decoder(blocks: Blocks, drive: Drive, row: Register) -> Iterator[str]:
 
 def scales(blocks: Blocks) -> Finding:
     """All 65536 words."""
-    rows = [(drive, row) for drive in shipped().values() for row in meanings.scaled(drive)]
+    rows = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive)]
     wrong = [
         f"{meanings.scale_name(drive, row)} of {word:04X}H"
         for drive, row in rows

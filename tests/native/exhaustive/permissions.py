@@ -5,14 +5,14 @@ from array import array
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding
+from tests.shipped import drives
 
 from driveblocks.reference.permission import readable, writable
 
 ALLOWED = {
     f"{prefix}_{use}": which(drive)
-    for prefix, drive in shipped().items()
+    for prefix, drive in drives().items()
     for use, which in (("CanRead", readable), ("CanWrite", writable))
 }
 """Each function with the addresses that it must permit."""

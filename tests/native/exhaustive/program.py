@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.blocks.library import shipped
 from tests.native.driver import Driver
 from tests.native.exhaustive import (
     digits,
@@ -18,6 +17,7 @@ from tests.native.exhaustive import (
     words,
 )
 from tests.native.exhaustive.bench import Bench
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.render.results import code
@@ -39,8 +39,8 @@ def text() -> str:
     """The whole driver after its prelude."""
     shared = [_part("scans"), scan.table(SCANS), _part("checksums"), _part("permissions"), permissions.table()]
     families = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
-    families += [_family(drive) for drive in shipped().values()]
-    rows = [f'    {{"{prefix}", {prefix}_standstill, {prefix}_sweep, {prefix}_patterns}},' for prefix in shipped()]
+    families += [_family(drive) for drive in drives().values()]
+    rows = [f'    {{"{prefix}", {prefix}_standstill, {prefix}_sweep, {prefix}_patterns}},' for prefix in drives()]
     table = ["static const Family FAMILIES[] = {", *rows, "    {NULL, NULL, NULL, NULL},", "};"]
     return "\n".join([*shared, *families, *table, _part("main")])
 

@@ -4,10 +4,10 @@ import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
-from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
 from tests.native.exhaustive.frames import noise
 from tests.native.exhaustive.scan import Scan
+from tests.shipped import drives
 
 from driveblocks.reference.reply import Manners, manners, parse
 from driveblocks.reference.request import COUNTED, Asked
@@ -26,7 +26,7 @@ def of_drive(prefix: str) -> Scan:
 
 
 PARSE = Scan("MB_ParseReply", ("Length", *HEAD, *REQUEST, *FORM), ANSWERED, ("Adu",))
-SCANS = (PARSE, *map(of_drive, shipped()))
+SCANS = (PARSE, *map(of_drive, drives()))
 ADU = noise(256)
 LONGEST = 260
 """Up to here every length goes with every byte count."""
@@ -70,7 +70,7 @@ def replies(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """The generic block with several forms of refusal, then each drive's."""
     for manner in GENERIC[2:] if short else GENERIC:
         yield from judged(benches, _parsed(PARSE, manner, short, _form(manner)))
-    for prefix, drive in shipped().items():
+    for prefix, drive in drives().items():
         yield from judged(benches, _parsed(of_drive(prefix), manners(drive), short, b""))
 
 

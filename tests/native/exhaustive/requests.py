@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
 from tests.native.exhaustive.frames import noise
 from tests.native.exhaustive.scan import Scan
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.request import COUNTED, Asked, Requests, body
@@ -36,7 +36,7 @@ def of_drive(prefix: str) -> Scan:
     return Scan(f"{prefix}_Request", PINS, ANSWERED, ("Words", "Adu", "Request"))
 
 
-SCANS = (READ, MULTIPLE, SINGLE, DIAGNOSTICS, *map(of_drive, shipped()))
+SCANS = (READ, MULTIPLE, SINGLE, DIAGNOSTICS, *map(of_drive, drives()))
 
 WORDS = noise(250)
 ADU = noise(256)
@@ -179,7 +179,7 @@ def _pin(put: Put, name: str) -> int:
 
 def of_drives(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """Every quantity with the functions at addresses of each kind; every function, unit and address."""
-    for drive in shipped().values():
+    for drive in drives().values():
         yield from judged(benches, _asked(drive, short))
 
 

@@ -4,9 +4,9 @@ import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from tests.blocks.library import shipped
 from tests.blocks.meanings import word_pin
 from tests.native.exhaustive.bench import Bench, Finding
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.standstill import holds
@@ -33,7 +33,7 @@ def truths(drive: Drive, address: int) -> bytes:
 
 def standstills(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """2^32 pairs of words of each drive; short: the pairs with a word that has at most one bit, or all."""
-    for prefix, drive in shipped().items():
+    for prefix, drive in drives().items():
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "truths")
             path.write_bytes(b"".join(truths(drive, address) for address in addresses(drive)))

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.blocks.library import Blocks, alone, shipped
+from tests.blocks.library import Blocks, alone
 from tests.native.driver import lines
 from tests.native.exhaustive import __main__ as long
 from tests.native.exhaustive import program
@@ -13,6 +13,7 @@ from tests.native.exhaustive.bench import Bench
 from tests.native.exhaustive.checks import CHECKS, run
 from tests.native.exhaustive.embedded import PARTS, embedded
 from tests.native.exhaustive.permissions import ALLOWED
+from tests.shipped import drives
 
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Source
@@ -134,8 +135,8 @@ def test_every_block_but_the_commands_is_in_a_check() -> None:
     tests/blocks/permissions.py, and compared on every engine."""
     by_name = {scan.name for scan in program.SCANS} | {*ALLOWED}
     by_hand = {"MB_Crc16", "MB_Crc16Compact", "MB_Lrc"}
-    by_hand |= {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Reference", "Standstill")}
+    by_hand |= {f"{prefix}_{noun}" for prefix in drives() for noun in ("Reference", "Standstill")}
     blocks = {Path(source.path).stem for source in alone() if not source.path.startswith("types/")}
-    left = {f"{prefix}_{noun}" for prefix in shipped() for noun in ("Command", "MayWrite", "ParameterAddress")}
-    left |= {f"{prefix}_Version" for prefix in shipped()}  # whose test program asks for each item
+    left = {f"{prefix}_{noun}" for prefix in drives() for noun in ("Command", "MayWrite", "ParameterAddress")}
+    left |= {f"{prefix}_Version" for prefix in drives()}  # whose test program asks for each item
     assert blocks - by_name - by_hand == left

@@ -3,10 +3,10 @@
 from array import array
 from collections.abc import Callable, Iterator, Sequence
 
-from tests.blocks.library import shipped
 from tests.blocks.meanings import TEXTS
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
 from tests.native.exhaustive.scan import Call
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference import text
@@ -39,7 +39,7 @@ PLACES: tuple[tuple[str, FindPlace, Callable[[Drive], list[int]]], ...] = (
 def _calls() -> Iterator[Call]:
     for language in TEXTS:
         yield Call(f"MB_ResultText{language}", text=True)
-        for prefix, drive in shipped().items():
+        for prefix, drive in drives().items():
             yield Call(f"{prefix}_FaultText{language}", text=True)
             yield Call(f"{prefix}_ErrorText{language}", text=True)
             for kind, _, addresses in PLACES:
@@ -63,7 +63,7 @@ def code_texts(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     codes = [*range(300), *range(300, 0x10000, 97), 0xFFFF] if short else range(0x10000)
     for language in TEXTS:
         yield from judged(benches, iter([_coded(f"MB_ResultText{language}", KNOWN_RESULTS.get, codes)]))
-        for prefix, drive in shipped().items():
+        for prefix, drive in drives().items():
             faults, errors = _known(drive)
             yield from judged(benches, iter([_coded(f"{prefix}_FaultText{language}", faults, codes)]))
             yield from judged(benches, iter([_coded(f"{prefix}_ErrorText{language}", errors, codes)]))
@@ -82,7 +82,7 @@ def _coded(function: str, find: Find, codes: Sequence[int]) -> Trial:
 def place_texts(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """Every address with every number below 17; where an address or its neighbour has texts, with all 65536 numbers."""
     for language in TEXTS:
-        for prefix, drive in shipped().items():
+        for prefix, drive in drives().items():
             for kind, find, addresses in PLACES:
                 if known := addresses(drive):
                     call = Call(f"{prefix}_{kind}{language}", 2, text=True)

@@ -7,17 +7,17 @@ from array import array
 from collections.abc import Iterator, Sequence
 
 from tests.blocks import meanings
-from tests.blocks.library import shipped
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
 from tests.native.exhaustive.scan import AnyScan, Call, Scan
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import fault, register
 from driveblocks.reference.naming import name_of
 
-DECODED = [(drive, row) for drive in shipped().values() for row in meanings.decoded(drive)]
-SCALED = [(drive, row) for drive in shipped().values() for row in meanings.scaled(drive)]
-NUMBERED = [drive for drive in shipped().values() if drive.faults.bits]
+DECODED = [(drive, row) for drive in drives().values() for row in meanings.decoded(drive)]
+SCALED = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive)]
+NUMBERED = [drive for drive in drives().values() if drive.faults.bits]
 EVERY = range(0x10000)
 
 

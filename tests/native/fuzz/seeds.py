@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from tests.blocks import vectors
-from tests.blocks.library import shipped
 from tests.native.sanitize.seeds import lines
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_encode, rtu_seal
@@ -17,21 +17,20 @@ ASCII, MADE = 1, 2
 
 def seeds(target: str) -> list[bytes]:
     """Inputs of a target, in the form that `targets.h` reads. Raises KeyError for an unknown target."""
-    drives = shipped()
     if target == "rtu_open":
         return [rtu_seal(body).data for body in _bodies()]
     if target == "ascii_decode":
         return [ascii_encode(body).data for body in _bodies()]
     if target == "parse_reply":
-        return [each for drive in drives.values() for each in _parses(drive)]
+        return [each for drive in drives().values() for each in _parses(drive)]
     prefix, _, kind = target.upper().partition("_")
     make = {"REPLY": _replies, "REQUEST": _requests}[kind]
-    return list(make(drives[prefix]))
+    return list(make(drives()[prefix]))
 
 
 def _bodies() -> list[bytes]:
-    return [line.bodies[0] for drive in shipped().values() for line in lines(drive)[:6]] + [
-        lines(shipped()["CHF"])[-1].bodies[0]
+    return [line.bodies[0] for drive in drives().values() for line in lines(drive)[:6]] + [
+        lines(drives()["CHF"])[-1].bodies[0]
     ]
 
 

@@ -6,9 +6,9 @@ By hand, in `c/`, stands what needs thought: damaged frames, and a second readin
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from tests.blocks.library import shipped
 from tests.native.sanitize import seeds
 from tests.native.sanitize.pins import Pin, Pou, arrays, fields
+from tests.shipped import drives
 
 from driveblocks.reference.reply import manners
 from driveblocks.render.results import RESULTS
@@ -78,7 +78,7 @@ def _telling(pou: Pou) -> str:
 
 def _drives(names: set[str], spans: dict[str, tuple[int, int]]) -> Iterator[str]:
     """The macros of `c/` for what each drive has."""
-    for prefix, drive in shipped().items():
+    for prefix, drive in drives().items():
         manner = manners(drive)
         first, count = spans[prefix]
         form = f"{manner.add or 0}, {manner.function or 0}, {manner.address or 0}, {int(manner.two_byte_count)}"

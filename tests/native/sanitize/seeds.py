@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from tests.blocks import damage, vectors
-from tests.blocks.library import shipped
+from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_decode, rtu_open
@@ -50,7 +50,7 @@ def tables() -> tuple[str, dict[str, tuple[int, int]]]:
     rows: list[str] = []
     places: list[str] = []
     data = b""
-    for prefix, drive in shipped().items():
+    for prefix, drive in drives().items():
         own = lines(drive)
         spans[prefix] = (len(rows), len(own))
         for line in own:

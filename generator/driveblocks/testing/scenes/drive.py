@@ -2,14 +2,13 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import jinja2
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Condition, Drive
-from driveblocks.modbus.layout import Manners
 from driveblocks.reference.permission import readable, writable
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
@@ -46,18 +45,13 @@ def name(drive: Drive) -> str:
 
 def text(drive: Drive, faults: Iterable[int]) -> str:
     """The block; `faults` are those that a test may give it."""
-    made = table(drive, Habits(maximum_hz=MAXIMUM_HZ))
-    return environment().get_template("TestDrive.st.j2").render(_context(drive, made, tuple(faults)))
+    return environment().get_template("TestDrive.st.j2").render(_context(drive, simulated(drive), tuple(faults)))
 
 
-def manners(drive: Drive) -> Manners:
-    """How it refuses."""
-    return table(drive, Habits()).manners
-
-
-def codes(drive: Drive) -> dict[str, int | None]:
-    """Why it refuses -> its code."""
-    return table(drive, Habits()).codes
+@lru_cache
+def simulated(drive: Drive) -> Table:
+    """What the simulator knows of a drive."""
+    return table(drive, Habits(maximum_hz=MAXIMUM_HZ))
 
 
 def busy(drive: Drive) -> int:
@@ -68,7 +62,7 @@ def busy(drive: Drive) -> int:
 
 def counts_per_hertz(drive: Drive) -> float:
     """What the simulated drive takes its reference for, as a setting says it where the manual does not."""
-    given = table(drive, Habits(maximum_hz=MAXIMUM_HZ)).reference
+    given = simulated(drive).reference
     return 1000.0 * given.per / given.times
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive, Frame, Means
 from driveblocks.reference.permission import readable
-from driveblocks.testing.scenes.drive import manners
+from driveblocks.testing.scenes.drive import simulated
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
 from driveblocks.testing.script import Script
 from structured_text.language.writing import byte, dword, word
@@ -65,7 +65,7 @@ def _box(means: Means) -> int:
 
 def _asked(drive: Drive, frame: Frame, means: Means) -> Iterator[Step]:
     """The line gets to know its port by the drive's replies; then the drive is silent, and the request is posted."""
-    form, ask = manners(drive), f"Slots[0].Ask[{_box(means)}]"
+    form, ask = simulated(drive).manners, f"Slots[0].Ask[{_box(means)}]"
     slot: Shows = {
         "Pins.NoDrive": True, "Pins.Others": 100, "Pins.Ascii": frame.mode == "ascii", "Fate.Unit": means.unit,
         "Slots[0].UnitAddress": means.unit, "Slots[0].TurnRoundMs": 30, "Slots[0].LongestMs": 60,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_encode, rtu_seal
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, manners
+from driveblocks.testing.scenes.drive import busy, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -87,9 +87,9 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("another master goes away", START, *_goes_away())
     yield scene("replies that come twice", START, run(), *_twice())
     yield scene("noise before a reply", START, run(), *_noise(modes[0]))
-    if manners(drive).function == 6:
+    if simulated(drive).manners.function == 6:
         yield scene("an echo of another write", START, *_other_write(drive, modes[0]))
-    if manners(drive).two_byte_count:
+    if simulated(drive).manners.two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
     yield scene("a late reply after a stop", START, run(), *_late_stop())
     if can.drive.serial.unit.max > can.drive.serial.unit.min:

@@ -6,7 +6,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import codes, settled
+from driveblocks.testing.scenes.drive import settled, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -146,7 +146,7 @@ def _barred(can: Ability) -> Iterator[Step]:
     yield from does("Reader", free, "Error", error("Reader", "NOT_READABLE"))
     refused = error("Reader", "REFUSED") | {
         "StopConfirmed": True,
-        "Reader.RefusedReason": codes(can.drive)["address"] or 0,
+        "Reader.RefusedReason": simulated(can.drive).codes["address"] or 0,
     }
     yield from does("Reader", free, "Error", refused, Unknown=True)
     yield from does("Reader", 0xFFFF, "Error", error("Reader", "WRAP"), Count=2)
@@ -169,7 +169,7 @@ def _there_and_back(place: int) -> Iterator[Step]:
 def _in_vain(drive: Drive, place: int) -> Iterator[Step]:
     nothing: Shows = {"Seen.Others": 0}
     yield Step("it refuses writes", {"Fate.RefusesWrites": True}, ms=50, shows=nothing)
-    code = codes(drive)["address"] or 0
+    code = simulated(drive).codes["address"] or 0
     refused = error("Writer", "REFUSED") | nothing | {"Writer.RefusedReason": code, "Slots[0].RefusedReason": code}
     yield from does("Writer", place, "Error", refused, Given=word(3))
     lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(place)}
@@ -210,7 +210,7 @@ def _not_stored(drive: Drive) -> Iterator[Step]:
     yield from _minute()
     nothing: Shows = {"Seen.Stores": 0}
     yield Step("it refuses writes", {"Fate.RefusesWrites": True}, ms=50, shows=nothing)
-    refused = error("Storer", "REFUSED") | nothing | {"Storer.RefusedReason": codes(drive)["address"] or 0}
+    refused = error("Storer", "REFUSED") | nothing | {"Storer.RefusedReason": simulated(drive).codes["address"] or 0}
     yield from does("Storer", 0, "Error", refused)
     yield Step("it is well", {"Fate.RefusesWrites": False}, ms=50, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | nothing)

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from driveblocks.maps.model import Command, Drive
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, manners
+from driveblocks.testing.scenes.drive import busy, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
@@ -43,7 +43,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
 
 def known(drive: Drive) -> Shows:
     """What a slot holds of a family, whatever its motor does."""
-    form, silence = manners(drive), drive.serial.silence
+    form, silence = simulated(drive).manners, drive.serial.silence
     stop, jog = _command(drive, "stop"), _command(drive, "jog_stop")
     found: Shows = {
         "UnitAddress": drive.serial.unit.min, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,
