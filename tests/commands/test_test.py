@@ -6,7 +6,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from tests.testing.conftest import BOTH, changed, only
+from tests.shipped import BOTH
+from tests.testing.conftest import changed, only
 from typer.testing import CliRunner, Result
 
 from driveblocks.building import build

@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.shipped import BOTH
 
 from driveblocks.building.build import units
 from driveblocks.maps import collection
-from driveblocks.render.text import languages
 from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit
@@ -18,7 +18,6 @@ from structured_text.engines.engine import Source
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "tests/maps/example.yaml"
-BOTH = languages(["en", "zh"], "utf-8")
 
 Change = Callable[[Unit, str, str, str], Unit]
 Only = Callable[..., Unit]

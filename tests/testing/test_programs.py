@@ -1,12 +1,12 @@
 """The programs themselves: portable, short-named, bounded per scan, commented, the same in every run."""
 
 import re
-from pathlib import Path
 
 import pytest
+from tests import shipped
+from tests.shipped import BOTH
 
-from driveblocks.building.build import units
-from driveblocks.maps import catalog, collection
+from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing.harness import PER_SCAN
 from driveblocks.testing.script import MOST_STAGES, Program
@@ -15,13 +15,13 @@ from driveblocks.testing.unit import Unit
 from structured_text.language.lint import lint_sources
 from structured_text.language.names import reserved
 
-from .conftest import BOTH, EXAMPLE, ROOT
+from .conftest import EXAMPLE, ROOT
 
 
 @pytest.fixture(scope="module")
-def all_units() -> list[Unit]:
+def all_units(made: dict[str, Unit]) -> list[Unit]:
     """The units of every map there is."""
-    return units(collection.read([*catalog.shipped(), EXAMPLE]), BOTH)
+    return [*shipped.units(), made["example"]]
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +30,8 @@ def all_programs(all_units: list[Unit]) -> list[Program]:
 
 
 def test_the_linter_finds_nothing(all_units: list[Unit]) -> None:
-    for unit in all_units:
-        found = lint_sources((source.path, source.text) for source in unit.sources)
-        assert [str(problem) for problem in found] == []
+    texts = {source.path: source.text for unit in all_units for source in unit.sources}
+    assert [str(problem) for problem in lint_sources(texts.items())] == []
 
 
 def test_names_are_short_and_each_program_has_one(all_programs: list[Program]) -> None:
@@ -113,8 +112,7 @@ def test_what_is_expected_does_not_come_from_what_renders() -> None:
 
 
 def test_every_frame_of_the_manuals_is_in_a_program(all_units: list[Unit]) -> None:
-    paths: list[Path] = [*catalog.shipped(), EXAMPLE]
-    for source, unit in zip(collection.read(paths), all_units[1:], strict=True):
+    for source, unit in zip([*shipped.sources(), *collection.read([EXAMPLE])], all_units[1:], strict=True):
         told = {
             check.words.partition(":")[0].split(" ")[0] for program in unit.suite.programs for check in program.checks
         }

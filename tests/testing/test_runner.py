@@ -6,9 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.shipped import BOTH
 
 from driveblocks.building.build import units
-from driveblocks.maps import catalog, collection
+from driveblocks.maps import collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing import page, runner
@@ -16,17 +17,9 @@ from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, EngineError, Library, Source
 
-from .conftest import BOTH, EXAMPLE, only, run
+from .conftest import EXAMPLE, only, run
 
 FAR_REPLY = "FA 03 02 13 88 50 C6"
-
-
-def test_the_shipped_maps_are_green_on_the_embedded_engine() -> None:
-    made = units(collection.read(catalog.shipped()), BOTH)
-    done = run(*made)
-    assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
-    assert done.passed
-    assert {result.unit for result in done.results} == {"modbus", *(path.stem for path in catalog.shipped())}
 
 
 def test_the_example_is_green_on_every_engine(engine: Engine, example: Unit) -> None:
