@@ -10,11 +10,12 @@ for others with the profile `search`; what it finds becomes an example of the su
 
 import functools
 import os
-import sys
 from collections.abc import Generator
+from contextlib import nullcontext
 
 import pytest
 from hypothesis import HealthCheck, settings
+from tests.counting import NOT_COUNTED, uncounted
 
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
@@ -25,22 +26,6 @@ settings.register_profile(
 )
 settings.register_profile("search", settings.get_profile("suite"), derandomize=False, max_examples=2000)
 settings.load_profile("suite")
-NOT_COUNTED = (
-    "bench/", "blocks/", "native/", "regression/", "host/compare/", "host/traces/",
-    "commands/test_build.py::test_what_is_checked_in", "commands/test_explain.py::test_an_explanation_fits",
-    "commands/test_show.py::test_a_page_fits", "commands/test_test.py", "host/embedded/test_accepted.py",
-    "host/embedded/test_control.py::test_chains", "host/embedded/test_ranges.py", "drives/", "line/",
-    "docs/test_pages.py::test_the_example", "shapes/",
-    "maps/test_agreement.py", "maps/test_bad.py::test_every", "maps/test_form.py", "maps/test_fuzz.py",
-    "maps/test_hostile.py", "maps/test_load.py::test_a_good_map", "maps/test_meaning.py",
-    "maps/test_schema.py::test_a_good_map", "maps/test_view.py", "reference/", "render/test_build.py::test_english",
-    "render/test_house.py", "st/test_hostile.py", "testing/test_mutants.py", "testing/test_programs.py",
-    "testing/test_runner.py",
-)  # fmt: skip
-"""Where the names begin of tests that leave the coverage of Python alone, which makes their code run thrice as long.
-
-What they run others run, too; that of Structured Text has counters of its own.
-"""
 
 
 @functools.cache
@@ -83,17 +68,9 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
-    """Run what is not counted without a trace function.
-
-    The marker `no_cover` would do, but in processes of pytest-xdist it stops one of two measurements only.
-    """
-    counted = not item.nodeid.removeprefix("tests/").startswith(NOT_COUNTED)
-    tracer = sys.gettrace()
-    sys.settrace(tracer if counted else None)
-    try:
+    """Leave tests out of the coverage that say nothing of it."""
+    with uncounted() if item.nodeid.removeprefix("tests/").startswith(NOT_COUNTED) else nullcontext():
         return (yield)
-    finally:
-        sys.settrace(tracer)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

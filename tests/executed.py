@@ -14,13 +14,23 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
+from dataclasses import replace
 from inspect import CO_OPTIMIZED
+from itertools import islice
 from pathlib import Path
 from types import CodeType, FrameType
+from typing import TYPE_CHECKING
 
+import pytest
 from tests.rooms import ROOT, modules
 from typer.testing import CliRunner
 
+if TYPE_CHECKING:  # each module of the generator is imported while calls are noted
+    from driveblocks.prove.proof import Question
+    from driveblocks.testing.unit import Unit
+
+QUESTIONS = 6
+"""That are asked of each block which is proved."""
 TEXT = """FUNCTION Words : STRING
 VAR_INPUT n : INT; END_VAR
   Words := CONCAT(INT_TO_STRING(n), '!');
@@ -107,13 +117,36 @@ def noting(seen: set[CodeType]) -> Callable[[FrameType, str, object], None]:
     return note
 
 
+def few_programs(units: Callable[..., list["Unit"]]) -> Callable[..., list["Unit"]]:
+    """Units of which one program of each group runs: it takes the way of all."""
+
+    def made(*arguments: object) -> list["Unit"]:
+        found = []
+        for unit in units(*arguments):
+            one_of_each = {each.group: each for each in unit.suite.programs}.values()
+            found.append(replace(unit, suite=replace(unit.suite, programs=tuple(one_of_each))))
+        return found
+
+    return made
+
+
+def few_questions(questions: Callable[..., Iterator["Question"]]) -> Callable[..., Iterator["Question"]]:
+    """The first questions that are asked of a block."""
+    return lambda *arguments: islice(questions(*arguments), QUESTIONS)
+
+
 def executed(folder: Path) -> set[str]:
     """The files of the generator of which a function was called."""
     seen = set[CodeType]()
     note = noting(seen)
     sys.settrace(note)  # what runs while modules are imported counts, too
+    from driveblocks.building import build
     from driveblocks.cli import app
+    from driveblocks.prove import proof, prover
 
+    patch = pytest.MonkeyPatch()
+    patch.setattr(build, "units", few_programs(build.units))
+    patch.setattr(prover, "questions", few_questions(proof.questions))
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = f"127.0.0.1:{free.getsockname()[1]}"
     arguments = [sys.executable, "-m", "driveblocks", "simulate", "chf@1", "--tcp", port]

@@ -48,10 +48,10 @@ def lines(file: Job) -> list[str]:
     return script
 
 
-def clone(folder: Path) -> Path:
-    """A fresh clone of what is committed. Raises CalledProcessError."""
+def clone(folder: Path, *options: str) -> Path:
+    """A fresh clone of what is committed, with options for git. Raises CalledProcessError."""
     made = folder / "clone"
-    subprocess.run(["git", "clone", "--quiet", ROOT.as_uri(), str(made)], check=True, timeout=LIMIT)
+    subprocess.run(["git", "clone", "--quiet", *options, ROOT.as_uri(), str(made)], check=True, timeout=LIMIT)
     return made
 
 

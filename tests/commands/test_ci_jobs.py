@@ -46,7 +46,7 @@ class Runner:
 
     def __init__(self, folder: Path) -> None:
         """Make the three in a folder."""
-        self.clone = ci_jobs.clone(folder)
+        self.clone = ci_jobs.clone(folder, "--depth=1")
         self.venv, self.mine = folder / "venv", folder / "mine"
         self.mine.mkdir()
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(self.venv)], check=True)
