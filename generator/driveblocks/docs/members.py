@@ -82,7 +82,7 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
         elif measure["scale"]:
             yield setting, MAP_HAS
         else:
-            yield setting, f"of {measure['word']['address_text']}: without it `{measure['pin']}` is the bare word"
+            yield setting, f"of {measure['word'].address_text}: without it `{measure['pin']}` is the bare word"
     keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block["keeps"].items()]
     yield "KeepWord", ", ".join(keeps) or "no use: no bit is left over"
 
@@ -93,7 +93,7 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     for shows, (name, unit, setting) in MEASURES.items():
         says = "" if shows in found else "always 0: the drive does not show it"
         valid = f"FALSE without `{setting}`" if shows in found and not found[shows]["scale"] else ""
-        yield f"{name}{unit}", f"from {found[shows]['word']['address_text']}" if shows in found else says
+        yield f"{name}{unit}", f"from {found[shows]['word'].address_text}" if shows in found else says
         yield pin_of(shows)["valid"], valid or says.replace("0", "FALSE")
     for name, shows in _AT_FAULT.items():
         if shows not in found:

@@ -302,7 +302,7 @@ def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
             "poll": poll,
             "often": often if poll.fast else "one slow read a round",
             "first": address_text(poll.address),
-            "titles": [f"{word['address_text']} {context.inside_a_sentence(word['title'])}" for word in read["words"]],
+            "titles": [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in read["words"]],
             "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
         }
 

@@ -108,7 +108,7 @@ def _mask(spans: Iterable[Bits]) -> int:
 
 def _holds(drive: Drive, one: Condition) -> str:
     """A condition of the map on the word that the drive block has read."""
-    name = f"Reads.{word_input(drive, one.register)['name']}"
+    name = f"Reads.{word_input(drive, one.register).name}"
     if one.mask is not None:
         return f"({name} AND {word(one.mask)}) = {word(one.equals & one.mask)}"
     if one.bit is None:
@@ -125,7 +125,7 @@ def _read(drive: Drive) -> dict[str, str]:
         come = f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
         words = range(poll.address, poll.address + poll.words)
         for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
-            name = word_input(drive, address)["name"]
+            name = word_input(drive, address).name
             taken.append(
                 f"({come}) AND ({name} = Words[{address - poll.address}]) OR NOT ({come}) AND ({name} = Was.{name})"
             )

@@ -13,14 +13,14 @@ def channels(drive: Drive) -> Context:
     stop = next(one for one in drive.operation.commands if one.does == "stop")
     decoders = {one["address_text"]: one["name"] for one in context.decoders(drive)}
     scales = {one["address_text"]: one["name"] for one in context.scales(drive)}
-    needed = {one["name"] for one in block["proof"]} | {one.pin for one in block["verify"]}
+    needed = {one.name for one in block["proof"]} | {one.pin for one in block["verify"]}
     reads = [
         {
             "read": one["read"],
             "words": [
-                {**each, "decoder": decoders.get(each["address_text"]), "scale": scales.get(each["address_text"])}
+                {**vars(each), "decoder": decoders.get(each.address_text), "scale": scales.get(each.address_text)}
                 for each in one["words"]
-                if each["name"] in needed or each["address_text"] in decoders.keys() | scales.keys()
+                if each.name in needed or each.address_text in decoders.keys() | scales.keys()
             ],
         }
         for one in block["reads"]

@@ -1,4 +1,4 @@
-"""The named constants of the blocks in `vfd/`: one table, so that every block calls a number by the same name."""
+"""The named constants of the blocks in `line/` and `vfd/`: one table, so that a number has the same name in all."""
 
 from driveblocks.render import reasons, results
 
@@ -35,6 +35,30 @@ NUMBERS = {
     "READING": (2, "the fault is read again"),
     "SENDING": (3, "the reset is on its way"),
     "CLEARING": (4, "the fault has to go"),
+    # how a request has ended
+    "DONE_NOT": (0, "the request is open"),
+    "DONE_GOOD": (1, "a good reply"),
+    "DONE_REFUSED": (2, "the drive refuses it"),
+    "DONE_DAMAGED": (3, "wrong checksum"),
+    "DONE_SILENCE": (4, "no reply"),
+    "DONE_DOUBTED": (5, "the reply may have been an echo"),
+    # what is sent first: a lower rank
+    "RANK_STOP": (0, "a new stop"),
+    "RANK_AGAIN": (1, "a stop again"),
+    "RANK_COMMAND": (2, "run, reference"),
+    "RANK_RESET": (3, "a fault reset"),
+    "RANK_PARAMETER": (4, "a parameter"),
+    "RANK_PROBE": (5, "a probe of a dead drive"),
+    "RANK_POLL": (6, "a poll"),
+    "RANK_NONE": (9, "nothing"),
+    "RANK_BARRED": (10, "nothing but a stop may be sent to it"),
+    # how far the line's own stop has come
+    "FORCED_NONE": (0, "the line stops nobody by itself"),
+    "FORCED_NEW": (1, "its stop is not sent yet"),
+    "FORCED_FIRST": (2, "the stop that is sent first is sent"),
+    "FORCED_OTHER": (3, "the first is acknowledged, the other one is due"),
+    "FORCED_REFUSED": (4, "the first is refused, the other one is due"),
+    "FORCED_AGAIN": (5, "all is answered; repeated, since nobody proves standstill"),
 }
 """Name -> number and meaning. WHY_X is reason X, ERROR_X is result X."""
 

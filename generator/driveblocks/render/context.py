@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
@@ -27,6 +27,46 @@ class Identity:
     prefix: str
     family: str
     manual: str
+
+
+@dataclass(frozen=True)
+class Word:
+    """The word of a register: the name of its pin, and what to say of it."""
+
+    name: str
+    address: int
+    address_text: str
+    title: str
+    number: int = 0
+    """The read that brings it, from 1; 0: not said."""
+    index: int = 0
+    """Its place in that read."""
+    mask: int = 0
+    """The bits that mean faults, where there are such."""
+    base: int = 0
+    """The number of the fault before that of its bit 0."""
+
+
+ANY = Test("Value", 0, 0)
+
+
+@dataclass(frozen=True)
+class Part:
+    """An output of a decoder; its kind says which of the rest counts, and names its template."""
+
+    kind: Literal["flag", "field", "other_bits", "other_value"]
+    name: str
+    comment: str
+    test: Test = ANY
+    """What the word passes while a flag is TRUE."""
+    low: int = 0
+    """The lowest bit of a field."""
+    mask: int = 0
+    """Its bits, moved to bit 0."""
+    others: int = 0
+    """The bits that the manual does not list."""
+    known: tuple[str, ...] = ()
+    """The flags of all values that it lists."""
 
 
 def identity(drive: Drive) -> Identity:
@@ -161,7 +201,7 @@ def inside_a_sentence(name: str) -> str:
     return name if name[1:2].isupper() else name[:1].lower() + name[1:]
 
 
-def _bit_parts(row: Register) -> Iterator[Context]:
+def _bit_parts(row: Register) -> Iterator[Part]:
     for bit in row.bits:
         if bit.unused or not bit.name:
             continue
@@ -171,30 +211,30 @@ def _bit_parts(row: Register) -> Iterator[Context]:
             yield _flag(symbol(bit), Test("Value", mask, mask), f"{bit.name}; {where}")
             continue
         low = bit.bit.first
-        yield {"kind": "field", "name": symbol(bit), "comment": f"{bit.name}; {where}", "low": low, "mask": mask >> low}
+        yield Part("field", symbol(bit), f"{bit.name}; {where}", low=low, mask=mask >> low)
         for value in bit.values:
             yield _flag(symbol(value), Test("Value", mask, value.value << low), _said(value))
 
 
-def _flag(name: str, test: Test, comment: str) -> Context:
-    """An output of a decoder that is TRUE when the word passes a test."""
-    return {"kind": "flag", "name": name, "test": test, "comment": comment}
+def _flag(name: str, test: Test, comment: str) -> Part:
+    """An output that is TRUE when the word passes a test."""
+    return Part("flag", name, comment, test)
 
 
 def _said(value: Value) -> str:
     return f"{value.value}: {value.name}{'; ' * bool(value.own)}{value.own}"
 
 
-def _value_parts(row: Register) -> Iterator[Context]:
+def _value_parts(row: Register) -> Iterator[Part]:
     for value in row.values:
         yield _flag(symbol(value), Test("Value", value.value if row.masks else 0, value.value), _said(value))
     if row.values and row.masks:
         others = ~sum({value.value for value in row.values})
         comment = "TRUE: no bit is set, or one that the manual does not list"
-        yield {"kind": "other_bits", "name": "Unknown", "comment": comment, "others": others}
+        yield Part("other_bits", "Unknown", comment, others=others)
     elif row.values:
         comment = "TRUE: a value that the manual does not list"
-        yield {"kind": "other_value", "name": "Unknown", "comment": comment, "known": [*map(symbol, row.values)]}
+        yield Part("other_value", "Unknown", comment, known=tuple(map(symbol, row.values)))
 
 
 # ---------------------------------------------------------------- commands, reference, standstill, faults
@@ -307,7 +347,7 @@ def standstill(drive: Drive) -> Context:
     """For Standstill."""
     proof = drive.operation.standstill
     words = [word_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
-    pins = {word["address"]: word["name"] for word in words}
+    pins = {word.address: word.name for word in words}
     return {
         "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
         "source": source_of(drive, proof.source),
@@ -317,16 +357,11 @@ def standstill(drive: Drive) -> Context:
     }
 
 
-def word_input(drive: Drive, address: int) -> Context:
-    """The name of a register's word, and what to say of it."""
+def word_input(drive: Drive, address: int) -> Word:
+    """The word of a register."""
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
-    return {
-        "name": names.word_pin(row),
-        "address": address,
-        "address_text": address_text(address),
-        "title": row.name or "",
-    }
+    return Word(names.word_pin(row), address, address_text(address), row.name or "")
 
 
 def tested(pin: str, condition: Condition | State) -> Test:
@@ -345,5 +380,5 @@ def fault_number(drive: Drive) -> Context | None:
     for index, address in enumerate(range(relation.first, relation.last + 1)):
         row = drive.register_at(address)
         mask = sum(1 << bit.bit.first for bit in (row.bits if row else ()) if bit.id is not None)
-        words.append({**word_input(drive, address), "mask": mask, "base": 16 * index})
+        words.append(replace(word_input(drive, address), mask=mask, base=16 * index))
     return {"source": source_of(drive, relation.source), "words": words}

@@ -2,7 +2,7 @@
 
 from driveblocks.maps.model import Condition, Drive, State
 from driveblocks.render import context
-from driveblocks.render.context import Context
+from driveblocks.render.context import Context, Part, Word
 from driveblocks.render.expression import Test, holds
 
 WORD = 0xFFFF
@@ -21,18 +21,18 @@ class Decoded:
         """An expression that is TRUE when a condition holds: an output of a decoder, or a test of the word itself."""
         word = context.word_input(self._drive, one.register)
         test = context.tested("Value", one)
-        decoder = self._decoders.get(word["address_text"])
-        parts = decoder["parts"] if decoder else []
-        flags = {_exact(part["test"]): part["name"] for part in parts if part["kind"] == "flag"}
+        decoder = self._decoders.get(word.address_text)
+        parts: list[Part] = decoder["parts"] if decoder else []
+        flags = {_exact(part.test): part.name for part in parts if part.kind == "flag"}
         for asked, said in ((test, "{}.{}"), (_set(test), "NOT {}.{}")):
             if decoder and asked and _exact(asked) in flags:
                 return said.format(self._instance(decoder, word), flags[_exact(asked)])
-        pin = f"Reads.{word['name']}"
+        pin = f"Reads.{word.name}"
         return f"({holds(test._replace(pin=pin))})"
 
-    def _instance(self, decoder: Context, word: Context) -> str:
-        name = f"{word['name'].removesuffix('Word')}Bits"
-        found = {"instance": name, "block": decoder["name"], "word": word["name"], "address_text": word["address_text"]}
+    def _instance(self, decoder: Context, word: Word) -> str:
+        name = f"{word.name.removesuffix('Word')}Bits"
+        found = {"instance": name, "block": decoder["name"], "word": word.name, "address_text": word.address_text}
         if found not in self.used:
             self.used.append(found)
         return name

@@ -1,6 +1,7 @@
 """Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 from driveblocks.maps import names
@@ -11,7 +12,7 @@ from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
-from driveblocks.render.context import Context, word_input
+from driveblocks.render.context import Context, Word, word_input
 from driveblocks.render.decoded import Decoded
 from driveblocks.render.expression import Test
 
@@ -45,7 +46,7 @@ def drive_block(drive: Drive) -> Context:
     places = list(_places(drive, reads))
     commands = {one.does: one for one in drive.operation.commands}
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
-    number = {each["address"]: each["number"] for each in places}
+    number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
     reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
@@ -143,16 +144,16 @@ def _waits(drive: Drive, told: Decoded) -> Iterator[Context]:
                 yield {"order": ORDERS[command.does], "step": number, "state": state, "says": told.holds(state)}
 
 
-def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Context]:
+def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
     """Each word that the block keeps, and the number of the read that brings it."""
     for address in sorted(fast_words(drive) | slow_words(drive)):
         for number, read in enumerate(reads, 1):
             if read.address <= address < read.address + read.words:
-                yield {**word_input(drive, address), "number": number, "index": address - read.address}
+                yield replace(word_input(drive, address), number=number, index=address - read.address)
 
 
-def _read(drive: Drive, number: int, read: Poll, places: list[Context], taken: set[int]) -> Context:
-    words = [place for place in places if place["number"] == number]
+def _read(drive: Drive, number: int, read: Poll, places: list[Word], taken: set[int]) -> Context:
+    words = [place for place in places if place.number == number]
     return {"number": number, "read": read, "words": words, "other": beyond(drive, read, taken)}
 
 
@@ -206,7 +207,7 @@ def _proof(drive: Drive) -> list[int]:
 
 
 def _condition(drive: Drive, one: Condition) -> Test:
-    return context.tested(word_input(drive, one.register)["name"], one)
+    return context.tested(word_input(drive, one.register).name, one)
 
 
 def _fault(drive: Drive) -> Context:
@@ -230,7 +231,7 @@ def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
     fault = _fault(drive)
     words = [fault["word"]] if fault["word"] else fault["words"]
-    return sorted({number[each] for each in (*shown, *(word["address"] for word in words))})
+    return sorted({number[each] for each in (*shown, *(word.address for word in words))})
 
 
 def pin_of(shows: str) -> Context:

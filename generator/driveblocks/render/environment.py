@@ -1,11 +1,11 @@
 """The Jinja environment: strict, no escaping, and the few functions that templates may call."""
 
-import re
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from functools import cache
+from itertools import chain
 
 import jinja2
+from jinja2.runtime import Context
 
 from driveblocks.maps import form
 from driveblocks.maps.model import Condition
@@ -20,13 +20,7 @@ ABI = 2
 WIDE = 80
 """Characters of an expression that still fits on one line."""
 
-_SECTION = re.compile(r"^(VAR(?: CONSTANT)?\n)(.*?)^END_VAR\n", re.DOTALL | re.MULTILINE)
-_INNER = re.compile(r"  (\w+) : ")
-_COMMENT = re.compile(r"\(\*.*?\*\)", re.DOTALL)
-_NAME = re.compile(r"\w+")
 _RULE = "   " + "-" * 97
-_UNMARKED = "@@@@@@@@"
-_BODY = ("Body", f"{_UNMARKED}, a hash of its tokens, which is the same in every form of this block")
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so changes belong into its template or map.")
 
 
@@ -80,28 +74,22 @@ def environment() -> jinja2.Environment:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    text = writing.aligned(needed(environment().get_template(template).render(**context)))
-    return text.replace(_UNMARKED, fingerprint(stream(body(text)))) if _UNMARKED in text else text
+    made = environment().get_template(template)
+    said = body(made.render(**context, fingerprint=""))
+    return writing.aligned(made.render(**context, fingerprint=fingerprint(stream(said)) if said else ""))
 
 
-def needed(text: str) -> str:
-    """The text without those inner variables that nothing names: a template declares all that its parts may need."""
-    named = Counter(_NAME.findall(_COMMENT.sub("", text).upper()))
-
-    def kept(section: re.Match[str]) -> str:
-        lines = section[2].splitlines(keepends=True)
-        lines = [line for line in lines if not (one := _INNER.match(line)) or named[one[1].upper()] > 1]
-        return f"{section[1]}{''.join(lines)}END_VAR\n" if any(map(_INNER.match, lines)) else ""
-
-    return _SECTION.sub(kept, text)
-
-
+@jinja2.pass_context
 def head(  # noqa: PLR0913  (the parts of every head)
-    name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
+    context: Context, name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
 ) -> str:
-    """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs."""
-    parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops)]
-    return _comment(f"{name}: {title}", [(label, text) for label, text in (*parts, _BODY) if text])
+    """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs.
+
+    The hash of the body is that of the context, which is known once the body is rendered.
+    """
+    hashed = f"{context['fingerprint']}, a hash of its tokens, which is the same in every form of this block"
+    parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops), ("Body", hashed)]
+    return _comment(f"{name}: {title}", [(label, text) for label, text in parts if text])
 
 
 def type_head(name: str, title: str, note: str) -> str:
@@ -110,12 +98,9 @@ def type_head(name: str, title: str, note: str) -> str:
 
 
 def _comment(title: str, parts: list[tuple[str, str]]) -> str:
-    body = "\n".join(_part(*each) for each in (*parts, _MADE_BY))
+    lines = (writing.paragraph(f"   {label:<9}", text, width=100) for label, text in (*parts, _MADE_BY))
+    body = "\n".join(chain.from_iterable(lines))
     return f"(* {writing.comment(title)}\n{_RULE}\n{body} *)"
-
-
-def _part(label: str, text: str) -> str:
-    return "\n".join(writing.paragraph(f"   {label:<9}", text, width=100))
 
 
 def assign(name: str) -> str:

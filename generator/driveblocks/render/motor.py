@@ -53,14 +53,14 @@ def master(drive: Drive) -> Context:
     """For a Master: the words that it reads in turn, which of them prove standstill, and what a run waits for."""
     proof = context.standstill(drive)["words"]
     verify = drive.operation.reference.verify
-    registers = dict.fromkeys((*(word["address"] for word in proof), *(one.register for one in verify)))
+    registers = dict.fromkeys((*(word.address for word in proof), *(one.register for one in verify)))
     names = {register: context.word_input(drive, register) for register in registers}
     return {
         **motor(drive),
         "words": list(names.values()),
-        "proof": [word["name"] for word in proof],
+        "proof": [word.name for word in proof],
         "verify": [
-            {"number": list(names).index(one.register) + 1, "test": context.tested(names[one.register]["name"], one)}
+            {"number": list(names).index(one.register) + 1, "test": context.tested(names[one.register].name, one)}
             for one in verify
         ],
         "mode": 1 if drive_block(drive)["write"] == 6 else 2,
