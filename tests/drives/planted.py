@@ -365,8 +365,8 @@ PLANTED = (
     ),
     Planted(
         "its own maximum is not looked at",
-        "SettingsGood := SameMaximum",
-        "SettingsGood := TRUE",
+        "  SameMaximum := ",
+        "  SameMaximum := TRUE OR ",
         test_identity.test_its_own_maximum_must_be_full_scale,
         CIA,
     ),
