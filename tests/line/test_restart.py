@@ -34,7 +34,20 @@ def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["TurnRest", "TurnPoll", "Slot", "Chosen", "Walk", "PollAt", "ProbeAt", "LastPoll", "Index"]
+    "name",
+    [
+        "TurnStop",
+        "TurnRest",
+        "TurnProbe",
+        "TurnPoll",
+        "Slot",
+        "Chosen",
+        "Walk",
+        "PollAt",
+        "ProbeAt",
+        "LastPoll",
+        "Index",
+    ],
 )
 @pytest.mark.parametrize("how", ["pin", "late", "first"])
 def test_no_slot_that_does_not_exist_outlives_a_restart(how: str, name: str) -> None:
