@@ -36,7 +36,7 @@ def passes(bench: Bench) -> bool:
 
 
 @pytest.mark.parametrize(("most", "limit"), [(0, 5), (2, 2)])
-def test_more_than_so_many_in_ten_seconds(most: int, limit: int) -> None:
+def test_more_than_the_most_in_ten_seconds(most: int, limit: int) -> None:
     bench = quiet()
     bench.set(ForeignMost=most)
     for _ in range(limit):
