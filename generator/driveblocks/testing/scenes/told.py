@@ -130,7 +130,8 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
         "Once": run.register != reference, "Begins": run.register != reference, "ResetAsked": False,
-        "Ask[1].FunctionCode": _write(drive), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
+        "Ask[1].FunctionCode": _write(drive), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register),
+        "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
     yield Step("another speed", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, _slot({
