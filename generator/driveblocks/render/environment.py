@@ -21,7 +21,7 @@ WIDE = 80
 """Characters of an expression that still fits on one line."""
 
 _RULE = "   " + "-" * 97
-_MADE_BY = ("Made by", "DriveBlocks; written by the generator, so changes belong into its template or map.")
+_MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 
 
 @cache
