@@ -6,6 +6,7 @@ It reads pins of blocks, true models and bytes; no state of a block, no map, and
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import Claims
@@ -317,7 +318,7 @@ class Judge:
 
     def _frequency(self, index: int, unit: Unit, since: int) -> None:
         hz = self.bench.number("OutputFrequencyHz", index)
-        window = [each for at, each in unit.shaft if at >= since]
+        window = [each for _, each in takewhile(lambda each: each[0] >= since, reversed(unit.shaft))]
         if window and unit.shaft[0][0] < since:
             far = not min(window) - 0.3 <= hz <= max(window) + 0.3
             self.once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")
