@@ -80,7 +80,7 @@ def test_the_stop_of_seven_drives_is_between_those_of_six_and_eight() -> None:
 
 COUNTED = [
     ("prove.md", r"is run ([\d,]+) times", agreement.CALLS),
-    ("prove.md", r"on each: (\d+) are found", mutants.NUMBER - len(mutants.survivors())),
+    ("measured/prove.md", r"on each: (\d+) are found", mutants.NUMBER - len(mutants.survivors())),
     ("measured/drives.md", r"of (\d+) faults of the wire", len(FAULTS)),
     ("measured/drives.md", r"in each of (\d+) states", len(STATES)),
     ("measured/drives.md", r"4 seeds: ([\d,]+) runs", len(FAULTS) * len(STATES) * SEEDS * len((*FAMILIES, *MADE_UP))),
