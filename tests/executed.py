@@ -18,8 +18,8 @@ from inspect import CO_OPTIMIZED
 from pathlib import Path
 from types import CodeType, FrameType
 
+from click.testing import CliRunner
 from tests.rooms import ROOT, modules
-from typer.testing import CliRunner
 
 TEXT = """FUNCTION Words : STRING
 VAR_INPUT n : INT; END_VAR

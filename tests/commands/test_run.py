@@ -11,13 +11,12 @@ import tomllib
 from pathlib import Path
 
 import pytest
-import typer
+from click.testing import CliRunner, Result
 from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
-from typer.testing import CliRunner, Result
 
 from driveblocks import console
 from driveblocks.commands import run as command
@@ -32,8 +31,6 @@ from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import TcpLink
 
-app = typer.Typer()
-app.command()(command.run)
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 NET = 600
 """Seconds that no machine needs, for what would hang."""
@@ -43,7 +40,7 @@ _read, _whole = collection.read, source.load
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
-    return CliRunner().invoke(app, [str(each) for each in words])
+    return CliRunner().invoke(command.run, [str(each) for each in words])
 
 
 @pytest.fixture(autouse=True)

@@ -6,8 +6,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from click.testing import CliRunner, Result
 from tests.testing.conftest import BOTH, changed, only
-from typer.testing import CliRunner, Result
 
 from driveblocks.building import build
 from driveblocks.cli import app

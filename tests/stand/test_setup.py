@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS, body, pairs, prepared
-from typer.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.modbus.frame import Mode, seal
