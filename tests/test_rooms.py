@@ -15,9 +15,11 @@ FLOORS = ("structured_text", "visible", "files", "language", "findings", "engine
 """Those of `structured_text`."""
 
 MOST = {
-    "building": 825, "commands": 1375, "docs": 1120, "explain": 2110, "export": 2060, "maps": 6600, "modbus": 325,
+    "building": 825, "commands": 1285, "docs": 1120, "explain": 2110, "export": 2060, "maps": 6600, "modbus": 325,
     "plc": 4050, "prove": 1880, "reference": 1050, "render": 2110, "simulator": 1320, "stand": 560,
-    "structured_text": 16_100, "tables": 1060, "testing": 7520,
+    "structured_text": 16_100, "tables": 1060,
+    # a meter beside a motor has scenes of its own
+    "testing": 7700,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 
