@@ -222,7 +222,7 @@ def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wirin
 
 
 @every_family
-def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
+def test_what_the_manual_leaves_open_is_at_the_top_with_its_count(family: str) -> None:
     drive, text = shipped()[family], page(family)
     top = text.partition("\n## Find out before the first start\n")[2].partition("\n## ")[0]
     rows_ = text.partition("\n## What the manual does not say\n")[2].partition("\n## ")[0]

@@ -6,7 +6,7 @@ from itertools import pairwise
 from tests.line.vline import COMMAND, Bench, Config
 
 
-def test_a_drive_is_dead_behind_a_time_and_a_count() -> None:
+def test_a_drive_is_dead_after_a_time_and_a_count() -> None:
     bench = Bench().ready()
     bench.drives[1].alive = False
     bench.run(500)
@@ -28,7 +28,7 @@ def test_probes_come_with_growing_pauses() -> None:
     assert set(pauses[3:]) == {8}
 
 
-def test_a_drive_comes_back_behind_several_good_replies() -> None:
+def test_a_drive_comes_back_after_several_good_replies() -> None:
     bench = Bench()
     bench.drives[1].alive = False
     bench.run(3000)
@@ -52,7 +52,7 @@ def test_the_others_lose_less_than_two_percent() -> None:
     assert refresh(1) < refresh(0) * 6 / 7 * 1.02
 
 
-def test_one_probe_in_vain_per_round() -> None:
+def test_one_unanswered_probe_per_round() -> None:
     bench = Bench(Config(drives=8))
     for drive in bench.drives[:5]:
         drive.alive = False
