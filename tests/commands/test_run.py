@@ -20,13 +20,13 @@ from tests.stand.test_peer import serving
 
 from driveblocks import console
 from driveblocks.commands import run as command
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.screen import Lines
 from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
-from driveblocks.plc.bus import Bus
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
-from driveblocks.plc.screen import Lines
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import TcpLink

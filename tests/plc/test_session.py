@@ -8,12 +8,12 @@ import pytest
 from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import AGAIN_US, DevicePort
+from driveblocks.desk.script import Setting
 from driveblocks.plc import live
-from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.ending import CHATTER_US, REPLY_US, Ending
 from driveblocks.plc.pace import Pace
-from driveblocks.plc.port import AGAIN_US, DevicePort
-from driveblocks.plc.script import Setting
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 

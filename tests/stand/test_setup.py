@@ -11,10 +11,10 @@ from tests.plc.windows import environment
 from tests.simulator.talk import MAPS, body, pairs, prepared
 
 from driveblocks.cli import app
+from driveblocks.desk.bus import Bus, Frame
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.wire import Wire
 from driveblocks.modbus.frame import Mode, seal
-from driveblocks.plc.bus import Bus, Frame
-from driveblocks.plc.clock import VirtualClock
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours

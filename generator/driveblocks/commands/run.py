@@ -57,7 +57,7 @@ def run(show: tuple[str, ...], **words: Any) -> None:
 
     Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """
-    from driveblocks.plc.keyboard import Keyboard
+    from driveblocks.desk.keyboard import Keyboard
     from driveblocks.plc.options import Options, Refused
     from driveblocks.plc.setup import Setup
 

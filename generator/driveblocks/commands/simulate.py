@@ -32,7 +32,7 @@ def run(drives: tuple[str, ...], form: str, schema: bool, **words: Any) -> None:
 
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """
-    from driveblocks.plc import scenario as scenarios
+    from driveblocks.desk import scenario as scenarios
     from driveblocks.plc.options import Refused
     from driveblocks.stand.setup import Setup, Words
 

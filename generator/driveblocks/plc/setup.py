@@ -9,20 +9,21 @@ from dataclasses import replace
 from pathlib import Path
 
 from driveblocks import console
+from driveblocks.desk import port, recorder, scenario, script
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import Clock, RealClock, VirtualClock
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.port import Port, WirePort
+from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, permission, port, recorder, scenario, script, source, wiring
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import Clock, RealClock, VirtualClock
+from driveblocks.plc import demo, live, permission, source, wiring
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
 from driveblocks.plc.play import Play
-from driveblocks.plc.port import Port, WirePort
-from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words

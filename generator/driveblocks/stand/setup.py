@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks import console
+from driveblocks.desk import port, scenario
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live, port, scenario
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import RealClock
+from driveblocks.plc import live
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, time
-from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.plc.wanted import named
 from driveblocks.plc.wanted import words as drives_of
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 
+from driveblocks.desk.bus import Frame
 from driveblocks.explain import page
 from driveblocks.explain.explanation import Explainer
 from driveblocks.explain.paste import Paste
 from driveblocks.explain.unreadable import UnreadableError
 from driveblocks.explain.wire import open_
 from driveblocks.maps.model import Drive
-from driveblocks.plc.bus import Frame
 
 
 class Tracer:
