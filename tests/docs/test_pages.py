@@ -94,7 +94,7 @@ def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> Non
     said = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Settings")}
     assert said["JSCC", "ReferenceScale"] == "required: the manual gives no scale of 1001H"
     assert said["CHF", "ReferenceScale"] == said["SN300G5", "FrequencyScale"] == "no use: the map has the scale"
-    assert said["CHF", "FrequencyScale"] == "of 3000H: without it `OutputFrequencyHz` is the bare word"
+    assert said["CHF", "FrequencyScale"] == "of 3000H: without it `OutputFrequencyHz` is the raw count"
     assert said["JSCC", "CurrentScale"] == "no use: the drive does not show it"
     assert (said["SN300G5", "KeepWord"], said["CHF", "KeepWord"]) == ("16#00FC of 0000H", "no use: no bit is left over")
     shown = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Diagnosis")}
