@@ -14,11 +14,11 @@ from driveblocks.cli import app
 from driveblocks.desk.bus import Bus, Frame
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.wire import Wire
+from driveblocks.explain.trace import Tracer
 from driveblocks.modbus.frame import Mode, seal
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours
-from driveblocks.stand.trace import Tracer
 
 
 def said(*words: str, status: int = 0) -> str:

@@ -11,10 +11,10 @@ from driveblocks.explain.explanation import Explanation
 from driveblocks.explain.guess import LONGEST, shown
 from driveblocks.explain.meaning import Held, Line
 from driveblocks.explain.reading import Field, Reading, Wrong
-from driveblocks.explain.wire import Wire
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
+from driveblocks.modbus.envelope import Wire
 from driveblocks.tables.layout import facts, own_head, table
 
 
