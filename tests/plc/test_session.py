@@ -109,7 +109,7 @@ def ended(desk: Desk, end: Callable[[Desk], None] = lambda _: None, seconds: int
             assert desk.drives[0].mode == "running"
             end(desk)
 
-    desk.session.step = step
+    desk.session.steps.append(step)
     desk.session.run(seconds * SECOND)
     return desk
 
@@ -197,7 +197,7 @@ def test_no_process_is_suspended_while_a_motor_may_run() -> None:
         if at_us in moments:
             desk.session.ask_to_suspend()
 
-    desk.session.step = step
+    desk.session.steps.append(step)
     desk.session.halt = lambda: halted.append(now[0])
     desk.session.run(9 * SECOND)
     assert halted == [8 * SECOND]

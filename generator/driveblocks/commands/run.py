@@ -58,11 +58,14 @@ def run(show: tuple[str, ...], **words: Any) -> None:
     Example: driveblocks run my_line.st --simulate jscc@1 --for 60s
     """
     from driveblocks.desk.keyboard import Keyboard
+    from driveblocks.plc import permission
     from driveblocks.plc.options import Options, Refused
     from driveblocks.plc.setup import Setup
 
     options = Options(show=tuple(",".join(show).replace(",", " ").split()), **words)
     try:
-        sys.exit(Setup(options, Keyboard(0)).run())
+        keyboard = Keyboard(0)
+        made = Setup(options, keyboard)
+        sys.exit(made.run(permission.ask(made.probe, keyboard) if options.allow_run else frozenset()))
     except Refused as refused:
         refuse(str(refused))

@@ -63,7 +63,8 @@ class Session:
         self.shown: tuple[str, ...] = ()
         self.recorders: list[Recorder] = []
         self.recorded: tuple[str, ...] = ()
-        self.step: Step = lambda _: None
+        self.steps: list[Step] = []
+        """What else is done before each scan, in this order."""
         self.halt: Callable[[], None] = _halt
         """Suspends this process."""
         self.view: View | None = None
@@ -155,7 +156,8 @@ class Session:
         if self.play is not None:
             for says in self.play.due(since):
                 self.told.put(f"{since / 1e6:5.1f} s  {says}")
-        self.step(since)
+        for step in self.steps:
+            step(since)
         self.controller.scan(now_us)
         self._gate.check()
         self._record(since)
