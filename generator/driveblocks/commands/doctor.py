@@ -49,7 +49,7 @@ def _print_tables(health: "Health") -> None:
     from rich.text import Text
 
     from driveblocks import console
-    from driveblocks.tables.layout import table
+    from driveblocks.show.layout import table
 
     found = table("part", "state", "what and where", wide=("what and where",))
     for part in health.parts:

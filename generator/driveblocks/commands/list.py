@@ -63,7 +63,7 @@ def _print_json(loaded: "dict[Path, Drive]") -> None:
 def _print_table(loaded: "dict[Path, Drive]") -> None:
     from driveblocks import console
     from driveblocks.maps import counts, view
-    from driveblocks.tables.layout import both, table
+    from driveblocks.show.layout import both, table
 
     kinds = ("registers", "faults", "frames", "errata")
     made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)

@@ -55,14 +55,14 @@ def _print_json(drive: "Drive", stem: str, what: str | None, topic: str | None) 
 
 def _pages(drive: "Drive", file: str, what: str | None, topic: str | None) -> "Iterator[RenderableType]":
     if what is None:
-        from driveblocks.tables import overview
+        from driveblocks.show import overview
 
         return overview.pages(drive, file)
     return _topic(topic)(drive) if topic else _found(drive, what)
 
 
 def _topic(topic: str) -> "Callable[[Drive], Iterator[RenderableType]]":
-    from driveblocks.tables import errata, faults, frames, line, registers
+    from driveblocks.show import errata, faults, frames, line, registers
 
     pages: dict[str, Any] = {
         "registers": registers.tables,
@@ -81,7 +81,7 @@ def _topic(topic: str) -> "Callable[[Drive], Iterator[RenderableType]]":
 def _found(drive: "Drive", word: str) -> "Iterator[RenderableType]":
     """The pages of everything that is written like the word; what else it may mean follows in one line each."""
     from driveblocks.maps import lookup
-    from driveblocks.tables import entry
+    from driveblocks.show import entry
 
     matches = lookup.find(drive, word)
     if not matches:

@@ -99,7 +99,7 @@ def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
 
 def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]") -> None:
     from driveblocks import console
-    from driveblocks.tables.layout import table
+    from driveblocks.show.layout import table
 
     for each in candidates:
         state = "runs" if each in chosen else "does not run" if each.engine is None else "was not asked for"

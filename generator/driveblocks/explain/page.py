@@ -15,7 +15,7 @@ from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
 from driveblocks.modbus.envelope import Wire
-from driveblocks.tables.layout import facts, own_head, table
+from driveblocks.show.layout import facts, own_head, table
 
 
 def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:
