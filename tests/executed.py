@@ -22,8 +22,8 @@ from types import CodeType, FrameType
 from typing import TYPE_CHECKING
 
 import pytest
+from click.testing import CliRunner
 from tests.rooms import ROOT, modules
-from typer.testing import CliRunner
 
 if TYPE_CHECKING:  # each module of the generator is imported while calls are noted
     from driveblocks.prove.proof import Question

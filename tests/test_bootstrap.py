@@ -123,13 +123,13 @@ def test_a_venv_that_is_not_whole_is_made_anew_though_its_stamp_is_right(
 def test_it_is_said_what_pip_is_at(capfd: pytest.CaptureFixture[str]) -> None:
     lines = (
         "Obtaining file:///x", "Collecting jinja2 (from driveblocks==1.0)", "  Downloading jinja2-3.1.whl (1 kB)",
-        "Collecting typer<1 (from driveblocks==1.0)", "Installing collected packages: jinja2, typer, driveblocks",
+        "Collecting click<9 (from driveblocks==1.0)", "Installing collected packages: jinja2, click, driveblocks",
     )  # fmt: skip
     code = f"import sys; print({chr(10).join(lines)!r}); sys.exit(3)"
     assert bootstrap.installed([sys.executable, "-c", code]) == 3
     said = [line.split(" s  ")[1] for line in capfd.readouterr().out.splitlines()]
     assert said == [
-        "collecting jinja2 (1)", "downloading jinja2-3.1.whl", "collecting typer<1 (2)",
+        "collecting jinja2 (1)", "downloading jinja2-3.1.whl", "collecting click<9 (2)",
         "installing 2 packages and driveblocks",
     ]  # fmt: skip
 

@@ -2,12 +2,12 @@
 
 import builtins
 import runpy
+import sys
 from typing import Any, NoReturn
 
 import pytest
-from typer.testing import CliRunner
 
-from driveblocks.cli import app
+from driveblocks.cli import main
 from driveblocks.maps import catalog
 
 
@@ -15,10 +15,15 @@ def interrupted(*_arguments: object) -> NoReturn:
     raise KeyboardInterrupt
 
 
-def test_ctrl_c_ends_a_command_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_ctrl_c_ends_a_command_quietly(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(catalog, "shipped", interrupted)
-    result = CliRunner().invoke(app, ["check"])
-    assert (result.exit_code, result.output) == (130, "")
+    monkeypatch.setattr(sys, "argv", ["driveblocks", "check"])
+    for name in ("stdout", "stderr"):
+        monkeypatch.setattr(sys, name, getattr(sys, name))
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code == 130
+    assert "".join(capsys.readouterr()) == "\n"  # after the ^C that a terminal shows
 
 
 def test_ctrl_c_ends_quietly_what_is_still_loading(

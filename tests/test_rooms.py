@@ -7,8 +7,9 @@ from graphlib import TopologicalSorter
 from tests.rooms import GRAPH, modules, room
 
 ROOMS = (
-    "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "reference", "tables", "explain",
-    "render", "export", "docs", "testing", "prove", "building", "plc", "stand", "commands", "cli", "__main__",
+    "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "desk", "reference", "show",
+    "explain", "render", "export", "docs", "testing", "prove", "building", "plc", "stand", "commands", "cli",
+    "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""
 FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")
@@ -16,9 +17,12 @@ FLOORS = ("structured_text", "visible", "files", "language", "findings", "engine
 
 # render: what templates are given has types, and the line's constants have moved in from templates, in one table.
 MOST = {
-    "building": 825, "commands": 1375, "docs": 1120, "explain": 2110, "export": 2060, "maps": 6600, "modbus": 325,
-    "plc": 4050, "prove": 1880, "reference": 1050, "render": 2150, "simulator": 1320, "stand": 560,
-    "structured_text": 16_100, "tables": 1060, "testing": 7520,
+    "building": 825, "commands": 1290, "desk": 1490, "docs": 1120, "explain": 1965, "export": 2060, "maps": 6600,
+    # the framing of what came over a wire, which `explain` and `stand` read alike, came from explain
+    "modbus": 500, "plc": 2560, "prove": 1880, "reference": 1050, "render": 2150, "simulator": 1320, "stand": 520,
+    "show": 1060, "structured_text": 16_100,
+    # a meter beside a motor has scenes of its own
+    "testing": 7700,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 
@@ -39,6 +43,11 @@ def test_nothing_imports_from_a_room_above() -> None:
         if other in GRAPH and ROOMS.index(room(other)) > ROOMS.index(room(name))
     ]
     assert not upwards
+
+
+def test_simulated_drives_need_nothing_that_explains_frames() -> None:
+    stand = {other for name, others in GRAPH.items() if room(name) == "stand" for other in others}
+    assert not [name for name in stand if name in GRAPH and room(name) == "explain"]
 
 
 def test_no_modules_go_in_a_circle() -> None:

@@ -3,54 +3,36 @@
 import importlib
 import pkgutil
 import sys
-from typing import Annotated
 
-import typer
+import click
 
 from driveblocks import __version__, commands, console
 
-app = typer.Typer(
-    help="Structured Text function blocks for variable-frequency drives, from one YAML map per family.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    # `color` keeps typer from taking escape codes out of what does not go to a terminal: the streams write them out.
-    context_settings={"help_option_names": ["-h", "--help"], "color": True},
-)
 
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"driveblocks {__version__}")
-        raise typer.Exit
-
-
-Version = Annotated[
-    bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
-]
-
-
-@app.callback()
-def options(version: Version = False) -> None:
-    """Structured Text function blocks for variable-frequency drives, from one YAML map per family.
-
-    Example: driveblocks check my_drive.yaml
-    """
+# `color` keeps click from taking escape codes out of what does not go to a terminal: the streams write them out.
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "show_default": True, "color": True})
+@click.version_option(__version__, message="driveblocks %(version)s", help="Print the version and exit.")
+def app() -> None:
+    """Structured Text function blocks for variable-frequency drives, from one YAML map per family."""
 
 
 for _module in pkgutil.iter_modules(commands.__path__):
     # A command's module imports little; what it needs to run it imports when it runs.
-    app.command(_module.name)(importlib.import_module(f"{commands.__name__}.{_module.name}").run)
+    app.add_command(importlib.import_module(f"{commands.__name__}.{_module.name}").run, _module.name)
 
 
 def main() -> None:
-    """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input."""
+    """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input, 130 for Ctrl-C."""
     console.use_safe_utf8()
     try:
-        app()
+        sys.exit(app.main(standalone_mode=False))
+    except click.Abort:
+        sys.exit(130)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
     except OSError as error:  # a command reports on its files itself; what is left is a full disk under its output
-        typer.echo(f"{error.filename or 'standard output'}: {error.strerror or error}", err=True)
+        click.echo(f"{error.filename or 'standard output'}: {error.strerror or error}", err=True)
         console.give_up_output()
         sys.exit(2)
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.testing.conftest import only
-from typer.testing import CliRunner
 
 from driveblocks.building import build
 from driveblocks.cli import app

@@ -13,7 +13,7 @@ import pytest
 from rich.text import Text
 
 from driveblocks import cli, console
-from driveblocks.tables.layout import card, heading, table
+from driveblocks.show.layout import card, heading, table
 from structured_text.visible import file_name, visible
 
 HOSTILE = "\x1b[31mred\x1b]0;t\x07\r\x08\x7f\x9b5m\u202eback\u2066\u200b\u2028\ufeff\U000e0041"

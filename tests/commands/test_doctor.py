@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import pytest
 import yaml
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from driveblocks.cli import app
 from structured_text.engines import discovery

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner, Result
 from rich.cells import cell_len
 from tests.shipped import drives
-from typer.testing import CliRunner, Result
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog

@@ -5,8 +5,7 @@ import os
 from pathlib import Path
 
 import pytest
-import typer
-from typer.testing import CliRunner, Result
+from click.testing import CliRunner, Result
 
 from driveblocks.commands import lint
 from structured_text.language.rules import RULES
@@ -14,13 +13,10 @@ from structured_text.language.rules import RULES
 CLEAN = "FUNCTION_BLOCK Example\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_FUNCTION_BLOCK\n"
 LOOP = CLEAN.replace("  Count := Count + 1;", "  FOR Count := 1 TO 3 DO\n    Count := Count + 0;\n  END_FOR;;")
 
-app = typer.Typer()
-app.command()(lint.run)
-
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
-    return CliRunner().invoke(app, [str(each) for each in words])
+    return CliRunner().invoke(lint.run, [str(each) for each in words])
 
 
 @pytest.fixture

@@ -11,29 +11,26 @@ import tomllib
 from pathlib import Path
 
 import pytest
-import typer
+from click.testing import CliRunner, Result
 from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
-from typer.testing import CliRunner, Result
 
 from driveblocks import console
 from driveblocks.commands import run as command
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.screen import Lines
 from driveblocks.maps import catalog, collection
 from driveblocks.plc import demo, departure, setup, source
-from driveblocks.plc.bus import Bus
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import Options
-from driveblocks.plc.screen import Lines
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import TcpLink
 
-app = typer.Typer()
-app.command()(command.run)
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 NET = 600
 """Seconds that no machine needs, for what would hang."""
@@ -43,7 +40,7 @@ _read, _whole = collection.read, source.load
 
 def run(*words: str | Path) -> Result:
     """Run the command."""
-    return CliRunner().invoke(app, [str(each) for each in words])
+    return CliRunner().invoke(command.run, [str(each) for each in words])
 
 
 @pytest.fixture(autouse=True)
@@ -196,7 +193,7 @@ def test_what_a_program_believes_of_a_drive_does_not_make_it_so(
 def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) -> None:
     program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
     made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
-    probe = made._probe
+    probe = made.probe
     assert (made._line("BitRate"), made._line("CharacterBits")) == (probe.number("Bus.Line.Rate"), 10) == (9600, 10)
     assert probe.number("Bus.Line.CharUs") == 10 * 1_000_000 // 9600 + 1
 

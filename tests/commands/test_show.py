@@ -9,8 +9,8 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner, Result
 from rich.cells import cell_len
-from typer.testing import CliRunner, Result
 
 from driveblocks import __version__
 from driveblocks.cli import app

@@ -7,9 +7,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from click.testing import CliRunner, Result
 from tests.shipped import BOTH
 from tests.testing.conftest import changed, only
-from typer.testing import CliRunner, Result
 
 from driveblocks.building import build
 from driveblocks.cli import app

@@ -130,6 +130,19 @@ def test_the_page_of_a_users_map_names_it_in_commands_by_its_file() -> None:
     assert "`driveblocks show jscc absent`" in page("JSCC")
 
 
+def test_a_map_that_names_no_gap_promises_no_list_of_them() -> None:
+    drive = replace(drives()["JSCC"], absent=())
+    files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
+    text = documents(files, [drive])["docs/JSCC_Drive.md"]
+    assert "0 thing" not in text
+    assert (
+        "look for what is missing" in text.partition("\n## Find out before the first start\n")[2].partition("\n## ")[0]
+    )
+    assert (
+        text.partition("\n## What the manual does not say\n")[2].partition("\n## ")[0].endswith("The map names none.\n")
+    )
+
+
 def by_itself(drive: Drive) -> dict[str, str]:
     """What the generated page of a drive says that it does by itself, by what happens."""
     files = [*generic(LANGUAGES), *library_of("one", drive, LANGUAGES)]

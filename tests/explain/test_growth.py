@@ -5,10 +5,9 @@ import sys
 import pytest
 from tests.explain.explaining import rtu
 
-from driveblocks.explain import scan
 from driveblocks.explain.explanation import Explainer
 from driveblocks.explain.paste import read
-from driveblocks.modbus import frame
+from driveblocks.modbus import frame, scan
 from driveblocks.modbus.checksum import crc_bytes
 
 READ = "01 03 20 00 00 01 8F CA"

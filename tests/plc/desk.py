@@ -6,16 +6,16 @@ from pathlib import Path
 
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import WirePort
+from driveblocks.desk.wire import Wire
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.plc import source, wiring
-from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.port import WirePort
 from driveblocks.plc.session import Session
 from driveblocks.plc.watchdog import Watchdog
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "three_makes.st"

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 import pytest
 from tests.plc.desk import EXAMPLE, Desk
 
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.seen import View
 from driveblocks.plc import live, permission
-from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.session import Result
-from driveblocks.plc.view import View
 
 
 class Noted:

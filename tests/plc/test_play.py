@@ -7,10 +7,10 @@ import pytest
 from tests.plc.desk import Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk import scenario
+from driveblocks.desk.bus import Loss
 from driveblocks.maps import catalog
 from driveblocks.modbus.frame import seal
-from driveblocks.plc import scenario
-from driveblocks.plc.bus import Loss
 from driveblocks.plc.play import Play
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted

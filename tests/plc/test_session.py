@@ -8,12 +8,12 @@ import pytest
 from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import AGAIN_US, DevicePort
+from driveblocks.desk.script import Setting
 from driveblocks.plc import live
-from driveblocks.plc.clock import VirtualClock
 from driveblocks.plc.ending import CHATTER_US, REPLY_US, Ending
 from driveblocks.plc.pace import Pace
-from driveblocks.plc.port import AGAIN_US, DevicePort
-from driveblocks.plc.script import Setting
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -109,7 +109,7 @@ def ended(desk: Desk, end: Callable[[Desk], None] = lambda _: None, seconds: int
             assert desk.drives[0].mode == "running"
             end(desk)
 
-    desk.session.step = step
+    desk.session.steps.append(step)
     desk.session.run(seconds * SECOND)
     return desk
 
@@ -197,7 +197,7 @@ def test_no_process_is_suspended_while_a_motor_may_run() -> None:
         if at_us in moments:
             desk.session.ask_to_suspend()
 
-    desk.session.step = step
+    desk.session.steps.append(step)
     desk.session.halt = lambda: halted.append(now[0])
     desk.session.run(9 * SECOND)
     assert halted == [8 * SECOND]

@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 from tests.plc.desk import ONE, Desk
 
+from driveblocks.desk.script import Setting
 from driveblocks.plc import gate, live
 from driveblocks.plc.ending import Bell, Ending
 from driveblocks.plc.gate import Gate, GivenUp
-from driveblocks.plc.script import Setting
 from driveblocks.plc.session import STUCK
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, PATIENCE_US, Watchdog
 
@@ -205,7 +205,7 @@ def test_a_scan_that_was_given_up_sends_nothing_when_it_goes_on(hanging: Hanging
 
 def test_a_drive_that_is_not_reached_is_named_when_its_time_to_stop_is_over(hanging: Hanging) -> None:
     desk = hanging.desk
-    desk.session.step = lambda at_us: setattr(desk.line, "cut", at_us >= 5 * SECOND)
+    desk.session.steps.append(lambda at_us: setattr(desk.line, "cut", at_us >= 5 * SECOND))
     assert desk.session.run().unconfirmed == {"Motor (unit 7)": "no reply to the stop"}
     assert desk.clock.now_us() == pytest.approx((5 + 15) * SECOND, abs=SECOND)  # StopWithinMs is 15000
 

@@ -5,12 +5,12 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from lxml import etree
 from tests import shipped
 from tests.commands.test_page_commands import commands
 from tests.prove import agreement, mutants
 from tests.shapes import texts
-from typer.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection

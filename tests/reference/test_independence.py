@@ -5,7 +5,7 @@ import sys
 from tests.rooms import GRAPH, reached, room
 
 MAP = {"driveblocks.maps.model", "driveblocks.maps.form", "driveblocks.maps.problem"}
-JUDGED = {"modbus", "structured_text", "tables", "explain", "render"}
+JUDGED = {"modbus", "structured_text", "show", "explain", "render"}
 
 
 def test_the_model_reaches_nothing_that_it_judges() -> None:

@@ -8,8 +8,8 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.shapes import shapes, texts
-from typer.testing import CliRunner
 
 from driveblocks.building import build
 from driveblocks.cli import app

@@ -24,7 +24,7 @@ from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.desk import ONE
 from tests.stand.softplc import SoftPlc
 
-from driveblocks.plc.bus import Loss
+from driveblocks.desk.bus import Loss
 from driveblocks.render.reasons import REASONS
 
 UNIT = 7

@@ -17,8 +17,8 @@ from tests.blocks.library import BLOCKS
 from tests.blocks.toolchains import COMPILER, FOUND, run, translate
 from tests.simulator.talk import MAPS
 
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import RealClock
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits

@@ -11,8 +11,8 @@ from pymodbus import FramerType
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
 from tests.simulator.talk import body, pairs, prepared
 
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import RealClock
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import RealClock
 from driveblocks.plc.ending import Ending
 from driveblocks.stand.link import Link, PtyLink, TcpLink
 from driveblocks.stand.stand import Stand

@@ -6,19 +6,19 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS, body, pairs, prepared
-from typer.testing import CliRunner
 
 from driveblocks.cli import app
+from driveblocks.desk.bus import Bus, Frame
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.wire import Wire
+from driveblocks.explain.trace import Tracer
 from driveblocks.modbus.frame import Mode, seal
-from driveblocks.plc.bus import Bus, Frame
-from driveblocks.plc.clock import VirtualClock
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import WithoutEcho
 from driveblocks.stand.neighbour import LISTEN_US, Neighbours
-from driveblocks.stand.trace import Tracer
 
 
 def said(*words: str, status: int = 0) -> str:

@@ -117,6 +117,19 @@ CONTACT = {
 }
 """The same of the contact of the hard stop."""
 
+DEVICE = {
+    "Quantity is another": ("Quantity := 2;", "", "MotorMeter"),
+    "SwapBytes is ignored": ("SwapBytes := FALSE;", "", "MotorMeter"),
+    "SwapWords is ignored": ("SwapWords := FALSE;", "", "MotorMeter"),
+    "StaleMs is ignored": ("StaleMs := 0;", "", "MotorMeter"),
+    "SupplyOff is ignored": ("SupplyOff := FALSE;", "", "MotorMeter"),
+    "Write is ignored": ("Write := FALSE;", "", "MotorMeter"),
+    "Valid is always TRUE": ("", "Valid := TRUE;", "MotorMeter"),
+    "CommOk is always TRUE": ("", "CommOk := TRUE;", "MotorMeter"),
+    "Error is not shown": ("", "Error := FALSE;", "MotorMeter"),
+}
+"""The same of a meter."""
+
 MISTAKES = {
     "Motor": {
         **{words: (statements, "", program) for words, (statements, program) in FIRST.items()},
@@ -124,9 +137,10 @@ MISTAKES = {
     },
     "Bus": LINE,
     "HardStop": CONTACT,
+    "Meter": DEVICE,
 }
 """All of them by the instance that makes them."""
-BLOCKS = {"Motor": "CHF_Drive.st", "Bus": "MB_ByteLine8.st", "HardStop": "VFD_HardStop.st"}
+BLOCKS = {"Motor": "CHF_Drive.st", "Bus": "MB_ByteLine8.st", "HardStop": "VFD_HardStop.st", "Meter": "MB_Device.st"}
 
 
 TOKENS = {

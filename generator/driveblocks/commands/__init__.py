@@ -1,23 +1,26 @@
-"""One module per command of `driveblocks`; each holds the typer function and the tables that it prints."""
+"""One module per command of `driveblocks`; each holds the click command and the tables that it prints."""
 
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-import typer
+import click
 
 if TYPE_CHECKING:
+    from driveblocks.maps.collection import Source
     from driveblocks.maps.model import Drive
 
-Maps = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="MAP", help="Maps by path, or shipped ones by name; all shipped ones without it."),
-]
+FILE = click.Path(path_type=Path)
+MAPS = click.argument(
+    "maps", nargs=-1, metavar="[MAP]...", help="Maps by path, or shipped ones by name; all shipped ones without it."
+)
+JUNIT = click.option("--junit", metavar="FILE", type=FILE, help="Write all results there as JUnit XML.")
 
 
 def refuse(message: str) -> NoReturn:
     """Say what is wrong with the input, and end with status 2."""
-    typer.echo(message, err=True)
-    raise typer.Exit(2)
+    click.echo(message, err=True)
+    sys.exit(2)
 
 
 def loaded(name: str) -> "tuple[Path, Drive]":
@@ -30,4 +33,15 @@ def loaded(name: str) -> "tuple[Path, Drive]":
         path = catalog.resolve(name)
         return path, load(path)
     except (catalog.UnknownDrive, MapError) as error:
+        refuse(str(error))
+
+
+def sources(maps: tuple[str, ...]) -> "list[Source]":
+    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
+    from driveblocks.maps import catalog, collection
+    from driveblocks.maps.problem import MapError
+
+    try:
+        return collection.read(catalog.chosen(maps))
+    except (MapError, catalog.UnknownDrive) as error:
         refuse(str(error))

@@ -1,34 +1,33 @@
 """`driveblocks build`: vendor maps -> Structured Text."""
 
 import contextlib
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import Maps
+from driveblocks.commands import MAPS, refuse
 from driveblocks.export import TARGETS
 
 if TYPE_CHECKING:
     from driveblocks.building.build import Plan
     from driveblocks.render.text import Language
 
-Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when the folder is not current.")]
-Only = Annotated[bool, typer.Option("--only", help="Remove the blocks of drives and targets that are not named.")]
-Force = Annotated[bool, typer.Option("--force", help="Replace also those files of an earlier build that were edited.")]
 
-
+@click.command()
+@MAPS
+@click.option("-o", "--output", metavar="FOLDER", default="blocks", help="Folder to write to.")
+@click.option("--lang", metavar="LIST", default="en,zh", help="Languages of the texts: en, zh or en,zh.")
+@click.option("--encoding", metavar="NAME", default="utf-8", help="Bytes of Chinese texts: utf-8 or gb18030.")
+@click.option("--target", metavar="LIST", default="all", help=f"Forms to write: {', '.join(TARGETS)} or all.")
+@click.option("--check", is_flag=True, help="Write nothing; exit 1 when the folder is not current.")
+@click.option("--only", is_flag=True, help="Remove the blocks of drives and targets that are not named.")
+@click.option("--force", is_flag=True, help="Replace also those files of an earlier build that were edited.")
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
-    maps: Maps = None,
-    output: Annotated[str, typer.Option("-o", "--output", help="Folder to write to.")] = "blocks",
-    lang: Annotated[str, typer.Option(help="Languages of the texts: en, zh or en,zh.")] = "en,zh",
-    encoding: Annotated[str, typer.Option(help="Bytes of Chinese texts: utf-8 or gb18030.")] = "utf-8",
-    target: Annotated[str, typer.Option(help=f"Forms to write: {', '.join(TARGETS)} or all.")] = "all",
-    check: Check = False,
-    only: Only = False,
-    force: Force = False,
+    maps: tuple[str, ...], output: str, lang: str, encoding: str, target: str, check: bool, only: bool, force: bool
 ) -> None:
     """Write the function blocks of the drives. The old output stays whole when anything is wrong.
 
@@ -50,20 +49,20 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
     if check and wrong:
         again = _again({"-o": output, "--lang": lang, "--encoding": encoding, "--target": target}, maps, only)
-        typer.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
-        raise typer.Exit(1)
+        click.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
+        sys.exit(1)
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
-    typer.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
+    click.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
     for note in filter(None, (missing(source.drive, wanted.languages) for source in plan.sources)):
-        typer.echo(note)
+        click.echo(note)
 
 
 @dataclass(frozen=True)
 class _Wanted:
     """What the command line asks for."""
 
-    maps: list[str] | None
+    maps: tuple[str, ...]
     languages: "list[Language]"
     targets: list[str]
     only: bool
@@ -83,7 +82,7 @@ def _carried_out(folder: Path, wanted: _Wanted, force: bool) -> "Plan":
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
-            typer.echo(f"{folder}: took back a build that was interrupted", err=True)
+            click.echo(f"{folder}: took back a build that was interrupted", err=True)
         plan = _planned(folder, wanted)
         build.write(folder, plan, force=force)
         return plan
@@ -101,25 +100,23 @@ def _told(folder: Path) -> Iterator[None]:
     try:
         yield
     except (MapError, ExportError, UnknownDrive, Refused) as error:
-        typer.echo("\n".join([str(error), *getattr(error, "__notes__", ())]), err=True)
-        raise typer.Exit(2) from None
+        refuse("\n".join([str(error), *getattr(error, "__notes__", ())]))
     except OSError as error:
         left = "the next build puts the old output back" if interrupted(folder) else "nothing was changed"
-        typer.echo(f"{error.filename or folder}: {error.strerror}; {left}", err=True)
-        raise typer.Exit(2) from None
+        refuse(f"{error.filename or folder}: {error.strerror}; {left}")
 
 
 def _folder(output: str) -> Path:
     if not output:
-        raise typer.BadParameter("an empty name is no folder; write . for the one you are in", param_hint="--output")
+        raise click.BadParameter("an empty name is no folder; write . for the one you are in", param_hint="--output")
     return Path(output)
 
 
-def _again(options: dict[str, str], maps: list[str] | None, only: bool) -> str:
+def _again(options: dict[str, str], maps: tuple[str, ...], only: bool) -> str:
     """The words of the command line that are not the usual ones."""
     usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--target": "all"}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
-    return "".join(f" {word}" for word in [*(maps or ()), *given, *(["--only"] if only else ())])
+    return "".join(f" {word}" for word in [*maps, *given, *(["--only"] if only else ())])
 
 
 def _targets(target: str) -> list[str]:
@@ -127,7 +124,7 @@ def _targets(target: str) -> list[str]:
     unknown = [name for name in names if name not in (*TARGETS, "all")]
     if unknown or not names:
         wrong = f"`{target}` is no list of targets; write {', '.join(TARGETS)} or all"
-        raise typer.BadParameter(wrong, param_hint="--target")
+        raise click.BadParameter(wrong, param_hint="--target")
     return list(TARGETS) if "all" in names else names
 
 
@@ -138,8 +135,8 @@ def _languages(lang: str, encoding: str) -> "list[Language]":
     codes = [code.strip() for code in lang.split(",") if code.strip()]
     unknown = [code for code in codes if code not in ("en", "zh")]
     if unknown or not codes:
-        raise typer.BadParameter(f"`{lang}` is no list of languages; write en, zh or en,zh", param_hint="--lang")
+        raise click.BadParameter(f"`{lang}` is no list of languages; write en, zh or en,zh", param_hint="--lang")
     if encoding not in ENCODINGS:
         right = " or ".join(ENCODINGS)
-        raise typer.BadParameter(f"`{encoding}` is not possible; write {right}", param_hint="--encoding")
+        raise click.BadParameter(f"`{encoding}` is not possible; write {right}", param_hint="--encoding")
     return languages(sorted(set(codes)), encoding)

@@ -1,17 +1,20 @@
 """`driveblocks check`: judge maps, and say everything that is wrong with them at once."""
 
+import sys
 from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import Maps
+from driveblocks.commands import MAPS, refuse
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
     from driveblocks.maps.model import Drive
 
 
-def run(maps: Maps = None) -> None:
+@click.command()
+@MAPS
+def run(maps: tuple[str, ...]) -> None:
     """Check maps against every rule.
 
     All mistakes of each map are listed, as `file:line:col: wrong; right`, and all maps are checked, whatever is wrong
@@ -23,13 +26,12 @@ def run(maps: Maps = None) -> None:
 
     names = maps or [catalog.shown(path) for path in catalog.shipped()]
     if not names:
-        typer.echo(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check", err=True)
-        raise typer.Exit(2)
+        refuse(f"{catalog.folder()}:1:1: there are no maps here; name the maps to check")
     good: list[Source] = []
     mistakes = [_check(name, good) for name in names]
     _summary(mistakes)
     if any(mistakes):
-        raise typer.Exit(2)
+        sys.exit(2)
 
 
 def _check(name: str, good: "list[Source]") -> int:
@@ -44,16 +46,16 @@ def _check(name: str, good: "list[Source]") -> int:
         if wrong := collection.clashes([*good, source]):
             raise MapError(wrong)
     except catalog.UnknownDrive as unknown:
-        typer.echo(f"{printable(name)}:1:1: {unknown}", err=True)
+        click.echo(f"{printable(name)}:1:1: {unknown}", err=True)
         return 1
     except MapError as error:
-        typer.echo(error, err=True)
+        click.echo(error, err=True)
         return len(error.problems)
     good.append(source)
     shown = printable(str(path)) if catalog.is_path(name) else name
-    typer.echo(f"{shown}: good: {_held(source.drive)}")
+    click.echo(f"{shown}: good: {_held(source.drive)}")
     if not source.drive.frames:
-        typer.echo(f"{shown}: note: {view.UNPROVED}")
+        click.echo(f"{shown}: note: {view.UNPROVED}")
     return 0
 
 
@@ -80,11 +82,11 @@ def _held(drive: "Drive") -> str:
 def _summary(mistakes: list[int]) -> None:
     good, bad = mistakes.count(0), len(mistakes) - mistakes.count(0)
     if bad:
-        typer.echo(
+        click.echo(
             f"{bad} of {_maps(len(mistakes))} bad, {sum(mistakes)} mistake{'s' * (sum(mistakes) != 1)}", err=True
         )
     else:
-        typer.echo(f"{_maps(good)} good")
+        click.echo(f"{_maps(good)} good")
 
 
 def _maps(number: int) -> str:

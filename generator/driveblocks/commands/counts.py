@@ -1,23 +1,27 @@
 """`driveblocks counts`: how much the shipped maps hold, as the table of drives in the READMEs."""
 
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import refuse
+from driveblocks.commands import FILE, refuse
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
 
-Pages = Annotated[
-    list[Path] | None,
-    typer.Argument(metavar="PAGE", help="Markdown pages to write the table into; it is printed without any."),
-]
-Check = Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a page is not current.")]
 
-
-def run(pages: Pages = None, check: Check = False) -> None:
+@click.command()
+@click.argument(
+    "pages",
+    nargs=-1,
+    type=FILE,
+    metavar="[PAGE]...",
+    help="Markdown pages to write the table into; it is printed without any.",
+)
+@click.option("--check", is_flag=True, help="Write nothing; exit 1 when a page is not current.")
+def run(pages: tuple[Path, ...], check: bool) -> None:
     """Count what the shipped maps hold, per drive and register table.
 
     Registers, bits, enum values, settings, faults, errors, frames, errata and gaps are counted.
@@ -30,7 +34,7 @@ def run(pages: Pages = None, check: Check = False) -> None:
     try:
         maps = _maps()
         if not pages:
-            typer.echo(inventory.table(maps, Path.cwd()), nl=False)
+            click.echo(inventory.table(maps, Path.cwd()), nl=False)
             return
         current = {page: inventory.update(page.read_text(encoding="utf-8"), maps, page.parent) for page in pages}
     except MapError as error:
@@ -40,8 +44,8 @@ def run(pages: Pages = None, check: Check = False) -> None:
     stale = [page for page, text in current.items() if page.read_text(encoding="utf-8") != text]
     if check and stale:
         names = " ".join(map(str, pages))
-        typer.echo(f"not current: {', '.join(map(str, stale))}; run: driveblocks counts {names}", err=True)
-        raise typer.Exit(1)
+        click.echo(f"not current: {', '.join(map(str, stale))}; run: driveblocks counts {names}", err=True)
+        sys.exit(1)
     for page in stale:
         page.write_text(current[page], encoding="utf-8")
 

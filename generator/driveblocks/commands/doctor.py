@@ -1,19 +1,19 @@
 """`driveblocks doctor`: what runs on this machine, what is missing, what that costs, and where to get it."""
 
 import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 if TYPE_CHECKING:
     from driveblocks.building.health import Health
 
-Json = Annotated[bool, typer.Option("--json", help="Print the findings as JSON.")]
-
 _COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 
 
-def run(json: Json = False) -> None:
+@click.command()
+@click.option("--json", is_flag=True, help="Print the findings as JSON.")
+def run(json: bool) -> None:
     """Say which ST engines this machine has, and what is missing.
 
     For each part that is missing it says what cannot be done without it, and where to get it.
@@ -30,26 +30,26 @@ def run(json: Json = False) -> None:
     if json:
         from json import dumps
 
-        typer.echo(dumps(health.plain(), ensure_ascii=False, indent=2))
+        click.echo(dumps(health.plain(), ensure_ascii=False, indent=2))
     elif sys.stdout.isatty():
         _print_tables(health)
     else:
         _print_lines(health)
-    raise typer.Exit(0 if health.works else 1)
+    sys.exit(0 if health.works else 1)
 
 
 def _print_lines(health: "Health") -> None:
     for part in health.parts:
-        typer.echo(f"{part.name:<15} {part.state:<8} {part.detail}")
+        click.echo(f"{part.name:<15} {part.state:<8} {part.detail}")
     for each in health.missing:
-        typer.echo(f"\n{each.missing} is missing: {each.cost}.\n  {each.remedy}")
+        click.echo(f"\n{each.missing} is missing: {each.cost}.\n  {each.remedy}")
 
 
 def _print_tables(health: "Health") -> None:
     from rich.text import Text
 
     from driveblocks import console
-    from driveblocks.tables.layout import table
+    from driveblocks.show.layout import table
 
     found = table("part", "state", "what and where", wide=("what and where",))
     for part in health.parts:

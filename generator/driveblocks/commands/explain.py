@@ -1,8 +1,9 @@
 """`driveblocks explain`: what a pasted frame says, or what is wrong with it and what it might be instead."""
 
-from typing import TYPE_CHECKING, Annotated
+import sys
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
 from driveblocks.commands import loaded, refuse
 
@@ -10,23 +11,18 @@ if TYPE_CHECKING:
     from driveblocks.explain.explanation import Explanation
     from driveblocks.maps.model import Drive
 
-Frame = Annotated[
-    str,
-    typer.Argument(
-        metavar="FRAME",
-        help="The frame as it was logged: bytes in hexadecimal, a hexdump, or the characters of an ASCII frame; - reads standard input.",  # noqa: E501
-    ),
-]
-Name = Annotated[
-    str | None, typer.Option("--drive", metavar="DRIVE", help="Name of a shipped drive, or the path of a map.")
-]
-Request = Annotated[
-    str | None, typer.Option("--request", metavar="FRAME", help="The request that the frame should answer.")
-]
-Json = Annotated[bool, typer.Option("--json", help="Print everything as JSON.")]
 
-
-def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = False) -> None:
+@click.command()
+@click.argument(
+    "frame",
+    metavar="FRAME",
+    help="The frame as it was logged: bytes in hexadecimal, a hexdump, or the characters of an ASCII frame;"
+    " - reads standard input.",
+)
+@click.option("--drive", metavar="DRIVE", help="Name of a shipped drive, or the path of a map.")
+@click.option("--request", metavar="FRAME", help="The request that the frame should answer.")
+@click.option("--json", is_flag=True, help="Print everything as JSON.")
+def run(frame: str, drive: str | None, request: str | None, json: bool) -> None:
     """Explain a frame, or say what is wrong with it.
 
     A good frame is shown as its fields, checksum, registers and values, a wrong one with what it might be instead.
@@ -48,13 +44,11 @@ def run(frame: Frame, drive: Name = None, request: Request = None, json: Json = 
         refuse(str(error))
     _print(made, known, path.stem if path is not None else None, json)
     if not made.good:
-        raise typer.Exit(1)
+        sys.exit(1)
 
 
 def _stdin() -> str:
     """Standard input as text; bytes that are none are shown as they are, so that their place can be reported."""
-    import sys
-
     from driveblocks.explain.paste import LONGEST
 
     return sys.stdin.buffer.read(LONGEST + 1).decode("utf-8", "replace")
@@ -66,7 +60,7 @@ def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: b
 
         from driveblocks.explain import view
 
-        typer.echo(dumps(view.of_explanation(made, stem), ensure_ascii=False, indent=2))
+        click.echo(dumps(view.of_explanation(made, stem), ensure_ascii=False, indent=2))
         return
     from driveblocks import console
     from driveblocks.explain import page

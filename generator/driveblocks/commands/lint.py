@@ -1,41 +1,50 @@
 """`driveblocks lint`: say what in an ST source one compiler or another refuses or compiles differently."""
 
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
+
+from driveblocks.commands import FILE, refuse
 
 if TYPE_CHECKING:
     from structured_text.language.tree import Unit
 
-Files = Annotated[
-    list[Path] | None,
-    typer.Argument(metavar="FILE", help="ST sources that belong together; a folder means every .st file in it."),
-]
-Select = Annotated[
-    list[str] | None,
-    typer.Option(help="Report only this rule, by name, code or beginning of a code (ST3); may be repeated."),
-]
-Ignore = Annotated[list[str] | None, typer.Option(help="Do not report this rule; may be repeated.")]
-For = Annotated[
-    list[str] | None,
-    typer.Option("--for", metavar="TARGET", help="Also report names that these targets of build, or all, cannot take."),
-]
-Maps = Annotated[
-    list[str] | None, typer.Option("--map", metavar="MAP", help="A map of your own, whose blocks the sources use.")
-]
-Listing = Annotated[bool, typer.Option("--list", help="List the rules and stop.")]
-Format = Annotated[str, typer.Option("--format", metavar="text|json", help="How to print the findings.")]
 
-
+@click.command()
+@click.argument(
+    "files",
+    nargs=-1,
+    type=FILE,
+    metavar="[FILE]...",
+    help="ST sources that belong together; a folder means every .st file in it.",
+)
+@click.option(
+    "--select",
+    multiple=True,
+    metavar="RULE",
+    help="Report only this rule, by name, code or beginning of a code (ST3); may be repeated.",
+)
+@click.option("--ignore", multiple=True, metavar="RULE", help="Do not report this rule; may be repeated.")
+@click.option(
+    "--for",
+    "targets",
+    multiple=True,
+    metavar="TARGET",
+    help="Also report names that these targets of build, or all, cannot take.",
+)
+@click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own, whose blocks the sources use.")
+@click.option("--list", "listing", is_flag=True, help="List the rules and stop.")
+@click.option("--format", "output", metavar="text|json", default="text", help="How to print the findings.")
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
-    files: Files = None,
-    select: Select = None,
-    ignore: Ignore = None,
-    targets: For = None,
-    maps: Maps = None,
-    listing: Listing = False,
-    output: Format = "text",
+    files: tuple[Path, ...],
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    targets: tuple[str, ...],
+    maps: tuple[str, ...],
+    listing: bool,
+    output: str,
 ) -> None:
     """Find what is not portable in Structured Text.
 
@@ -56,15 +65,15 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
         print_rules(output)
         return
     if output not in ("text", "json"):
-        _stop(f"--format is text or json, not {output}")
+        refuse(f"--format is text or json, not {output}")
     if not files:
-        _stop("name the files to lint, as in: driveblocks lint types.st blocks.st")
+        refuse("name the files to lint, as in: driveblocks lint types.st blocks.st")
     try:
         selection = Selection.of(_split(select), _split(ignore))
     except UnknownRuleError as error:
-        _stop(str(error))
+        refuse(str(error))
     wanted = _targets(_split(targets))
-    sources, unread = read(files or [])
+    sources, unread = read(files)
     library = _library(sources, maps)
     own = {path for path, _ in sources}
     problems = [each for each in lint_sources([*library, *sources], selection, wanted) if each.path in own]
@@ -72,18 +81,12 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
     unjudged = [*unread, *(f"{path}: not checked beyond its syntax" for path in broken)]
     if unjudged:
-        _stop("\n".join(unjudged))
+        refuse("\n".join(unjudged))
     if problems:
-        raise typer.Exit(1)
+        sys.exit(1)
 
 
-def _stop(text: str) -> None:
-    """End with the status for bad input."""
-    typer.echo(text, err=True)
-    raise typer.Exit(2)
-
-
-def _library(sources: list[tuple[str, str]], maps: list[str] | None) -> list[tuple[str, str]]:
+def _library(sources: list[tuple[str, str]], maps: tuple[str, ...]) -> list[tuple[str, str]]:
     """Those files of the library, by path and text, that sources need beside what they declare themselves."""
     from driveblocks.maps import catalog
     from driveblocks.maps.problem import MapError
@@ -98,18 +101,18 @@ def _library(sources: list[tuple[str, str]], maps: list[str] | None) -> list[tup
             return error.unit
 
     try:
-        named = [catalog.resolve(name) for name in maps or ()]
+        named = [catalog.resolve(name) for name in maps]
         if not lint_sources(sources, Selection(frozenset({"undeclared-name", "unknown-type"}))):
             return []
         files = needed([parsed(*each) for each in sources], known(named))
     except (catalog.UnknownDrive, MapError) as error:
-        _stop(str(error))
+        refuse(str(error))
     return [(f"library/{file.path}", file.text) for file in files]
 
 
-def _split(words: list[str] | None) -> list[str]:
+def _split(words: tuple[str, ...]) -> list[str]:
     """Words given one by one or separated by commas."""
-    return [each.strip() for word in words or [] for each in word.split(",") if each.strip()]
+    return [each.strip() for word in words for each in word.split(",") if each.strip()]
 
 
 def _targets(words: list[str]) -> list[str]:
@@ -118,5 +121,5 @@ def _targets(words: list[str]) -> list[str]:
 
     for word in words:
         if word not in (*TARGET_WORDS, "all"):
-            _stop(f"--for knows no target {word}; write {', '.join(TARGET_WORDS)} or all")
+            refuse(f"--for knows no target {word}; write {', '.join(TARGET_WORDS)} or all")
     return list(TARGET_WORDS) if "all" in words else words

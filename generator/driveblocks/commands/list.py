@@ -1,19 +1,21 @@
 """`driveblocks list`: the drives that DriveBlocks ships maps for."""
 
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import Maps, refuse
+from driveblocks.commands import MAPS, refuse
 
 if TYPE_CHECKING:
     from driveblocks.maps.model import Drive
 
-Json = Annotated[bool, typer.Option("--json", help="Print everything that the maps hold as one JSON array.")]
 
-
-def run(maps: Maps = None, json: Json = False) -> None:
+@click.command()
+@MAPS
+@click.option("--json", is_flag=True, help="Print everything that the maps hold as one JSON array.")
+def run(maps: tuple[str, ...], json: bool) -> None:
     """List the drives that there are maps for: those that are named, else all that are shipped.
 
     A map with mistakes is left out, its mistakes are printed to standard error, and the exit status is 2.
@@ -32,7 +34,7 @@ def run(maps: Maps = None, json: Json = False) -> None:
     else:
         _print_table(loaded)
     if len(loaded) < max(1, len(set(paths))):
-        raise typer.Exit(2)
+        sys.exit(2)
 
 
 def _load(path: Path) -> "Drive | None":
@@ -42,7 +44,7 @@ def _load(path: Path) -> "Drive | None":
     try:
         return load(path)
     except MapError as error:
-        typer.echo(error, err=True)
+        click.echo(error, err=True)
         return None
 
 
@@ -55,13 +57,13 @@ def _print_json(loaded: "dict[Path, Drive]") -> None:
         {**view.of_drive(drive, path.stem), "file": str(path), "counts": counts.plain(counts.of_drive(drive))}
         for path, drive in loaded.items()
     ]
-    typer.echo(dumps(drives, ensure_ascii=False, indent=2))
+    click.echo(dumps(drives, ensure_ascii=False, indent=2))
 
 
 def _print_table(loaded: "dict[Path, Drive]") -> None:
     from driveblocks import console
     from driveblocks.maps import counts, view
-    from driveblocks.tables.layout import both, table
+    from driveblocks.show.layout import both, table
 
     kinds = ("registers", "faults", "frames", "errata")
     made = table("drive", "blocks", "family", *kinds, wide=("family",), numbers=kinds)

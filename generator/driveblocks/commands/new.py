@@ -1,22 +1,18 @@
 """`driveblocks new`: a first map to go on from."""
 
 from pathlib import Path
-from typing import Annotated
 
-import typer
+import click
 
-from driveblocks.commands import refuse
+from driveblocks.commands import FILE, refuse
 
 
-def run(
-    prefix: Annotated[
-        str, typer.Argument(metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
-    ],
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", metavar="FILE", help="File to write; without it, the prefix in small letters."),
-    ] = None,
-) -> None:
+@click.command()
+@click.argument("prefix", metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
+@click.option(
+    "-o", "--output", type=FILE, metavar="FILE", help="File to write; without it, the prefix in small letters."
+)
+def run(prefix: str, output: Path | None) -> None:
     """Write the smallest whole map to a new file, with comments that say what to replace.
 
     It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that is there
@@ -38,8 +34,8 @@ def run(
     except OSError as error:
         path.unlink(missing_ok=True)
         refuse(f"{path}: cannot be written: {error.strerror}")
-    typer.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
-    typer.echo(f"driveblocks check {path}")
+    click.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
+    click.echo(f"driveblocks check {path}")
 
 
 def _named(prefix: str) -> str:

@@ -1,25 +1,26 @@
 """`driveblocks prove`: show that the safety rules hold in every scan, whatever comes, or the call that breaks one."""
 
+import sys
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import Maps, refuse
+from driveblocks.commands import JUNIT, MAPS, refuse, sources
 
 if TYPE_CHECKING:
-    from driveblocks.maps.collection import Source
     from driveblocks.prove.prover import Proved
 
 SHOWN = 5
 """Counterexamples that are printed whole; all are in the XML, if one is asked for."""
 
-Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
-Listing = Annotated[bool, typer.Option("--rules", help="Name every rule that is proved, and whose it is.")]
 
-
-def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
+@click.command()
+@MAPS
+@JUNIT
+@click.option("--rules", is_flag=True, help="Name every rule that is proved, and whose it is.")
+def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     """Prove the safety rules of the drive blocks.
 
     Each rule is shown to hold in every call, for all inputs and everything that the memory can hold by then, from
@@ -38,7 +39,7 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
 
     done: list[Proved] = []
     try:
-        for each in prover.run(_read(maps)):
+        for each in prover.run(sources(maps)):
             _print(each, rules=rules)
             done.append(each)
     except (UnsupportedError, SourceError) as error:
@@ -49,18 +50,7 @@ def run(maps: Maps = None, junit: Junit = None, rules: Listing = False) -> None:
         except OSError as error:
             refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
     bad = _say(done)
-    raise typer.Exit(1 if bad else 0)
-
-
-def _read(maps: list[str] | None) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
-    from driveblocks.maps import catalog, collection
-    from driveblocks.maps.problem import MapError
-
-    try:
-        return collection.read(catalog.chosen(maps))
-    except (MapError, catalog.UnknownDrive) as error:
-        refuse(str(error))
+    sys.exit(1 if bad else 0)
 
 
 def _print(proved: "Proved", *, rules: bool) -> None:
@@ -71,16 +61,16 @@ def _print(proved: "Proved", *, rules: bool) -> None:
     bad = [words for words, proofs in found.items() if not all(each.good for each in proofs)]
     verdict = f"{len(bad)} not proved" if bad else "all proved"
     count = f"{len(found)} rules, {len(proved.proofs)} questions"
-    typer.echo(f"{proved.model.pou.name} ({proved.unit}): {count}: {verdict} in {proved.seconds:.1f} s")
+    click.echo(f"{proved.model.pou.name} ({proved.unit}): {count}: {verdict} in {proved.seconds:.1f} s")
     for words, proofs in found.items():
         if words in bad:
-            typer.echo(f"  NOT PROVED: {words}")
+            click.echo(f"  NOT PROVED: {words}")
             for each in proofs:
                 if not each.good:
-                    typer.echo(f"    {report.told(each)}")
+                    click.echo(f"    {report.told(each)}")
         elif rules:
             of = proofs[0].answer.question.of
-            typer.echo(f"  proved: {words}" + (f" ({of})" if of else ""))
+            click.echo(f"  proved: {words}" + (f" ({of})" if of else ""))
 
 
 def _say(done: "list[Proved]") -> int:
@@ -92,13 +82,13 @@ def _say(done: "list[Proved]") -> int:
     bad = [(proved, each) for proved in done for each in proved.proofs if not each.good]
     for proved, each in bad[:SHOWN]:
         if lines := report.table(proved, each):
-            typer.echo(f"{proved.model.pou.name}: {each.answer.question.words}\n  {report.told(each)}")
-            typer.echo(indent("\n".join(lines), "    "))
+            click.echo(f"{proved.model.pou.name}: {each.answer.question.words}\n  {report.told(each)}")
+            click.echo(indent("\n".join(lines), "    "))
     proofs = [each for proved in done for each in proved.proofs]
     calls = [each for each in proofs if each.call is not None]
     free = sum(not each.replayed for each in calls if each.good)
     verdict = f"{len(bad)} not proved" if bad else "all proved"
     seconds = sum(each.seconds for each in done)
-    typer.echo(f"{len(calls)} premises run on the embedded engine, of which {free} rest on REALs that were left free")
-    typer.echo(f"{len(proofs)} questions: {verdict} in {seconds:.1f} s")
+    click.echo(f"{len(calls)} premises run on the embedded engine, of which {free} rest on REALs that were left free")
+    click.echo(f"{len(proofs)} questions: {verdict} in {seconds:.1f} s")
     return len(bad)

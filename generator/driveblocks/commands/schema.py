@@ -1,22 +1,24 @@
 """`driveblocks schema`: what is made from the model of maps: the JSON Schema, and what the pages on the format hold."""
 
+import sys
 from pathlib import Path
-from typing import Annotated
 
-import typer
+import click
 
+from driveblocks.commands import FILE, refuse
 from driveblocks.maps import page, schema
 
 
-def run(
-    folder: Annotated[
-        Path | None,
-        typer.Argument(
-            metavar="FOLDER", help="Folder with schema.json, keys.md and README.md; without it, the schema is printed."
-        ),
-    ] = None,
-    check: Annotated[bool, typer.Option("--check", help="Write nothing; exit 1 when a file is not current.")] = False,
-) -> None:
+@click.command()
+@click.argument(
+    "folder",
+    type=FILE,
+    required=False,
+    metavar="[FOLDER]",
+    help="Folder with schema.json, keys.md and README.md; without it, the schema is printed.",
+)
+@click.option("--check", is_flag=True, help="Write nothing; exit 1 when a file is not current.")
+def run(folder: Path | None, check: bool) -> None:
     """Write the JSON Schema and the reference of the map format, and the smallest map into its guide.
 
     Schema and reference are made from the model of maps.
@@ -24,7 +26,7 @@ def run(
     Example: driveblocks schema vendor_maps
     """
     if folder is None:
-        typer.echo(schema.text(), nl=False)
+        click.echo(schema.text(), nl=False)
         return
     try:
         files = _files(folder)
@@ -32,12 +34,11 @@ def run(
         for path in stale if not check else ():
             path.write_text(files[path], encoding="utf-8")
     except (OSError, ValueError) as error:
-        typer.echo(f"{folder}: cannot write the schema: {error}", err=True)
-        raise typer.Exit(2) from None
+        refuse(f"{folder}: cannot write the schema: {error}")
     if check and stale:
         names = ", ".join(str(path) for path in stale)
-        typer.echo(f"not current: {names}; run: driveblocks schema {folder}", err=True)
-        raise typer.Exit(1)
+        click.echo(f"not current: {names}; run: driveblocks schema {folder}", err=True)
+        sys.exit(1)
 
 
 def _files(folder: Path) -> dict[Path, str]:

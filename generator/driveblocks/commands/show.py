@@ -1,9 +1,9 @@
 """`driveblocks show`: everything that a map holds about a drive, a register, a fault, the frames or the errata."""
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
 from driveblocks.commands import loaded, refuse
 
@@ -14,20 +14,17 @@ if TYPE_CHECKING:
 
 TOPICS = ("registers", "faults", "errors", "frames", "errata", "absent", "serial", "settings", "notices")
 
-Name = Annotated[
-    str, typer.Argument(metavar="DRIVE", help="Name of a shipped drive, a part of it, or the path of a map.")
-]
-What = Annotated[
-    str | None,
-    typer.Argument(
-        metavar="REGISTER|FAULT|TOPIC",
-        help=f"A register by address or id, a fault by display or code, or one of {', '.join(TOPICS)}.",
-    ),
-]
-Json = Annotated[bool, typer.Option("--json", help="Print everything as JSON: the drive, or one topic of it.")]
 
-
-def run(drive: Name, what: What = None, json: Json = False) -> None:
+@click.command()
+@click.argument("drive", metavar="DRIVE", help="Name of a shipped drive, a part of it, or the path of a map.")
+@click.argument(
+    "what",
+    required=False,
+    metavar="[REGISTER|FAULT|TOPIC]",
+    help=f"A register by address or id, a fault by display or code, or one of {', '.join(TOPICS)}.",
+)
+@click.option("--json", is_flag=True, help="Print everything as JSON: the drive, or one topic of it.")
+def run(drive: str, what: str | None, json: bool) -> None:
     """Show a drive, or one register, fault or topic of it.
 
     Examples: driveblocks show sn300g5, driveblocks show sn300g5 0026H, driveblocks show sn300g5 U1-07,
@@ -53,19 +50,19 @@ def _print_json(drive: "Drive", stem: str, what: str | None, topic: str | None) 
         refuse(f"`--json` prints a whole drive or a topic, not `{what}`; topics are {', '.join(TOPICS)}")
     everything = view.of_drive(drive, stem)
     shown = {"drive": stem, topic: everything[topic]} if topic else everything
-    typer.echo(dumps(shown, ensure_ascii=False, indent=2))
+    click.echo(dumps(shown, ensure_ascii=False, indent=2))
 
 
 def _pages(drive: "Drive", file: str, what: str | None, topic: str | None) -> "Iterator[RenderableType]":
     if what is None:
-        from driveblocks.tables import overview
+        from driveblocks.show import overview
 
         return overview.pages(drive, file)
     return _topic(topic)(drive) if topic else _found(drive, what)
 
 
 def _topic(topic: str) -> "Callable[[Drive], Iterator[RenderableType]]":
-    from driveblocks.tables import errata, faults, frames, line, registers
+    from driveblocks.show import errata, faults, frames, line, registers
 
     pages: dict[str, Any] = {
         "registers": registers.tables,
@@ -84,7 +81,7 @@ def _topic(topic: str) -> "Callable[[Drive], Iterator[RenderableType]]":
 def _found(drive: "Drive", word: str) -> "Iterator[RenderableType]":
     """The pages of everything that is written like the word; what else it may mean follows in one line each."""
     from driveblocks.maps import lookup
-    from driveblocks.tables import entry
+    from driveblocks.show import entry
 
     matches = lookup.find(drive, word)
     if not matches:

@@ -1,49 +1,30 @@
 """`driveblocks simulate`: drives of their maps on a line, for any master."""
 
-from pathlib import Path
-from typing import Annotated
+from typing import Any
 
-import typer
+import click
 
-from driveblocks.commands import refuse
-
-Drives = Annotated[
-    list[str] | None,
-    typer.Argument(
-        metavar="DRIVE[@UNIT][:HZ]...", help="Drives, unit addresses (else the next free), their own maximum (else 50)."
-    ),
-]
-Port = Annotated[
-    str | None, typer.Option(metavar="DEVICE", help="Serve a serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
-]
-Tcp = Annotated[
-    str | None, typer.Option(metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")
-]
-Pty = Annotated[bool, typer.Option("--pty", help="Serve a pseudo-terminal (not on Windows); its name is printed.")]
-Baud = Annotated[int, typer.Option("--baud", metavar="RATE", help="Bit rate, over TCP and --pty, too.")]
-Form = Annotated[str, typer.Option("--format", metavar="8N1", help="Data bits, parity, stop bits.")]
-Ascii = Annotated[bool, typer.Option("--ascii", help="MODBUS ASCII instead of RTU.")]
-Scenario = Annotated[
-    Path | None, typer.Option(metavar="FILE.yaml", help="Events and their times, such as - at 3 s: trip OC")
-]
-Frames = Annotated[bool, typer.Option("--frames", help="Print every frame as `driveblocks explain` does.")]
-For = Annotated[str | None, typer.Option("--for", metavar="TIME", help="End after this time, such as 60s.")]
-Schema = Annotated[bool, typer.Option("--schema", help="Print the JSON Schema of scenarios, and nothing else.")]
+from driveblocks.commands import FILE, refuse
 
 
-def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
-    drives: Drives = None,
-    port: Port = None,
-    tcp: Tcp = None,
-    pty: Pty = False,
-    baud: Baud = 19200,
-    form: Form = "8N1",
-    ascii_mode: Ascii = False,
-    scenario: Scenario = None,
-    frames: Frames = False,
-    for_: For = None,
-    schema: Schema = False,
-) -> None:
+@click.command()
+@click.argument(
+    "drives",
+    nargs=-1,
+    metavar="DRIVE[@UNIT][:HZ]...",
+    help="Drives, unit addresses (else the next free), their own maximum (else 50).",
+)
+@click.option("--port", metavar="DEVICE", help="Serve a serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
+@click.option("--tcp", metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")
+@click.option("--pty", is_flag=True, help="Serve a pseudo-terminal (not on Windows); its name is printed.")
+@click.option("--baud", metavar="RATE", type=int, default=19200, help="Bit rate, over TCP and --pty, too.")
+@click.option("--format", "form", metavar="8N1", default="8N1", help="Data bits, parity, stop bits.")
+@click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU.")
+@click.option("--scenario", type=FILE, metavar="FILE.yaml", help="Events and their times, such as - at 3 s: trip OC")
+@click.option("--frames", is_flag=True, help="Print every frame as `driveblocks explain` does.")
+@click.option("--for", "length", metavar="TIME", help="End after this time, such as 60s.")
+@click.option("--schema", is_flag=True, help="Print the JSON Schema of scenarios, and nothing else.")
+def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words: Any) -> None:
     """Simulate drives on one line, for a PLC, a program or a tool that speaks MODBUS.
 
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
@@ -51,20 +32,18 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks simulate jscc@1 chf@2 --scenario trips.yaml --frames
     """
-    from driveblocks.plc import scenario as scenarios
+    from driveblocks.desk import scenario as scenarios
+    from driveblocks.explain.trace import Tracer
     from driveblocks.plc.options import Refused
     from driveblocks.stand.setup import Setup, Words
 
     if schema:
-        typer.echo(scenarios.schema(), nl=False)
+        click.echo(scenarios.schema(), nl=False)
         return
     if not drives:
         refuse("name a drive; for example: driveblocks simulate jscc@1")
-    words = Words(
-        drives=drives, port=port, tcp=tcp, pty=pty, baud=baud, form=form.upper(), ascii=ascii_mode,
-        scenario=scenario, frames=frames, length=for_,
-    )  # fmt: skip
+    made = Words(drives=drives, form=form.upper(), **words)
     try:
-        Setup(words).run()
+        Setup(made, (lambda maps: Tracer(maps).lines) if frames else None).run()
     except Refused as refused:
         refuse(str(refused))

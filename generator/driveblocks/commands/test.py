@@ -1,12 +1,13 @@
 """`driveblocks test`: run the test programs that the maps make."""
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-import typer
+import click
 
-from driveblocks.commands import Maps, refuse
+from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
@@ -17,34 +18,30 @@ if TYPE_CHECKING:
 SHOWN, PER_PROGRAM = 20, 3
 """Failures that are printed, in all and of one program; all are in the XML, if one is asked for."""
 
-EngineName = Annotated[str, typer.Option("--engine", metavar="embedded|matiec|all", help="Where to run the programs.")]
-Junit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write all results there as JUnit XML.")]
-Picture = Annotated[
-    Path | None,
-    typer.Option("--picture", metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram."),
-]
-Seconds = Annotated[float, typer.Option("--time-limit", metavar="SECONDS", min=0.1, help="Time limit of one program.")]
-Measure = Annotated[bool, typer.Option("--coverage", help="Say which lines and branches of the blocks have run.")]
-Least = Annotated[
-    float | None,
-    typer.Option(
-        "--require-coverage",
-        metavar="PERCENT",
-        min=0.0,
-        max=100.0,
-        help="Fail below this percentage of the lines or of the branches that can be reached; measures, too.",
-    ),
-]
 
-
+@click.command()
+@MAPS
+@click.option("--engine", metavar="embedded|matiec|all", default="embedded", help="Where to run the programs.")
+@JUNIT
+@click.option(
+    "--time-limit", type=click.FloatRange(min=0.1), metavar="SECONDS", default=120.0, help="Time limit of one program."
+)
+@click.option("--picture", type=FILE, metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram.")
+@click.option("--coverage", is_flag=True, help="Say which lines and branches of the blocks have run.")
+@click.option(
+    "--require-coverage",
+    type=click.FloatRange(0.0, 100.0),
+    metavar="PERCENT",
+    help="Fail below this percentage of the lines or of the branches that can be reached; measures, too.",
+)
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
-    maps: Maps = None,
-    engine: EngineName = "embedded",
-    junit: Junit = None,
-    time_limit: Seconds = 120.0,
-    picture: Picture = None,
-    coverage: Measure = False,
-    require_coverage: Least = None,
+    maps: tuple[str, ...],
+    engine: str,
+    junit: Path | None,
+    time_limit: float,
+    picture: Path | None,
+    coverage: bool,
+    require_coverage: float | None,
 ) -> None:
     """Test the blocks of the drives on this computer.
 
@@ -65,8 +62,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     from driveblocks.testing.outcome import Run
 
     candidates, chosen = _engines(engine)
-    sources = _read(maps)
-    made = units(sources, languages(["en", "zh"], "utf-8"))
+    read = sources(maps)
+    made = units(read, languages(["en", "zh"], "utf-8"))
     engines = [each.engine for each in chosen if each.engine is not None]
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
     programs = runner.run(made, [counting(each) for each in engines] if measured else engines, time_limit, measured)
@@ -79,21 +76,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     except OSError as error:
         refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
-    _unproved(sources)
+    _unproved(read)
     _cover(measured)
-    _say(done, len(sources), junit)
-    raise typer.Exit(0 if done.passed else 1)
-
-
-def _read(maps: list[str] | None) -> "list[Source]":
-    """Load the maps; all mistakes of all of them are reported before it ends with status 2."""
-    from driveblocks.maps import catalog, collection
-    from driveblocks.maps.problem import MapError
-
-    try:
-        return collection.read(catalog.chosen(maps))
-    except (MapError, catalog.UnknownDrive) as error:
-        refuse(str(error))
+    _say(done, len(read), junit)
+    sys.exit(0 if done.passed else 1)
 
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
@@ -113,11 +99,11 @@ def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":
 
 def _print(run: "Run", candidates: "list[Candidate]", chosen: "list[Candidate]") -> None:
     from driveblocks import console
-    from driveblocks.tables.layout import table
+    from driveblocks.show.layout import table
 
     for each in candidates:
         state = "runs" if each in chosen else "does not run" if each.engine is None else "was not asked for"
-        typer.echo(f"engine {each.name}: {state}, {each.note}")
+        click.echo(f"engine {each.name}: {state}, {each.note}")
     names = [each.name for each in chosen]
     heads = [name.removeprefix("matiec-") for name in names]
     made = table("drive", "tested", *heads, wide=("tested",), numbers=heads)
@@ -140,7 +126,7 @@ def _unproved(sources: "list[Source]") -> None:
 
     for source in sources:
         if not source.drive.frames:
-            typer.echo(f"{source.drive.prefix}: {UNPROVED}")
+            click.echo(f"{source.drive.prefix}: {UNPROVED}")
 
 
 def _draw(run: "Run", folder: Path) -> None:
@@ -159,13 +145,13 @@ def _cover(measured: "list[Coverage]") -> None:
     """The files of which something was missed, what that was, and the figures of all."""
     for each in measured:
         for path in dict.fromkeys(miss.path for miss in each.misses):
-            typer.echo(f"{path} on {each.engine}: {each.count(path)}")
+            click.echo(f"{path} on {each.engine}: {each.count(path)}")
             for miss in each.misses:
                 if miss.path == path:
-                    typer.echo(f"  {miss}")
-        typer.echo(f"coverage on {each.engine}: {each.count()}")
+                    click.echo(f"  {miss}")
+        click.echo(f"coverage on {each.engine}: {each.count()}")
         for path in sorted(each.twins):
-            typer.echo(f"{path} has the statements of the block for 8 drives, as which it is counted")
+            click.echo(f"{path} has the statements of the block for 8 drives, as which it is counted")
 
 
 def _rows(run: "Run") -> "Iterator[tuple[str, str, list[Result]]]":
@@ -196,16 +182,16 @@ def _say(run: "Run", drives: int, junit: Path | None) -> None:
         bad = result.bad
         for outcome in bad[: min(PER_PROGRAM, SHOWN - shown)]:
             place = f"{outcome.place}: " if outcome.path else ""
-            typer.echo(f"{place}{result.unit}.{result.program} on {result.engine}")
-            typer.echo(f"  {outcome.words}\n  {outcome.message}")
+            click.echo(f"{place}{result.unit}.{result.program} on {result.engine}")
+            click.echo(f"  {outcome.words}\n  {outcome.message}")
             shown += 1
         if bad and result.record and shown <= SHOWN:
-            typer.echo(indent(record.table(result.record), "  "))
+            click.echo(indent(record.table(result.record), "  "))
     failed = sum(len(result.bad) for result in run.results)
     if failed > shown:
-        typer.echo(f"and {failed - shown} more, " + (f"see {junit}" if junit else "which --junit FILE writes down"))
+        click.echo(f"and {failed - shown} more, " + (f"see {junit}" if junit else "which --junit FILE writes down"))
     engines = ", ".join(dict.fromkeys(result.engine for result in run.results))
     checks = f"{run.count()} checks of {drives} drive{'s' * (drives != 1)} on {engines}"
     verdict = "all passed" if run.passed else f"{failed} failed"
     written = f"; {junit}" if junit else ""
-    typer.echo(f"{checks}: {verdict} in {run.seconds:.1f} s{written}")
+    click.echo(f"{checks}: {verdict} in {run.seconds:.1f} s{written}")

@@ -2,16 +2,15 @@
 
 from dataclasses import dataclass, replace
 
-from driveblocks.explain import scan
 from driveblocks.explain.comparison import compared
 from driveblocks.explain.guess import guesses, shown
 from driveblocks.explain.paste import Paste
 from driveblocks.explain.reading import Field, Reader, Reading, Wrong
 from driveblocks.explain.unreadable import UnreadableError
-from driveblocks.explain.wire import Wire, open_
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import manners
-from driveblocks.modbus import layout
+from driveblocks.modbus import layout, scan
+from driveblocks.modbus.envelope import Wire, open_
 from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES
 from driveblocks.modbus.layout import Manners
 from driveblocks.modbus.request import Asked, asked_by

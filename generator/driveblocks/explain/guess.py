@@ -3,9 +3,9 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from driveblocks.explain.wire import DIGITS, Wire, open_
 from driveblocks.modbus import layout
 from driveblocks.modbus.checksum import crc16, crc_bytes, lrc, table
+from driveblocks.modbus.envelope import DIGITS, Wire, open_
 from driveblocks.modbus.frame import seal
 from driveblocks.modbus.layout import Manners
 

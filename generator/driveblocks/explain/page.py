@@ -11,11 +11,11 @@ from driveblocks.explain.explanation import Explanation
 from driveblocks.explain.guess import LONGEST, shown
 from driveblocks.explain.meaning import Held, Line
 from driveblocks.explain.reading import Field, Reading, Wrong
-from driveblocks.explain.wire import Wire
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import title
-from driveblocks.tables.layout import facts, own_head, table
+from driveblocks.modbus.envelope import Wire
+from driveblocks.show.layout import facts, own_head, table
 
 
 def pages(made: Explanation, drive: Drive | None) -> Iterator[RenderableType]:

@@ -12,7 +12,7 @@ from driveblocks.maps.view import error_number
 from driveblocks.modbus import layout
 from driveblocks.modbus.layout import Direction, Layout, Manners, Part
 from driveblocks.modbus.request import Asked
-from driveblocks.tables.layout import both
+from driveblocks.show.layout import both
 
 _STANDARD = {
     1: "Read coils", 2: "Read discrete inputs", 3: "Read holding registers", 4: "Read input registers",

@@ -6,8 +6,8 @@ from driveblocks.explain.explanation import Explanation
 from driveblocks.explain.guess import shown
 from driveblocks.explain.meaning import Held
 from driveblocks.explain.reading import Reading, Wrong
-from driveblocks.explain.wire import Wire
 from driveblocks.maps.view import plain
+from driveblocks.modbus.envelope import Wire
 
 Plain = dict[str, Any]
 

@@ -3,10 +3,10 @@
 import sys
 from collections import Counter
 
+from driveblocks.desk.port import Port
 from driveblocks.maps.model import Drive
 from driveblocks.plc.guard import Guard
 from driveblocks.plc.mailbox import Mailbox
-from driveblocks.plc.port import Port
 from driveblocks.plc.wiring import DriveBlock, Wiring
 from structured_text.engines.embedded import EmbeddedInstance, EmbeddedLibrary
 

@@ -77,7 +77,7 @@ class Demo:
     """Plays the acts in a session, and sees whether what was announced came true."""
 
     def __init__(self, session: Session, fan: SimulatedDrive) -> None:
-        """Prepare; `step` is called before every scan."""
+        """Prepare; `step` is to be called before every scan."""
         self._session = session
         self._fan = fan
         self._waiting = list(ACTS)

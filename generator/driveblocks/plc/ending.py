@@ -3,11 +3,11 @@
 import queue
 from dataclasses import dataclass, field
 
+from driveblocks.desk.clock import Clock
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.modbus.layout import granted
-from driveblocks.plc.clock import Clock
 from driveblocks.plc.gate import Gate
 from driveblocks.plc.guard import stop_request
 from driveblocks.simulator.pattern import Pattern, of_condition

@@ -2,8 +2,8 @@
 
 import threading
 
-from driveblocks.plc.clock import Clock
-from driveblocks.plc.port import Port
+from driveblocks.desk.clock import Clock
+from driveblocks.desk.port import Port
 
 PATIENCE_S = 0.5
 """How long a port may take to accept or to hand over bytes; it never should wait."""

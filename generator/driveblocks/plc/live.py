@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from types import FrameType
 
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.screen import Screen
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.keyboard import Keyboard
-from driveblocks.plc.screen import Screen
 from driveblocks.plc.session import Result, Session
 
 HELP = (

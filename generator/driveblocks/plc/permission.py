@@ -3,8 +3,8 @@
 import sys
 
 from driveblocks import console
+from driveblocks.desk.keyboard import Keyboard
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.keyboard import Keyboard
 
 WIRED = "WIRED"
 

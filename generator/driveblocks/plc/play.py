@@ -3,10 +3,10 @@
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
+from driveblocks.desk import scenario
+from driveblocks.desk.scenario import Happening
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import scenario
-from driveblocks.plc.scenario import Happening
 
 WORDS = frozenset(verb.word for verb in scenario.VERBS)
 _KEY = re.compile(r"(?P<key>[tdr]) (?P<unit>[0-9]{1,3})")

@@ -7,18 +7,19 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from driveblocks.desk.clock import Clock
+from driveblocks.desk.keyboard import is_variable, typed
+from driveblocks.desk.port import Port
+from driveblocks.desk.recorder import Recorder
+from driveblocks.desk.script import Setting
+from driveblocks.desk.seen import View
 from driveblocks.maps.model import Drive
-from driveblocks.plc.clock import Clock
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Speech, Stopper
 from driveblocks.plc.gate import Gate, GivenUp
-from driveblocks.plc.keyboard import is_variable, typed
+from driveblocks.plc.look import look
 from driveblocks.plc.pace import Pace
 from driveblocks.plc.play import Play
-from driveblocks.plc.port import Port
-from driveblocks.plc.recorder import Recorder
-from driveblocks.plc.script import Setting
-from driveblocks.plc.view import View, look
 from driveblocks.plc.watchdog import Watchdog
 from structured_text.engines.engine import ScanError
 
@@ -62,7 +63,8 @@ class Session:
         self.shown: tuple[str, ...] = ()
         self.recorders: list[Recorder] = []
         self.recorded: tuple[str, ...] = ()
-        self.step: Step = lambda _: None
+        self.steps: list[Step] = []
+        """What else is done before each scan, in this order."""
         self.halt: Callable[[], None] = _halt
         """Suspends this process."""
         self.view: View | None = None
@@ -154,7 +156,8 @@ class Session:
         if self.play is not None:
             for says in self.play.due(since):
                 self.told.put(f"{since / 1e6:5.1f} s  {says}")
-        self.step(since)
+        for step in self.steps:
+            step(since)
         self.controller.scan(now_us)
         self._gate.check()
         self._record(since)

@@ -9,20 +9,21 @@ from dataclasses import replace
 from pathlib import Path
 
 from driveblocks import console
+from driveblocks.desk import port, recorder, scenario, script
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import Clock, RealClock, VirtualClock
+from driveblocks.desk.keyboard import Keyboard
+from driveblocks.desk.port import Port, WirePort
+from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, permission, port, recorder, scenario, script, source, wiring
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import Clock, RealClock, VirtualClock
+from driveblocks.plc import demo, live, source, wiring
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
-from driveblocks.plc.keyboard import Keyboard
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
 from driveblocks.plc.play import Play
-from driveblocks.plc.port import Port, WirePort
-from driveblocks.plc.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
@@ -51,7 +52,7 @@ class Setup:
     """A run that is ready."""
 
     def __init__(self, options: Options, keyboard: Keyboard) -> None:
-        """Prepare everything but the port, and ask what has to be asked. Raises Refused."""
+        """Prepare everything but the port; `keyboard` is what a person types while it runs. Raises Refused."""
         if mistakes := list(wrong(options)):
             raise Refused("\n".join(mistakes))
         self._options = options
@@ -67,14 +68,14 @@ class Setup:
             console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
-        self._probe = self._probed()
+        self.probe = self._probed()
+        """The program after one scan, without a port: what `permission` asks a person about."""
         self._wanted = [] if options.tcp or options.port else self._simulates()
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
         self._session.play = self._play()
         self._records()
-        self._free = self._allowed()
 
     def _limit(self) -> int:
         """How long a scan may take."""
@@ -123,7 +124,7 @@ class Setup:
         return probe
 
     def _line(self, pin: str) -> int:
-        return self._probe.number(f"{self._probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
+        return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
 
     # ------------------------------------------------------------ port
 
@@ -152,14 +153,14 @@ class Setup:
         bits = self._line("CharacterBits")
         found = {(10, 0): "8N1", (11, 0): "8E1", (10, 1): "7E1"}.get((bits, self._line("Ascii")))
         if found is None:
-            raise Refused(f"CharacterBits = {bits} of {self._probe.wiring.line} leaves no format; write --format")
+            raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
         return found
 
     def _simulates(self) -> list[Wanted]:
         """The drives that are named, else those of the program. Raises Refused."""
         known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
         if not self._options.simulate:
-            return list(of_program(self._probe, tuple(known.values())))
+            return list(of_program(self.probe, tuple(known.values())))
         paths = [path for path, _ in known.values()]
         try:
             return named(
@@ -174,7 +175,7 @@ class Setup:
         wanted = self._wanted
         rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
         if not (300 <= rate <= 1_000_000 and 8 <= bits <= 12):
-            raise Refused(f"{self._probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
+            raise Refused(f"{self.probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
         if isinstance(self._clock, VirtualClock) or self._options.demo:
             drives = [one.made(ascii_mode=ascii_mode) for one in wanted]
             if self._options.demo:
@@ -205,7 +206,7 @@ class Setup:
         for drive in drives:
             drive.habits = replace(drive.habits, ramp=demo.RAMP, coast_ramp=demo.COAST)
         self._demo = demo.Demo(self._session, drives[-1])
-        self._session.step = self._demo.step
+        self._session.steps.append(self._demo.step)
 
     # ------------------------------------------------------------ the session
 
@@ -219,16 +220,10 @@ class Setup:
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
         session.script, session.shown = self._script(controller), self._options.show
-        session.known = self._probe
+        session.known = self.probe
         session.watchdog = Watchdog(self._watchdog_us)
         session.settled = self._settled
         return session
-
-    def _allowed(self) -> frozenset[tuple[int, str]] | None:
-        """Unit and path of the drives that may run on a real port; None: the port is not real."""
-        if not self._options.real:
-            return None
-        return permission.ask(self._probe, self._keyboard) if self._options.allow_run else frozenset()
 
     def _recorded(self, controller: Controller) -> tuple[str, ...]:
         """Names of what is recorded. Raises Refused for names that are none."""
@@ -267,22 +262,25 @@ class Setup:
 
     # ------------------------------------------------------------ the run
 
-    def run(self) -> int:
-        """Run to the end; the exit status. Raises Refused if the port cannot be opened."""
+    def run(self, free: frozenset[tuple[int, str]] = frozenset()) -> int:
+        """Run to the end; the exit status. Raises Refused if the port cannot be opened.
+
+        `free` are unit and path of the drives that may run on a real port.
+        """
         try:
-            return self._run()
+            return self._run(free)
         finally:
             self._departure.done()
 
-    def _run(self) -> int:
+    def _run(self, free: frozenset[tuple[int, str]]) -> int:
         suspend = self._session.ask_to_suspend if self._options.real else None
         with self._stack, live.listening(self._session.ending, suspend):
             opened = self._port()
             self._stack.callback(opened.close)
-            self._session.connect(opened, self._free)
+            self._session.connect(opened, free if self._options.real else None)
             for note in self._session.controller.wiring.notes:
                 console.write(str(note))
-            if self._options.real and self._options.loopback and not self._free:
+            if self._options.real and self._options.loopback and not free:
                 self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
             for one in self._wanted:
                 for line in one.told():
@@ -311,10 +309,8 @@ class Setup:
 
     def _fast(self, screen: Screen) -> Result:
         session = self._session
-        step = session.step
 
-        def also(at_us: int) -> None:
-            step(at_us)
+        def shown(_: int) -> None:
             try:
                 live.tell(session, screen)
                 if session.view is not None:
@@ -322,7 +318,7 @@ class Setup:
             except (OSError, ValueError) as error:
                 session.ending.ask(f"the screen has failed: {error}")
 
-        session.step = also
+        session.steps.append(shown)
         result = session.run(self._for_us)
         with suppress(OSError, ValueError):
             live.tell(session, screen)

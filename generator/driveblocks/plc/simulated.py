@@ -18,11 +18,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.scenario import Act, Happening, said
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import RealClock
-from driveblocks.plc.scenario import Act, Happening, said
 from driveblocks.plc.wanted import Wanted
 from structured_text.engines.embedded.certainty import present
 

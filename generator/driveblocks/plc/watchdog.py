@@ -3,7 +3,7 @@
 import queue
 from collections.abc import Callable
 
-from driveblocks.plc.clock import RealClock
+from driveblocks.desk.clock import RealClock
 from driveblocks.plc.ending import Bell, Ending
 
 LIMIT_US = 500_000

@@ -5,14 +5,13 @@ A PLC could read from the simulator that a drive has stopped whose motor turns.
 
 from collections.abc import Callable, Mapping
 
-from driveblocks.explain import scan
-from driveblocks.explain.wire import open_
+from driveblocks.desk.clock import Clock
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import manners, plan
-from driveblocks.modbus import layout
+from driveblocks.modbus import layout, scan
+from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.frame import seal
 from driveblocks.modbus.request import READS
-from driveblocks.plc.clock import Clock
 from driveblocks.stand.link import Link
 
 LISTEN_US = 3_000_000

@@ -1,33 +1,35 @@
 """From the words of the command line to drives on a line."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks import console
+from driveblocks.desk import port, scenario
+from driveblocks.desk.bus import Bus, Frame
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live, port, scenario
-from driveblocks.plc.bus import Bus
-from driveblocks.plc.clock import RealClock
+from driveblocks.plc import live
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, time
-from driveblocks.plc.screen import Heading, Lines, LiveTable, Screen
 from driveblocks.plc.wanted import named
 from driveblocks.plc.wanted import words as drives_of
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
 from driveblocks.stand.neighbour import Neighbours
 from driveblocks.stand.stand import Stand, view
-from driveblocks.stand.trace import Tracer
 
 LABEL = "SIMULATED"
 TCP = 5020
 COUNTED = "heard/answered/refused"
 _FORM = re.compile(r"[78][NEO][12]")
+Traced = Callable[[Mapping[int, Drive]], Callable[[Frame], Iterable[str]]]
+"""From drives by unit to what says a frame of theirs in lines."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,15 +44,14 @@ class Words:
     form: str = "8N1"
     ascii: bool = False
     scenario: Path | None = None
-    frames: bool = False
     length: str | None = None
 
 
 class Setup:
     """Drives that are ready to be put on a line."""
 
-    def __init__(self, words: Words) -> None:
-        """Judge the words. Raises Refused with all that is wrong with them."""
+    def __init__(self, words: Words, traced: Traced | None = None) -> None:
+        """Judge the words; with `traced` every frame is printed. Raises Refused with all that is wrong with them."""
         self._words = words
         if mistakes := list(self._wrong()):
             raise Refused("\n".join(mistakes))
@@ -67,7 +68,7 @@ class Setup:
         bits = 1 + int(words.form[0]) + (words.form[1] != "N") + int(words.form[2])
         self._bus = Bus(drives, words.baud, bits, ascii_mode=words.ascii)
         self._happenings = happenings
-        self._tracer = Tracer(self.maps)
+        self._lines = traced(self.maps) if traced is not None else None
 
     def _wrong(self) -> list[str]:
         words, found = self._words, []
@@ -154,9 +155,8 @@ class Setup:
         def look(at_us: int) -> None:
             while self._bus.frames:
                 frame = self._bus.frames.popleft()
-                if self._words.frames:
-                    for line in self._tracer.lines(frame):
-                        say(line)
+                for line in self._lines(frame) if self._lines is not None else ():
+                    say(line)
             screen.show(view(self._bus, self.maps, at_us, counted=isinstance(screen, LiveTable)))
 
         return look

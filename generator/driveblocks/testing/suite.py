@@ -22,7 +22,7 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.scenes import again, count, exact, line, manual, motor, others, pace, several, told
+from driveblocks.testing.scenes import again, count, device, exact, line, manual, motor, others, pace, several, told
 from driveblocks.testing.scenes import drive as simulated
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
@@ -43,6 +43,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "To the millisecond": exact.scripts,
     "Parameters": parameters.scripts,
     "Several parameters": several.scripts,
+    "A meter beside it": device.scripts,
     "The manual's frames on the line": manual.scripts,
     "The manual's frames": vector.scripts,
     "What may be read": access.scripts,

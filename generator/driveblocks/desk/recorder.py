@@ -8,9 +8,9 @@ import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from driveblocks.plc import record
-from driveblocks.plc.port import reason
-from driveblocks.plc.record import Timing, Trace
+from driveblocks.desk import record
+from driveblocks.desk.port import reason
+from driveblocks.desk.record import Timing, Trace
 from structured_text.engines.engine import Value
 from structured_text.visible import file_name
 

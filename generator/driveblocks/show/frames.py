@@ -8,7 +8,7 @@ from rich.text import Text
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Means, PlcTable
 from driveblocks.maps.view import UNPROVED
-from driveblocks.tables.layout import card, code_text, heading, listed
+from driveblocks.show.layout import card, code_text, heading, listed
 
 
 def frames(drive: Drive) -> Iterator[RenderableType]:

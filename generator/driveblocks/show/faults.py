@@ -7,8 +7,8 @@ from rich.console import RenderableType
 from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register
-from driveblocks.tables.errata import corroborated, of_absence, of_erratum, of_notice
-from driveblocks.tables.layout import OWN, both, card, code_text, facts, heading, listed, listing
+from driveblocks.show.errata import corroborated, of_absence, of_erratum, of_notice
+from driveblocks.show.layout import OWN, both, card, code_text, facts, heading, listed, listing
 
 
 def faults(drive: Drive) -> Iterator[RenderableType]:

@@ -1,14 +1,14 @@
-"""Frames written down as `driveblocks explain` says them."""
+"""Frames of a line, one after the other, as `driveblocks explain` says them."""
 
 from collections.abc import Iterator, Mapping
 
+from driveblocks.desk.bus import Frame
 from driveblocks.explain import page
 from driveblocks.explain.explanation import Explainer
 from driveblocks.explain.paste import Paste
 from driveblocks.explain.unreadable import UnreadableError
-from driveblocks.explain.wire import open_
 from driveblocks.maps.model import Drive
-from driveblocks.plc.bus import Frame
+from driveblocks.modbus.envelope import open_
 
 
 class Tracer:

@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 from tests.plc.desk import Desk
 
-from driveblocks.plc import departure, recorder
+from driveblocks.desk import recorder
+from driveblocks.desk.recorder import MOST_WAITING, Recorder, Row
+from driveblocks.plc import departure
 from driveblocks.plc.departure import Departure
-from driveblocks.plc.recorder import MOST_WAITING, Recorder, Row
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""

@@ -9,9 +9,9 @@ import pytest
 import yaml
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk import scenario
+from driveblocks.desk.bus import Loss
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import scenario
-from driveblocks.plc.bus import Loss
 from driveblocks.simulator.drive import SimulatedDrive
 
 DRIVES = {1: MAPS["JSCC"], 2: MAPS["SN300G5"]}

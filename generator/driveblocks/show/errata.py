@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from rich.console import RenderableType
 
 from driveblocks.maps.model import Absence, Corroboration, Drive, Erratum, Notice
-from driveblocks.tables.layout import both, card, heading, listed, own_head
+from driveblocks.show.layout import both, card, heading, listed, own_head
 
 
 def errata(drive: Drive) -> Iterator[RenderableType]:

@@ -9,10 +9,10 @@ from driveblocks.maps import view
 from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
-from driveblocks.tables.errata import corroborated
-from driveblocks.tables.faults import recorded
-from driveblocks.tables.layout import OWN, both, card, code_text, listed, listing
-from driveblocks.tables.registers import area_facts
+from driveblocks.show.errata import corroborated
+from driveblocks.show.faults import recorded
+from driveblocks.show.layout import OWN, both, card, code_text, listed, listing
+from driveblocks.show.registers import area_facts
 
 _ACCESS = {"r": "read only", "w": "write only", "rw": "read and write"}
 

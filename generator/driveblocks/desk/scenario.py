@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.desk.bus import Loss
+from driveblocks.desk.script import duration_us
 from driveblocks.maps import nodes, source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import MapError, Problem, Report
-from driveblocks.plc.bus import Loss
-from driveblocks.plc.script import duration_us
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from driveblocks import console
-from driveblocks.plc.view import Seen, View, spelled
+from driveblocks.desk.seen import Seen, View, spelled
 from structured_text.engines.engine import Value
 
 HELP = "Type a number to toggle, NAME := VALUE, or help; q stops all and ends."

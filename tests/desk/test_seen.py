@@ -12,9 +12,10 @@ from rich.style import Style
 from tests.plc.desk import Desk
 
 from driveblocks import console
-from driveblocks.plc import record, screen
-from driveblocks.plc.record import Timing, Trace
-from driveblocks.plc.view import Seen, View, look
+from driveblocks.desk import record, screen
+from driveblocks.desk.record import Timing, Trace
+from driveblocks.desk.seen import Seen, View
+from driveblocks.plc.look import look
 
 
 def views() -> Iterator[View]:

@@ -5,8 +5,8 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
+from driveblocks.desk.wire import Wire
 from driveblocks.modbus.frame import seal
-from driveblocks.plc.wire import Wire
 from driveblocks.simulator.drive import SimulatedDrive
 
 MOST_FRAMES = 1000

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 import serial
 
-from driveblocks.plc import port
-from driveblocks.plc.clock import RealClock, VirtualClock
+from driveblocks.desk import port
+from driveblocks.desk.clock import RealClock, VirtualClock
 
 
 def test_a_connection_carries_bytes_and_says_when_it_has_gone() -> None:

@@ -6,8 +6,8 @@ import socket
 from collections.abc import Callable
 from typing import Any, Protocol
 
-from driveblocks.plc.clock import Clock
-from driveblocks.plc.wire import Wire
+from driveblocks.desk.clock import Clock
+from driveblocks.desk.wire import Wire
 
 AGAIN_US = 1_000_000
 """Between two attempts to open a port that has gone."""

@@ -1,7 +1,6 @@
-"""What is to be seen of a running program: its drives, and the variables that a person names."""
+"""A look at a running program: its drives, and the variables that a person names."""
 
-from dataclasses import dataclass
-
+from driveblocks.desk.seen import Seen, View
 from driveblocks.plc.controller import Controller
 from driveblocks.render.reasons import REASONS
 from structured_text.engines.embedded.certainty import known
@@ -9,30 +8,6 @@ from structured_text.engines.engine import Value
 
 _STARTING = {reason.code for reason in REASONS if reason.name in ("STARTING", "RAMPING", "RUNS")}
 _WHY = {reason.code: reason.en for reason in REASONS}
-
-
-@dataclass(frozen=True)
-class Seen:
-    """A drive at a moment."""
-
-    name: str
-    unit: int
-    state: str
-    asked_hz: float
-    hertz: float | None
-    why: str
-
-
-@dataclass(frozen=True)
-class View:
-    """All that is to be seen at a moment, in microseconds since the start."""
-
-    at_us: int
-    drives: tuple[Seen, ...]
-    shown: dict[str, Value]
-    inputs: dict[str, Value]
-    dropped: int = 0
-    port_error: str = ""
 
 
 def look(controller: Controller, names: tuple[str, ...], at_us: int, port_error: str = "") -> View:
@@ -79,14 +54,3 @@ def _state(pin: dict[str, Value]) -> str:
     if pin["StopConfirmed"]:
         return "standstill"
     return "starting" if pin["Reason"] in _STARTING else "stopping"
-
-
-def spelled(value: Value) -> str:
-    """A value as ST writes it, more or less."""
-    if isinstance(value, bool):
-        return "TRUE" if value else "FALSE"
-    if isinstance(value, float):
-        return f"{value:.2f}"
-    if isinstance(value, bytes):
-        return value.decode("latin-1")
-    return f"{value:d}" if isinstance(value, int) else "..."

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from tests.plc.desk import Desk
 
-from driveblocks.plc import script
-from driveblocks.plc.keyboard import typed
-from driveblocks.plc.script import ScriptError, Setting
+from driveblocks.desk import script
+from driveblocks.desk.keyboard import typed
+from driveblocks.desk.script import ScriptError, Setting
 
 SCRIPT = """# a run
 at 2.5s: Start := TRUE   # up

@@ -6,9 +6,9 @@ from rich.console import RenderableType
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
-from driveblocks.tables.errata import corroborated
-from driveblocks.tables.faults import recorded
-from driveblocks.tables.layout import both, card, choices, code_text, facts, heading, listed
+from driveblocks.show.errata import corroborated
+from driveblocks.show.faults import recorded
+from driveblocks.show.layout import both, card, choices, code_text, facts, heading, listed
 
 _TOLERATED = {"two_byte_count": ("byte count", "of a read may be a word")}
 _LIMITS = {

@@ -21,10 +21,10 @@ from driveblocks.maps.model import (
     Watchdog,
 )
 from driveblocks.maps.revision import revision
-from driveblocks.tables.layout import both, facts, heading, listed, table
-from driveblocks.tables.line import line, settings
-from driveblocks.tables.register import value_text
-from driveblocks.tables.registers import tables
+from driveblocks.show.layout import both, facts, heading, listed, table
+from driveblocks.show.line import line, settings
+from driveblocks.show.register import value_text
+from driveblocks.show.registers import tables
 
 Sourced = Watchdog | TripOutput | InCommand | OwnMaximum | Identity
 KINDS = ("settings", "faults", "errors", "frames", "errata", "absent", "notices")

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Callable
 
-from driveblocks.plc.script import Setting, Variables, setting
+from driveblocks.desk.script import Setting, Variables, setting
 from structured_text.engines.engine import Value
 
 

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from driveblocks.explain.wire import mode_of, open_
 from driveblocks.modbus import layout
 from driveblocks.modbus.checksum import crc_bytes
+from driveblocks.modbus.envelope import mode_of, open_
 from driveblocks.modbus.frame import RTU_BYTES
 from driveblocks.modbus.layout import Manners
 

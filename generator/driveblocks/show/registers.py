@@ -8,7 +8,7 @@ from rich.table import Table
 from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
 from driveblocks.maps.model import Area, Drive, Register, Section, Value
-from driveblocks.tables.layout import OWN, both, facts, heading, listed, listing
+from driveblocks.show.layout import OWN, both, facts, heading, listed, listing
 
 LEGEND = (
     "use: r read, w write\n"

@@ -17,7 +17,7 @@ from driveblocks.maps.model import (
     Section,
     Setting,
 )
-from driveblocks.tables import faults, frames, line, register, registers
+from driveblocks.show import faults, frames, line, register, registers
 
 
 def pages(drive: Drive, chosen: list[Match], others: list[Match]) -> Iterator[RenderableType]:

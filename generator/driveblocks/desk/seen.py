@@ -1,0 +1,40 @@
+"""What a screen shows of drives at a moment."""
+
+from dataclasses import dataclass
+
+from structured_text.engines.engine import Value
+
+
+@dataclass(frozen=True)
+class Seen:
+    """A drive at a moment."""
+
+    name: str
+    unit: int
+    state: str
+    asked_hz: float
+    hertz: float | None
+    why: str
+
+
+@dataclass(frozen=True)
+class View:
+    """All that is to be seen at a moment, in microseconds since the start."""
+
+    at_us: int
+    drives: tuple[Seen, ...]
+    shown: dict[str, Value]
+    inputs: dict[str, Value]
+    dropped: int = 0
+    port_error: str = ""
+
+
+def spelled(value: Value) -> str:
+    """A value as ST writes it, more or less."""
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, float):
+        return f"{value:.2f}"
+    if isinstance(value, bytes):
+        return value.decode("latin-1")
+    return f"{value:d}" if isinstance(value, int) else "..."
