@@ -853,7 +853,7 @@ def _wrong_setting() -> Iterator[Step]:
 
 def _unset() -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.TurnRoundMs": 0, "Pins.Settings.LongestMs": 0, "Pins.KeepsSilence": False}
-    yield Step("power-up", sets, "Motor.Ready", 4000)
+    yield Step("power-up", sets, "Motor.Ready", 4000, brisk=False)
     yield replace(run(), brisk=False)
-    yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True})
+    yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True}, brisk=False)
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)

@@ -264,9 +264,15 @@ def _not_called(place: int) -> Iterator[Step]:
     yield Step("released", {".Reading": False}, "Motor.Ready", 3000)
     nobody: Shows = {"Pins.NoLine": True, "Pins.NoDrive": True}
     calm: Shows = {"Reader.Busy": True, "Reader.Error": False, "Writer.Busy": True, "Writer.Error": False}
-    yield Step("nobody calls the line", nobody | {".Reading": True, ".Writing": True}, ms=900 * SCAN_MS, shows=calm)
+    yield Step(
+        "nobody calls the line",
+        nobody | {".Reading": True, ".Writing": True},
+        ms=900 * SCAN_MS,
+        shows=calm,
+        brisk=False,
+    )
     yield Step("it is called for a moment", {"Pins.NoLine": False}, ms=20, shows=calm)
-    yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm)
+    yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm, brisk=False)
     told = error("Reader", "NO_LINE") | error("Writer", "NO_LINE")
     yield Step("that is reported", {}, "Reader.Error OR Writer.Error", 3000, told | {
         ".WaitedMs": 101 * SCAN_MS,
