@@ -14,10 +14,12 @@ ROOMS = (
 FLOORS = ("structured_text", "visible", "files", "language", "findings", "engines", "cli", "__main__")
 """Those of `structured_text`."""
 
+# building: what is tested together is a module of its own, so that `test` need not import what builds a folder;
+# testing: a read and a store that are not answered, a reference that is refused
 MOST = {
-    "building": 825, "commands": 1375, "docs": 1120, "explain": 2110, "export": 2060, "maps": 6600, "modbus": 325,
+    "building": 830, "commands": 1375, "docs": 1120, "explain": 2110, "export": 2060, "maps": 6600, "modbus": 325,
     "plc": 4050, "prove": 1880, "reference": 1050, "render": 2110, "simulator": 1320, "stand": 560,
-    "structured_text": 16_100, "tables": 1060, "testing": 7520,
+    "structured_text": 16_100, "tables": 1060, "testing": 7570,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 

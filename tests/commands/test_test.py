@@ -9,7 +9,7 @@ import pytest
 from tests.testing.conftest import BOTH, changed, only
 from typer.testing import CliRunner, Result
 
-from driveblocks.building import build
+from driveblocks.building import units as tested
 from driveblocks.cli import app
 from driveblocks.maps import collection
 from driveblocks.testing.unit import Unit
@@ -32,12 +32,12 @@ def my_drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 def whole() -> Unit:
     """All programs of the map, under the name that it has there."""
     (source,) = collection.read([EXAMPLE])
-    return build.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
+    return tested.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
 
 
 def give(monkeypatch: pytest.MonkeyPatch, made: Unit) -> None:
     """Let the command find this unit instead of what the map makes."""
-    monkeypatch.setattr(build, "units", lambda *_: [made])
+    monkeypatch.setattr(tested, "units", lambda *_: [made])
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing import harness, runner

@@ -22,7 +22,7 @@ from typing import Any
 import yaml
 from tests.shapes import shapes
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing.script import Program

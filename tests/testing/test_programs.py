@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing.harness import PER_SCAN

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.shapes import shapes
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
