@@ -37,7 +37,7 @@ def test_a_wrong_word_is_named(words: list[str], said: str, capsys: pytest.Captu
     assert capsys.readouterr().err == said
 
 
-def test_an_old_python_can_read_as_far_as_it_is_told(
+def test_an_old_python_can_read_up_to_its_message(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The whole file must parse; what would fail when it is run stands after the words."""

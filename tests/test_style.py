@@ -99,17 +99,19 @@ def faults(path: Path) -> list[str]:
 
 
 PAGES = [
-    *(path for path in ROOT.glob("*.md") if path.name != "CHANGELOG.md"),
+    *ROOT.glob("*.md"),
     *(path for path in ROOT.glob("docs/**/*.md") if path.name != "style.md"),
     ROOT / "vendor_maps/README.md",
     *SOURCES.rglob("*.md"),
     *ROOT.glob("blocks/**/*.md"),
 ]
+TESTS = [path for path in ROOT.glob("tests/**/*.py") if path != Path(__file__)]
 KINDS = {
     "pages": PAGES,
     "maps": [*ROOT.glob("vendor_maps/*.yaml"), *ROOT.glob("examples/*.st")],
     "templates": [*SOURCES.rglob("*.j2"), *SOURCES.rglob("*.st")],
     "messages and docstrings": [*SOURCES.rglob("*.py"), *SOURCES.rglob("*.yaml")],
+    "tests": [*TESTS, *ROOT.glob("tests/**/*.yaml"), *ROOT.glob("tests/**/*.diff"), ROOT / "Makefile"],
 }
 
 
@@ -117,6 +119,12 @@ KINDS = {
 def test_what_a_person_reads_has_none_of_the_worst_words(kind: str) -> None:
     assert KINDS[kind]
     assert [fault for path in sorted(KINDS[kind]) for fault in faults(path)] == []
+
+
+def test_the_name_of_a_test_is_a_sentence_with_none_of_them() -> None:
+    names = [name for path in TESTS for name in re.findall(r"^def (test_\w+)", path.read_text("utf-8"), re.MULTILINE)]
+    assert len(names) > 1000
+    assert [name for name in names if worst(name.replace("_", " "))] == []
 
 
 @pytest.mark.parametrize(("end", "place"), PLACES.items())

@@ -19,7 +19,7 @@ def test_every_block_takes_its_typical_input() -> None:
         blocks.work(library, unit)()
 
 
-def test_refused_input_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_refused_input_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(SPECIAL, "JSCC_Request", {"Quantity": 13})
     unit = next(unit for unit in units() if unit.name == "JSCC_Request")
     assert pins(unit)["Quantity"] == 13
@@ -35,7 +35,7 @@ def test_forms_of_the_crc_agree_and_are_timed(matiec: MatiecEngine) -> None:
     }
 
 
-def test_form_that_differs_is_told(matiec: MatiecEngine) -> None:
+def test_form_that_differs_is_reported(matiec: MatiecEngine) -> None:
     text = (NATIVE / "crc.c").read_text("utf-8").replace("uint8_t upper = 0xFF", "uint8_t upper = 0xFE")
     done = run(driver(text).build(matiec, texts()), 1)
     assert (done.returncode, done.stderr) == (1, "the forms differ\n")

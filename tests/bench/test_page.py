@@ -52,7 +52,7 @@ def test_page_names_no_place_of_the_machine(figures: Record) -> None:
     assert not re.search(r"/(home|root|usr|tmp|work|opt)/", page.page(figures) + repr(figures))
 
 
-def test_part_that_was_not_measured_is_told() -> None:
+def test_part_that_was_not_measured_is_named() -> None:
     assert page.page({}).count(page.UNKNOWN.strip()) == 8
 
 
@@ -61,7 +61,7 @@ def test_part_of_another_machine_says_so(figures: Record) -> None:
     assert "Measured in another run (growth): processor Z80." in page.page({**figures, "growth": other})
 
 
-def test_missing_tool_is_told_and_costs_no_figures(figures: Record, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_tool_is_named_and_costs_no_figures(figures: Record, capsys: pytest.CaptureFixture[str]) -> None:
     found = dict(figures)
     nothing = Tools(matiec=(), valgrind=False, pymodbus=True)
     assert all(measured(name, found, nothing) for name in ("crc", "exchange", "memory", "instructions", "times"))

@@ -63,7 +63,7 @@ def all_pins() -> Iterator[Pins]:
 
 
 def motions() -> Iterator[Pins]:
-    """Jogging, running, and letting go in turn: what the last motion leaves behind."""
+    """Jogging, running, and letting go in turn: what the last motion leaves."""
     asks = [{}, *({name: True} for name in list(PIN_NAMES.values())[1:]), {"enable": False}]
     for first, second in itertools.product(asks, repeat=2):
         for ask in (first, {}, second, {}):

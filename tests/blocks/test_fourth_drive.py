@@ -150,7 +150,7 @@ def steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Val
         assert (instance["Address"], instance["Value"]) == telegram, asked
 
 
-def test_a_reset_goes_to_its_own_register_and_never_into_the_command_register(engine: Engine) -> None:
+def test_a_reset_is_written_to_its_own_register_and_never_to_the_command_register(engine: Engine) -> None:
     """Before it a stop is acknowledged: a run bit that stands would start the motor that is reset."""
     running, stopped, reset = (0x8000, 0x0011), (0x8000, 0x0001), (0x8002, 16)
     calls = [("RunForward", running), ("RunForward FaultReset", stopped), ("StopAcknowledged", reset)]

@@ -109,7 +109,7 @@ def test_the_smallest_map_keeps_the_promise() -> None:
     assert list(promise.broken(page.skeleton())) == []
 
 
-def test_what_stands_in_several_statements_means_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_split_into_several_statements_means_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expression, "TERMS", 3)
     changed = document("nordwind.yaml")
     lists(changed, 7)

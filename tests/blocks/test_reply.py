@@ -128,7 +128,7 @@ def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
 
 
 @DRIVES
-def test_replies_by_chance_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
+def test_random_replies_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
     seen = check_by_chance(built(engine), shipped()[prefix], 1200)
     assert {"OK", "REFUSED", "SHORT", "LONG", "BYTE_COUNT", "OTHER_FUNCTION", "OTHER_VALUE", "OTHER_ADDRESS"} <= seen
 

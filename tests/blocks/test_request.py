@@ -60,7 +60,7 @@ def test_every_limit_and_every_border_of_addresses(engine: Engine, prefix: str) 
 
 
 @DRIVES
-def test_requests_by_chance_give_the_reference_bytes_or_its_result(engine: Engine, prefix: str) -> None:
+def test_random_requests_give_the_reference_bytes_or_its_result(engine: Engine, prefix: str) -> None:
     asking, blocks = Asking(shipped()[prefix], engine.name), built(engine)
     seen = {check_request(blocks, asking, asking.any()) for _ in range(800)}
     assert {"OK", "UNIT", "FUNCTION", "QUANTITY"} <= seen
@@ -94,7 +94,7 @@ def test_generic_builders_alone_refuse_too(engine: Engine, block: str, pins: dic
     assert (result(done), done["Length"], done["Request.FunctionCode"]) == (wanted, 0, 0)
 
 
-def test_a_refused_request_leaves_no_open_request(engine: Engine) -> None:
+def test_no_request_is_open_after_a_refused_one(engine: Engine) -> None:
     blocks = built(engine)
     sent = wire.build(blocks, "JSCC", replace(READ, quantity=13))
     assert wire.parse(blocks, "JSCC_Reply", sent.request, bytes.fromhex("010302 01F4")).result == "NO_REQUEST"

@@ -285,7 +285,7 @@ def test_a_map_of_the_folder_that_has_changed_is_built_anew() -> None:
     assert files("out") == FILES | {"iec61131/one/EX300.st", "iec61131/two/EX200.st"}
 
 
-def test_a_map_of_the_folder_that_is_bad_is_told() -> None:
+def test_a_map_of_the_folder_that_is_bad_is_reported() -> None:
     good("one.yaml", "-o", "out")
     put("one.yaml", EXAMPLE.replace("format: 1", "format: 2"))
     said = refused("two.yaml", "-o", "out")
@@ -293,7 +293,7 @@ def test_a_map_of_the_folder_that_is_bad_is_told() -> None:
     assert said.endswith("out was built from one.yaml as well; --only builds without\n")
 
 
-def test_a_map_of_the_folder_that_is_gone_is_told() -> None:
+def test_a_map_of_the_folder_that_is_gone_is_reported() -> None:
     good("one.yaml", "-o", "out")
     Path("one.yaml").unlink()
     said = refused("two.yaml", "-o", "out")
@@ -362,7 +362,7 @@ app()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
-def test_after_a_killed_build_check_tells_and_the_next_build_goes_on() -> None:
+def test_after_a_killed_build_check_says_so_and_the_next_build_continues() -> None:
     good("one.yaml", "-o", "out")
     command = [sys.executable, "-c", KILLED, "6", "build", "two.yaml", "-o", "out"]
     killed = subprocess.run(command, env=os.environ | {"PYTHONPATH": str(ROOT)}, check=False)

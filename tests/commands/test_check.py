@@ -88,7 +88,7 @@ def test_a_folder_is_refused(tmp_path: Path) -> None:
     assert result.stderr.startswith(f"{tmp_path}:1:1: this file is a directory; ")
 
 
-def test_a_path_stands_in_messages_as_it_was_typed(bad: str, tmp_path: Path) -> None:
+def test_a_path_is_in_messages_as_it_was_typed(bad: str, tmp_path: Path) -> None:
     Path("sub").mkdir()
     typed = f"sub/../{bad}"
     result = CliRunner().invoke(app, ["check", typed])

@@ -95,7 +95,8 @@ def test_a_good_map_is_checked_built_and_tested(runner: Runner) -> None:
     assert sorted(path.name for path in runner.mine.iterdir()) == ["blocks", "my_drive.yaml", "report.xml"]
     assert (runner.mine / "blocks" / "iec61131" / "my_drive" / "EX100_Command.st").is_file()
     root = runner.report()
-    assert int(root.attrib["tests"]) > 5000
+    assert 10_000 <= int(root.attrib["tests"]) <= 20_000, "as the page says"
+    assert 1.5e6 < (runner.mine / "report.xml").stat().st_size < 2.5e6, "as the page says"
     assert (root.attrib["failures"], root.attrib["errors"]) == ("0", "0")
     cases = [(case.attrib["classname"], case.attrib["name"]) for case in root.iter("testcase")]
     assert len(cases) == len(set(cases))  # GitLab shows only the first of those with one class and name
@@ -107,7 +108,7 @@ def test_a_mistake_in_the_map_fails_at_check_and_nothing_follows(runner: Runner)
     runner.map("baud: 19200", "boud: 19200")
     done = runner.run()
     assert done.returncode == 2
-    assert re.search(r"^my_drive\.yaml:\d+:\d+: unknown key `boud`.*; did you mean `baud`\?$", done.stderr, re.M)
+    assert f"```\n{done.stderr}```\n" in ci_jobs.PAGE.read_text(encoding="utf-8")
     assert [path.name for path in runner.mine.iterdir()] == ["my_drive.yaml"]
 
 
@@ -119,6 +120,8 @@ def test_a_failed_check_fails_the_job_and_is_in_the_report(runner: Runner) -> No
     runner.map()
     done = runner.run()
     assert done.returncode == 1, done.stdout + done.stderr
+    (shown,) = re.findall(r"^```\n(tests/.*?)```$", ci_jobs.PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    assert shown in done.stdout
     failures = list(runner.report().iter("failure"))
     assert any(failure.attrib["message"] == "expected 548.8, found 549.8" for failure in failures)
     places = {found for failure in failures for found in re.findall(r"^at (\S+):\d+$", failure.text or "", re.M)}

@@ -99,7 +99,7 @@ def test_words_of_the_command_line(printed: Printed, words: list[str]) -> None:
     assert all(sign.isprintable() or sign == "\n" for sign in text)
 
 
-def test_what_stands_in_a_frame(printed: Printed) -> None:
+def test_what_is_in_a_frame(printed: Printed) -> None:
     text = printed("explain", ":0103200000\x1b[31m\x9b01DB")
     assert r"\u001b[31m\u009b" in text
     assert "\x1b[31m" not in text

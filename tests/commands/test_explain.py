@@ -64,7 +64,7 @@ def test_the_first_example_of_the_readme() -> None:
         assert words in shown
 
 
-def test_a_wrong_frame_is_told_repaired_and_read() -> None:
+def test_a_wrong_frame_is_reported_repaired_and_read() -> None:
     result = explain("01 03 20 00 00 01 CA 8F", "--drive", "jscc")
     assert result.exit_code == 1
     shown = squeezed(result.stdout)

@@ -76,7 +76,7 @@ def test_select_and_ignore(loop: Path, words: list[str], rules: list[str]) -> No
     assert result.exit_code == (1 if rules else 0)
 
 
-def test_names_are_told_for_the_targets_of_for(tmp_path: Path) -> None:
+def test_names_are_reported_for_the_targets_of_for(tmp_path: Path) -> None:
     path = tmp_path / "names.st"
     path.write_text(CLEAN.replace("Count", "Label"), encoding="utf-8")
     assert run(path).exit_code == run("--for", "twincat", path).exit_code == 0
@@ -86,7 +86,7 @@ def test_names_are_told_for_the_targets_of_for(tmp_path: Path) -> None:
         assert (result.exit_code, result.output) == (1, told)
 
 
-def test_a_target_that_is_none_is_told(loop: Path) -> None:
+def test_a_target_that_is_none_is_reported(loop: Path) -> None:
     result = run("--for", "step7", loop)
     assert result.exit_code == 2
     assert result.stderr == "--for knows no target step7; write openplc, plcopen, codesys, twincat, siemens or all\n"
@@ -95,7 +95,7 @@ def test_a_target_that_is_none_is_told(loop: Path) -> None:
 @pytest.mark.parametrize(
     ("word", "hint"), [("for-zero-trip", "for-zero-trips"), ("ST31X", "ST31"), ("comment", "--list"), ("S", "--list")]
 )
-def test_an_unknown_rule_is_told_with_the_nearest(loop: Path, word: str, hint: str) -> None:
+def test_an_unknown_rule_is_reported_with_the_nearest(loop: Path, word: str, hint: str) -> None:
     result = run("--select", word, loop)
     assert result.exit_code == 2
     assert f"no rule is called {word}" in result.output
@@ -130,7 +130,7 @@ def test_a_broken_file_silences_no_other(tmp_path: Path, loop: Path) -> None:
     ]
 
 
-def test_a_folder_stands_for_the_sources_in_it(tmp_path: Path) -> None:
+def test_a_folder_means_the_sources_in_it(tmp_path: Path) -> None:
     for name in ("b/z.ST", "a.st", "b/a/x.st", ".hidden/y.st", "notes.txt"):
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -150,14 +150,14 @@ def test_a_folder_stands_for_the_sources_in_it(tmp_path: Path) -> None:
         (b"(" * (8 * 1024 * 1024 + 1), "expected at most 8 MiB of text, found more"),
     ],
 )
-def test_what_is_no_source_is_told(tmp_path: Path, content: bytes, said: str) -> None:
+def test_what_is_no_source_is_reported(tmp_path: Path, content: bytes, said: str) -> None:
     path = tmp_path / "odd.st"
     path.write_bytes(content)
     result = run(path)
     assert (result.exit_code, result.output) == (2, f"{path}:1:1: {said}\n")
 
 
-def test_all_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
+def test_all_files_that_cannot_be_read_are_reported(tmp_path: Path) -> None:
     odd = tmp_path / "a\n\x1b.st"
     result = run(tmp_path / "missing.st", tmp_path, odd)
     assert result.exit_code == 2
@@ -211,7 +211,7 @@ def test_a_program_that_uses_the_library_is_judged_as_it_would_run(name: str) ->
     assert (result.exit_code, result.output) == (0, "")
 
 
-def test_only_the_named_files_are_told_and_what_they_declare_themselves_is_theirs(tmp_path: Path) -> None:
+def test_only_the_named_files_are_reported_and_what_they_declare_themselves_is_theirs(tmp_path: Path) -> None:
     path = tmp_path / "mine.st"
     text = (ROOT / "examples/one_motor.st").read_text(encoding="utf-8").replace("CHF_Drive", "CHF_Drivve")
     path.write_text("TYPE\n  MB_Adu : ARRAY[0..255] OF BYTE;\nEND_TYPE\n" + text, encoding="utf-8")

@@ -33,7 +33,7 @@ def test_the_map_on_the_page_is_small_and_good(tmp_path: Path) -> None:
     assert (checked.exit_code, checked.stderr) == (0, ""), checked.output
 
 
-def test_the_command_writes_what_stands_on_the_page() -> None:
+def test_the_command_writes_what_is_on_the_page() -> None:
     result = CliRunner().invoke(app, ["new", "ACME"])
     assert result.exit_code == 0
     assert Path("acme.yaml").read_text(encoding="utf-8") == on_the_page() == page.skeleton()

@@ -102,7 +102,7 @@ def test_the_page_of_motors_that_do_not_run_names_each_reason() -> None:
     assert named <= {each.code for each in REASONS}
 
 
-def test_the_way_of_a_bit_is_as_it_is_told() -> None:
+def test_the_way_of_a_bit_is_as_the_page_says() -> None:
     rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", (ROOT / "CONTRIBUTING.md").read_text("utf-8"), re.MULTILINE)
     way = [(path, word) for path, word in rows if "/" in path]
     assert 1 < len(way) <= 6

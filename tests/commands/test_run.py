@@ -138,7 +138,7 @@ def test_what_is_refused_and_why(words: str, wrong: str) -> None:
     assert wrong in result.output
 
 
-def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: Path) -> None:
+def test_a_wrong_program_and_a_wrong_script_are_reported_with_their_places(program: Path) -> None:
     program.write_text(ONE.replace("Hz : REAL", "Hz : REEL"), encoding="utf-8")
     result = run(program)
     assert (result.exit_code, result.output[:10]) == (2, "my.st:4:8:")
@@ -155,7 +155,7 @@ def test_a_wrong_program_and_a_wrong_script_are_told_with_their_places(program: 
         ("LX_Line8", "LX_Line8 is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of the folder openplc"),
     ],
 )
-def test_a_block_that_is_not_there_is_told_with_what_to_do(program: Path, block: str, advice: str) -> None:
+def test_a_block_that_is_not_there_is_reported_with_what_to_do(program: Path, block: str, advice: str) -> None:
     program.write_text(ONE.replace("JSCC_Drive", block), encoding="utf-8")
     done = run(program)
     assert done.exit_code == 2
@@ -215,7 +215,7 @@ def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
     assert "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look" in result.output
 
 
-def test_what_could_not_be_confirmed_is_told_before_a_file_that_cannot_be_written(program: Path) -> None:
+def test_what_could_not_be_confirmed_is_printed_before_a_file_that_cannot_be_written(program: Path) -> None:
     Path("folder").mkdir()
     result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8", "--picture", "folder")
     assert result.exit_code == 1
@@ -239,7 +239,7 @@ def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
     )
 
 
-def test_a_terminal_is_told_while_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_terminal_shows_that_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = io.StringIO()
     monkeypatch.setattr(console, "terminal", lambda: Console(file=drawn, force_terminal=True, color_system=None))
     Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
@@ -388,10 +388,10 @@ def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[
 
 
 @pytest.mark.parametrize(("words", "label"), [((), "REAL PORT"), (("--simulated",), "SIMULATED")])
-def test_what_is_behind_an_address_is_real_unless_somebody_says_so(
+def test_what_is_at_an_address_is_real_unless_somebody_says_otherwise(
     words: tuple[str, ...], label: str, program: Path
 ) -> None:
-    """This computer, too, may have a serial port behind one of its TCP ports."""
+    """This computer, too, may have a serial port at one of its TCP ports."""
     link = TcpLink(0)
     with serving(Bus([SimulatedDrive(MAPS["JSCC"], 7)], 19200, 10), link):
         result = run(program, "--tcp", link.place, "--for", "1ms", "--watchdog", "600s", *words)

@@ -84,7 +84,7 @@ def test_a_topic_shows_every_text_that_its_json_holds(topic: str) -> None:
                 assert entry[key] in shown
 
 
-def test_the_overview_tells_the_line_the_commands_and_the_registers() -> None:
+def test_the_overview_lists_the_line_the_commands_and_the_registers() -> None:
     shown = squeezed(page())
     for text in (
         "EX100 Example Drives 示例电气",
@@ -113,7 +113,7 @@ def test_the_overview_tells_the_line_the_commands_and_the_registers() -> None:
 
 
 @pytest.mark.parametrize("word", ["0023H", "u1-04", "0x23", "0023"])
-def test_a_register_is_told_with_unit_scale_and_what_is_recorded(word: str) -> None:
+def test_a_register_is_shown_with_unit_scale_and_what_is_recorded(word: str) -> None:
     shown = squeezed(page(word))
     for text in (
         "EX100 0023H U1-04",
@@ -139,7 +139,7 @@ def test_a_decimal_address_that_is_one_in_hexadecimal_too_is_named() -> None:
     assert "also: 2000H  register  Communication setting" in shown
 
 
-def test_a_register_is_told_with_its_bits_values_and_commands() -> None:
+def test_a_register_is_shown_with_its_bits_values_and_commands() -> None:
     shown = squeezed(page("0000H"))
     for text in (
         "stop: clear bit 0, 1, 2 (the ramp bits are kept)",
@@ -151,20 +151,20 @@ def test_a_register_is_told_with_its_bits_values_and_commands() -> None:
     assert "2 02H Wrong length 长度错误 counted since power on" in squeezed(page("0012H"))
 
 
-def test_a_register_tells_what_the_manual_leaves_open() -> None:
+def test_a_register_shows_what_the_manual_leaves_open() -> None:
     shown = squeezed(page("U1-01"))
     assert "unit Hz; the manual gives no scale" in shown
     assert "not said: scale of U1-01 and U1-02" in shown
 
 
-def test_one_register_of_a_range_is_told_by_its_own_id() -> None:
+def test_one_register_of_a_range_is_shown_by_its_own_id() -> None:
     shown = squeezed(page("A2-03"))
     assert "EX100 0108H A2-03" in shown
     assert "one of 0106H-0109H A2-01..A2-04" in shown
 
 
 @pytest.mark.parametrize("word", ["OS", "11H", "17"])
-def test_a_fault_is_told_with_its_bits(word: str) -> None:
+def test_a_fault_is_shown_with_its_bits(word: str) -> None:
     shown = squeezed(page(word))
     for text in ("EX100 fault 11H (17) OS", "Overspeed 超速", "printed 起速", "0015H.0 Overspeed 超速", "likely, not"):
         assert text in shown
@@ -177,7 +177,7 @@ def test_an_address_is_not_taken_for_a_code_but_the_code_is_named() -> None:
     assert "also: 0001H  register  Frequency reference" in page("01H")
 
 
-def test_what_is_several_things_is_told_as_all_of_them() -> None:
+def test_what_is_several_things_is_shown_as_all_of_them() -> None:
     shown = page("01H")
     assert shown.startswith("This is several things; all follow: 01H  OC  fault")
     assert "EX100  fault 01H (1)  OC" in shown
@@ -256,7 +256,7 @@ def test_help_has_an_example(command: str) -> None:
     assert re.search(rf"Examples?: driveblocks {command}", result.stdout)
 
 
-def test_the_version_is_told() -> None:
+def test_the_version_is_printed() -> None:
     result = CliRunner().invoke(app, ["--version"])
     assert (result.exit_code, result.stdout) == (0, f"driveblocks {__version__}\n")
 

@@ -92,7 +92,7 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
     assert any(each.text and each.text.endswith("expected: 548.8\nactual: 54.88") for each in failures)
 
 
-def test_a_scene_that_fails_is_told_with_pins_and_frames_and_drawn(
+def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn(
     my_drive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A stop that never reaches the drive, seen from the pins alone."""
@@ -117,7 +117,7 @@ def test_a_scene_that_fails_is_told_with_pins_and_frames_and_drawn(
     assert {"QuickStop", "RunForward", "Running", "sent", "heard"} <= words
 
 
-def test_a_bad_map_gives_status_2_and_is_told_with_its_place(my_drive: str) -> None:
+def test_a_bad_map_gives_status_2_and_is_reported_with_its_place(my_drive: str) -> None:
     text = Path(my_drive).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")
     Path("bad.yaml").write_text(text, encoding="utf-8")
     result = invoke(my_drive, "bad.yaml", "--junit", "junit.xml")
@@ -205,7 +205,7 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch
 # ---------------------------------------------------------------- coverage
 
 
-def test_coverage_is_told_with_what_is_explained_which_fails_nothing(my_drive: str) -> None:
+def test_coverage_is_printed_with_what_is_explained_which_fails_nothing(my_drive: str) -> None:
     result = invoke(my_drive, "--require-coverage", "85", "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     *_, total, twin, _, last = result.stdout.splitlines()

@@ -1,9 +1,14 @@
-"""Every measured figure that a guide quotes is the one in its file under docs/measured."""
+"""Every figure on a page is the one in its file under docs/measured, or what the code counts."""
 
 import re
 from pathlib import Path
 
 import pytest
+from tests.drives.long import SEEDS
+from tests.drives.matrix import FAULTS, STATES
+from tests.drives.planted import PLANTED
+from tests.drives.station import FAMILIES, MADE_UP
+from tests.prove import agreement, mutants
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -71,3 +76,19 @@ def test_the_stop_of_seven_drives_is_between_those_of_six_and_eight() -> None:
         each = two - one
         assert [one, four, six, eight] == [alone, one + 3 * each, one + 5 * each, one + 7 * each]
         assert worst == one + 6 * each
+
+
+COUNTED = [
+    ("prove.md", r"is run ([\d,]+) times", agreement.CALLS),
+    ("prove.md", r"on each: (\d+) are found", mutants.NUMBER - len(mutants.survivors())),
+    ("measured/drives.md", r"of (\d+) faults of the wire", len(FAULTS)),
+    ("measured/drives.md", r"in each of (\d+) states", len(STATES)),
+    ("measured/drives.md", r"4 seeds: ([\d,]+) runs", len(FAULTS) * len(STATES) * SEEDS * len((*FAMILIES, *MADE_UP))),
+    ("measured/drives.md", r"(\d+) of \d+ found, each", len(PLANTED)),
+]
+"""A page, a figure on it, and what the code counts."""
+
+
+@pytest.mark.parametrize(("page", "pattern", "number"), COUNTED)
+def test_a_page_counts_as_the_code_does(page: str, pattern: str, number: int) -> None:
+    assert _figure(DOCS / page, pattern).replace(",", "") == str(number)

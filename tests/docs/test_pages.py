@@ -94,7 +94,7 @@ def test_the_page_says_what_a_family_needs_and_shows_of_both_structures() -> Non
     said = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Settings")}
     assert said["JSCC", "ReferenceScale"] == "required: the manual gives no scale of 1001H"
     assert said["CHF", "ReferenceScale"] == said["SN300G5", "FrequencyScale"] == "no use: the map has the scale"
-    assert said["CHF", "FrequencyScale"] == "of 3000H: without it `OutputFrequencyHz` is the bare word"
+    assert said["CHF", "FrequencyScale"] == "of 3000H: without it `OutputFrequencyHz` is the raw count"
     assert said["JSCC", "CurrentScale"] == "no use: the drive does not show it"
     assert (said["SN300G5", "KeepWord"], said["CHF", "KeepWord"]) == ("16#00FC of 0000H", "no use: no bit is left over")
     shown = {(family, cells[0].strip("`")): cells[-1] for family in FAMILIES for cells in rows(family, "### Diagnosis")}
@@ -222,7 +222,7 @@ def test_a_drive_page_and_the_platform_pages_lead_to_each_other_and_to_the_wirin
 
 
 @every_family
-def test_what_the_manual_must_still_tell_stands_at_the_top_with_its_count(family: str) -> None:
+def test_what_the_manual_leaves_open_is_at_the_top_with_its_count(family: str) -> None:
     drive, text = shipped()[family], page(family)
     top = text.partition("\n## Find out before the first start\n")[2].partition("\n## ")[0]
     rows_ = text.partition("\n## What the manual does not say\n")[2].partition("\n## ")[0]

@@ -7,7 +7,7 @@ character is there.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from random import Random
 
 from tests.drives.station import PINS, library, maps, name_of
@@ -55,6 +55,7 @@ SETTINGS = {
 """Pins of a drive that is ready to start. The scales are those of the simulated drives."""
 
 
+@cache
 def path(drive: int, name: str) -> str:
     """Where a pin of a drive block, or a member of its structures, is in a station."""
     inside = next((f"{where}.{name}" for where, names in MEMBERS.items() if name in names), name)

@@ -54,7 +54,7 @@ PLANTED = (
         "a stop is sent once",
         "      AND ((SinceMs >= UNREAD_MS) OR",
         "      AND (State > 9) AND ((SinceMs >= UNREAD_MS) OR",
-        partial(test_stop.test_a_stop_leaves_at_once_and_again_until_the_motor_stands, "CHF"),
+        partial(test_stop.test_a_stop_is_sent_at_once_and_again_until_the_motor_is_at_standstill, "CHF"),
     ),
     Planted(
         "an edge that comes too early is not held",
@@ -275,7 +275,7 @@ PLANTED = (
         "a missing line is not overdue",
         " OR (NOT Link.Linked AND NOT Link.Restarted AND NOT SupplyOff);",
         ";",
-        test_stop.test_a_line_that_is_no_longer_called_is_told,
+        test_stop.test_a_line_that_is_no_longer_called_is_reported,
     ),
     Planted(
         "the first fault is overwritten",
@@ -319,7 +319,7 @@ PLANTED = (
         "a jog is never ended",
         "    OtherOwed := CanStopJog AND NOT JogRefused AND (JogPosted OR NOT Proved);",
         "    OtherOwed := FALSE;\n    Rank := JOG_STOP;",
-        partial(test_stop.test_a_stop_leaves_at_once_and_again_until_the_motor_stands, "CHF"),
+        partial(test_stop.test_a_stop_is_sent_at_once_and_again_until_the_motor_is_at_standstill, "CHF"),
     ),
     Planted(
         "other bits of the command word are lost",
@@ -365,8 +365,8 @@ PLANTED = (
     ),
     Planted(
         "its own maximum is not looked at",
-        "SettingsGood := SameMaximum",
-        "SettingsGood := TRUE",
+        "  SameMaximum := ",
+        "  SameMaximum := TRUE OR ",
         test_identity.test_its_own_maximum_must_be_full_scale,
         CIA,
     ),

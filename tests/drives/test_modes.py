@@ -362,7 +362,7 @@ def test_parameters_and_starts_exclude_each_other() -> None:
 
 
 @pytest.mark.parametrize("address", [0x1000, 0x2000, 0x1000 + 0x8000, 0x2000 + 0x8000])
-def test_no_parameter_goes_past_the_rules(address: int) -> None:
+def test_no_parameter_passes_the_rules_by(address: int) -> None:
     bench = parameter(watched("CHF").stopped(), address, AllowUnknown=True)
     assert bench.block["Writer.Error"]
     assert not [each for each in bench.run(500) if not each.read]

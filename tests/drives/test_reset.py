@@ -135,7 +135,7 @@ def test_a_run_pin_held_through_a_reset_starts_nothing() -> None:
     bench.until(lambda: bench.drives[0].hertz > 24.0)
 
 
-def test_a_reset_goes_behind_a_stop() -> None:
+def test_a_reset_is_sent_after_a_stop() -> None:
     bench = tripped().put(FaultReset=True)
     frames = [each for each in bench.run(2000) if not each.read]
     first = frames.index(sent(bench, frames, "fault_reset")[0])

@@ -269,7 +269,7 @@ def test_a_setting_that_changes_while_it_runs_stops_it() -> None:
     assert bench.reason() == "SETTING"
 
 
-def test_settings_are_read_again_behind_a_run_of_its_own() -> None:
+def test_settings_are_read_again_after_a_run_of_its_own() -> None:
     """A dip of the supply may have brought another setting."""
     bench = watched("SN300G5").running()
     drive = bench.drives[0]

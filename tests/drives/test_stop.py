@@ -19,7 +19,7 @@ def stops(bench: Bench, frames: list[Frame]) -> list[Frame]:
 
 
 @pytest.mark.parametrize("kind", EVERY)
-def test_a_stop_leaves_at_once_and_again_until_the_motor_stands(kind: str) -> None:
+def test_a_stop_is_sent_at_once_and_again_until_the_motor_is_at_standstill(kind: str) -> None:
     bench = watched(kind).running()
     bench.drives[0].keeps_running = True
     begun = bench.now // 1000
@@ -201,7 +201,7 @@ def test_nothing_stale_is_shown_as_good() -> None:
     assert bench.reason() == "NO_SUPPLY"
 
 
-def test_a_line_that_is_no_longer_called_is_told() -> None:
+def test_a_line_that_is_no_longer_called_is_reported() -> None:
     bench = watched("CHF").running()
     bench.leave("SkipLine")
     bench.run(2500)

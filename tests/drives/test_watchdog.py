@@ -83,6 +83,19 @@ def test_run_is_sent_again_where_it_alone_feeds_it() -> None:
     assert not motions(bench, bench.run(9000)[2:])
 
 
+def test_a_foreign_master_keeps_no_run_from_a_watchdog_that_only_run_feeds() -> None:
+    """The motor stopped when its watchdog had starved."""
+    bench = fed("TWO")
+    bench.ms = 5  # so that foreign frames and replies come in scans of their own
+    for _ in range(40):
+        bench.foreign(bytes([9, 3, 0x10, 0, 0, 1]))
+        bench.run(70)
+    assert bench.block["TheLine.ErrorID"] == 54
+    runs = motions(bench, bench.run(3000))
+    assert max(b.ms - a.ms for a, b in pairwise(runs)) <= TIME_MS / 2
+    assert bench.reason() == "RUNS"
+
+
 @pytest.mark.parametrize("hz", [25.0, 50.0])
 def test_run_is_not_sent_again_after_a_stop_key(hz: float) -> None:
     """The drive says that it runs until it stands; its frequency falls."""

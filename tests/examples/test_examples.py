@@ -259,7 +259,7 @@ def test_a_meter_and_a_sensor_beside_a_motor(engine: Engine) -> None:
     sensor.alive = False
     plant.run(12000)
     assert (drive.hertz, plant.says("BarValid", "EnergyValid", "Motor.CommOk")) == (0, [False, True, True])
-    # with a dead sensor a stop leaves within the promised time all the same, and nothing is overdue
+    # with a dead sensor a stop is sent within the promised time all the same, and nothing is overdue
     sensor.alive = True
     plant.run(10000)
     assert drive.hertz == 40

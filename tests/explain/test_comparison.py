@@ -83,7 +83,7 @@ def test_an_echo_before_the_reply(explain: Explain) -> None:
     assert (held.address, str(held.value)) == (0x2000, "50.0")
 
 
-def test_the_echo_of_a_single_write_cannot_be_told_from_its_reply(explain: Explain) -> None:
+def test_the_echo_of_a_single_write_looks_like_its_reply(explain: Explain) -> None:
     made = explain("JSCC", RUN, RUN)
     assert made.good
     assert "an adapter that hears itself would show the same" in made.notes[0]

@@ -40,7 +40,7 @@ def test_every_example_frame_says_what_the_map_says(explain: Explain, prefix: st
 
 
 @pytest.mark.parametrize("prefix", PREFIXES)
-def test_every_misprinted_example_is_told(explain: Explain, prefix: str) -> None:
+def test_every_misprinted_example_is_named(explain: Explain, prefix: str) -> None:
     drive = explain.of[prefix].drive
     assert drive is not None
     for frame in (one for one in drive.frames if one.printed != one.correct):

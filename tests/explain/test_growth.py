@@ -44,7 +44,7 @@ def test_reading_grows_with_the_text(name: str) -> None:
     assert calls(LONG[name](1600)) < 2.5 * calls(LONG[name](800))
 
 
-def test_checksums_grow_with_the_zeros_behind_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_checksums_grow_with_the_zeros_after_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
     summed = 0
 
     def count(data: bytes) -> bytes:

@@ -130,7 +130,7 @@ def _opened(rig: Instance) -> None:
     _scan(rig, 120, Port__Opening__xDone=True)
 
 
-def test_a_port_opens_with_what_it_is_told() -> None:
+def test_a_port_opens_with_the_settings_of_its_pins() -> None:
     rig = _port()()
     _opened(rig)
     settings = [rig[f"Port.Settings[{number}].udiValue"] for number in (1, 2, 3, 4, 6)]
@@ -158,7 +158,7 @@ def test_bytes_that_came_are_given_once_and_reading_goes_on() -> None:
     assert (rig["Port.ErrorID"], rig["Port.State"]) == (0, 2)
 
 
-def test_a_frame_goes_once_and_another_waits_until_it_is_gone() -> None:
+def test_a_frame_is_sent_once_and_another_waits_for_its_end() -> None:
     rig = _port()()
     _scan(rig, 100, Send=8)
     assert rig["Port.Writing.Asked"] == 0, "sent while the port was closed"
@@ -270,7 +270,7 @@ def _master(prefix: str) -> Callable[[], Instance]:
 
 
 class _Slave:
-    """A drive behind the master: it answers, or not, and notes what was asked."""
+    """A drive at the master: it answers, or not, and notes what was asked."""
 
     def __init__(self, prefix: str, **words: int) -> None:
         self.program = _master(prefix)()
@@ -330,7 +330,7 @@ def test_the_own_master_reads_before_it_writes_stops_and_then_runs_by_an_edge() 
     assert (0, STOP) in one.scans(2), "a stop does not wait for its turn"
 
 
-def test_the_own_master_stops_behind_a_loss_and_asks_for_a_new_edge() -> None:
+def test_the_own_master_stops_after_a_loss_and_asks_for_a_new_edge() -> None:
     one = _Slave("JSCC", DriveStatusWord=4, CountsPerHertz=10, Hertz=25)
     one.scans(8)
     one.program["StartSwitch"] = True

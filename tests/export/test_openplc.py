@@ -69,7 +69,7 @@ def test_the_page_counts_what_a_file_holds() -> None:
         assert f"| `{name}.st` | {types} | {others} |" in written()["README.md"]
 
 
-def test_a_first_motor_goes_behind_its_library_as_one_program_that_lints_clean() -> None:
+def test_a_first_motor_after_its_library_is_one_program_that_lints_clean() -> None:
     for drive in made().drives.values():
         sources = [(name, written()[name]) for name in (f"{drive.prefix}.st", f"{drive.prefix}_MotorBytes.st")]
         assert [str(each) for each in lint_sources(sources) if each.rule != "configuration-inside"] == []

@@ -123,7 +123,7 @@ def turn(rig: Rig) -> None:
 
 @platforms
 @pytest.mark.parametrize("end", FAILURES, ids=str)
-def test_a_stop_leaves_in_time_behind_a_frame_that_failed(maker: Maker, end: End) -> None:
+def test_a_stop_is_sent_in_time_after_a_frame_that_failed(maker: Maker, end: End) -> None:
     for later in (0, 1, 2, 4, 7):
         rig = lined(maker)
         for _ in range(30):
@@ -192,7 +192,7 @@ PLANTED = {
     "a module is waited for too long": (
         SIEMENS,
         ("Overdue := BusyMs > LimitMs", "Overdue := BusyMs > 1000"),
-        test_a_stop_leaves_in_time_behind_a_frame_that_failed,
+        test_a_stop_is_sent_in_time_after_a_frame_that_failed,
         NEVER,
     ),
     "the error of a frame is cleared by the next message": (
@@ -216,7 +216,7 @@ PLANTED = {
     "a write is waited for for ever": (
         CODESYS,
         ("OR Overdue)", "OR FALSE)"),
-        test_a_stop_leaves_in_time_behind_a_frame_that_failed,
+        test_a_stop_is_sent_in_time_after_a_frame_that_failed,
         NEVER,
     ),
     "a refused frame is tried until its time is over": (

@@ -221,7 +221,7 @@ def test_the_end_of_a_section_in_a_comment_would_break_the_file() -> None:
     assert mistake.found(_parsed(BLOCK.replace("a number", "a ]]> b")), "plcopen")
 
 
-def test_all_that_cannot_be_said_is_told_at_once() -> None:
+def test_all_that_cannot_be_expressed_is_reported_at_once() -> None:
     text = BLOCK.replace("INT;", "INT R_EDGE := 2 * 3;").replace("numbers", "<xhtml:p>")
     with pytest.raises(ExportError) as caught:
         WRITERS["plcopen"](_parsed(text))

@@ -124,7 +124,7 @@ def test_bytes_that_have_come_are_handed_on_in_order_and_none_is_lost() -> None:
     assert bench.trial["Port.RxCount"] == 0
 
 
-def test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not() -> None:
+def test_a_frame_is_sent_once_and_the_rest_of_an_older_one_is_not() -> None:
     bench = Bench()
     bench.trial["TxBuffer.Buffer"], bench.trial["TxBuffer.Count"] = b"old", 3
     bench.trial["Tx"] = b"12345678"
@@ -154,7 +154,7 @@ def test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropp
     assert (bench.buffer("TxBuffer"), bench.trial["Port.TxBusy"]) == (b"", False)
 
 
-def test_errors_are_told_that_of_the_terminal_too() -> None:
+def test_errors_are_reported_that_of_the_terminal_too() -> None:
     bench = Bench()
     bench.trial["ControlErrorID"] = 24
     bench.pass_ms(10)
@@ -201,12 +201,12 @@ PLANTED = {
     "an older frame is sent first": (
         "IF TxBuffer.Count > 0 THEN",
         "IF FALSE THEN",
-        test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
+        test_a_frame_is_sent_once_and_the_rest_of_an_older_one_is_not,
     ),
     "a frame is sent again": (
         "Length := 0;\n        Sent := 0;\n      ELSIF",
         "Sent := 0;\n      ELSIF",
-        test_a_frame_goes_out_once_and_what_an_older_one_left_goes_not,
+        test_a_frame_is_sent_once_and_the_rest_of_an_older_one_is_not,
     ),
     "a frame that was thrown away goes after all": (
         "Cleaner(Buffer := TxBuffer);\n        Length := 0;\n",
@@ -216,7 +216,7 @@ PLANTED = {
     "an error of the terminal is hidden": (
         "ErrorID := ControlErrorID;",
         "ErrorID := 0;",
-        test_errors_are_told_that_of_the_terminal_too,
+        test_errors_are_reported_that_of_the_terminal_too,
     ),
 }
 

@@ -6,7 +6,6 @@ docs/measured/line.md. Exit status 1 if anything is not as it must be.
 """
 
 import argparse
-import re
 import sys
 import tempfile
 import time
@@ -14,6 +13,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests import measured
 from tests.blocks.compare.comparison import beside
 from tests.blocks.toolchains import FOUND
 from tests.drives import test_engines
@@ -97,7 +97,7 @@ def main() -> int:
         )
     )
     if options.page:
-        write([*map(str, rows), *tables])
+        measured.put(PAGE, ["| what | measured |", "|---|---|", *map(str, rows), *tables])
     failed = [row for row in rows if not row.good]
     print(f"{len(failed)} of {len(rows)} are not as they must be")
     return 1 if failed else 0
@@ -106,14 +106,6 @@ def main() -> int:
 def _all(job: Job) -> Iterator[Row | list[str]]:
     for part in (refreshed, bus, cost, randoms, planted, sanitized, engines):
         yield from part(job)
-
-
-def write(lines: list[str]) -> None:
-    """Put the tables into the page, between its marks."""
-    page = PAGE.read_text(encoding="utf-8")
-    table = "\n".join(["| what | measured |", "|---|---|", *lines, ""])
-    made = re.sub(r"(?s)(<!-- measured -->\n).*?(<!-- end -->)", lambda found: found[1] + table + found[2], page)
-    PAGE.write_text(made, encoding="utf-8")
 
 
 # ---------------------------------------------------------------- refresh, late replies, cost

@@ -52,7 +52,7 @@ PLANTED = (
         "      Slots[Chosen].Answer[0].Number := Asked;\n"
         "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
     ),
-    Planted("the turn of stops never moves", "      TurnRest := (Chosen + 1) MOD ", "      TurnRest := 0 MOD "),
+    Planted("the turn of stops never moves", "      TurnStop := (Chosen + 1) MOD ", "      TurnStop := 0 MOD "),
     Planted(
         "the line keeps no silence",
         "(NOT Promise.LineKeeps OR (QuietMs > Promise.SilenceMs))",

@@ -17,7 +17,7 @@ def built() -> EmbeddedLibrary:
 
 
 @pytest.mark.parametrize("slots", [8, 32])
-def test_a_poll_goes_round(slots: int) -> None:
+def test_a_poll_is_sent_and_answered(slots: int) -> None:
     """A drive that answers in the next scan."""
     bus = built().instance(f"MB_ByteLine{slots}")
     for pin, value in (("BitRate", 19200), ("CharacterBits", 11), ("MaxScanMs", 20)):
@@ -63,8 +63,8 @@ def test_a_busy_port_takes_nothing_and_trouble_is_passed_on() -> None:
 
 
 def test_every_line_of_it_has_run() -> None:
-    test_a_poll_goes_round(8)
-    test_a_poll_goes_round(32)
+    test_a_poll_is_sent_and_answered(8)
+    test_a_poll_is_sent_and_answered(32)
     test_a_busy_port_takes_nothing_and_trouble_is_passed_on()
     hits, outcomes = built().coverage(), built().branches()
     assert [line for line, count in hits["line/MB_ByteLine8.st"].items() if not count] == []

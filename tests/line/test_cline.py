@@ -34,14 +34,14 @@ def test_the_silence_of_a_drive_within_a_millisecond_of_the_ports_own(line: CLin
 
 
 @NEEDS
-def test_the_silence_of_a_drive_behind_a_request_that_nobody_answers(line: CLine) -> None:
+def test_the_silence_of_a_drive_after_a_request_that_nobody_answers(line: CLine) -> None:
     """At 38400 bit/s a short scan sees the timeout before 17 ms have passed since the request itself."""
     pins = {"rate": 38400, "scan": 1000, "jitter": 500, "max_scan": 2, "turn_low": 0, "stop_every": 260}
     assert line.run("run", silence_ms=17, keeps=0, loss=36_000, **pins)["short_silences"] == 0
 
 
 @NEEDS
-def test_the_silence_of_a_drive_behind_an_adapter_in_its_own_rhythm(line: CLine) -> None:
+def test_the_silence_of_a_drive_at_an_adapter_in_its_own_rhythm(line: CLine) -> None:
     """What it keeps a request back for is no silence after that request."""
     pins = {
         "drives": 5,

@@ -1,11 +1,12 @@
 """Dead drives are probed rarely, one at a time; they come back when they have answered several times."""
 
+from collections import Counter
 from itertools import pairwise
 
 from tests.line.vline import COMMAND, Bench, Config
 
 
-def test_a_drive_is_dead_behind_a_time_and_a_count() -> None:
+def test_a_drive_is_dead_after_a_time_and_a_count() -> None:
     bench = Bench().ready()
     bench.drives[1].alive = False
     bench.run(500)
@@ -27,7 +28,7 @@ def test_probes_come_with_growing_pauses() -> None:
     assert set(pauses[3:]) == {8}
 
 
-def test_a_drive_comes_back_behind_several_good_replies() -> None:
+def test_a_drive_comes_back_after_several_good_replies() -> None:
     bench = Bench()
     bench.drives[1].alive = False
     bench.run(3000)
@@ -51,7 +52,7 @@ def test_the_others_lose_less_than_two_percent() -> None:
     assert refresh(1) < refresh(0) * 6 / 7 * 1.02
 
 
-def test_one_probe_in_vain_per_round() -> None:
+def test_one_unanswered_probe_per_round() -> None:
     bench = Bench(Config(drives=8))
     for drive in bench.drives[:5]:
         drive.alive = False
@@ -84,3 +85,41 @@ def test_a_new_address_is_a_new_drive() -> None:
     assert not bench.slot(1, "Online")
     bench.run(500)
     assert bench.slot(1, "Online")
+
+
+def test_dead_drives_have_turns_of_their_own() -> None:
+    """Of two whose stops wait the first was sent to again and again, as long as other dead drives were probed."""
+    bench = Bench(Config(drives=6)).ready()
+    for index in range(5):
+        bench.drives[index].alive = False
+        bench.put(index, TurnRoundMs=1000)  # so the wire rests for longer than until a stop is due again
+    bench.run(500)
+    for index in range(3):
+        bench.stop(index)
+    bench.run(10_000)
+    before = len(bench.sent)
+    bench.run(90_000)
+    asked = Counter(each.unit for each in bench.sent[before:] if each.unit <= 5)
+    for alike in ([1, 2, 3], [4, 5]):  # by stops, by probes
+        numbers = [asked[unit] for unit in alike]
+        assert min(numbers) >= 3, asked
+        assert max(numbers) - min(numbers) <= 1, asked
+
+
+def test_commands_of_others_cost_no_dead_drive_its_turn() -> None:
+    bench = Bench(Config(drives=4)).ready()
+    for index in (0, 1):
+        bench.drives[index].alive = False
+        bench.put(index, TurnRoundMs=1000)
+    bench.run(500)
+    for index in (0, 1):
+        bench.stop(index)
+    bench.run(10_000)
+    before = len(bench.sent)
+    for _ in range(300):
+        for index in (2, 3):
+            bench.command(index)
+        bench.run(200)
+    asked = Counter(each.unit for each in bench.sent[before:] if each.unit <= 2)
+    assert min(asked.values()) >= 3
+    assert asked[1] - asked[2] in (-1, 0, 1), asked

@@ -240,7 +240,7 @@ def test_no_power_on_purpose_is_no_error() -> None:
     assert bench["Line.AllOnline"]
 
 
-def test_a_refusal_is_told_with_its_code() -> None:
+def test_a_refusal_is_reported_with_its_code() -> None:
     bench = Scene(StaleMs=500).ready()
     bench.refuses = 2
     bench.run(1000)
@@ -332,7 +332,7 @@ def test_what_was_valid_before_the_pins_made_no_sense_is_not_valid_after() -> No
     assert not bench["Meter.Valid"]
 
 
-def test_no_line_is_told() -> None:
+def test_no_line_is_reported() -> None:
     bench = Scene().ready()
     bench.set(Lined=False)
     bench.run(1100)
@@ -389,7 +389,7 @@ def test_single_registers_are_read_beside_it_and_nothing_is_stored() -> None:
 # ------------------------------------------------------------------------ stops
 
 
-def test_it_has_no_stop_for_stop_all_and_writes_go_on() -> None:
+def test_it_has_no_stop_for_stop_all_and_still_writes() -> None:
     bench = Scene().ready()
     bench.set(StopAll=True)
     sent = bench.run(3000)
@@ -427,7 +427,7 @@ def test_a_silent_device_lets_no_stop_be_overdue() -> None:
         assert not bench["StopOverdue"]
 
 
-def test_two_blocks_on_one_slot_are_told_and_overdue() -> None:
+def test_two_blocks_on_one_slot_are_reported_and_overdue() -> None:
     """One of them might be a drive's."""
     bench = Scene().ready()
     bench.set(Twice=True)
@@ -436,7 +436,7 @@ def test_two_blocks_on_one_slot_are_told_and_overdue() -> None:
     assert bench["StopOverdue"]
 
 
-def test_one_address_with_a_drive_is_told() -> None:
+def test_one_address_with_a_drive_is_reported() -> None:
     bench = Scene()
     bench.wire("Meter", Address=3)
     bench.run(300)

@@ -28,7 +28,7 @@ def strange(bench: Bench, frame: bytes = REQUEST) -> None:
 
 def passes(bench: Bench) -> bool:
     """Whether a start passes."""
-    bench.put(0, Once=True)
+    bench.put(0, Begins=True)
     bench.command(0)
     bench.run(100)
     assert (bench.answer(0, COMMAND) == "FOREIGN") is (bench["ErrorID"] == 54)
@@ -36,7 +36,7 @@ def passes(bench: Bench) -> bool:
 
 
 @pytest.mark.parametrize(("most", "limit"), [(0, 5), (2, 2)])
-def test_more_than_so_many_in_ten_seconds(most: int, limit: int) -> None:
+def test_more_than_the_most_in_ten_seconds(most: int, limit: int) -> None:
     bench = quiet()
     bench.set(ForeignMost=most)
     for _ in range(limit):
@@ -52,14 +52,13 @@ def test_more_than_so_many_in_ten_seconds(most: int, limit: int) -> None:
     assert bench["ForeignFrames"] == 0
 
 
-@pytest.mark.parametrize("kind", ["Once", "ResetAsked", "a reference"])
+@pytest.mark.parametrize("kind", ["Begins", "a reference"])
 def test_only_what_starts_a_motor_or_resets_its_fault_is_kept_back(kind: str) -> None:
     """The reference of a running motor passes."""
     bench = quiet()
     for _ in range(6):
         strange(bench)
-    if kind != "a reference":
-        bench.put(0, **{kind: True})
+    bench.put(0, Begins=kind == "Begins")
     bench.command(0)
     bench.run(100)
     assert bench.answer(0, COMMAND) == ("OK" if kind == "a reference" else "FOREIGN")

@@ -24,7 +24,7 @@ def words(sent: list[Sent], unit: int = 2) -> list[int]:
 
 @pytest.mark.parametrize(("jog_stop", "order"), [(0, [PLAIN]), (1, [PLAIN, JOG]), (2, [JOG, PLAIN])])
 @pytest.mark.parametrize("how", ["StopAll", "not called", "shared"])
-def test_the_stop_of_the_last_order_goes_first_then_the_other(jog_stop: int, order: list[int], how: str) -> None:
+def test_the_stop_of_the_last_order_is_sent_first_then_the_other(jog_stop: int, order: list[int], how: str) -> None:
     bench = copied(jog_stop=jog_stop)
     bench.put(1, StopAgain=False)
     bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)  # whatever was posted last
@@ -42,7 +42,7 @@ def test_the_stop_of_the_last_order_goes_first_then_the_other(jog_stop: int, ord
     assert found == (order * len(found))[: len(found)]
 
 
-def test_the_first_leaves_within_worst_stop_and_the_other_within_half_a_second() -> None:
+def test_the_first_is_sent_within_worst_stop_and_the_other_within_half_a_second() -> None:
     bench = Bench(Config(drives=7)).ready()
     for slot in range(7):
         bench.put(slot, JogStopRegister=bench.kind.stop_address, JogStopWord=JOG, JogStop=1)
@@ -140,7 +140,7 @@ def test_the_other_goes_even_if_the_first_is_refused() -> None:
     assert bench.slot(1, "StopOverdue"), "the first is not acknowledged"
 
 
-def test_a_stop_whose_answer_ends_it_goes_once() -> None:
+def test_a_stop_whose_answer_ends_it_is_sent_once() -> None:
     bench = copied(EndsByAnswer=True, StopWithinMs=500)
     bench.attended.discard(1)
     assert words(bench.run(5000)) == [PLAIN, JOG]

@@ -424,7 +424,7 @@ def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -
 
 
 @pytest.mark.parametrize("block", ASKING)
-def test_a_refusal_tells_the_drives_own_code(block: str) -> None:
+def test_a_refusal_gives_the_drives_own_code(block: str) -> None:
     scene = Scene("SN300G5").rested()
     scene.refuses = 0x22
     assert scene.done(block, **ASKING[block]) == "REFUSED"
@@ -493,7 +493,7 @@ def test_a_drive_that_keeps_silent() -> None:
 
 
 @pytest.mark.parametrize("block", ASKING)
-def test_what_is_given_up_behind_an_attempt_may_have_arrived(block: str) -> None:
+def test_what_is_given_up_after_an_attempt_may_have_arrived(block: str) -> None:
     scene = Scene("SN300G5").rested()
     scene.silent = True
     before = len(scene.sent)
@@ -517,7 +517,7 @@ def test_whoever_fills_the_compartment_is_judged(function: int, quantity: int) -
 # ---------------------------------------------------------------- store
 
 
-def test_a_store_goes_by_its_own_block_alone() -> None:
+def test_a_store_is_sent_by_its_own_block_alone() -> None:
     scene = Scene("SN300G5").rested()
     assert scene.done("Keep") == "OK"
     assert scene.written() == [bytes.fromhex("10 FFFD 0001 02 0000")]

@@ -66,7 +66,7 @@ def test_retries_by_class() -> None:
 
 
 @pytest.mark.parametrize("busy", [False, True])
-def test_a_fault_reset_goes_once(busy: bool) -> None:
+def test_a_fault_reset_is_sent_once(busy: bool) -> None:
     bench = Bench().ready()
     bench.put(1, ResetAsked=True, BusyReason=6)
     if busy:
@@ -94,7 +94,7 @@ def test_an_echo_is_found_by_reads_and_never_believed() -> None:
     assert bench["ForeignFrames"] == 0
 
 
-def test_until_the_echo_is_known_only_reads_and_stops_leave_and_no_stop_is_believed() -> None:
+def test_until_the_echo_is_known_only_reads_and_stops_are_sent_and_no_stop_is_believed() -> None:
     bench = Bench(Config(drives=1, echo=True))
     bench.drives[0].alive = False
     bench.fill(0, 3, 6, 0x2000)
@@ -105,7 +105,7 @@ def test_until_the_echo_is_known_only_reads_and_stops_leave_and_no_stop_is_belie
     assert bench.answer(0, STOP) == ""
 
 
-def test_the_echo_is_decided_anew_behind_an_error_of_the_port() -> None:
+def test_the_echo_is_decided_anew_after_an_error_of_the_port() -> None:
     bench = Bench().ready()
     assert bench["Echo"] == 1
     bench.block["Port.ErrorID"] = 7

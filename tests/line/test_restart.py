@@ -34,7 +34,20 @@ def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["TurnRest", "TurnPoll", "Slot", "Chosen", "Walk", "PollAt", "ProbeAt", "LastPoll", "Index"]
+    "name",
+    [
+        "TurnStop",
+        "TurnRest",
+        "TurnProbe",
+        "TurnPoll",
+        "Slot",
+        "Chosen",
+        "Walk",
+        "PollAt",
+        "ProbeAt",
+        "LastPoll",
+        "Index",
+    ],
 )
 @pytest.mark.parametrize("how", ["pin", "late", "first"])
 def test_no_slot_that_does_not_exist_outlives_a_restart(how: str, name: str) -> None:
@@ -53,7 +66,7 @@ def test_what_may_still_be_answered_is_waited_out() -> None:
 
 
 @pytest.mark.parametrize("how", ["pin", "late", "first"])
-def test_every_slot_is_told_of_a_restart_once(how: str) -> None:
+def test_every_slot_learns_of_a_restart_once(how: str) -> None:
     bench = Bench().ready()
     before = bench.slot(1, "Restarts")
     restart(bench, how)
@@ -61,7 +74,7 @@ def test_every_slot_is_told_of_a_restart_once(how: str) -> None:
     assert (bench.slot(1, "Restarts"), bench.slot(5, "Restarts")) == (before + 1, before + 1)
 
 
-def test_every_slot_is_told_of_late_calls_and_errors() -> None:
+def test_every_slot_learns_of_late_calls_and_errors() -> None:
     bench = Bench().ready()
     assert not bench.slot(0, "ScanLate")
     bench.scan(took=13_000)
@@ -93,7 +106,7 @@ def test_a_restart_that_stays_lets_only_stops_out() -> None:
     assert {each.stop for each in bench.run(300)} == {True}
 
 
-def test_time_that_stands_lets_only_stops_out() -> None:
+def test_only_stops_are_sent_while_time_stays() -> None:
     bench = Bench().ready()
     for _ in range(101):
         bench.scan(elapsed=0)
@@ -108,7 +121,7 @@ def test_time_that_stands_lets_only_stops_out() -> None:
     assert bench["ErrorID"] == 0
 
 
-def test_nothing_but_stops_leaves_before_time_has_moved() -> None:
+def test_nothing_but_stops_is_sent_before_time_has_moved() -> None:
     bench = Bench()
     for _ in range(50):
         bench.scan(elapsed=0)
@@ -118,7 +131,7 @@ def test_nothing_but_stops_leaves_before_time_has_moved() -> None:
     assert [each.stop for each in bench.sent] == [True]
 
 
-def test_the_clock_of_the_slots_goes_on_behind_its_end() -> None:
+def test_the_clock_of_the_slots_goes_on_after_its_end() -> None:
     bench = Bench()
     bench.block["Clock"] = 59_990
     bench.scan()

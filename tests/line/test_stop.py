@@ -6,7 +6,7 @@ import pytest
 from tests.line.vline import COMMAND, POLL, STOP, Bench, Config
 
 
-def test_new_stops_go_first_and_each_once() -> None:
+def test_new_stops_are_sent_first_and_each_once() -> None:
     bench = Bench().ready()
     for slot in range(3):
         bench.command(slot)
@@ -38,7 +38,7 @@ def test_an_answer_of_before_stays_as_it_was() -> None:
     assert (bench.answer(1, COMMAND), bench.answer(1, STOP)) == ("OK", "OK")
 
 
-def test_no_retry_of_a_command_goes_before_a_stop() -> None:
+def test_no_retry_of_a_command_is_sent_before_a_stop() -> None:
     bench = Bench().ready()
     bench.drives[0].alive = False
     bench.command(0)
@@ -63,7 +63,7 @@ def test_a_stop_that_nobody_acknowledges_is_repeated_and_overdue() -> None:
     assert not bench["StopOverdue"]
 
 
-def test_a_new_stop_of_a_dead_drive_leaves_at_once() -> None:
+def test_a_new_stop_of_a_dead_drive_is_sent_at_once() -> None:
     bench = Bench()
     bench.drives[1].alive = False
     bench.ready().run(5000)
@@ -84,7 +84,7 @@ def test_stops_of_dead_drives_take_turns_within_a_quarter_of_the_wire() -> None:
     assert bench.slot(3, "Fresh") > 6000 / 28
 
 
-def test_a_repeated_stop_leaves_every_half_second_and_lets_a_reset_through() -> None:
+def test_a_repeated_stop_is_sent_every_half_second_and_lets_a_reset_through() -> None:
     bench = Bench().ready()
     bench.stop(1)
     bench.run(60)
@@ -107,7 +107,7 @@ def test_a_repeated_stop_does_not_take_a_reset_back() -> None:
     assert bench.answer(1, COMMAND) == "OK"
 
 
-def test_no_run_passes_behind_a_repeated_stop() -> None:
+def test_no_run_is_sent_after_a_repeated_stop() -> None:
     bench = Bench().ready()
     bench.stop(1)
     bench.run(60)
@@ -221,7 +221,7 @@ def test_silence_of_a_drive_without_power_is_no_alarm() -> None:
     assert bench["StopOverdue"]
 
 
-def test_two_figures_for_how_late_a_stop_leaves() -> None:
+def test_two_figures_for_how_late_a_stop_is_sent() -> None:
     """19200 8N1, 12 ms scans at most, port keeps 2 ms of silence: by hand from the formula on the line's page."""
     bench = Bench(Config(drives=7)).ready()
     bench.run(100)

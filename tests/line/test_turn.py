@@ -5,7 +5,7 @@ from itertools import pairwise
 from tests.line.vline import COMMAND, PARAMETER, Bench, Config
 
 
-def test_a_write_behind_polls_leaves_within_one_transaction() -> None:
+def test_a_write_after_polls_is_sent_within_one_transaction() -> None:
     bench = Bench(Config(drives=7)).ready()
     bench.command(3)
     sent = bench.run(45)
@@ -59,7 +59,7 @@ def test_constant_commands_of_one_drive_starve_nobody() -> None:
     assert min(gained) >= 15
 
 
-def test_polls_go_round_and_as_often_as_asked() -> None:
+def test_polls_are_sent_in_turn_and_as_often_as_asked() -> None:
     bench = Bench().ready()
     assert [each.unit for each in bench.run(120)] in ([1, 2, 3, 1, 2, 3], [2, 3, 1, 2, 3, 1], [3, 1, 2, 3, 1, 2])
     bench.put(1, PollEveryMs=500)
@@ -67,7 +67,7 @@ def test_polls_go_round_and_as_often_as_asked() -> None:
     assert all(500 <= later - before <= 580 for before, later in pairwise(times))
 
 
-def test_the_next_request_leaves_in_the_scan_of_the_reply() -> None:
+def test_the_next_request_is_sent_in_the_scan_of_the_reply() -> None:
     """Seven drives, six words, 19200 8N1, 10 ms: two scans per transaction where the port keeps the silence."""
     bench = Bench(Config(drives=7)).ready()
     assert len(bench.run(7 * 20 * 10)) >= 68
@@ -106,7 +106,7 @@ def test_parameters_are_read_and_written() -> None:
     assert any(frame[1] == 16 and frame[4:9] == b"\x00\x02\x04\x12\x34" for frame in bench.drives[1].heard)
 
 
-def test_a_parameter_leaves_only_while_its_drive_block_lets_it_pass() -> None:
+def test_a_parameter_is_sent_only_while_its_drive_block_lets_it_pass() -> None:
     bench = Bench().ready()
     number = bench.ask(1, PARAMETER, 6, 0x100)
     bench.put(1, ParameterCleared=0)

@@ -122,11 +122,11 @@ class Walk:
             self.reset(slot)
 
     def command(self, slot: int) -> None:
-        self.bench.put(slot, ResetAsked=False)
+        self.bench.put(slot, ResetAsked=False, Begins=False)
         self.bench.command(slot, self.chance.randrange(65536))
 
     def reset(self, slot: int) -> None:
-        self.bench.put(slot, ResetAsked=True)
+        self.bench.put(slot, ResetAsked=True, Begins=True)
         self.bench.command(slot, 7)
 
     def parameter(self, slot: int) -> None:

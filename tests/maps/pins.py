@@ -1,6 +1,6 @@
 """Which facts of a map a vector or a relation pins, found from the plain document and without the project's rules.
 
-A pinned fact cannot be changed alone without a contradiction that the loader must notice. What is not pinned stands
+A pinned fact cannot be changed alone without a contradiction that the loader must notice. What is not pinned rests
 on the map author's care alone; the fuzz run counts such facts by kind.
 """
 

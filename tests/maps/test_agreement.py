@@ -32,7 +32,7 @@ def test_a_short_search_finds_nothing() -> None:
 
 
 @needs_libyaml
-def test_the_search_tells_what_is_read_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_search_reports_what_is_read_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
     """As it would be with libyaml for every text."""
     monkeypatch.setattr(nodes, "_EDGE", re.compile("(?!)"))
     monkeypatch.setattr(agreement, "text", lambda _, number: FOUND[number])
@@ -56,7 +56,7 @@ def test_the_same_seed_gives_the_same_texts() -> None:
     assert agreement.text(3, 5) == agreement.text(3, 5) != agreement.text(4, 5)
 
 
-def test_a_find_is_told_and_can_be_repeated(
+def test_a_find_is_reported_and_can_be_repeated(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(agreement, "outcome", lambda text, libyaml: (text, libyaml))

@@ -93,6 +93,6 @@ def test_a_wheel_carries_its_own_maps(tmp_path: Path, monkeypatch: pytest.Monkey
     assert catalog.folder() == packed.resolve()
 
 
-def test_a_path_is_shown_from_where_the_user_stands(shelf: Path) -> None:
+def test_a_path_is_shown_from_the_folder_of_the_user(shelf: Path) -> None:
     assert catalog.shown(Path.cwd() / "a" / "b.yaml") == str(Path("a/b.yaml"))
     assert catalog.shown(shelf / "acme_eco.yaml") == str(shelf / "acme_eco.yaml")

@@ -551,7 +551,7 @@ def test_sn300g5_printed_ids_and_addresses() -> None:
     assert {place: one.id or one.bit for place, one in torn.items() if one} == sn300g5.PRINTED_BITS
 
 
-def test_sn300g5_series_start_where_their_first_id_stands() -> None:
+def test_sn300g5_series_start_where_their_first_id_is() -> None:
     typed = {id_: address for table in (sn300g5.MONITORS, sn300g5.PARAMETERS) for address, id_, _ in runs(table)}
     first, _, id_, _, _ = sn300g5.USER_PARAMETERS
     typed[id_] = first

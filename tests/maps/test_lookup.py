@@ -37,7 +37,7 @@ def test_a_word_is_found_however_it_is_written(drive: Drive, word: str, shown: s
     assert lookup.find(drive, word)[0].shown == shown
 
 
-def test_an_address_and_a_code_are_told_apart_by_their_digits(drive: Drive) -> None:
+def test_an_address_and_a_code_differ_by_their_digits(drive: Drive) -> None:
     as_address = lookup.find(drive, "0001H")
     assert [(match.shown.split("  ")[-2], match.spelled) for match in as_address] == [
         ("register", True),

@@ -55,7 +55,7 @@ def test_an_english_manual_needs_english_alone() -> None:
     assert chinese(drive) == set()
 
 
-def test_without_a_language_the_title_tells_it() -> None:
+def test_without_a_language_the_title_shows_it() -> None:
     assert mapped("  language: en", "  covers: all of it").manual.written_in == "en"
     wrong = said(page.skeleton().replace("language: en", "covers: all").replace("manual}", "manual, zh: 手册}"))
     assert "`Overcurrent` has no `zh`: the manual's wording is missing; add `zh` as the manual prints it, " in wrong[-2]
@@ -74,12 +74,12 @@ def test_another_manual_has_its_own_words_beside_each_name(language: str, key: s
         assert chinese(drive) == set()
 
 
-def test_a_misprint_of_an_english_manual_stands_beside_the_name() -> None:
+def test_a_misprint_of_an_english_manual_is_beside_the_name() -> None:
     drive = mapped("name: Overcurrent", "name: Overcurrent, wording: Overcurent")
     assert (drive.faults.codes[0].name, drive.faults.codes[0].own) == ("Overcurrent", "Overcurent")
 
 
-def test_a_second_language_is_told_where_it_exists() -> None:
+def test_a_second_language_is_asked_for_where_it_exists() -> None:
     drive = mapped("name: Overcurrent", "name: Overcurrent, zh: 过流")
     assert chinese(drive) == {"ACME_FaultTextZh"}
     assert "'$4F$43$20$E8$BF$87$E6$B5$81'" in [row["text"] for row in text.fault_texts(drive, BOTH[1])["rows"]]

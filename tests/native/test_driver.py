@@ -40,6 +40,6 @@ def test_a_driver_that_runs_counts_as_used(tmp_path: Path) -> None:
     assert seal.stat().st_mtime > 1
 
 
-def test_mistake_is_told(matiec: MatiecEngine) -> None:
+def test_mistake_is_reported(matiec: MatiecEngine) -> None:
     with pytest.raises(EngineError, match=r"driver\.c:1:"):
         Driver("int main(void) { return undeclared; }").build(matiec)

@@ -44,7 +44,7 @@ def test_a_read_and_a_stop_of_the_map_leave(text: str) -> None:
 
 
 @pytest.mark.parametrize("text", DROPPED)
-def test_nothing_else_leaves_and_all_of_it_is_counted(text: str) -> None:
+def test_nothing_else_is_sent_and_all_of_it_is_counted(text: str) -> None:
     guard = Guard(UNITS)
     assert not guard.passes(rtu(text))
     assert not guard.passes(seal("ascii", bytes.fromhex(text)))

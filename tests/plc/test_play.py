@@ -32,7 +32,7 @@ def playing(text: str = "", *lines: str) -> Desk:
     return desk
 
 
-def test_a_scenario_begins_with_the_first_scan_and_is_told() -> None:
+def test_a_scenario_begins_with_the_first_scan_and_is_printed() -> None:
     desk = playing("- at 2 s: trip 4\n- at 3 s: power off 7\n- at 9 s: clear\n")
     assert (desk.drives[0].last_fault, desk.drives[0].powered) == (4, False)
     assert [line for line in desk.told() if line.startswith(" ")] == ["  2.0 s  trip 4", "  3.0 s  power off 7"]
@@ -66,7 +66,7 @@ def test_a_drive_that_is_tripped_and_restored_by_keys_has_no_fault() -> None:
         ("trip 'x", "JSCC at unit 7 has no fault `'x`; write its number, or name the unit of another drive"),
     ],
 )
-def test_what_cannot_happen_is_told(line: str, says: str) -> None:
+def test_what_cannot_happen_is_reported(line: str, says: str) -> None:
     assert says in playing("", line).told()
 
 

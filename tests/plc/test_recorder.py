@@ -67,7 +67,7 @@ def test_a_scan_whose_time_is_reckoned_waits_for_its_file(slow: Slow) -> None:
     assert [at for at, _ in slow.rows] == list(range(3 * MOST_WAITING))
 
 
-def test_a_file_that_cannot_be_written_is_told_and_keeps_no_scan_waiting() -> None:
+def test_a_file_that_cannot_be_written_is_reported_and_keeps_no_scan_waiting() -> None:
     def keep(_: Iterator[Row]) -> None:
         raise OSError(28, "No space left on device")
 
@@ -120,7 +120,7 @@ def left(monkeypatch: pytest.MonkeyPatch) -> Left:
 
 
 @pytest.mark.parametrize("printed", [True, False])
-def test_what_is_stuck_does_not_keep_the_process_and_the_verdict_is_told(
+def test_what_is_stuck_does_not_keep_the_process_and_the_verdict_is_printed(
     printed: bool, left: Left, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(departure, "ASIDE_S", NET)

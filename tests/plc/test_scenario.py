@@ -27,7 +27,7 @@ def wrong(text: str) -> str:
 
 
 def played(*steps: str) -> tuple[list[SimulatedDrive], Loss]:
-    """Drives and line behind these steps."""
+    """Drives and line of these steps."""
     drives, loss = [SimulatedDrive(drive, unit) for unit, drive in DRIVES.items()], Loss()
     for happening in scenario.loads("".join(f"- at 1 s: {step}\n" for step in steps), "s.yaml", DRIVES):
         happening.act(drives, loss)
@@ -76,7 +76,7 @@ def test_a_line_loses_and_damages() -> None:
     assert vars(played("drop 10 %", "damage 0.5 %")[1]) | {"chance": 0} == vars(Loss(0.1, 0.005)) | {"chance": 0}
 
 
-def test_everything_that_is_wrong_is_told_at_once_with_its_place() -> None:
+def test_everything_that_is_wrong_is_reported_at_once_with_its_place() -> None:
     assert wrong(
         "- at 1 s: tripp 4\n- at 2: clear 1\n- at 2 s: power of 2\n- at 3 s: drop 110 %\n- at 4 s: 'trip OD 2'\n"
         "- at 4 s: clear 9\n- nothing\n- at 5 s: [1]\n- at 6 s: xyz\n- at 7 s: off\n"

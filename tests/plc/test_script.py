@@ -42,7 +42,7 @@ def test_a_script_is_read_in_the_order_of_its_times() -> None:
     ]  # fmt: skip
 
 
-def test_everything_that_is_wrong_is_told_with_its_place_and_nothing_is_set() -> None:
+def test_everything_that_is_wrong_is_reported_with_its_place_and_nothing_is_set() -> None:
     desk = Desk()
     with pytest.raises(ScriptError) as error:
         script.read("run.txt", WRONG, desk.instance)

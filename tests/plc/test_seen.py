@@ -36,7 +36,7 @@ def views() -> Iterator[View]:
     yield seen()
 
 
-def test_lines_tell_what_has_changed_each_with_whose_port_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+def test_lines_say_what_has_changed_each_with_whose_port_it_is(capsys: pytest.CaptureFixture[str]) -> None:
     lines = screen.Lines("REAL PORT")
     for view in views():
         lines.show(view)

@@ -42,7 +42,7 @@ def test_a_line_speaks_ascii() -> None:
     assert desk.session.result.stopped == ("Motor",)
 
 
-def test_time_is_measured_and_a_late_scan_is_told() -> None:
+def test_time_is_measured_and_a_late_scan_is_reported() -> None:
     desk = Desk().scan(30)
     assert (desk.instance["Elapsed"], desk.instance["First"]) == (10, False)
     desk.clock.sleep_until(desk.clock.now_us() + 34_000)
@@ -216,7 +216,7 @@ def breaks(desk: Desk) -> None:
 
 
 @pytest.mark.parametrize(("crash", "said"), [(fails, "my.st:17:15: division by zero"), (breaks, "TypeError")])
-def test_a_crash_stops_every_drive_and_is_told(crash: Callable[[Desk], None], said: str) -> None:
+def test_a_crash_stops_every_drive_and_is_reported(crash: Callable[[Desk], None], said: str) -> None:
     desk = ended(Desk(), crash)
     assert desk.drives[0].mode == "standstill"
     result = desk.session.result
@@ -226,7 +226,7 @@ def test_a_crash_stops_every_drive_and_is_told(crash: Callable[[Desk], None], sa
     assert result.reason.startswith(f"the program has failed: {said}")
 
 
-def test_a_drive_that_does_not_reply_is_named_behind_a_bounded_time() -> None:
+def test_a_drive_that_does_not_reply_is_named_after_a_bounded_time() -> None:
     desk = ended(Desk(), lambda desk: setattr(desk.line, "cut", True), seconds=6)
     before = len(desk.line.sent)
     assert desk.session.result is not None
@@ -259,7 +259,7 @@ def test_who_asks_again_does_not_wait() -> None:
     assert desk.session.result.unconfirmed
 
 
-def test_a_terminal_that_goes_brings_much_at_once_and_every_drive_is_waited_for() -> None:
+def test_a_terminal_that_vanishes_brings_much_at_once_and_every_drive_is_waited_for() -> None:
     def gone(desk: Desk) -> None:
         for reason in ("SIGHUP", "the input has ended", "the screen has failed", "SIGTERM"):
             desk.ending.ask(reason)
@@ -383,7 +383,7 @@ class Device:
         """Give it back."""
 
 
-def test_a_port_that_goes_is_told_to_the_line_and_looked_for_again() -> None:
+def test_a_port_that_vanishes_is_reported_to_the_line_and_looked_for_again() -> None:
     desk, device = Desk(), Device()
     port = DevicePort(device.open, desk.clock)
     desk.session.connect(port, None)

@@ -114,7 +114,7 @@ def test_another_process_gets_the_drives_as_they_are_set() -> None:
     assert simulated.wanted(json.loads(json.dumps(simulated.rows(drives)))) == drives
 
 
-def test_what_is_set_is_told_with_the_defaults() -> None:
+def test_what_is_set_is_printed_with_the_defaults() -> None:
     chf, jscc, shuen = named("chf@7:60:CurrentScale=0.1", "jscc", "sn300g5")
     assert chf.told() == [
         "CHF at unit 7: maximum 60 Hz (100 %), FrequencyScale=0.01,",

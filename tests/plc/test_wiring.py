@@ -143,7 +143,7 @@ def test_a_time_that_the_program_writes_itself_is_left_alone() -> None:
     assert found.notes == ()
 
 
-def test_a_time_that_is_no_variable_is_told() -> None:
+def test_a_time_that_is_no_variable_is_reported() -> None:
     (note,) = wired(ONE.replace("ElapsedMs := Elapsed", "ElapsedMs := 10")).notes
     assert str(note).startswith("my.st:20:3: ElapsedMs is no variable: a late scan is not seen;")
 
@@ -167,7 +167,7 @@ SECOND = ONE.replace("  Bus :", "  Bus, Other :").replace(
         (ONE.replace("Elapsed : UINT;", "Elapsed : UINT"), "my.st:6:3: "),
     ],
 )  # fmt: skip
-def test_what_is_wrong_is_told_with_its_place(text: str, wrong: str) -> None:
+def test_what_is_wrong_is_reported_with_its_place(text: str, wrong: str) -> None:
     assert wrong in told(text)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from lxml import etree
+from tests.commands.test_page_commands import commands
 from tests.prove import agreement, mutants
 from tests.shapes import texts
 from typer.testing import CliRunner
@@ -91,6 +92,30 @@ def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.M
     assert int(root.attrib["failures"]) > 0
     monkeypatch.setattr(prover, "run", lambda _: iter([planted("nothing", "")]))
     assert CliRunner().invoke(app, ["prove", "jscc"]).exit_code == 0
+
+
+def test_the_commands_on_the_pages_run_and_say_that_all_is_proved(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each with the proofs of the family that it names, which are the same in every run."""
+    pages = [PAGE.parents[1] / "README.md", PAGE, *PAGE.parents[1].glob("blocks/docs/*.md")]
+    lines = {text for page in pages for text in commands(page) if text.startswith("driveblocks prove")}
+    assert {"driveblocks prove", "driveblocks prove chf", "driveblocks prove jscc --rules"} < lines
+    (tmp_path / "my_drive.yaml").write_text(skeleton(), "utf-8")
+    monkeypatch.chdir(tmp_path)
+    known = everything()
+    monkeypatch.setattr(
+        prover, "run", lambda sources: of([prover.GENERIC, *(each.path.stem for each in sources)], known)
+    )
+    for line in sorted(lines):
+        done = CliRunner().invoke(app, line.split()[1:])
+        assert (done.exit_code, "questions: all proved" in done.output) == (0, True), f"{line}: {done.output}"
+    assert (tmp_path / "proofs.xml").is_file()
+
+
+def of(units: list[str], proofs: list[Proved]) -> Iterator[Proved]:
+    """The proofs of some families."""
+    return (each for each in proofs if each.unit in units)
 
 
 def test_without_the_solver_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

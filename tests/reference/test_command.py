@@ -59,7 +59,9 @@ def words(drive: Drive, *steps: Pins) -> list[int]:
 STOPPED, OVER = Pins(stop_acknowledged=True), Pins(reset_acknowledged=True)
 
 
-def test_a_reset_is_told_behind_an_acknowledged_stop_until_it_is_acknowledged_itself(drives: dict[str, Drive]) -> None:
+def test_a_reset_is_asked_for_after_an_acknowledged_stop_until_it_is_acknowledged_itself(
+    drives: dict[str, Drive],
+) -> None:
     pressed = Pins(fault_reset=True)
     assert words(drives["CHF"], pressed, Pins(), STOPPED, Pins(), OVER, Pins()) == [5, 5, 7, 7, 5, 5]
 
@@ -71,7 +73,7 @@ def test_only_the_edge_of_the_reset_asks_for_one(drives: dict[str, Drive]) -> No
     assert words(drives["CHF"], *steps) == [5, 5, 7, 5, 5, 5, 5]
 
 
-def test_a_stop_that_rises_goes_before_a_reset_and_one_that_stands_does_not(drives: dict[str, Drive]) -> None:
+def test_a_stop_that_rises_comes_before_a_reset_and_one_that_stays_does_not(drives: dict[str, Drive]) -> None:
     stop = Pins(stop=True)
     steps = (Pins(), STOPPED, Pins(fault_reset=True), stop, Pins(stop=True, stop_acknowledged=True), stop, OVER)
     assert words(drives["CHF"], *steps) == [5, 5, 7, 5, 7, 7, 5]

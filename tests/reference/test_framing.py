@@ -46,7 +46,7 @@ def test_a_body_of_impossible_length_is_no_frame(size: int) -> None:
         ("01 83 02 F1 C0", "CHECKSUM"),
         ("01 03 02 01 F4 B8 53", "OK"),
         ("01 03 02 01 F4 B8 53 01", "CHECKSUM"),
-        # the rest after the CRC is 0: only the length of the reply can tell that a 00 was received too much
+        # the rest after the CRC is 0: only the length of the reply shows that a 00 was received too much
         ("01 03 02 01 F4 B8 53 00", "OK"),
         ("01 03 02 01 F4 B8 53 00 00", "OK"),
         ("01 03 02 01 F4 B8 53 00 00 00", "OK"),

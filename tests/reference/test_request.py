@@ -112,7 +112,7 @@ def test_the_first_thing_that_is_wrong(
     assert build(drives[prefix], function, **more).result == result
 
 
-def test_every_wrong_is_told_in_the_blocks_order(drives: dict[str, Drive]) -> None:
+def test_every_mistake_is_reported_in_the_order_of_the_block(drives: dict[str, Drive]) -> None:
     worst = Asked(3, 0, 0xFFFF, 200, ascii=True)
     wrongs = list(Requests(drives["SN300G5"]).wrongs(worst))
     assert wrongs == ["MODE", "NO_BROADCAST", "QUANTITY", "ASCII_LIMIT", "WRAP", "NOT_READABLE"]

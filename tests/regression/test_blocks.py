@@ -48,7 +48,9 @@ def test_the_end_of_the_numbers_is_the_same_reference_everywhere(engine: Engine,
 
 
 @pytest.mark.parametrize(("function", "add", "answered"), [(65408, 128, 0), (65411, 128, 3), (8, 65531, 3)])
-def test_a_refusal_is_never_told_by_a_sum_that_wraps(engine: Engine, function: int, add: int, answered: int) -> None:
+def test_a_refusal_is_never_recognised_by_a_sum_that_wraps(
+    engine: Engine, function: int, add: int, answered: int
+) -> None:
     """The function code of a refusal was a sum in 16 bits: 65408 + 128 was 0, the function of a damaged reply."""
     request = {"Request.UnitAddress": 1, "Request.FunctionCode": function, "Request.Quantity": 1}
     pins: dict[str, Value] = {"Length": 3, "ExceptionAdd": add, "Adu": bytes([1, answered, 2]), **request}

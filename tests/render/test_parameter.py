@@ -27,7 +27,7 @@ def with_step(register: int) -> Drive:
     return replace(drive, operation=replace(drive.operation, commands=commands))
 
 
-def test_what_goes_before_a_command_moves_the_motor_too() -> None:
+def test_what_is_sent_before_a_command_moves_the_motor_too() -> None:
     drive = with_step(0x0042)
     refused = {name: spans for name, _, spans in may_write(drive, plan(drive))["refused"]}
     assert {Span(0x0042, 0x0042), Span(0x8042, 0x8042)} <= set(refused["OWNED"])

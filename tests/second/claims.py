@@ -7,7 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from tests.second.observer import JOG, RUN, STOPPING
+from tests.second.observer import MOVES, RUN, STOPPING, any_of
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -36,6 +36,8 @@ USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
+AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
+"""Pins with which no block alone serves a drive, or not in full control."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = {
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
@@ -62,13 +64,13 @@ LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
 
 
-@dataclass
+@dataclass(slots=True)
 class Claim:
     """What is remembered of one drive."""
 
     changed_us: int = 0
     """When its pins last changed."""
-    pins: tuple[tuple[str, object], ...] = ()
+    pins: dict[str, object] = field(default_factory=dict)
     permitted: bool = False
     """It was permitted to run in the last scan."""
     ready: bool = False
@@ -129,7 +131,7 @@ class Claims:
         claim.sent_us = now_us
         idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > QUIET_US
         asks = any(each.index == index for each in self.judge.asked)
-        same = tuple(sorted(pins.items())) == claim.pins
+        same = pins == claim.pins
         if (
             writes
             and idle
@@ -137,7 +139,7 @@ class Claims:
             and not asks
             and self.willing(index)
             and self.well(index, QUIET_US)
-            and not any(pins.get(each) for each in RUN + JOG)
+            and not any_of(MOVES, pins)
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
 
@@ -146,10 +148,9 @@ class Claims:
         bench, claim, now = self.bench, self.claims[index], self.bench.now
         if bench.faults.twice:
             self.doubled_us = now
-        before = dict(claim.pins)
-        pins = tuple(sorted(bench.pins[index].items()))
-        if pins != claim.pins:
-            claim.pins, claim.changed_us = pins, now
+        before = claim.pins
+        if bench.pins[index] != before:
+            claim.pins, claim.changed_us = dict(bench.pins[index]), now
         ready = bench.shows("Ready", index)
         settled = ready and bench.shows("StopConfirmed", index) and not bench.pins[index].get("Left")
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
@@ -214,7 +215,7 @@ class Claims:
     def _supplies(self, index: int, claim: Claim) -> bool:
         """It gives its reference to a drive that terminals run, and nothing has happened for long."""
         pins, now = self.bench.pins[index], self.bench.now
-        alone = pins.get("SpeedOnly") and not any(pins.get(each) for each in ("Left", "Shared", "MonitorOnly"))
+        alone = pins.get("SpeedOnly") and not any_of(("Left", "Shared", "MonitorOnly"), pins)
         quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > CALM_US // 2
         return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
@@ -235,7 +236,7 @@ class Claims:
     def attended(self, index: int) -> bool:
         """One block serves the drive, in full control."""
         pins = self.bench.pins[index]
-        return not any(pins.get(each) for each in ("Left", "Shared", "SpeedOnly", "MonitorOnly"))
+        return not any_of(AWAY, pins)
 
     def well(self, index: int, since_us: int) -> bool:
         """It could be reached for so long, and nothing was lost."""
@@ -252,11 +253,11 @@ class Claims:
 
     def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
-        asked = [each for each in RUN + JOG if pins.get(each)]
-        stops = not pins["Enable"] or any(pins.get(each) for each in STOPPING)
+        asked = any_of(MOVES, pins)
+        stops = not pins["Enable"] or any_of(STOPPING, pins)
         if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
             claim.edge_us = None
-        elif claim.ready and not any(before.get(each) for each in RUN + JOG):
+        elif claim.ready and not any_of(MOVES, before):
             claim.edge_us = now
         if claim.edge_us is not None:
             ignores = bench.models[index].o.ignores
@@ -271,7 +272,7 @@ class Claims:
     def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
         """The first stop is sent within WorstStopMs, and obeyed."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
-        asked = any(pins.get(each) for each in RUN + JOG)
+        asked = any_of(MOVES, pins)
         all_ = bool(pins.get("StopAll"))
         pin = not asked or not pins["Enable"] or pins.get("QuickStop") or pins.get("CoastStop")
         left = bool(pins.get("Left")) and not all_
@@ -334,7 +335,7 @@ class Claims:
         pins = bench.pins[index]
         since = max(claim.idle_us or now, claim.changed_us, self.judge.units[index].unknown_us)
         calm = now - since > STANDS_US and self.willing(index) and not bench.flicker and len(bench.models) < 8
-        held = any(pins.get(each) for each in RUN + JOG) and pins["Enable"]
+        held = any_of(MOVES, pins) and pins["Enable"]
         quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
         self._once(index, "stands", bad=bool(quiet and not bench.shows("StopConfirmed", index)))
 
@@ -355,7 +356,7 @@ class Claims:
         asked = min(hz, limit or hz, 50.0)
         steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
         permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
-        runs = steady and any(pins.get(each) for each in RUN) and permitted
+        runs = steady and any_of(RUN, pins) and permitted
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
         self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
         shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
@@ -388,7 +389,7 @@ class Claims:
             right = True
         else:
             first = next((name for name, is_so in self._told(index) if is_so), None)
-            held = any(pins.get(each) for each in RUN + JOG)  # then nothing starts until it is released
+            held = any_of(MOVES, pins)  # then nothing starts until it is released
             right = reason == first if first else reason != "READY" or (ready and not held)
         claim.odd = 0 if right else claim.odd + 1
         self._once(index, "why", bad=claim.odd > 1, seen=reason)

@@ -6,10 +6,11 @@ It reads pins of blocks, true models and bytes; no state of a block, no map, and
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import Claims
-from tests.second.observer import JOG, RUN, Figures, Observer, Truth
+from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -53,7 +54,7 @@ RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
 NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 
 
-@dataclass
+@dataclass(slots=True)
 class Unit:
     """What is remembered of one drive."""
 
@@ -225,26 +226,23 @@ class Judge:
         self.claims.scan(index, driven=driven, looks=looks)
 
     def _reach(self, index: int, unit: Unit) -> None:
-        if self.bench.hears(index):
-            unit.heard_us = self.bench.now
-        if (
-            not self.bench.reachable(index)
-            or self.bench.pins[index].get("Left")
-            or self.bench.pins[index].get("Shared")
-        ):
-            unit.away_us = self.bench.now
-        else:
-            unit.reached_us = self.bench.now
-        faults = self.bench.faults
-        lossy = faults.lost or faults.unanswered or self.bench.strange or self.bench.lineless
-        if lossy:  # a stop and its retries may be lost, and the connection with them
-            unit.away_us = self.bench.now
-        if unit.away_us == self.bench.now and not self.bench.pins[index].get("SupplyOff"):
-            unit.excused_us = self.bench.now
-        if unit.away_us == self.bench.now or self.bench.pins[index].get("Restart"):
-            unit.unknown_us = self.bench.now
-        if STATUS[self.bench.types[index]] in self.bench.models[index].o.forbidden:
-            unit.refuses_us = self.bench.now
+        bench, now, pins, faults = self.bench, self.bench.now, self.bench.pins[index], self.bench.faults
+        hears = bench.hears(index)
+        if hears:
+            unit.heard_us = now
+        reached = hears and bench.reachable(index) and not pins.get("Left") and not pins.get("Shared")
+        if reached:
+            unit.reached_us = now
+        lossy = faults.lost or faults.unanswered or bench.strange or bench.lineless
+        away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
+        if away:
+            unit.away_us = now
+        if away and not pins.get("SupplyOff"):
+            unit.excused_us = now
+        if away or pins.get("Restart"):
+            unit.unknown_us = now
+        if STATUS[bench.types[index]] in bench.models[index].o.forbidden:
+            unit.refuses_us = now
 
     def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
         """Terminals start and stop it, but a stop pin still sends its stop, and takes the reference back."""
@@ -303,7 +301,7 @@ class Judge:
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
-        held = any(bench.pins[index].get(each) for each in RUN + JOG)  # so the reason is that of a lost edge
+        held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge
         silent = calm and reason in SILENT and not held
         self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
         if not good or bench.lineless:  # its clock is that of the line
@@ -320,7 +318,7 @@ class Judge:
 
     def _frequency(self, index: int, unit: Unit, since: int) -> None:
         hz = self.bench.number("OutputFrequencyHz", index)
-        window = [each for at, each in unit.shaft if at >= since]
+        window = [each for _, each in takewhile(lambda each: each[0] >= since, reversed(unit.shaft))]
         if window and unit.shaft[0][0] < since:
             far = not min(window) - 0.3 <= hz <= max(window) + 0.3
             self.once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")

@@ -78,7 +78,7 @@ def test_a_coast_counts_where_it_is_asked() -> None:
     assert judged(GOOD["coast"], coast_counts=True) == ["confirmed"]
 
 
-def test_a_rule_is_told_again_when_it_is_broken_again() -> None:
+def test_a_rule_is_reported_again_when_it_is_broken_again() -> None:
     bad = (5000, "F", "b+", 20.0)
     assert judged([*RUNNING, bad, (5100, "F", "b", 20.0), (5200, *bad[1:])]) == ["confirmed"] * 2
 

@@ -131,7 +131,7 @@ def test_a_start_pulse_is_cleared_by_the_stop() -> None:
     )
 
 
-def test_show_tells_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:
+def test_show_prints_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:
     page = run("cia402", tmp_path, "show", "MAP")
     lines = [" ".join(line.split()) for line in page.splitlines()]
     assert "run forward, 1 1000H 0006H until ready_to_switch_on" in lines
@@ -155,7 +155,7 @@ def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) 
     assert operation["states"][1]["name"] == "switched_on"
 
 
-def test_show_tells_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
+def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
     page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
     assert (
         "cable cut P3.02 = 0 ignore: the motor runs on, 1 coast stop (factory): the motor coasts, 2 fallback speed: "

@@ -79,7 +79,7 @@ def test_a_reply_in_ascii_holds_fewer_words() -> None:
     assert len(SimulatedDrive(MAPS["CHF"], 1).reply(eight) or b"") == 19
 
 
-def test_all_are_told_where_the_map_lets_them_and_nobody_answers() -> None:
+def test_a_broadcast_reaches_all_where_the_map_has_one_and_nobody_answers() -> None:
     one = talk("SN300G5")
     one.hertz(10)
     assert one.ask("00 10 00 00 00 01 02 00 01") == ""

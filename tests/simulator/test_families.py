@@ -67,7 +67,7 @@ def test_it_runs_in_reverse_and_a_change_of_direction_goes_through_zero(family: 
 
 
 @every_family
-def test_a_fault_lets_the_motor_coast_and_is_reset_when_its_cause_is_gone_and_it_stands(family: str) -> None:
+def test_a_fault_lets_the_motor_coast_and_is_reset_at_standstill_when_its_cause_is_gone(family: str) -> None:
     one = talk(family).at(30)
     one.drive.trip(2)
     assert one.drive.mode == "fault"

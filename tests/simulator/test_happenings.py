@@ -130,7 +130,7 @@ def test_an_interlock_takes_the_torque_off_and_lets_nothing_start() -> None:
 
 
 @pytest.mark.parametrize("family", ["SN300G5", "JSCC", "CHF"])
-def test_a_run_word_that_still_stands_may_act_again_after_a_reset(family: str) -> None:
+def test_a_run_word_that_is_still_there_may_act_again_after_a_reset(family: str) -> None:
     for resumes in (False, True):
         one = talk(family, Habits(resumes=resumes)).at(20)
         one.drive.trip(1)
@@ -195,7 +195,7 @@ def test_a_watchdog_acts_without_a_good_request_to_its_own_address(action: str, 
         assert one.drive.mode == "standstill"
 
 
-def test_a_watchdog_leaves_a_standing_drive_alone() -> None:
+def test_a_watchdog_ignores_a_drive_at_standstill() -> None:
     one = talk("CHF", Habits(watchdog_ms=2000))
     one.drive.step(10_000)
     assert one.drive.mode == "standstill"

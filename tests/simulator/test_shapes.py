@@ -35,7 +35,7 @@ def test_a_path_of_states_is_gone_in_its_order(run: int, running: int) -> None:
     assert abs(one.drive.hertz) == 20
 
 
-def test_a_stop_leads_where_its_word_leads_once_the_motor_stands() -> None:
+def test_a_stop_leads_where_its_word_leads_once_the_motor_is_at_standstill() -> None:
     one = talk(shape("states"))
     one.hertz(20)
     write(one, 0x06, 0x07, 0x0F)

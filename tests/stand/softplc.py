@@ -98,7 +98,7 @@ def plc(program: Path, device: str) -> Iterator[SoftPlc]:
 
 @dataclass
 class Desk:
-    """Drives behind a pseudo-terminal, served in a thread; `stop` ends it as a killed process would."""
+    """Drives at a pseudo-terminal, served in a thread; `stop` ends it as a killed process would."""
 
     bus: Bus = field(default_factory=lambda: Bus([SimulatedDrive(MAPS["CHF"], 1, QUICK)], 19200, 10))
     link: PtyLink = field(default_factory=PtyLink)

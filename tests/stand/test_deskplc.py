@@ -10,7 +10,7 @@ DAMAGE = 0.05
 
 
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="no pseudo-terminals here")
-def test_a_motor_behind_pymodbus_starts_turns_and_stops_and_both_sides_count_the_same() -> None:
+def test_a_motor_of_pymodbus_starts_turns_and_stops_and_both_sides_count_the_same() -> None:
     made = exchange(0, DAMAGE)
     explained = made.explained()
     assert (made.status, made.rounds, made.lost_stops, made.wrong_values()) == (0, 1, 0, 0), made.lines

@@ -99,7 +99,7 @@ def test_an_open_that_is_interrupted_is_repeated(port: Told) -> None:
 
 
 @pytest.mark.parametrize(("result", "error"), [(-EIO, EIO), (0, EIO)], ids=["error", "end"])
-def test_a_port_that_goes_is_opened_in_the_next_call_and_then_once_a_second(
+def test_a_port_that_vanishes_is_opened_in_the_next_call_and_then_once_a_second(
     port: Told, result: int, error: int
 ) -> None:
     calls = ["next read -11", OPENED, "now 5000", f"always read {result}", "receive"]

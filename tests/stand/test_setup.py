@@ -51,7 +51,7 @@ def said(*words: str, status: int = 0) -> str:
         (["jscc", "--port", "/dev/nowhere"], "/dev/nowhere: "),
     ],
 )
-def test_wrong_words_are_told(words: list[str], says: str) -> None:
+def test_wrong_words_are_reported(words: list[str], says: str) -> None:
     assert says in said(*words, status=2)
 
 
@@ -221,7 +221,7 @@ def test_a_bus_answers_an_example_of_each_family() -> None:
 
 
 @pytest.mark.parametrize("ascii_mode", [False, True])
-def test_a_request_is_heard_behind_the_frames_of_others(ascii_mode: bool) -> None:
+def test_a_request_is_heard_after_the_frames_of_others(ascii_mode: bool) -> None:
     """On a busy line no pause is long enough to say where it begins."""
     mode: Mode = "ascii" if ascii_mode else "rtu"
     bus = Bus([SimulatedDrive(MAPS["JSCC"], 1)], 19200, 10, ascii_mode=ascii_mode)

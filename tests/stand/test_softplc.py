@@ -49,12 +49,12 @@ def test_a_motor_starts_trips_is_reset_and_stops_and_both_sides_count_the_same(p
     assert (seen["port"], desk.bus.strange) == (0, 0)
 
 
-def test_a_port_that_is_none_is_told(program: Path) -> None:
+def test_a_port_that_is_none_is_reported(program: Path) -> None:
     with plc(program, "/dev/nowhere") as soft:
         soft.until(lambda seen: seen["port"] == 2 and seen["comm"] == 0 and seen["error"] == 57)
 
 
-def test_a_port_that_goes_is_told_and_opened_again_when_it_is_back(program: Path) -> None:
+def test_a_port_that_vanishes_is_reported_and_opened_again_when_it_is_back(program: Path) -> None:
     with tempfile.TemporaryDirectory() as folder:
         device = Path(folder, "tty")
         desk = Desk()

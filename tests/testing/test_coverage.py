@@ -52,7 +52,7 @@ def explain(monkeypatch: pytest.MonkeyPatch, *rows: Exemption) -> None:
     monkeypatch.setattr(coverage, "exemptions", lambda: rows)
 
 
-def test_what_never_ran_is_told_with_its_place() -> None:
+def test_what_never_ran_is_listed_with_its_place() -> None:
     found = measured(IDLE)
     assert [str(each) for each in found.misses] == [
         "iec61131/ex/A.st:3:6: never IF TRUE",

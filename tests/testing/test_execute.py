@@ -62,7 +62,7 @@ def test_what_is_right_passes(engine: Engine) -> None:
     assert result.passed
 
 
-def test_a_wild_index_costs_the_checks_behind_it_in_its_scan_alone() -> None:
+def test_a_wild_index_costs_the_checks_after_it_in_its_scan_alone() -> None:
     result = scanned(program(("0", "7", "1"), ("2",), ("9",), ("3",)))
     assert said(result) == [
         ("1", "passed"), ("2", "error"), ("3", "error"), ("4", "passed"), ("5", "error"), ("6", "passed"),

@@ -62,7 +62,7 @@ def test_a_check_of_a_text_has_a_scan_of_its_own(all_programs: list[Program]) ->
         assert len(set(stages)) == len(stages), program.name
 
 
-def test_every_check_is_numbered_and_told_in_a_comment_where_it_stands(all_programs: list[Program]) -> None:
+def test_every_check_is_numbered_and_named_in_a_comment_at_its_place(all_programs: list[Program]) -> None:
     for program in all_programs:
         lines = program.text.split("\n")
         for number, check in enumerate(program.checks, 1):

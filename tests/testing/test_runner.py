@@ -78,7 +78,7 @@ def test_unit_addresses_that_the_standard_reserves_are_sent_where_the_manual_has
     assert {result.program for result in done.results} >= {"ACME_TestFrames", "ACME_TestRequest1"}
 
 
-def test_an_engine_that_breaks_down_is_told_and_the_others_go_on(example: Unit) -> None:
+def test_an_engine_that_breaks_down_is_reported_and_the_others_go_on(example: Unit) -> None:
     class Broken:
         name = "broken"
 

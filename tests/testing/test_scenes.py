@@ -227,7 +227,7 @@ def test_what_makes_no_mistake_passes(chf: Unit, library: Library) -> None:
     assert not bad(chf, library, "Motor", 0, "MotorStop")
 
 
-def test_a_broken_rule_is_told_by_its_words(chf: Unit, library: Library) -> None:
+def test_a_broken_rule_is_reported_by_its_words(chf: Unit, library: Library) -> None:
     number = list(MISTAKES["Motor"]).index("StopConfirmed without proof") + 1
     assert any(RULES[1] in one.actual for one in bad(chf, library, "Motor", number, "MotorStop"))
 

@@ -2,7 +2,7 @@
 
 from driveblocks.docs.canvas import Canvas
 
-WIDTH, HEIGHT = 760, 330
+WIDTH, HEIGHT = 780, 330
 UNITS = ((40, "PLC", "bias on"), (320, "drive 1", "no termination"), (590, "drive 2", "last on the line"))
 ROWS = (("D1 +", 190, "go"), ("D0 -", 214, "line"), ("common", 238, "dashed"))
 BOX, LEFT, RIGHT, COMMON = 130, 54, 735, 238
@@ -40,4 +40,4 @@ def _termination(canvas: Canvas, x: float) -> None:
     """A resistor between the two wires, at their end."""
     canvas.path([(x, ROWS[0][1]), (x, ROWS[1][1])])
     canvas.box(x - 4, ROWS[0][1] + 4, 8, 16)
-    canvas.text(x, ROWS[0][1] - 10, "120 ohm", "small", "middle")
+    canvas.text(x, ROWS[1][1] + 16, "120 ohm", "small", "middle")

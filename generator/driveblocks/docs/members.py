@@ -82,7 +82,7 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
         elif measure["scale"]:
             yield setting, MAP_HAS
         else:
-            yield setting, f"of {measure['word']['address_text']}: without it `{measure['pin']}` is the bare word"
+            yield setting, f"of {measure['word']['address_text']}: without it `{measure['pin']}` is the raw count"
     keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block["keeps"].items()]
     yield "KeepWord", ", ".join(keeps) or "no use: no bit is left over"
 

@@ -10,7 +10,7 @@ SAYS = {
     1: "StopConfirmed",
     2: "waits for its reply",
     3: "waits for its replies",
-    4: "reference and run refreshed",
+    4: "reference sent again",
     5: "MonitorOnly",
     6: "SpeedOnly",
 }
@@ -52,12 +52,12 @@ def _stops(canvas: Canvas) -> None:
             "its pin FALSE, another pin TRUE, Enable FALSE, QuickStop, CoastStop, StopAll,",
             "fault, no reply, SupplyOff TRUE, bad reference, MonitorOnly, SpeedOnly,",
             "not acknowledged, refused, does not run within FollowWithinMs,",
-            "stops or turns round by itself, foreign master, block not called",
+            "stops or changes direction by itself, foreign master, block not called",
         )
     ):
         canvas.text(722, 106 + 15 * row, words, "small", "end")
     canvas.arrow([(238, 240), (238, 118)], "stop")
-    _note(canvas, 245, 190, "a stop pin or fault appears, no reply,", "it moves by itself")
+    _note(canvas, 245, 190, "a stop pin or fault, no reply,", "the motor moves by itself")
 
 
 def _others(canvas: Canvas) -> None:
@@ -69,7 +69,7 @@ def _others(canvas: Canvas) -> None:
     canvas.path([(70, 409), (30, 409)], "stop")
     canvas.path([(70, 499), (30, 499)], "stop")
     canvas.arrow([(30, 499), (30, 89), (70, 89)], "stop")
-    canvas.text(38, 458, "pin FALSE again; 5: StopAll", "small")
+    canvas.text(38, 458, "its pin FALSE; from 5 also StopAll", "small")
     canvas.text(
         70,
         546,

@@ -27,7 +27,7 @@ _NAME = re.compile(r"\w+")
 _RULE = "   " + "-" * 97
 _UNMARKED = "@@@@@@@@"
 _BODY = ("Body", f"{_UNMARKED}, a hash of its tokens, which is the same in every form of this block")
-_MADE_BY = ("Made by", "DriveBlocks; written by the generator, so changes belong into its template or map.")
+_MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 
 
 @cache

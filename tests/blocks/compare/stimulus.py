@@ -1,7 +1,7 @@
 """What is set before each scan of a POU: first nothing, then every landmark in turn, then at random without end.
 
 The inputs depend on the POU's text, on the maps and on the seed alone. A pin that a scan does not name stays as it was,
-arrays too, so that what a block left behind meets the next scan.
+arrays too, so that what a block has left there meets the next scan.
 """
 
 from __future__ import annotations

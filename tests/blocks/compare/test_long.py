@@ -16,7 +16,7 @@ def _run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
     return long.main()
 
 
-def test_a_block_that_is_the_same_is_told_with_its_engines(
+def test_a_block_that_is_the_same_is_listed_with_its_engines(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """The engines first, found or not; then one line per block, and the sum."""
@@ -27,7 +27,7 @@ def test_a_block_that_is_the_same_is_told_with_its_engines(
     assert "1 blocks and functions, 30 scans each, 0 that differ" in told
 
 
-def test_a_difference_is_told_with_the_command_that_repeats_it(
+def test_a_difference_is_reported_with_the_command_that_repeats_it(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """One constant changed on one of two engines."""

@@ -117,7 +117,7 @@ def test_the_reader_finds(block: str, name: str, edit: tuple[str, str, str]) -> 
     assert said in str(caught.value)
 
 
-def test_the_reader_wants_a_structure_behind_each_type() -> None:
+def test_the_reader_wants_a_structure_for_each_type() -> None:
     with pytest.raises(SclError, match="STRUCT, since nothing else has a type of its own"):
         read('\ufeffTYPE "MB_Adu"\r\nVERSION : 0.1\r\n   Array[0..255] of Byte;\r\nEND_TYPE\r\n', {})
 
@@ -380,7 +380,7 @@ def test_the_port_calls_send_with_req_false_in_every_pass_that_sends_nothing() -
             assert module.shown("Send.Memory") == [False]
 
 
-def test_an_error_of_receiving_is_told_in_its_scan_whatever_becomes_of_a_frame() -> None:
+def test_an_error_of_receiving_is_reported_in_its_scan_whatever_becomes_of_a_frame() -> None:
     module = Module()
     module.receive()
     assert module.shown("Flush.Count") == [1]
@@ -484,7 +484,7 @@ def test_a_block_that_hands_memory_to_an_instruction_has_no_optimized_access_and
     assert found == {f"siemens/{prefix}_Master.scl" for prefix in ("CHF", "JSCC", "SN300G5")}
 
 
-def test_a_master_of_the_plc_believes_a_standstill_only_behind_the_stop() -> None:
+def test_a_master_of_the_plc_believes_a_standstill_only_after_the_stop() -> None:
     owned = Owned("CHF")
     owned.motor["Master.Registers[1]"] = 3
     owned.scan(40, RunForward=False)

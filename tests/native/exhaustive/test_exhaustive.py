@@ -95,7 +95,7 @@ def test_every_check_of_blocks_has_a_planted_mistake() -> None:
 # ---------------------------------------------------------------- what is missing, or goes wrong on the way
 
 
-def test_what_matiec_alone_can_do_is_told_where_it_is_missing(
+def test_what_matiec_alone_can_do_is_named_where_it_is_missing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A part is done and the rest named; where nothing is done, that is no success."""

@@ -67,7 +67,7 @@ def test_an_unknown_block_is_refused(capsys: pytest.CaptureFixture[str]) -> None
     assert "the library has no MB_NOTHING" in capsys.readouterr().err
 
 
-def test_what_is_missing_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_is_missing_is_reported(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """A compiler by name; without any line of matiec nothing has run, which is no success."""
     monkeypatch.setattr(long, "compilers", lambda _: [])
     assert long.main([]) == 2

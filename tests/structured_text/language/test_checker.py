@@ -252,7 +252,7 @@ def test_messages(text: str, said: str) -> None:
     assert any(each.startswith(said) for each in messages(block(text))), messages(block(text))
 
 
-def test_one_mistake_is_told_once() -> None:
+def test_one_mistake_is_reported_once() -> None:
     found = messages(block("i := missing + missing2 * 3; x := missing3 = 5; a[missing4] := 1; timer(IN := missing5);"))
     assert [each.split(":")[0] for each in found] == ["undeclared-name"] * 5
 

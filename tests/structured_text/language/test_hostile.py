@@ -85,7 +85,7 @@ def survive(text: str) -> list[Problem]:
 
 
 @pytest.mark.parametrize("name", hostile(MANY))
-def test_hostile_text_is_told(name: str) -> None:
+def test_hostile_text_is_reported(name: str) -> None:
     assert survive(hostile(MANY)[name])
 
 

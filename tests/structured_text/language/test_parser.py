@@ -326,7 +326,7 @@ def test_messages(text: str, message: str) -> None:
     assert told(f"PROGRAM Example\n{text}\nEND_PROGRAM\n")[0] == f"broken.st:{message}"
 
 
-def test_several_mistakes_are_told_at_once() -> None:
+def test_several_mistakes_are_reported_at_once() -> None:
     text = """PROGRAM Example
 VAR
   a : ;
@@ -351,13 +351,13 @@ END_TYPE
     assert lines == [3, 4, 6, 8, 10, 12, 14, 17]
 
 
-def test_a_keyword_as_a_name_is_told_as_such() -> None:
+def test_a_keyword_as_a_name_is_reported_as_such() -> None:
     with pytest.raises(ParseError) as raised:
         parse("FUNCTION_BLOCK A\nVAR\n  by : INT;\n  ok : INT;\nEND_VAR\nok := 1;\nEND_FUNCTION_BLOCK\n", "a.st")
     assert [(each.rule, each.line, each.column) for each in raised.value.problems] == [("reserved-name", 3, 3)]
 
 
-def test_a_missing_end_is_told_where_the_next_block_begins() -> None:
+def test_a_missing_end_is_reported_where_the_next_block_begins() -> None:
     assert told("FUNCTION_BLOCK A\nVAR\n  a : INT;\nEND_VAR\n  a := 1;\nFUNCTION_BLOCK B\nEND_FUNCTION_BLOCK\n") == [
         "broken.st:6:1: expected END_FUNCTION_BLOCK, found FUNCTION_BLOCK"
     ]

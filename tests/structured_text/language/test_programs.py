@@ -91,7 +91,7 @@ def test_every_operator_takes_or_refuses_every_literal(operator: str) -> None:
         ("w := OR(1, 2)", "untyped-bit-literal", "IronPLC refuses 1 as WORD: write WORD#16#0001"),
     ],
 )
-def test_what_a_number_without_type_cannot_be_is_told(statement: str, rule: str, said: str) -> None:
+def test_what_a_number_without_type_cannot_be_is_reported(statement: str, rule: str, said: str) -> None:
     found = lint_sources([("any.st", f"{HEAD}{statement};\nEND_PROGRAM\n")])
     assert [each.text[: len(said)] for each in found if each.line == 5 and each.rule == rule][:1] == [said]
 

@@ -94,7 +94,7 @@ def test_codes_are_unique_and_sorted() -> None:
     assert list(CODES) == sorted(CODES)
 
 
-def test_a_name_is_told_for_the_targets_that_keep_it_alone(complete: Complete) -> None:
+def test_a_name_is_reported_for_the_targets_that_keep_it_alone(complete: Complete) -> None:
     text = complete("VAR\n  Label : INT;\n  Adr : INT;\nEND_VAR\nLabel := 1;\nAdr := 1;")
     found = {
         target: [each.text for each in lint_sources([("row.st", text)], None, [target])] for target in TARGET_WORDS

@@ -97,7 +97,8 @@ def _other(value: Value) -> Value:
 LEFT: Shows = {
     "Online": True, "Varied": True, "Unattended": True, "StopOverdue": True, "StopAll": True, "ScanLate": True,
     "Shared": True, "Ascii": True, "StopConfirmed": True, "EndsByAnswer": True, "ProvedStill": True, "Tripped": True,
-    "StopAgain": True, "ResetAsked": True, "Once": True, "JogStop": 2, "ParameterCleared": 9, "OtherQuantity": 3,
+    "StopAgain": True, "ResetAsked": True, "Once": True, "Begins": True, "JogStop": 2,
+    "ParameterCleared": 9, "OtherQuantity": 3,
     "LineErrorID": 55, "PollCount": 7, "LongestReplyMs": 900, "Replies": 200, "SinceStoreMs": 65535, "Alive": 33,
     "Ask[1].Number": 9, "Ask[1].FunctionCode": 6, "Ask[1].Quantity": 9, "Ask[2].Number": 9, "Ask[2].FunctionCode": 6,
     "Ask[2].Quantity": 9, "Ask[3].Number": 35, "Ask[0].Number": 12, "Answer[0].Number": 13,
@@ -128,12 +129,13 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "Seen.Starts": 1, "Seen.LastRegister = " + word(run.register): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
-        "Once": run.register != reference, "ResetAsked": False, "Ask[1].FunctionCode": _write(drive),
-        "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register), "StopConfirmed": False, "ProvedStill": False,
+        "Once": run.register != reference, "Begins": run.register != reference, "ResetAsked": False,
+        "Ask[1].FunctionCode": _write(drive), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register),
+        "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
     yield Step("another speed", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, _slot({
-        "Once": False, "Ask[1].Address": word(reference),
+        "Once": False, "Begins": False, "Ask[1].Address": word(reference),
     }))  # fmt: skip
     stop = _command(drive, "stop")
     yield Step("and stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS | {

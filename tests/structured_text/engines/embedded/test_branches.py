@@ -61,7 +61,7 @@ def test_a_loop_in_a_loop_is_counted_each_time_that_it_is_met() -> None:
     }  # fmt: skip
 
 
-def test_repeat_asks_behind_each_turn_one_that_continue_cuts_short_too() -> None:
+def test_repeat_asks_after_each_turn_one_that_continue_cuts_short_too() -> None:
     body = "i := 0;\nREPEAT\n  i := i + 1;\n  IF i < 3 THEN CONTINUE; END_IF;\n  y := i;\nUNTIL i > n END_REPEAT;"
     assert counted(body, [0, 2, 3]) == {
         "4:6 IF FALSE": 3, "4:6 IF TRUE": 5, "6:7 UNTIL FALSE": 5, "6:7 UNTIL TRUE": 3,

@@ -238,7 +238,7 @@ def test_loops_in_loops_as_deep_as_python_goes(loop: str) -> None:
         run(loop.format(text), 0)
 
 
-def test_what_may_be_too_deep_for_python_runs_or_is_told() -> None:
+def test_what_may_be_too_deep_for_python_runs_or_is_reported() -> None:
     """How deep Python goes differs from version to version."""
     chain = "".join(f"{each}: y := {each}; " for each in range(1, 16))
     text = f"r := r{' * 1.5' * 249};"

@@ -110,7 +110,7 @@ def test_subranges_are_checked_at_stores() -> None:
         ("GT(TRUNC(r1), 100)", 128.0, "128 is outside 0..127"),
     ],
 )
-def test_a_number_whose_type_nothing_tells_is_the_same_in_all_that_compilers_choose(
+def test_a_number_whose_type_nothing_shows_is_the_same_in_all_that_compilers_choose(
     expression: str, value: float, agreed: str
 ) -> None:
     text = fault(expression, "BOOL", "r1 : REAL;", r1=value)

@@ -112,7 +112,7 @@ def test_timers(name: str, rows: list[tuple[int, int, int, int]]) -> None:
             assert (now, timer["Q"], timer["ET"]) == (now, bool(q), elapsed * MS)
 
 
-def test_time_stands_when_nobody_moves_it() -> None:
+def test_time_stays_when_nobody_moves_it() -> None:
     """`scan()` without a time leaves the clock alone."""
     timer = standard("TON")
     timer["IN"], timer["PT"] = True, 10 * MS

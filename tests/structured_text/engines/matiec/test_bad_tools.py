@@ -35,7 +35,7 @@ BLOCK = Source(
 
 
 def fails(engine: MatiecEngine, kind: type[EngineError], sources: Sequence[Source] = SOURCES) -> str:
-    """Build, which must fail with `kind` and leave nothing behind; give the text of the error."""
+    """Build, which must fail with `kind` and leave no file; give the text of the error."""
     with pytest.raises(EngineError) as caught:
         engine.build(sources)
     assert type(caught.value) is kind

@@ -111,7 +111,7 @@ def test_nothing_is_counted_unless_asked(matiec: MatiecEngine) -> None:
     ],
     ids=["one too few", "one too many", "two for a loop", "not read"],
 )
-def test_statements_that_do_not_fit_the_source_are_told_and_lines_are_counted(
+def test_statements_that_do_not_fit_the_source_are_reported_and_lines_are_counted(
     text: str, lines: list[int], why: str
 ) -> None:
     counters = Counters(Listing([Source("f.st", text)]), lines)

@@ -119,7 +119,7 @@ def test_without_locks_the_quicker_wins(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("making/*"))
 
 
-def test_size_is_bounded_and_the_longest_unused_goes(tmp_path: Path) -> None:
+def test_size_is_bounded_and_the_longest_unused_is_removed(tmp_path: Path) -> None:
     cache = Cache(tmp_path, limit=3500)
     for stamp, key in ((1, "aa1"), (2, "bb2"), (3, "cc3")):
         folder = cache.entry(key, write("x" * 1000))
@@ -130,7 +130,7 @@ def test_size_is_bounded_and_the_longest_unused_goes(tmp_path: Path) -> None:
     assert kept == {"aa1", "cc3", "dd4"}
 
 
-def test_what_killed_processes_left_goes_after_a_day(tmp_path: Path) -> None:
+def test_what_killed_processes_left_is_removed_after_a_day(tmp_path: Path) -> None:
     left, fresh = tmp_path / "making" / "left", tmp_path / "making" / "fresh"
     left.mkdir(parents=True)
     fresh.mkdir()

@@ -66,7 +66,7 @@ def test_home_may_be_the_program_and_several(tmp_path: Path) -> None:
 
 
 def test_every_folder_of_path_and_links(tmp_path: Path) -> None:
-    """Links on PATH, as `/usr/local/bin` has them: the library lies behind the link."""
+    """Links on PATH, as `/usr/local/bin` has them: the library is where the link leads."""
     for name in "abc":
         binary(tmp_path / name / NAME)
         library(tmp_path / name / "lib")
@@ -128,7 +128,7 @@ def test_digest_follows_the_content(tmp_path: Path) -> None:
     assert len(set(digests)) == 4
 
 
-def test_a_home_without_iec2c_is_told(tmp_path: Path) -> None:
+def test_a_home_without_iec2c_is_reported(tmp_path: Path) -> None:
     """Whoever set it wants to know that it is wrong, even if PATH has another."""
     other = binary(tmp_path / "path" / NAME)
     library(tmp_path / "path" / "lib")

@@ -56,7 +56,7 @@ def test_configuration_that_makes_no_sense_has_our_line(matiec: MatiecEngine) ->
     assert (caught.value.messages[0].path, caught.value.messages[0].line) == ("plant.st", 7)
 
 
-def test_c_that_does_not_compile_is_told_apart_and_placed(matiec: MatiecEngine) -> None:
+def test_c_that_does_not_compile_is_recognised_and_placed(matiec: MatiecEngine) -> None:
     """matiec cannot pass an array to a function; the C of such a call has several lines."""
     text = "FUNCTION First : BYTE\n  VAR_INPUT\n    F : Frame;\n  END_VAR\n  First := F[0];\nEND_FUNCTION\n"
     caller = (

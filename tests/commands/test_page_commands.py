@@ -1,0 +1,146 @@
+"""Every command line on a page is taken from there and run as a reader would, in the order of the pages, and each once.
+
+The reader has two folders: one of his own, with files of the names on the pages, and a copy of the project. What does
+not run here is in `ELSEWHERE` with its reason; `test_pages.py` holds that commands, options and targets on pages exist.
+"""
+
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from tests.maps.bad import cases
+
+ROOT = Path(__file__).parents[2]
+TESTING = ROOT / "docs/testing.md"
+OWN = [ROOT / "README.md", ROOT / "vendor_maps/README.md", *sorted({*ROOT.glob("docs/*.md")} - {TESTING})]
+COPY = [TESTING, ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*/*.md"))]
+BLOCKS = sorted(ROOT.glob("blocks/**/*.md"))
+ELSEWHERE = {
+    r"pip ": "needs a package index, as `make ci-jobs` has",
+    r"python3 generator/bootstrap.py ": "makes a virtual environment from an index, or runs this suite",
+    r"pytest ": "a part of this suite",
+    r"driveblocks build$": "`make blocks` runs it",
+    r"driveblocks prove": "half a minute of proofs; tests/prove/test_prove.py takes these lines from their pages",
+    r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
+    r"driveblocks test my_drive.yaml --junit": "tests/commands/test_ci_jobs.py runs the job in a clone",
+    r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
+    r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
+    r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
+    r"make (?!(blocks|counts|schema)$)": "minutes to hours; tests/building/test_release.py has `make release`",
+    r"python -m tests\.(blocks\.toolchains|drives\.seven|prove\.mutants|second\.mutants)": "minutes to hours",
+    r"python -m tests\.(line\.cline|prove\.agreement)|xml2st ": "needs a compiler from elsewhere",
+    r"copy |bash ": "for another shell, or its name alone",
+}
+"""How the command lines begin that do not run here, and why."""
+BARE = {f"driveblocks {name}" for name in ("explain", "lint", "run", "show", "simulate")}
+"""What pages call by its name alone: run so, it asks for more, with status 2."""
+MEANT = {
+    "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),
+    "make": "make PY=python DB=driveblocks", "driveblocks run --demo": "driveblocks run --demo --fast",
+}  # fmt: skip
+"""What a reader writes in the place of a word of the page, and what saves the test a wait."""
+COMMAND = re.compile(r"(driveblocks|python3?|pip|pytest|make|cat|copy|grep|rm|bash|xml2st) \S")
+TEXTS = re.compile(r"^```.*?^```$|^    \S.*?$|`([^`]+)`", re.MULTILINE | re.DOTALL)
+BLOCK = "FUNCTION_BLOCK {}\nVAR\n  Count : INT;\nEND_VAR\n  Count := Count + 1;\nEND_FUNCTION_BLOCK\n"
+BEFORE = [str(Path(sys.executable).parent), os.environ.get("PATH", os.defpath)]
+SEEN = {name: value for name, value in os.environ.items() if name != "MATIEC_HOME"} | {"PATH": os.pathsep.join(BEFORE)}
+"""The tools of this environment come first; matiec would take minutes."""
+pytestmark = pytest.mark.skipif(
+    any(shutil.which(each) is None for each in ("bash", "make", "grep")), reason="the pages write for a shell with make"
+)
+
+
+def commands(page: Path) -> Iterator[str]:
+    """The command lines of a page in their order: between fences, indented, or between backticks."""
+    for found in TEXTS.finditer(page.read_text(encoding="utf-8")):
+        for line in [" ".join(found[1].split())] if found[1] else found[0].splitlines():
+            text = re.split(r"   +", re.sub(r"^[ -]*(run: )?", "", line))[0]
+            if COMMAND.match(text):
+                yield text
+
+
+def runnable(pages: list[Path]) -> list[str]:
+    """What runs here, each line once."""
+    texts = dict.fromkeys(text for page in pages for text in commands(page))
+    return [text for text in texts if not any(re.match(each, text) for each in ELSEWHERE)]
+
+
+def ran(text: str, folder: Path) -> tuple[int, str]:
+    """The exit status of a line and what it printed; a run without an end gets one."""
+    for word, meant in MEANT.items():
+        text = re.sub(rf"(?<!\w){re.escape(word)}(?!\w)", meant, text)
+    if re.match(r"driveblocks (run|simulate) (?!.*--(schema|demo|for))", text):
+        text += " --for 1s" + (" --tcp 127.0.0.1:0" if " simulate " in text else "")
+    done = subprocess.run(
+        ["bash", "-c", text], cwd=folder, env=SEEN, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT, encoding="utf-8", check=False,
+    )  # fmt: skip
+    return done.returncode, done.stdout
+
+
+def faults(pages: list[Path], folder: Path) -> list[str]:
+    """The command lines that end with another status than their page promises, and what they printed."""
+    ended = {text: ran(text, folder) for text in runnable(pages)}
+    assert ended
+    return [f"{text}: {code}\n{said}" for text, (code, said) in ended.items() if code != (2 if text in BARE else 0)]
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Path:
+    """A reader's folder with files that pages name, in the place of his own."""
+    for name in ("types", "blocks", "my_block", "my_project/one"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / f"{name}.st").write_text(BLOCK.format(Path(name).name.title()), encoding="utf-8")
+    shutil.copy(ROOT / "examples/three_makes.st", tmp_path / "my_line.st")
+    shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / "my_drive.yaml")
+    return tmp_path
+
+
+def test_the_lines_for_a_folder_of_ones_own_run(own: Path) -> None:
+    assert faults(OWN, own) == []
+
+
+def test_the_lines_for_the_project_run_and_change_nothing_that_is_current(tmp_path: Path) -> None:
+    for name in ("blocks", "vendor_maps"):
+        shutil.copytree(ROOT / name, tmp_path / name)
+    for name in ("README.md", "Makefile", "LICENSE"):
+        shutil.copy(ROOT / name, tmp_path / name)
+    for name in ("tests", "generator"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    assert faults(COPY, tmp_path) == []
+    kept = [ROOT / "vendor_maps" / name for name in ("keys.md", "schema.json")]
+    assert [path for path in kept if path.read_bytes() != (tmp_path / path.relative_to(ROOT)).read_bytes()] == []
+
+
+def test_the_lines_for_a_folder_of_blocks_run_and_count_as_the_page_does(own: Path) -> None:
+    folder = shutil.copytree(ROOT / "blocks/openplc", own / "openplc")
+    shutil.copy(own / "my_drive.yaml", folder)
+    assert faults(BLOCKS, folder) == []
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    counts = [ran(text, folder)[1].strip() for text in runnable([folder / "README.md"]) if text.startswith("grep")]
+    assert f"| `CHF.st` | {' | '.join(counts)} |" in page
+
+
+def test_a_program_runs_at_the_simulated_drives_of_another_page(own: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    serves = next(text for text in commands(ROOT / "docs/simulate.md") if "@" in text)
+    (line,) = {text for page in OWN for text in commands(page) if "--simulated" in text}
+    words = [sys.executable, "-u", "-m", *serves.split(), "--tcp", f"127.0.0.1:{port}"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as served:
+        assert served.stdout
+        assert f":{port};" in served.stdout.readline()
+        code, said = ran(line.replace("5020", str(port)), own)
+        served.terminate()
+    assert (code, "standstill read: Pump1, Pump2, Fan" in said) == (0, True), said
+
+
+def test_what_runs_elsewhere_is_on_a_page() -> None:
+    texts = {text for page in (*OWN, *COPY, *BLOCKS, *(ROOT / "generator").rglob("*.md")) for text in commands(page)}
+    assert [each for each in ELSEWHERE if not any(re.match(each, text) for text in texts)] == []
