@@ -156,11 +156,11 @@ def executed(folder: Path) -> set[str]:
     seen = set[CodeType]()
     note = noting(seen)
     sys.settrace(note)  # what runs while modules are imported counts, too
-    from driveblocks.building import build
+    from driveblocks.building import units
     from driveblocks.prove import proof, prover
 
     patch = pytest.MonkeyPatch()
-    patch.setattr(build, "units", few_programs(build.units))
+    patch.setattr(units, "units", few_programs(units.units))
     patch.setattr(prover, "questions", few_questions(proof.questions))
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = f"127.0.0.1:{free.getsockname()[1]}"

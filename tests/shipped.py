@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from driveblocks.building import build
+from driveblocks.building.units import units as tested
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
 from driveblocks.render.text import languages
@@ -26,4 +26,4 @@ def drives() -> dict[str, Drive]:
 @cache
 def units() -> list[Unit]:
     """The shared blocks, then those of each map, in both languages, with their programs."""
-    return build.units(sources(), BOTH)
+    return tested(sources(), BOTH)

@@ -16,13 +16,14 @@ FLOORS = ("structured_text", "visible", "files", "language", "findings", "engine
 """Those of `structured_text`."""
 
 # render: what templates are given has types, and the line's constants have moved in from templates, in one table.
+# building: what is tested together is a module of its own, so that `test` need not import what builds a folder.
 MOST = {
-    "building": 825, "commands": 1290, "desk": 1490, "docs": 1120, "explain": 1965, "export": 2060, "maps": 6600,
+    "building": 830, "commands": 1290, "desk": 1490, "docs": 1120, "explain": 1965, "export": 2060, "maps": 6600,
     # the framing of what came over a wire, which `explain` and `stand` read alike, came from explain
     "modbus": 500, "plc": 2560, "prove": 1880, "reference": 1050, "render": 2150, "simulator": 1320, "stand": 520,
     "show": 1060, "structured_text": 16_100,
-    # a meter beside a motor has scenes of its own
-    "testing": 7700,
+    # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused
+    "testing": 7750,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 from tests.testing.conftest import only
 
-from driveblocks.building import build
+from driveblocks.building import build, units
 from driveblocks.cli import app
 from driveblocks.maps import catalog, page, view
 
@@ -64,8 +64,8 @@ def test_all_maps_are_checked_when_the_first_is_bad(good: str, bad: str) -> None
 def test_a_map_without_example_frames_is_good_and_told_what_its_tests_rest_on(
     good: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = build.units
-    monkeypatch.setattr(build, "units", lambda *given: [only(made(*given)[1], "Scales")])
+    made = units.units
+    monkeypatch.setattr(units, "units", lambda *given: [only(made(*given)[1], "Scales")])
     monkeypatch.setattr(build, "programs", lambda *_: {})
     before, _, rest = page.skeleton().partition("frames:")
     Path(good).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 from tests.shipped import BOTH
 from tests.testing.conftest import changed, only
 
-from driveblocks.building import build
+from driveblocks.building import units as tested
 from driveblocks.cli import app
 from driveblocks.maps import collection
 from driveblocks.testing.unit import Unit
@@ -34,12 +34,12 @@ def my_drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 def whole() -> Unit:
     """All programs of the map, under the name that it has there."""
     (source,) = collection.read([EXAMPLE])
-    return build.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
+    return tested.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
 
 
 def give(monkeypatch: pytest.MonkeyPatch, made: Unit) -> None:
     """Let the command find this unit instead of what the map makes."""
-    monkeypatch.setattr(build, "units", lambda *_: [made])
+    monkeypatch.setattr(tested, "units", lambda *_: [made])
 
 
 @pytest.fixture
@@ -215,8 +215,8 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch
 def test_coverage_is_printed_with_what_is_explained_which_fails_nothing(
     my_drive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = [few(each, "Frames", "Scales", "Checksums") for each in (build.units([], BOTH)[0], whole())]
-    monkeypatch.setattr(build, "units", lambda *_: made)
+    made = [few(each, "Frames", "Scales", "Checksums") for each in (tested.units([], BOTH)[0], whole())]
+    monkeypatch.setattr(tested, "units", lambda *_: made)
     result = invoke(my_drive, "--require-coverage", "5", "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     *_, total, twin, _, last = result.stdout.splitlines()

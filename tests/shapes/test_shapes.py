@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
-from driveblocks.building import build
+from driveblocks.building import units as tested
 from driveblocks.cli import app
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
@@ -64,7 +64,7 @@ def test_there_is_one_of_each_shape() -> None:
 def units() -> dict[str, Unit]:
     """The blocks and programs of each."""
     sources = [Source(Path(f"{name}.yaml"), drive) for name, drive in shapes().items()]
-    return {unit.suite.name: unit for unit in build.units(sources, languages(["en"], "utf-8"))}
+    return {unit.suite.name: unit for unit in tested.units(sources, languages(["en"], "utf-8"))}
 
 
 def test_their_blocks_are_clean_and_the_programs_of_their_commands_and_words_pass() -> None:

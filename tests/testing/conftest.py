@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.shipped import BOTH
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run

@@ -22,7 +22,7 @@ from typing import Any
 import yaml
 from tests.shapes import shapes
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
 from driveblocks.render.text import languages
 from driveblocks.testing.script import Program
@@ -34,9 +34,10 @@ from structured_text.language.checker import check
 from structured_text.language.collector import paused
 from structured_text.language.parser import parse
 from structured_text.language.problems import SourceError
-from structured_text.language.tree import Checked, Pou
+from structured_text.language.tree import Checked, Function, FunctionBlock, Pou
+from structured_text.language.walk import statements
 
-from .conftest import needed, only
+from .conftest import needed
 
 SEEDS, NUMBER = (611, 612), 300
 """Drawn before the scenes were judged by them."""
@@ -195,7 +196,7 @@ def judged(one: Mutant, most: int = 99) -> str | None:
     """The first check that fails, of `most` families; empty: none does. None: it does not build, or is no change."""
     if _idle(one):
         return None
-    families = [family for family in (*FAMILIES, MORE) if _programs(family, one.path)]
+    families = [family for family in (*FAMILIES, MORE) if _programs(family, one)]
     by: str | None = None
     for family in families[:most]:
         by = _found(one, family)
@@ -204,19 +205,39 @@ def judged(one: Mutant, most: int = 99) -> str | None:
     return by
 
 
-def _programs(family: str, path: str) -> list[Program]:
-    """The programs of a family that reach a block, those that look at motors first."""
-    unit = made()[family]
-    found = [program for program in unit.suite.programs if path in _reach(family)[program.name]]
+def _programs(family: str, one: Mutant) -> list[Program]:
+    """The programs of a family that run the statement of a change, those that look at motors first."""
+    text = next((source.text for source in made()[family].blocks if source.path == one.path), None)
+    if text is None:
+        return []
+    place = (one.path, _statement(text, one.at))
+    found = [program for program in made()[family].suite.programs if place in _reach(family)[program.name]]
     return sorted(found, key=lambda program: program.group not in FIRST)
 
 
 @cache
-def _reach(family: str) -> dict[str, set[str]]:
-    """Of each program the files of the blocks that it needs."""
-    unit = made()[family]
-    names = {program.name: program.name.partition("_Test")[2] for program in unit.suite.programs}
-    return {name: {source.path for source in only(unit, end).blocks} for name, end in names.items()}
+def _statement(text: str, at: int) -> int:
+    """The line where the innermost statement around a place begins."""
+    unit = parse(text, "")
+    bodies = [pou.body for pou in unit.elements if isinstance(pou, Function | FunctionBlock)]
+    around = (each for body in bodies for each in statements(body) if each.at <= at < each.end)
+    return max(unit.place(each.at)[0] for each in around)
+
+
+@cache
+def _reach(family: str) -> dict[str, set[tuple[str, int]]]:
+    """Of each program the files and lines of the statements that it runs."""
+    with paused():
+        library = EmbeddedEngine(loop_limit=TURNS, coverage=True).build(made()[family].sources)
+    reached = {}
+    before = library.coverage()
+    for program in made()[family].suite.programs:
+        assert not _failed(library, program), program.name
+        after = library.coverage()
+        places = ((path, line, hits) for path, lines in after.items() for line, hits in lines.items())
+        reached[program.name] = {(path, line) for path, line, hits in places if hits > before[path][line]}
+        before = after
+    return reached
 
 
 def _found(one: Mutant, family: str) -> str | None:
@@ -233,7 +254,7 @@ def _found(one: Mutant, family: str) -> str | None:
     before = {key: objects[key] for key in _bodies(one, objects)}
     objects.update({key: changed.objects[key] for key in before})
     try:
-        failed = (_failed(library, program) for program in _programs(family, one.path))
+        failed = (_failed(library, program) for program in _programs(family, one))
         return next((words for words in failed if words), "")
     finally:
         objects.update(before)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from tests.shipped import BOTH
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED

@@ -8,7 +8,7 @@ import pytest
 from tests import shipped
 from tests.shapes import shapes
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.render.text import languages
 from driveblocks.testing.scenes.reason import REASONS

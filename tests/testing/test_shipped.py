@@ -11,7 +11,7 @@ from tests import shipped
 from tests.blocks.library import BLOCKS
 from tests.counting import uncounted
 
-from driveblocks.building.build import units
+from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.testing import runner
 from driveblocks.testing.coverage import Coverage, exemptions

@@ -1,7 +1,7 @@
 """Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
 import os
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -15,12 +15,7 @@ from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
-from driveblocks.testing.suite import drive_suite, programs, shared_suite
-from driveblocks.testing.unit import Unit
-from structured_text.engines.engine import Source as Text
-
-LARGE = ("/MB_Line32.st", "/MB_ByteLine32.st")
-"""Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
+from driveblocks.testing.suite import programs
 
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
@@ -45,22 +40,6 @@ def files(sources: list[Source], languages: list[Language], targets: Collection[
         texts |= programs(sources, languages)
     drives = {source.path.stem: source.drive for source in sources}
     return texts | target.files(lambda: shelf(made, drives, languages), targets)
-
-
-def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
-    """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
-    generic = tuple(_sources(library.generic(languages)))
-    made = [Unit(shared_suite(languages), generic)]
-    needed = tuple(block for block in generic if not block.path.endswith(LARGE))
-    for source in sources:
-        own = _sources(library.drive(source.path.stem, source.drive, languages))
-        made.append(Unit(drive_suite(source, languages), (*needed, *own)))
-    return made
-
-
-def _sources(files: Iterator[library.File]) -> Iterator[Text]:
-    for file in files:
-        yield Text(f"{CANONICAL}/{file.path}", file.text)
 
 
 @dataclass(frozen=True)

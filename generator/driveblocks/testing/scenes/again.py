@@ -78,7 +78,8 @@ def _restart(can: Ability) -> Iterator[Step]:
         yield Step("over: a stop at once", AT_REST | {"StopWithinMs": 5000}, "Seen.UntoldMs <= 40", 120)
     yield Step("nothing asked", AT_REST | {"StopWithinMs": 5000}, "Motor.Ready", 4000, STANDS | {
         "Seen.Starts": "Mark", "Reason": "READY", "Error": False, "StopOverdue": False, "Motor.Diagnosis.State": 1,
-        "Motor.Diagnosis.StopReason": 10, "Slots[0].ProvedStill": True, "Slots[0].JogStop = 0": True,
+        "Motor.Diagnosis.StopReason": 10, "Motor.Diagnosis.Starts = 0": True,
+        "Slots[0].ProvedStill": True, "Slots[0].JogStop = 0": True,
         "Slots[0].ResetAsked": False, "Slots[0].Tripped": False,
         "Slots[0].Ask[1].Number": "Slots[0].Answer[1].Number", "Slots[0].Ask[2].Number": "Slots[0].Answer[2].Number",
     })  # fmt: skip

@@ -117,7 +117,7 @@ def _counts() -> Iterator[Step]:
         "Sent > 20": True, "Sent + 1 - Heard": (0, 2),
         "Lost <= 6": True, "Bus.Timeouts": 0, "Bus.Bad": 0,
         "Bus.Refusals": 0, "Bus.LateReplies": 0, "Bus.LastErrorID": 0,
-    })  # fmt: skip
+    }, brisk=False)  # fmt: skip
     for words, what, counter, error in (
         ("its replies are lost", "Dumb", "Timeouts", 20),
         ("its replies are damaged", "Damaged", "Bad", 23),
@@ -147,4 +147,4 @@ def _load() -> Iterator[Step]:
         "Cycles < 1400": True,
     })  # fmt: skip
     yield Step("it is dead", {"Fate.Cut": True}, "NOT Slots[0].Online", 4000, {"Bus.OnlineCount": 0})
-    yield Step("it is probed now and then", ms=2400, shows={"Bus.LoadPercent": (0, 12)})
+    yield Step("it is probed now and then", ms=2400, shows={"Bus.LoadPercent": (0, 12)}, brisk=False)

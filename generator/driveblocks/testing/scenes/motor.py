@@ -718,6 +718,7 @@ def _stale() -> Iterator[Step]:
     })  # fmt: skip
     yield Step("it stays away", {}, why("STALE"), 600, {
         "CommOk": False, "Running": False, "Motor.Diagnosis.StatusAgeMs": (601, 65535),
+        "Motor.Diagnosis.MeasuresAgeMs": (500, 65535),
     })  # fmt: skip
     yield Step("it comes: the motor is stopped", {"Fate.Dumb": False}, "Motor.StopConfirmed", 4000, STANDS | {
         "Seen.Starts": 1,
@@ -766,6 +767,11 @@ def _speed_only(can: Ability) -> Iterator[Step]:
     lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(register), "SpeedReferenceHz": 26.0}
     yield Step("a reference is lost", lost, why("NO_REFERENCE"), 3000, {"Error": True, "ErrorID": 20})
     yield Step("it is sent again", {"Fate.Skips": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
+    refuses: Shows = {"Fate.RefusesWrites": True, "SpeedReferenceHz": 24.0, ".Mark": "Seen.Writes"}
+    yield Step("one that is refused is sent again now and then", refuses, ms=1000, shows={
+        "Seen.Writes - Mark": (4, 10),
+    }, brisk=False)  # fmt: skip
+    yield Step("until it is taken", {"Fate.RefusesWrites": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
     yield Step("the terminals do", {"Fate.KeypadRun": True}, "Motor.Running", 1500, {"Reason": "SPEED_ONLY"})
     yield Step("nobody stops it", {"RunForward": False}, ms=1500, shows={"Seen.Driven": True, "Running": True})
     all_: Shows = {"Pins.StopAll": True, ".Mark": "Seen.References", "SpeedReferenceHz": 20.0}
@@ -853,7 +859,7 @@ def _wrong_setting() -> Iterator[Step]:
 
 def _unset() -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.TurnRoundMs": 0, "Pins.Settings.LongestMs": 0, "Pins.KeepsSilence": False}
-    yield Step("power-up", sets, "Motor.Ready", 4000)
+    yield Step("power-up", sets, "Motor.Ready", 4000, brisk=False)
     yield replace(run(), brisk=False)
-    yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True})
+    yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True}, brisk=False)
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)

@@ -197,12 +197,19 @@ def _late_other(can: Ability) -> Iterator[Step]:
     other: Shows = {"Pins.OtherOn": True, "Pins.OtherUnit": can.drive.serial.unit.min + 1}
     yield Step("two drives", other, "Other.Ready", 4000, {"Bus.ForeignFrames": 0})
     late = 80 if can.drive.serial.silence else 60  # a silence of the drive's own lengthens what is in time
-    yield Step("one is later than it may be", {"OtherFate.HoldMs": late}, "NOT Slots[1].Online", 9000, {"CommOk": True})
+    yield Step(
+        "one is later than it may be",
+        {"OtherFate.HoldMs": late},
+        "NOT Slots[1].Online",
+        9000,
+        {"CommOk": True},
+        brisk=False,
+    )
     yield Step("it is asked now and then", {".Mark": "Bus.LateReplies"}, ms=5000, shows={
         "Bus.ForeignFrames": 0, "Bus.LateReplies - Mark": (2, 12), "Slots[1].LongestReplyMs": (35, 100),
         "Bus.LateReplies = Late": True, "Slots[0].LongestReplyMs <= 40": True,
         "CommOk": True, "Reason": "READY",
-    })  # fmt: skip
+    }, brisk=False)  # fmt: skip
     yield Step("in time again", {"OtherFate.HoldMs": 0}, "Other.Ready", 9000, {"CommOk": True, "Bus.ForeignFrames": 0})
 
 
@@ -221,7 +228,7 @@ def _busy(can: Ability) -> Iterator[Step]:
     """A refusal that means: later. The line tries again, and nobody has to know."""
     yield Step("for a moment", {"Fate.Busy": True, "RunForward": True}, ms=400, shows=NOTHING_STARTED | {
         "Reason": "STARTING", "Error": False, "Slots[0].Refusals >= 3": True,
-    })  # fmt: skip
+    }, brisk=False)  # fmt: skip
     yield Step("it starts", {"Fate.Busy": False}, "Motor.AtSpeed", 3000, RUNNING | {"Seen.Starts": 1, "ErrorID": 0})
     yield Step("a stop", {"Fate.Busy": True, "RunForward": False}, ms=1500, shows={"Seen.Driven": True})
     yield Step("is sent until it is taken", {"Fate.Busy": False}, "Motor.StopConfirmed", 4000, STANDS)
@@ -239,7 +246,7 @@ def _hurry() -> Iterator[Step]:
     yield Step("35 Hz, more or less", begin, ms=2000, shows={
         "Running": True, "CommOk": True, "Seen.Reads + Seen.References - Mark": (31, 999), "Seen.References > 12": True,
         "Motor.Diagnosis.StatusAgeMs": (0, 600), "Seen.Starts": 1, "ABS(Seen.Milli - 35000) <= 3000": True,
-    })  # fmt: skip
+    }, brisk=False)  # fmt: skip
     still: Shows = {".Hurry": False, "RunForward": False}
     yield Step("it stops", still, "Motor.StopConfirmed", 4000, STANDS)
 

@@ -215,12 +215,19 @@ def _not_stored(drive: Drive) -> Iterator[Step]:
     yield Step("it is well", {"Fate.RefusesWrites": False}, ms=50, shows=nothing)
     yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | nothing)
     yield from _minute()
-    yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000, nothing)
-    yield from does("Storer", 0, "Error", error("Storer", "OFFLINE") | nothing)
+    yield Step("its answers are lost", {"Fate.Dumb": True, "Pins.ParameterRetries": 200}, ms=20, shows=nothing)
+    yield from does("Storer", 0, "Error", error("Storer", "SILENCE"), Within=600)
+    yield Step("it answers", {"Fate.Dumb": False, ".Within": WITHIN_MS}, "Motor.Ready", 2000)
+    yield Step("it is dead", {"Fate.Cut": True}, why("OFFLINE"), 3000)
+    yield Step("a minute passes", {"Pins.ElapsedMs": 500}, ms=2600)
+    yield Step("at its usual pace", {"Pins.ElapsedMs": SCAN_MS}, ms=100)
+    yield from does("Storer", 0, "Error", error("Storer", "OFFLINE"))
 
 
 def _stored(place: int) -> Iterator[Step]:
-    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 0})
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {
+        "Seen.Stores": 0, "Storer.Worn": False,
+    })  # fmt: skip
     yield from _minute()
     rivals: Shows = {".Rivals": True, ".Place": word(place)}
     yield Step("two that read without rest", rivals, ms=200, shows={"Storer.Busy": False})
@@ -233,4 +240,6 @@ def _stored(place: int) -> Iterator[Step]:
     })  # fmt: skip
     rest: Shows = {".Rivals": False, ".Storing": False}
     yield Step("all rest", rest, "NOT (Rival.Busy OR Rival2.Busy)", 1000, {"Storer.Done": False, "Clash = FALSE": True})
-    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {"Seen.Stores": 1})
+    yield from does("Storer", 0, "Error", error("Storer", "TOO_SOON") | {
+        "Seen.Stores": 1, "Stores = UINT_TO_UDINT(1)": True,
+    })  # fmt: skip

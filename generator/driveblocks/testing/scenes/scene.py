@@ -45,8 +45,12 @@ class Step:
     until: str = ""
     ms: int = 3000
     shows: Mapping[str, Value] = field(default_factory=dict)
-    brisk: bool = False
-    """In scans twice as long, of which it takes fewer: for what most scenes begin with."""
+    brisk: bool | None = None
+    """In scans twice as long, of which it takes fewer. None: where it is long, and nothing counts its scans."""
+
+
+WAIT_MS, LONG_MS = 400, 3000
+"""A step that just lasts so long, and one that may take so long, are brisk."""
 
 
 @dataclass(frozen=True)
@@ -60,19 +64,30 @@ class Scene:
 def scene(words: str, *steps: Step | Iterable[Step]) -> Scene:
     """A scene of steps and of runs of steps."""
     flat = [one for each in steps for one in ([each] if isinstance(each, Step) else each)]
-    return Scene(words, tuple(_paced(flat)))
+    own = any(key == "Pins.ElapsedMs" for step in flat for key in step.sets)
+    return Scene(words, tuple(_paced(flat if own else map(_hastened, flat))))
+
+
+def _hastened(step: Step) -> Step:
+    """The step in long scans, where it is long; one that just waits takes half as many of them."""
+    if step.brisk is not None:
+        return step
+    if step.until:
+        counts = any("WaitedMs" in each for each in (step.until, *step.shows))
+        return replace(step, brisk=step.ms >= LONG_MS and not counts)
+    return step if step.ms < WAIT_MS else replace(step, brisk=True, ms=step.ms // 2)
 
 
 def _paced(steps: Iterable[Step]) -> Iterator[Step]:
     """The steps, with the length of a scan where it changes."""
     brisk = False
     for step in steps:
-        if step.brisk != brisk:
+        if bool(step.brisk) != brisk:
             pace = {"Pins.ElapsedMs": 2 * SCAN_MS if step.brisk else SCAN_MS}
             yield replace(step, sets=pace | dict(step.sets))
         else:
             yield step
-        brisk = step.brisk
+        brisk = bool(step.brisk)
 
 
 @dataclass(frozen=True)

@@ -206,6 +206,11 @@ def _in_time(place: int) -> Iterator[Step]:
     yield Step("and is sent no more", {"Fate.Skips": False, ".Writing": False}, ms=400, shows={
         "Seen.Others": 0, "Writer.Error": False, f"Slots[0].Ask[2].Words[3] = {word(0x3400)}": True,
     })  # fmt: skip
+    dumb: Shows = {"Fate.Dumb": True, ".Reading": True, ".Within": 600}
+    yield Step("so is a read", dumb, "Reader.Error", 1000, error("Reader", "SILENCE") | {
+        f"Slots[0].Ask[2].Words[3] = {word(0x3400)}": True,
+    })  # fmt: skip
+    yield Step("released", {"Fate.Dumb": False, ".Reading": False}, ms=1000, shows={"Reader.Error": False})
     stuck: Shows = {"Pins.TxBusy": True, ".Writing": True, ".Reading": True, ".Within": 300}
     both = error("Writer", "NOT_SENT") | error("Reader", "NOT_SENT")
     yield Step("the port takes nothing", stuck, "Writer.Error AND Reader.Error", 1000, both | {
@@ -264,9 +269,15 @@ def _not_called(place: int) -> Iterator[Step]:
     yield Step("released", {".Reading": False}, "Motor.Ready", 3000)
     nobody: Shows = {"Pins.NoLine": True, "Pins.NoDrive": True}
     calm: Shows = {"Reader.Busy": True, "Reader.Error": False, "Writer.Busy": True, "Writer.Error": False}
-    yield Step("nobody calls the line", nobody | {".Reading": True, ".Writing": True}, ms=900 * SCAN_MS, shows=calm)
+    yield Step(
+        "nobody calls the line",
+        nobody | {".Reading": True, ".Writing": True},
+        ms=900 * SCAN_MS,
+        shows=calm,
+        brisk=False,
+    )
     yield Step("it is called for a moment", {"Pins.NoLine": False}, ms=20, shows=calm)
-    yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm)
+    yield Step("and not any more", nobody, ms=900 * SCAN_MS, shows=calm, brisk=False)
     told = error("Reader", "NO_LINE") | error("Writer", "NO_LINE")
     yield Step("that is reported", {}, "Reader.Error OR Writer.Error", 3000, told | {
         ".WaitedMs": 101 * SCAN_MS,

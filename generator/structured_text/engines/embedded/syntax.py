@@ -21,23 +21,27 @@ class Pen:
         """Start at the first character of a source."""
         self.unit = unit
         self.here: dict[str, Any] = {}
+        self.at = -1
         self.line = 1
         self.column = 1
         self.move(0)
 
     def move(self, at: int) -> None:
         """Go to an offset in the source; the nodes written from now on get that place."""
+        if at == self.at:
+            return
+        self.at = at
         self.line, self.column = self.unit.place(at)
         left = self.column - 1
         self.here = {"lineno": self.line, "end_lineno": self.line, "col_offset": left, "end_col_offset": left + 1}
 
-    def mark(self) -> tuple[dict[str, Any], int, int]:
+    def mark(self) -> int:
         """Where the pen is, for `back`."""
-        return self.here, self.line, self.column
+        return self.at
 
-    def back(self, mark: tuple[dict[str, Any], int, int]) -> None:
+    def back(self, mark: int) -> None:
         """Return to a marked place."""
-        self.here, self.line, self.column = mark
+        self.move(mark)
 
     # ------------------------------------------------------------ expressions
 

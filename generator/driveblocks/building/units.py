@@ -1,0 +1,30 @@
+"""What is tested together, made in memory; apart from what builds a folder, which takes long to import."""
+
+from collections.abc import Iterator, Sequence
+
+from driveblocks.export import CANONICAL
+from driveblocks.maps.collection import Source
+from driveblocks.render import library
+from driveblocks.render.text import Language
+from driveblocks.testing.suite import drive_suite, shared_suite
+from driveblocks.testing.unit import Unit
+from structured_text.engines.engine import Source as Text
+
+LARGE = ("/MB_Line32.st", "/MB_ByteLine32.st")
+"""Shared blocks that no test of a drive needs: their statements are those of the line for 8 drives."""
+
+
+def units(sources: Sequence[Source], languages: list[Language]) -> list[Unit]:
+    """The shared blocks, then each drive with the shared blocks that it needs. Raises ValueError, as rendering does."""
+    generic = tuple(_sources(library.generic(languages)))
+    made = [Unit(shared_suite(languages), generic)]
+    needed = tuple(block for block in generic if not block.path.endswith(LARGE))
+    for source in sources:
+        own = _sources(library.drive(source.path.stem, source.drive, languages))
+        made.append(Unit(drive_suite(source, languages), (*needed, *own)))
+    return made
+
+
+def _sources(files: Iterator[library.File]) -> Iterator[Text]:
+    for file in files:
+        yield Text(f"{CANONICAL}/{file.path}", file.text)
