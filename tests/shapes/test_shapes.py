@@ -195,7 +195,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert (identity["function"], identity["address"], identity["words"]) == (3, 0x2003, 1)
     assert identity["tests"] == [{"index": 0, "mask": 0xFFFF, "value": 0x0312}]
     assert (bus["holds"], bus["reads"]) == (["DriveStatusBits.Remote"], [1])
-    assert (maximum["word"]["address"], maximum["scale"].factor) == (0x2004, Decimal("0.1"))
+    assert (maximum["word"].address, maximum["scale"].factor) == (0x2004, Decimal("0.1"))
     assert values["verify_reads"] == [1]
     assert {name: drive_block(drive)["feeds"] for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,

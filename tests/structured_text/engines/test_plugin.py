@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-CONFTEST = Path(__file__).parents[2] / "conftest.py"
+REPOSITORY = Path(__file__).parents[3]
+CONFTEST = REPOSITORY / "tests" / "conftest.py"
 TESTS = """
 import pytest
 
@@ -44,6 +45,9 @@ class Runner:
 
     def __call__(self, *arguments: str, bare: bool = False, **environment: str) -> tuple[int, str]:
         code = "import sys, pytest;"
+        environment["PYTHONPATH"] = os.pathsep.join(
+            [environment.get("PYTHONPATH", ""), str(REPOSITORY)]
+        )  # of our conftest.py
         if bare:
             environment |= {"PATH": "", "MATIEC_HOME": ""}
         done = subprocess.run(

@@ -74,6 +74,11 @@ def _first(drive: Drive) -> int | None:
     return next(runs, None) if all(most(drive, mode).read >= count for mode in drive.serial.mode.modes) else None
 
 
+def _code(drive: Drive) -> int:
+    """The function by which it is read; 0: the meter's usual one, 03H."""
+    return 0 if any(function.code == 3 for function in drive.functions) else 4
+
+
 def _shown(*words: int) -> Shows:
     """What the words are, and that none follows."""
     return {f"Metered[{at}] = {word(each)}": True for at, each in enumerate((*words, 0))}
@@ -90,13 +95,14 @@ GOOD: Shows = {"Meter.Valid": True, "Meter.CommOk": True, "Meter.ErrorID": 0, "M
 def _begin(drive: Drive, first: int) -> Iterator[Step]:
     unit = drive.serial.unit.min + 1
     pins: Shows = {
-        ".MeterUnit": unit, ".Code": 0, ".Place": word(first), ".Count": len(HELD), ".Bytes": False, ".Pairs": False,
-        ".Within": STALE_MS, ".Off": False, ".Writing": False,
+        ".MeterUnit": unit, ".Code": _code(drive), ".Place": word(first), ".Count": len(HELD),
+        ".Bytes": False, ".Pairs": False, ".Within": STALE_MS, ".Off": False, ".Writing": False,
     }  # fmt: skip
     yield Step("power-up", pins, "Motor.Ready", 3000, {"Reason": "READY"}, brisk=True)
     held: Shows = {f"OtherFate.Filled[{at}]": word(each) for at, each in enumerate(HELD)}
     fills: Shows = {"OtherFate.Fills": True, "OtherFate.FillAt": word(first)}
-    yield Step("the meter has words", held | fills, ms=500, shows=GOOD | _shown(*HELD) | {"Meter.AgeMs": (0, 400)})
+    words = GOOD | _shown(*HELD) | {"Meter.AgeMs": (0, 400)}
+    yield Step("the meter has words", held | fills, f"Meter.Valid AND {next(iter(_shown(HELD[0])))}", 3000, words)
 
 
 def _beside() -> Iterator[Step]:
@@ -119,7 +125,13 @@ def _orders() -> Iterator[Step]:
 
 def _senseless(drive: Drive, first: int) -> Iterator[Step]:
     unit = drive.serial.unit.min + 1
-    right: Shows = {".MeterUnit": unit, ".Code": 0, ".Count": len(HELD), ".Place": word(first), ".Within": STALE_MS}
+    right: Shows = {
+        ".MeterUnit": unit,
+        ".Code": _code(drive),
+        ".Count": len(HELD),
+        ".Place": word(first),
+        ".Within": STALE_MS,
+    }
     for words, pins, name in (
         ("no address", {".MeterUnit": 0}, "UNIT"),
         ("an address beyond 247", {".MeterUnit": 248}, "UNIT"),

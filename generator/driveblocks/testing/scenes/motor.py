@@ -634,7 +634,7 @@ def _not_followed() -> Iterator[Step]:
     sets: Shows = {"Fate.Local": True, "RunForward": True, "Pins.Settings.FollowWithinMs": 1000}
     yield Step("it acknowledges and does nothing", sets, why("NOT_FOLLOWED"), 3000, {
         "Motor.Diagnosis.CommandNotFollowed": True, "Seen.Driven": False,
-    })  # fmt: skip
+    }, brisk=False)  # fmt: skip
     yield Step("it follows again", {"Fate.Local": False, "RunForward": False}, "Motor.Ready", 4000)
     yield run({"Motor.Diagnosis.CommandNotFollowed": False})
 
