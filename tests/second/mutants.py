@@ -17,11 +17,11 @@ from random import Random
 
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
+from tests.second.long import fastest
 from tests.second.matrix import Cell, Run, run
 from tests.second.sample import aimed, sample
 from tests.second.station import built
 
-from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import EngineError, Library
 from structured_text.language.lint import lint_sources
 
@@ -52,7 +52,7 @@ class Mutant:
     line: int
     old: str
     new: str
-    place: str
+    place: str = ""
     """What the line says, and which of the same tokens in lines that say it this is."""
 
     def __str__(self) -> str:
@@ -96,7 +96,7 @@ def mutated(one: Mutant) -> Library | None:
     if lint_sources((each.path, each.text) for each in first.texts(one.edit, FAMILIES)):
         return None
     try:
-        return built(EmbeddedEngine(), one.edit)
+        return built(fastest(), one.edit)
     except EngineError:
         return None
 
