@@ -91,8 +91,7 @@ def good(one: Mutant) -> bool:
 def judged(one: Mutant) -> str:
     """The first rule that is not proved of a change; empty: all are."""
     for unit, made in texts(one).items():
-        names = {each[1] for source in made if (each := NAME.search(source.text))}
-        if one.block not in names:
+        if one.block not in dict(named(made)):
             continue
         try:
             found = _broken(unit, made)
