@@ -15,7 +15,7 @@ MAPS = click.argument(
     "maps",
     nargs=-1,
     metavar="[MAP]...",
-    help="Paths of maps, or names of shipped ones; if none is given, all of these.",
+    help="Paths of maps, or names of shipped ones; all shipped ones if none is given.",
 )
 JUNIT = click.option("--junit", metavar="FILE", type=FILE, help="Write all results there as JUnit XML.")
 
