@@ -103,7 +103,7 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
     yield ("run", motor, "--tcp", port, "--allow-run", "--for", "1s"), "Motor 1\nWIRED\n"
     _, slave = pty.openpty()
     yield ("simulate", "chf@1", "--port", os.ttyname(slave), "--for", "4s"), ""
-    yield ("simulate", "chf@1", "--pty", "--for", "1s"), ""
+    yield ("simulate", "chf@1", "--pty", "--frames", "--for", "1s"), ""
 
 
 def noting(seen: set[CodeType]) -> Callable[[FrameType, str, object], None]:

@@ -19,6 +19,8 @@ from driveblocks.simulator.habits import Habits
 from structured_text.engines.engine import Library, Value
 
 REASON = {each.code: each.name for each in REASONS}
+RING = 255
+"""Characters that the port holds between two scans."""
 RUNS = ("RunForward", "RunReverse", "JogForward", "JogReverse")
 MEMBERS = {
     "Settings": {
@@ -250,12 +252,14 @@ class Bench:
         return -(-characters * 10_000_000 // self.rate)
 
     def _receive(self) -> None:
-        while self._wire and self._wire[0].at <= self.now:
+        text = b""
+        while self._wire and self._wire[0].at <= self.now and len(text) + len(self._wire[0].text) <= RING:
             heard = self._wire.pop(0)
-            self.block["Text"] = heard.text
-            self.block["Count"] = len(heard.text)
+            text += heard.text
             if heard.frame is not None:
                 self.acknowledged.append(heard.frame)
+        self.block["Text"] = text
+        self.block["Count"] = len(text)
 
     def _send(self) -> None:
         count = self.block["Port.TxCount"]

@@ -206,7 +206,7 @@ def test_a_foreign_master_stops_every_start_until_it_is_acknowledged() -> None:
     bench.run(100)
     assert bench["ForeignFrames"] >= 10
     assert bench["ErrorID"] == 54
-    bench.put(0, Once=True)
+    bench.put(0, Begins=True)
     bench.command(0)
     bench.run(200)
     assert bench.answer(0, COMMAND) == "FOREIGN"

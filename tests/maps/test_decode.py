@@ -77,7 +77,7 @@ def test_a_list_is_no_entry(cls: type) -> None:
     value, wrong = decoded(cls, "[]")
     assert value is None
     assert len(wrong) == 1
-    assert "is a list; it is a mapping with the keys " in wrong[0]
+    assert "is a list; it must be a mapping with the keys " in wrong[0]
     assert not wrong[0].endswith("keys ")
 
 
@@ -128,8 +128,8 @@ def test_an_entry_without_a_required_key_is_not_built() -> None:
     ("text", "wrong"),
     [
         ("{value: , source: s}", "`value` has no value; write a decimal number from 1 to 999999"),
-        ("{value: [1], source: s}", "`value` is a list; it is one value: write a decimal number from 1 to 999999"),
-        ("{value: {a: 1}, source: s}", "`value` is a mapping; it is one value: "),
+        ("{value: [1], source: s}", "`value` is a list; it must be one value: write a decimal number from 1 to 999999"),
+        ("{value: {a: 1}, source: s}", "`value` is a mapping; it must be one value: "),
         ("{value: 1, source: 5}", '`source` is a text, but 5 without quotes is a number; write "5"'),
         ("{value: 1, source: 频率}", "`source` holds Chinese: the translation is missing; write it in English"),
         ("{value: 1, source: s, note: n}", "unknown key `note` in `the map`; known keys: value, source"),

@@ -7,9 +7,8 @@ drawn by what it says, not by where it stands, so that an edit of a block leaves
 """
 
 import argparse
-import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
@@ -19,7 +18,7 @@ import yaml
 import z3
 from tests import shipped
 from tests.drives.station import FAMILIES
-from tests.second.mutants import NAME, SWAPS, TOKEN, Mutant
+from tests.second.mutants import Mutant, changes, named
 
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
@@ -46,27 +45,8 @@ BLOCKS = (
 @cache
 def every() -> dict[str, Mutant]:
     """All changes by what they say, in the order of the texts; comments and declarations stay."""
-    found: dict[str, Mutant] = {}
-    for source in {each.path: each for made in texts().values() for each in made}.values():
-        named = NAME.search(source.text)
-        if named and named[1] in BLOCKS:
-            for one, line in _changes(named[1], source.text):
-                name = f"{one.block}: {line}"
-                same = sum(each == name or each.startswith(f"{name} (again ") for each in found)
-                found[f"{name} (again {same})" if same else name] = one
-    return found
-
-
-def _changes(block: str, text: str) -> Iterator[tuple[Mutant, str]]:
-    """The changes of a block, each with its line as it reads."""
-    plain = re.sub(r"\(\*.*?\*\)", lambda each: re.sub(r"[^\n]", " ", each[0]), text, flags=re.DOTALL)
-    for token in TOKEN.finditer(plain, plain.rindex("END_VAR") + len("END_VAR")):
-        old, at = token[0], token.start()
-        new = str(int(old) + 1) if old.isdigit() else SWAPS.get(old)
-        if new is not None:
-            begin, end = plain.rindex("\n", 0, at) + 1, plain.index("\n", at)
-            line = f"{plain[begin:at]}[{old} -> {new}]{plain[at + len(old) : end]}"
-            yield Mutant(block, at, plain.count("\n", 0, at) + 1, old, new), " ".join(line.split())
+    sources = {each.path: each for made in texts().values() for each in made}.values()
+    return {one.says: one for name, text in named(sources) if name in BLOCKS for one in changes(name, text)}
 
 
 def drawn(seed: int = SEED) -> list[str]:
@@ -111,8 +91,7 @@ def good(one: Mutant) -> bool:
 def judged(one: Mutant) -> str:
     """The first rule that is not proved of a change; empty: all are."""
     for unit, made in texts(one).items():
-        names = {each[1] for source in made if (each := NAME.search(source.text))}
-        if one.block not in names:
+        if one.block not in dict(named(made)):
             continue
         try:
             found = _broken(unit, made)

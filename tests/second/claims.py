@@ -111,7 +111,7 @@ class Claims:
         self.doubled_us = -FOREIGN_US
         self.retries: object = 0
         self.all_us = 0
-        """When all drives were last stopped by the line, whose own stops count as sent again."""
+        """When the line last stopped all drives, or one did not obey: stops count as sent again."""
         self.unlinked = 0
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
@@ -129,7 +129,8 @@ class Claims:
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
         claim.sent_us = now_us
-        idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > QUIET_US
+        most = QUIET_US * (3 if len(self.claims) > 3 else 1)  # a reference of the ramp may have waited for its turn
+        idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > most
         asks = any(each.index == index for each in self.judge.asked)
         same = pins == claim.pins
         if (
@@ -441,10 +442,9 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]
         self._once(0, "strange", bad=good and strange != 0, seen=f"{strange!r} foreign frames")
-        if any(pins.get("StopAll") for pins in bench.pins):
+        if any(pins.get("StopAll") for pins in bench.pins) or not all(self.willing(i) for i in units):
             self.all_us = now
-        retries, steady = block["TheLine.Retries"], good and all(self.willing(i) for i in units)
-        steady = steady and now - self.all_us > ATTEND_US
+        retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)
         self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
         self.retries = retries

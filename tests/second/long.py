@@ -17,19 +17,23 @@ from tests.second.station import built
 from tests.second.walk import walk
 
 from structured_text.engines.discovery import MATIEC_NAMES, survey
-from structured_text.engines.engine import Library
+from structured_text.engines.engine import Engine, Library
 
 JOBS = 2
 CHUNK = 28
 SHORT = {"full control": "full", "SpeedOnly": "speed", "MonitorOnly": "monitor"}
 
 
+def fastest() -> Engine:
+    """The engine of matiec where it is found, else the embedded one."""
+    found = {each.name: each.engine for each in survey().candidates() if each.engine is not None}
+    return found[next((each for each in MATIEC_NAMES if each in found), "embedded")]
+
+
 @cache
 def stations() -> Library:
     """The stations on the fastest engine, once per process."""
-    found = {each.name: each.engine for each in survey().candidates() if each.engine is not None}
-    name = next((each for each in MATIEC_NAMES if each in found), "embedded")
-    return built(found[name])
+    return built(fastest())
 
 
 def some(chosen: Sequence[Cell], seed: int) -> list[Outcome]:

@@ -10,19 +10,19 @@ import argparse
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from hashlib import sha256
 from random import Random
 
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
+from tests.second.long import fastest
 from tests.second.matrix import Cell, Run, run
 from tests.second.sample import aimed, sample
 from tests.second.station import built
 
-from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.engine import EngineError, Library
+from structured_text.engines.engine import EngineError, Library, Source
 from structured_text.language.lint import lint_sources
 
 SEEDS, NUMBER = (734, 421, 411, 412), 60
@@ -52,8 +52,8 @@ class Mutant:
     line: int
     old: str
     new: str
-    place: str
-    """What the line says, and which of the same tokens in lines that say it this is."""
+    says: str
+    """The change in its line, and which of those that read the same."""
 
     def __str__(self) -> str:
         """By name."""
@@ -61,34 +61,44 @@ class Mutant:
 
     def edit(self, text: str) -> str:
         """The text with the change, where it is that block's."""
-        named = NAME.search(text)
-        if not named or named[1] != self.block:
+        found = NAME.search(text)
+        if not found or found[1] != self.block:
             return text
         return text[: self.at] + self.new + text[self.at + len(self.old) :]
 
 
-def every() -> Iterator[Mutant]:
-    """All changes, in the order of the texts; comments and declarations stay."""
-    for source in first.texts(kinds=FAMILIES):
-        named = NAME.search(source.text)
-        if not named or named[1] not in BLOCKS:
-            continue
-        plain = re.sub(r"\(\*.*?\*\)", lambda each: re.sub(r"[^\n]", " ", each[0]), source.text, flags=re.DOTALL)
-        begins = plain.rindex("END_VAR") + len("END_VAR")
-        same = Counter[tuple[str, str]]()
-        for token in TOKEN.finditer(plain, begins):
-            old = token[0]
-            new = str(int(old) + 1) if old.isdigit() else SWAPS.get(old)
-            if new is not None:
-                line = plain.count("\n", 0, token.start())
-                says = plain.split("\n")[line].strip()
-                same[says, old] += 1
-                yield Mutant(named[1], token.start(), line + 1, old, new, f"{says} {same[says, old]}")
+def changes(block: str, text: str) -> Iterator[Mutant]:
+    """All changes of a block, in the order of its text; comments and declarations stay."""
+    plain = re.sub(r"\(\*.*?\*\)", lambda each: re.sub(r"[^\n]", " ", each[0]), text, flags=re.DOTALL)
+    again = Counter[str]()
+    for token in TOKEN.finditer(plain, plain.rindex("END_VAR") + len("END_VAR")):
+        old, at = token[0], token.start()
+        new = str(int(old) + 1) if old.isdigit() else SWAPS.get(old)
+        if new is not None:
+            begin, end = plain.rindex("\n", 0, at) + 1, plain.index("\n", at)
+            line = f"{plain[begin:at]}[{old} -> {new}]{plain[at + len(old) : end]}"
+            says = f"{block}: {' '.join(line.split())}"
+            again[says] += 1
+            same = f" (again {again[says] - 1})" if again[says] > 1 else ""
+            yield Mutant(block, at, plain.count("\n", 0, at) + 1, old, new, says + same)
 
 
-def drawn(seed: int) -> Iterator[Mutant]:
+def named(sources: Iterable[Source]) -> Iterator[tuple[str, str]]:
+    """Blocks and functions by name."""
+    for source in sources:
+        found = NAME.search(source.text)
+        if found:
+            yield found[1], source.text
+
+
+def every() -> list[Mutant]:
+    """All changes, in the order of the texts."""
+    return [one for name, text in named(first.texts(kinds=FAMILIES)) if name in BLOCKS for one in changes(name, text)]
+
+
+def drawn(seed: int) -> list[Mutant]:
     """All changes in the order of a seed, which an edit elsewhere does not change; `mutated` refuses some."""
-    yield from sorted(every(), key=lambda one: sha256(f"{seed} {one.block} {one.place} {one.old}".encode()).digest())
+    return sorted(every(), key=lambda one: sha256(f"{seed} {one.says}".encode()).hexdigest())
 
 
 def mutated(one: Mutant) -> Library | None:
@@ -96,7 +106,7 @@ def mutated(one: Mutant) -> Library | None:
     if lint_sources((each.path, each.text) for each in first.texts(one.edit, FAMILIES)):
         return None
     try:
-        return built(EmbeddedEngine(), one.edit)
+        return built(fastest(), one.edit)
     except EngineError:
         return None
 

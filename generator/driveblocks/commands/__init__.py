@@ -12,7 +12,10 @@ if TYPE_CHECKING:
 
 FILE = click.Path(path_type=Path)
 MAPS = click.argument(
-    "maps", nargs=-1, metavar="[MAP]...", help="Maps by path, or shipped ones by name; all shipped ones without it."
+    "maps",
+    nargs=-1,
+    metavar="[MAP]...",
+    help="Paths of maps, or names of shipped ones; all shipped ones if none is given.",
 )
 JUNIT = click.option("--junit", metavar="FILE", type=FILE, help="Write all results there as JUnit XML.")
 

@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 @click.option("--target", metavar="LIST", default="all", help=f"Forms to write: {', '.join(TARGETS)} or all.")
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the folder is not current.")
 @click.option("--only", is_flag=True, help="Remove the blocks of drives and targets that are not named.")
-@click.option("--force", is_flag=True, help="Replace also those files of an earlier build that were edited.")
+@click.option("--force", is_flag=True, help="Also replace files of an earlier build that you have edited.")
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
     maps: tuple[str, ...], output: str, lang: str, encoding: str, target: str, check: bool, only: bool, force: bool
 ) -> None:
     """Write the function blocks of the drives. The old output stays whole when anything is wrong.
 
     Drives and targets that are built one after another into one folder join: each build brings all of them up to date,
-    in the languages asked for. What was written is listed in .driveblocks.json there; nothing else is replaced or
-    removed, and nothing that you have edited since, unless with --force.
+    in the languages asked for. What was written is listed in .driveblocks.json there. Only files of that list are
+    replaced or removed, and none that you have edited since, unless with --force.
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """

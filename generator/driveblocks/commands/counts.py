@@ -14,11 +14,7 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument(
-    "pages",
-    nargs=-1,
-    type=FILE,
-    metavar="[PAGE]...",
-    help="Markdown pages to write the table into; it is printed without any.",
+    "pages", nargs=-1, type=FILE, metavar="[PAGE]...", help="Pages to write the table into; else it is printed."
 )
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when a page is not current.")
 def run(pages: tuple[Path, ...], check: bool) -> None:

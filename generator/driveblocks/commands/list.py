@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @MAPS
 @click.option("--json", is_flag=True, help="Print everything that the maps hold as one JSON array.")
 def run(maps: tuple[str, ...], json: bool) -> None:
-    """List the drives that there are maps for: those that are named, else all that are shipped.
+    """List drives: those of the maps named, or all shipped ones.
 
     A map with mistakes is left out, its mistakes are printed to standard error, and the exit status is 2.
 

@@ -9,13 +9,11 @@ from driveblocks.commands import FILE, refuse
 
 @click.command()
 @click.argument("prefix", metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
-@click.option(
-    "-o", "--output", type=FILE, metavar="FILE", help="File to write; without it, the prefix in small letters."
-)
+@click.option("-o", "--output", type=FILE, metavar="FILE", help="File to write; without it, PREFIX in small letters.")
 def run(prefix: str, output: Path | None) -> None:
-    """Write the smallest whole map to a new file, with comments that say what to replace.
+    """Write a first map to a new file, with comments that say what to replace.
 
-    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that is there
+    It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that exists
     is never touched: the exit status is 2.
 
     Example: driveblocks new ACME -o acme_100.yaml

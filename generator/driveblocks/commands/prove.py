@@ -19,14 +19,14 @@ SHOWN = 5
 @click.command()
 @MAPS
 @JUNIT
-@click.option("--rules", is_flag=True, help="Name every rule that is proved, and whose it is.")
+@click.option("--rules", is_flag=True, help="Print every rule that is proved, below its block.")
 def run(maps: tuple[str, ...], junit: Path | None, rules: bool) -> None:
     """Prove the safety rules of the drive blocks.
 
     Each rule is shown to hold in every call, for all inputs and everything that the memory can hold by then, from
     power-up on; where it does not hold, the call that breaks it is printed, and run on the embedded engine. What is
-    proved, for which inputs and in which words, and what is not, is in docs/prove.md. The exit status is 0 if all is
-    proved, 1 for a counterexample or where the solver does not know, and 2 if a map is bad or the solver is missing.
+    proved, for which inputs, and what is not: see docs/prove.md. The exit status is 0 if all is proved, 1 for a
+    counterexample or where the solver does not know, and 2 if a map is bad or the solver is missing.
 
     Example: driveblocks prove my_drive.yaml --junit proofs.xml
     """

@@ -18,7 +18,7 @@ from driveblocks.commands import FILE, refuse
     "--simulate",
     multiple=True,
     metavar="DRIVE[@UNIT][:HZ]",
-    help="Simulate this drive, with its own maximum (50); may be repeated. Without any port: those of the program.",
+    help="Simulate a shipped drive or that of a map; HZ is its maximum (50). Without it or a port: the program's.",
 )
 @click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, whatever its address.")
 @click.option("--simulated", is_flag=True, help="There are only simulated drives behind --tcp, on this computer.")

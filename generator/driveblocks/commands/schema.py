@@ -15,7 +15,7 @@ from driveblocks.maps import page, schema
     type=FILE,
     required=False,
     metavar="[FOLDER]",
-    help="Folder with schema.json, keys.md and README.md; without it, the schema is printed.",
+    help="Folder with schema.json, keys.md and README.md; if none is given, the schema is printed.",
 )
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when a file is not current.")
 def run(folder: Path | None, check: bool) -> None:

@@ -12,7 +12,7 @@ from driveblocks.commands import FILE, refuse
     "drives",
     nargs=-1,
     metavar="DRIVE[@UNIT][:HZ]...",
-    help="Drives, unit addresses (else the next free), their own maximum (else 50).",
+    help="Shipped drives or paths of maps, with unit address (else the next free one) and own maximum (else 50 Hz).",
 )
 @click.option("--port", metavar="DEVICE", help="Serve a serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
 @click.option("--tcp", metavar="127.0.0.1:PORT", help="Serve serial bytes over TCP, on this computer only.")

@@ -27,12 +27,12 @@ SHOWN, PER_PROGRAM = 20, 3
     "--time-limit", type=click.FloatRange(min=0.1), metavar="SECONDS", default=120.0, help="Time limit of one program."
 )
 @click.option("--picture", type=FILE, metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram.")
-@click.option("--coverage", is_flag=True, help="Say which lines and branches of the blocks have run.")
+@click.option("--coverage", is_flag=True, help="List the lines and branches of the blocks that no program has run.")
 @click.option(
     "--require-coverage",
     type=click.FloatRange(0.0, 100.0),
     metavar="PERCENT",
-    help="Fail below this percentage of the lines or of the branches that can be reached; measures, too.",
+    help="Fail if fewer of the reachable lines or branches have run; implies --coverage.",
 )
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
     maps: tuple[str, ...],
@@ -48,9 +48,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and
     against a reference model, and play scenes: a drive block on its line, with a drive that the program simulates. Of a
     scene that fails, pins and frames before the failure are printed; --picture draws them. The exit status is 0 if all
-    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used. --coverage lists
-    what no program has reached: lines, and outcomes of decisions (IF, CASE, loops). That is a failure only below what
-    --require-coverage asks for; what no input can reach is explained and not in the percentage.
+    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used.
+
+    --coverage counts lines, and outcomes of decisions (IF, CASE, loops). What no input can reach is explained, and not
+    in the percentage. Too little is a failure only with --require-coverage.
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """

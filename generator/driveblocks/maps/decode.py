@@ -31,7 +31,7 @@ def build(shape: Shape, node: Node, report: Report, name: str) -> Any:
     if isinstance(shape, ListOf):
         return _list(shape, node, report, name)
     if not isinstance(node, Scalar):
-        report.add(node.at, f"`{name}` is {_kind(node)}", f"it is one value: {_right(shape)}")
+        report.add(node.at, f"`{name}` is {_kind(node)}", f"it must be one value: {_right(shape)}")
         return _BAD
     if node.refused:
         return _BAD
@@ -52,7 +52,7 @@ def _right(shape: Form | OneOf) -> str:
 
 def _list(shape: ListOf, node: Node, report: Report, name: str) -> Any:
     if not isinstance(node, Items):
-        report.add(node.at, f"`{name}` is {_kind(node)}", "it is a list: lines that start with `- `, or [a, b]")
+        report.add(node.at, f"`{name}` is {_kind(node)}", "it must be a list: lines that start with `- `, or [a, b]")
         return _BAD
     values = [build(shape.item, item, report, name) for item in node.items]
     good = tuple(value for value in values if value is not _BAD)
@@ -109,7 +109,7 @@ def _short(text: str) -> str:
 def _entry(shape: EntryOf, node: Node, report: Report, name: str) -> Any:
     if not isinstance(node, Entries):
         keys = ", ".join(key.name for key in required_of(shape.cls)) or "among " + ", ".join(keys_of(shape.cls))
-        report.add(node.at, f"`{name}` is {_kind(node)}", f"it is a mapping with the keys {keys}")
+        report.add(node.at, f"`{name}` is {_kind(node)}", f"it must be a mapping with the keys {keys}")
         return _BAD
     known = keys_of(shape.cls)
     meant = _unknown_keys(known, node, report, name)

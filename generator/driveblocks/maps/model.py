@@ -610,7 +610,7 @@ class Command(Entry):
     set: tuple[Bits, ...] = fact("bits to set, others kept", "[0]", optional=True, default=())
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[1]", optional=True, default=())
     first: tuple[Step, ...] = fact(
-        "writes that go first, in this order: a path of states, an edge, a pulse, another register; a stop has none",
+        "writes that are sent before it, in this order: states, an edge, a pulse, another register; a stop has none",
         "[{register: 2000H, value: 0006H, until: ready_to_switch_on}]",
         optional=True,
         default=(),
@@ -717,7 +717,7 @@ class SilenceTime(Entry):
 
     setting: Id | None = fact("the keypad setting that holds it", "P14.04", optional=True)
     register: Address | None = fact("the register that holds it, where it is no keypad setting", "0000H", optional=True)
-    milliseconds: Factor = fact("what one count is, ms", "100")
+    milliseconds: Factor = fact("how long one count is, ms", "100")
     source: English = fact("where the manual says so", "table of communication parameters")
 
 

@@ -177,7 +177,7 @@ def _configuration(configuration: Configuration, report: Report) -> None:
 def _block(block: VarBlock, report: Report) -> None:
     """A VAR block of any kind."""
     if not block.variables:
-        report.add(block.at, "empty-var-block", "matiec crashes on a VAR block without variables: take it away")
+        report.add(block.at, "empty-var-block", "matiec crashes on a VAR block without variables: remove it")
     _qualifiers(block, report)
     if block.kind in (VarKind.GLOBAL, VarKind.EXTERNAL):
         text = f"{block.kind.value}: libraries have no globals; compilers differ on them: use parameters"

@@ -28,7 +28,7 @@ def pou(scope: Scope) -> None:
             scope.add(scope.pou.name_at, "empty-body", text)
     for statement in scope.statements:
         if isinstance(statement, Empty):
-            scope.add(statement.at, "empty-statement", "matiec refuses a lone semicolon: take it away")
+            scope.add(statement.at, "empty-statement", "matiec refuses a lone semicolon: remove it")
         elif isinstance(statement, Continue):
             scope.add(statement.at, "continue", "STruC++ and IronPLC refuse CONTINUE: use IF")
         elif isinstance(statement, If):

@@ -11,10 +11,10 @@ _COMMENTS = {
     "{": ("pragma", "{...} breaks the C that matiec writes, and is refused elsewhere: leave it out"),
 }
 _NOTES = {
-    "nested-comment": "a comment inside a comment is refused by matiec: take the inner marks away",
+    "nested-comment": "a comment inside a comment is refused by matiec: remove the inner marks",
     "byte-order-mark": "a byte order mark is refused by matiec: save the file as UTF-8 without it",
     "missing-semicolon": "matiec wants a semicolon here: write END_...;",
-    "stray-semicolon": "a semicolon is refused by matiec here: take it away",
+    "stray-semicolon": "a semicolon is refused by matiec here: remove it",
 }
 _RULES = {"stray-semicolon": "empty-statement"}
 

@@ -41,10 +41,10 @@ def _stored(drive: Drive, address: int) -> str | None:
         return "a write there stores all parameters"
     area = next((area for area in drive.areas if address in area.addresses), None)
     if area is not None and (unexplained or area.id == storage.area):
-        return f"the area `{area.id}` is stored in EEPROM" + " for all that the manual says" * unexplained
+        return f"the area `{area.id}` is stored in EEPROM" + " as far as the manual says" * unexplained
     row = drive.register_at(address)
     if unexplained and row is not None and row.id is not None:
-        return f"the parameter {row.id} is stored in EEPROM for all that the manual says"
+        return f"the parameter {row.id} is stored in EEPROM as far as the manual says"
     return None
 
 

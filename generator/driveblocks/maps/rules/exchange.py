@@ -68,8 +68,8 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
     for key in keys:
         if getattr(due, key) != getattr(reply, key):
             got, asked = (adu.shown(key, getattr(fields, key)) for fields in (reply, due))
-            wrong = f"this reply has {key} {got}, its request makes that {asked}"
-            report.add(frame.means.place(key), wrong, "the pair does not fit; check both frames")
+            wrong = f"this reply has {key} {got}, but its request asks for {asked}"
+            report.add(frame.means.place(key), wrong, "check both frames")
 
 
 def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, report: Report) -> None:

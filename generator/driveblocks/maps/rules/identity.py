@@ -30,7 +30,7 @@ def check(drive: Drive, report: Report) -> None:
 
 def _conditions(one: Identity | InCommand, report: Report) -> None:
     if not one.all:
-        report.miss(one.place("all"), "without a condition it holds of every drive", "write the conditions")
+        report.miss(one.place("all"), "without a condition it is true of every drive", "write the conditions")
     for earlier, later in combinations(one.all, 2):
         if exclude(earlier, later):
             wrong = f"{address_text(later.register)} cannot have two values at once"
@@ -86,7 +86,7 @@ def _own_maximum(drive: Drive, maximum: OwnMaximum, report: Report) -> None:
     when = row.scale.when if row.scale else None
     parameter = drive.operation.reference.maximum
     if row.unit != "Hz" or row.scale is None:
-        wrong = f"the own maximum is compared in Hz, but {where} has no unit Hz with a scale"
+        wrong = f"the drive's own maximum is compared in Hz, but {where} has no unit Hz with a scale"
         report.miss(place, wrong, "add both to the register where the manual gives them; else leave `own_maximum` out")
     elif when is not None and when not in drive.operation.reference.verify:
         wrong = f"the scale of {where} has a condition that nobody verifies"

@@ -41,7 +41,7 @@ def _modes(serial: Serial, report: Report) -> None:
 def _unit(serial: Serial, report: Report) -> None:
     unit = serial.unit
     if not 0 <= unit.min <= unit.max <= 255:
-        report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "they are 1 to 247")
+        report.add(unit.at, f"unit addresses {unit.min} to {unit.max}", "Modbus has 1 to 247; write the smaller first")
     elif unit.max > STANDARD_UNITS and unit.above_247 is None:
         wrong = f"unit addresses to {unit.max}, but the standard reserves 248 to 255"
         report.miss(unit.place("max"), wrong, "write 247, or add `above_247:` with the place where the manual says so")

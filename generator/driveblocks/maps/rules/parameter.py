@@ -39,7 +39,7 @@ def of_form(drive: Drive, entry: Entry, id_: str, report: Report, key: str = "id
     if drive.id_forms and not all(_pattern(drive.id_forms).fullmatch(part) for part in id_.split("..")):
         forms = ", ".join(drive.id_forms)
         wrong = f"id `{id_}` has none of the manual's forms"
-        report.add(entry.place(key), wrong, f"the forms are {forms}; `printed:` keeps a misprint")
+        report.add(entry.place(key), wrong, f"the forms are {forms}; a misprint goes under `printed:`")
 
 
 @lru_cache(4096)

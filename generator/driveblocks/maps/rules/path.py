@@ -18,7 +18,7 @@ def check(drive: Drive, report: Report) -> None:
     awaited = set()
     for command in drive.operation.commands:
         if command.first and command.does in _STOPS:
-            wrong = f"`{command.does}` has writes that go first"
+            wrong = f"`{command.does}` has writes before it"
             report.add(command.place("first"), wrong, "a stop is one write, at once and whatever the state")
         for step in command.first:
             awaited.add(step.until)
@@ -55,8 +55,10 @@ def _passes(drive: Drive, command: Command, report: Report) -> None:
             for other in others:
                 if _holds(now, meaning.image(meaning.acting(other)), one) and (number, other.does) not in told:
                     told.add((number, other.does))
-                    wrong = f"on its way `{command.does}` passes through `{other.does}`"
-                    report.add(one.at, wrong, "write the direction first and what runs last, or clear more before")
+                    wrong = f"`{command.does}` gives the command `{other.does}` in between"
+                    report.add(
+                        one.at, wrong, "write the direction first and the run bit last, or clear more bits before"
+                    )
 
 
 def _words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:

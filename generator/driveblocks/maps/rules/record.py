@@ -164,5 +164,5 @@ def _documents(drive: Drive, report: Report) -> None:
             report.miss(item.place("document"), wrong, "add it to `documents`")
     for id_, document in documents.items():
         if id_ not in used:
-            right = "remove it, or add `corroborated:` where it serves"
+            right = "remove it, or add `corroborated:` where it confirms a fact"
             report.miss(document.at, f"nothing refers to document `{id_}`", right)

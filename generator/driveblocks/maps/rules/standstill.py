@@ -27,7 +27,7 @@ def check(drive: Drive, report: Report) -> None:
         report.miss(place, wrong, "add {register: its address, equals: 0}")
     verdicts = [_verdict(drive, condition) for condition in proof.all]
     if True not in verdicts and False not in verdicts:
-        wrong = "no condition says by the status that the drive does not run"
+        wrong = "no condition on the status says that the drive does not run"
         report.miss(place, wrong, "ask for a status bit or value that is called running, stopped or standby")
     for condition, stands in zip(proof.all, verdicts, strict=True):
         if stands is False:

@@ -57,7 +57,7 @@ def _printed(frame: Frame, report: Report) -> None:
     due = checksum(frame.mode, body)
     verdict = "right" if given == due else "wrong"
     if verdict != frame.checksum:
-        wrong = f"`checksum: {frame.checksum}`, but {adu.octets(given)} printed, {adu.octets(due)} due"
+        wrong = f"`checksum: {frame.checksum}`, but {adu.octets(given)} is printed and {adu.octets(due)} is right"
         report.add(frame.place("checksum"), wrong, f"write `checksum: {verdict}`")
     owner = frame.printed_checksum_of
     if owner is not None and verdict == "right":
@@ -112,7 +112,7 @@ def _unit(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> Non
             report.add(frame.means.place("unit"), wrong, f"it has {unit.min} to {unit.max}")
         return
     if fields.function in READS or (frame.direction == "reply" and not cast.replies):
-        report.add(frame.means.place("unit"), "a broadcast is neither read from nor answered", "correct the frame")
+        report.add(frame.means.place("unit"), "a broadcast cannot read and gets no reply", "correct the frame")
     if cast.start_addresses and fields.address is not None and fields.address not in cast.start_addresses:
         wrong = f"a broadcast cannot start at {address_text(fields.address)}"
         right = "it starts at " + ", ".join(map(address_text, cast.start_addresses))

@@ -43,7 +43,9 @@ def _time(drive: Drive, time: SilenceTime, settings: dict[str, Setting], report:
     elif time.register is not None:
         known(drive, time.register, "r", time.place("register"), report)
     if time.milliseconds <= 0:
-        report.add(time.place("milliseconds"), f"{time.milliseconds} ms is no time", "write what one count is, in ms")
+        report.add(
+            time.place("milliseconds"), f"{time.milliseconds} ms is no time", "write how long one count is, in ms"
+        )
 
 
 def _possible(setting: Setting, value: int, place: Place, report: Report) -> None:
@@ -105,4 +107,4 @@ def _meant(name: str, zh: str) -> tuple[Reacts, ...]:
 
 def _trip(output: TripOutput, report: Report) -> None:
     if output.motor == "differs" and output.note is None:
-        report.miss(output.place("motor"), "nothing says by what it differs", "add a `note` with it")
+        report.miss(output.place("motor"), "nothing says how it differs", "say so in a `note`")
