@@ -7,6 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, any_of
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ UNLINKED_CALLS = 100
 """Calls of a drive block without one of the line, after which it says that there is none."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
+RUNS = 4
+"""Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
 JOG_ENDS = b"\x06\x10\x00\x00\x08"
 """CHF: 1000H, 8 ends a jog, line 326 of its manual."""
 LINE_ERRORS = (0, 61)
@@ -86,6 +89,8 @@ class Claim:
     """When a frame was last sent to it."""
     fault_us: int | None = None
     driven_us: int | None = None
+    runs: int = 0
+    """Orders to run since the last edge, or since it last turned."""
     written_us: int = 0
     writes: deque[int] = field(default_factory=lambda: deque([0] * 6, maxlen=6))
     """When it was last written to."""
@@ -125,6 +130,8 @@ class Claims:
         if writes:
             self._again(now_us, index, claim, body)
             self._jog(index, claim, body)
+            claim.runs += runs(self.bench.types[index], body)
+            self._once(index, "runs again", bad=claim.runs > RUNS, seen=body.hex())
             self._first(now_us, index, claim, len(body))
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
@@ -159,6 +166,8 @@ class Claims:
         self._stop(index, claim, driven=driven)
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
+        if driven or not any_of(MOVES, before):
+            claim.runs = 0
         turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
         if index == 0:
@@ -268,6 +277,7 @@ class Claims:
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US:
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
+                told = told or (bench.unsaid and bench.reason(index) == "NO_RUN")
                 self._once(index, "follow", bad=not told)
 
     def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
