@@ -33,7 +33,8 @@ from driveblocks.site.saved import Word
 
 MAPS = {each.drive.prefix: (each.path.stem, each.drive) for each in maps()}
 PAGE = Path(__file__).parents[2] / "docs" / "save-parameters.md"
-EXAMPLE = load(Path(__file__).parents[1] / "maps" / "example.yaml")
+SKELETON = Path(__file__).parents[1] / "maps" / "example.yaml"
+EXAMPLE = load(SKELETON)
 SPEECH = Speech(ascii_mode=False, character_us=1000)
 
 
@@ -47,6 +48,11 @@ def reads(reader: Reader, found: dict[int, Word] | None = None) -> dict[int, Wor
     found = {} if found is None else found
     reader.read(found, lambda: None, lambda _: None)
     return found
+
+
+def always(fate: str | int) -> Callable[[range], str | int]:
+    """The same fate for every request."""
+    return lambda _: fate
 
 
 class Unit:
@@ -154,6 +160,26 @@ def test_nothing_but_reads_passes() -> None:
     assert [frame[:-2] for frame in unit.sent] == frames[:1]
 
 
+def test_a_unit_of_another_family_is_a_stranger(tmp_path: Path) -> None:
+    clock, example = VirtualClock(), One("example", EXAMPLE, 1)
+    said: dict[str | int, str] = {
+        "": "unit 1 is no EX100: 0031H is 0031H",
+        2: "unit 1 does not give the identity of EX100: refused 2",
+    }
+    for fate, why in said.items():
+        unit = Unit(clock, always(fate))
+        assert Reader(unit, clock, example, SPEECH, 0).stranger() == why
+        assert len(unit.sent) == 1
+    with pytest.raises(LostError, match="unit 1 does not answer"):
+        Reader(Unit(clock, lambda _: "silent"), clock, example, SPEECH, 0).stranger()
+    bus = Bus([SimulatedDrive(EXAMPLE, 1)], 9600, 10)
+    assert Reader(WirePort(bus, clock), clock, example, SPEECH, 0).stranger() == ""
+    with simulated("jscc", "--tcp", ":0") as place:
+        got = parameters("save", str(SKELETON), str(tmp_path / "a.csv"), "--tcp", place)
+    assert (got.exit_code, [*tmp_path.iterdir()]) == (2, [])
+    assert got.stderr == "unit 1 is no EX100: 0031H is 0000H\n"
+
+
 def test_areas_with_forbidden_parameters_are_left_out() -> None:
     (left,) = unread(MAPS["CHF"][1])
     assert left.startswith("0000H to 01FFH are not read: PE, among them")
@@ -248,7 +274,7 @@ def test_a_drive_a_file_and_a_sister_are_compared(tmp_path: Path) -> None:
         )
         text = path.read_text(encoding="utf-8")
         same = parameters("compare", str(path), "sn300g5@4", "--tcp", place)
-        assert (same.exit_code, same.stdout) == (0, "all 323 parameters are equal\n")
+        assert (same.exit_code, same.stdout) == (0, "323 parameters are equal\n")
         lines = text.splitlines()
         (at,) = [number for number, line in enumerate(lines) if ",H5-02," in line]
         cells = lines[at].split(",")
@@ -349,6 +375,26 @@ def test_all_mistakes_are_reported_at_once(words: tuple[str, ...], said: list[st
     got = parameters(*words)
     assert (got.exit_code, got.stdout) == (2, "")
     assert [line[: len(each)] for line, each in zip(got.stderr.splitlines(), said, strict=True)] == said
+
+
+def test_what_only_one_file_has_is_not_taken_for_equal(pump: Path, tmp_path: Path) -> None:
+    other = tmp_path / "fan.csv"
+    saved.write(other, "shuen_sn300g5", MAPS["SN300G5"][1], 4, {0x100: 1, 0x101: 2, 0x20: 4000, 0x0F: 0})
+    got = parameters("compare", str(pump), str(other))
+    assert (got.exit_code, got.stdout) == (1, "1 parameters are equal\n322 were not read on both sides\n")
+    got = parameters("compare", str(pump), str(other), "--all")
+    assert got.stdout.splitlines()[-2:] == ["1 of 3 registers differ", "385 were not read on both sides"]
+    (row,) = [line for line in got.stdout.splitlines() if line.startswith("U1-01")]
+    assert row.split()[-4:] == ["50.00", "Hz", "40.00", "Hz"]
+
+
+def test_files_of_a_map_of_ones_own_are_compared(tmp_path: Path) -> None:
+    paths = [str(tmp_path / name) for name in ("a.csv", "b.csv")]
+    for path in paths:
+        saved.write(Path(path), "example", EXAMPLE, 1, {each.address: 0 for each in rows(EXAMPLE)})
+    assert parameters("compare", *paths).stderr.startswith("there is no drive `example`")
+    got = parameters("compare", *paths, "--all", "--map", str(SKELETON))
+    assert (got.exit_code, got.stdout) == (0, f"{len(rows(EXAMPLE))} registers are equal\n")
 
 
 def test_another_drives_file_is_not_continued(pump: Path) -> None:

@@ -63,11 +63,13 @@ def save(drive: str, file: Path, **words: Any) -> None:
 @click.argument("left", metavar="FILE.csv|DRIVE[@UNIT]", help="A file that `save` has written, or a drive.")
 @click.argument("right", metavar="FILE.csv|DRIVE[@UNIT]", help="Another of the same family.")
 @click.option("--all", "everything", is_flag=True, help="Compare what the drive measures, too, not only what is set.")
+@click.option("--map", "own", metavar="MAP", help="The map of two files, where it is your own.")
 @_placed
-def compare(left: str, right: str, everything: bool, **words: Any) -> None:
+def compare(left: str, right: str, everything: bool, own: str | None, **words: Any) -> None:
     """Show what differs between two drives, two files, or a drive and a file, in the order of the manual.
 
-    The exit status is 0 if all is equal, 1 if something differs, 2 for bad input or a drive that does not answer.
+    The exit status is 0 if all is equal, 1 if something differs or was not read, 2 for bad input or a drive that
+    does not answer.
 
     Example: driveblocks parameters compare pump.csv chf@2 --port /dev/ttyUSB0
     """
@@ -77,7 +79,7 @@ def compare(left: str, right: str, everything: bool, **words: Any) -> None:
     from driveblocks.site.reader import LostError
 
     try:
-        told, differs = drives.compare((left, right), drives.Place(**words), everything=everything)
+        told, differs = drives.compare((left, right), drives.Place(**words), own, everything=everything)
     except (Refused, LostError) as refused:
         refuse(str(refused))
     console.write(*told)

@@ -84,7 +84,8 @@ class Place:
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
         speech = Speech(self.ascii, 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
-        with self._opened(clock) as opened, Progress(*columns, console=screen, disable=not screen.is_terminal) as bar:
+        bars = Progress(*columns, console=screen, disable=not screen.is_terminal, transient=True)
+        with self._opened(clock) as opened, bars as bar:
             task = bar.add_task(one.name, total=len(rows(one.drive)), completed=len(found))
 
             def kept() -> None:
@@ -92,6 +93,8 @@ class Place:
                 bar.update(task, completed=len(found), description=one.name)
 
             reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
+            if why := reader.stranger():
+                raise Refused(why)
             reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
 
 
@@ -145,8 +148,13 @@ def _begun(path: Path, one: One) -> dict[int, Word]:
     return there.words
 
 
-def compare(sides: tuple[str, str], place: Place, *, everything: bool) -> tuple[list[RenderableType], bool]:
-    """The differences of two sides, each a file or a drive, and whether there are any. Raises Refused, LostError."""
+def compare(
+    sides: tuple[str, str], place: Place, own: str | None, *, everything: bool
+) -> tuple[list[RenderableType], bool]:
+    """The differences of two sides, each a file or a drive, and whether there may be any. Raises Refused, LostError.
+
+    `own` is the map of two files, where it is not shipped.
+    """
     files = [_is_file(each) for each in sides]
     wrong = [] if all(files) else list(place.wrong())
     found: list[Saved | One] = []
@@ -159,7 +167,7 @@ def compare(sides: tuple[str, str], place: Place, *, everything: bool) -> tuple[
         wrong.append(f"{sides[0]} is of {found[0].stem}, {sides[1]} of {found[1].stem}: compare drives of one family")
     if wrong:
         raise Refused("\n".join(wrong))
-    model = next((each.drive for each in found if isinstance(each, One)), None) or drive(found[0].stem).drive
+    model = next((each.drive for each in found if isinstance(each, One)), None) or drive(own or found[0].stem).drive
     if not everything and not any(each.set for each in rows(model)):
         raise Refused(f"the map of {model.prefix} names no parameter that may be read; write --all")
     both = [each if isinstance(each, Saved) else _taken(each, place) for each in found]
@@ -188,12 +196,12 @@ def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -
         shown = [_shown(row, each) for each in (left, right)]
         made.add_row(row.id, address_text(row.address), row.name, *shown, row.default)
     what = "registers" if everything else "parameters"
-    lines = [f"{len(differing)} of {len(both)} {what} differ" if differing else f"all {len(both)} {what} are equal"]
-    if len(both) < len(compared):
+    lines = [f"{len(differing)} of {len(both)} {what} differ" if differing else f"{len(both)} {what} are equal"]
+    if missing := len(both) < len(compared):
         lines.append(f"{len(compared) - len(both)} were not read on both sides")
     if {left.revision, right.revision} != {f"{revision(model):08X}"}:
         lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
-    return [*([made] if differing else []), "\n".join(lines)], bool(differing)
+    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing)
 
 
 def _shown(row: Row, side: Saved) -> str:

@@ -5,12 +5,14 @@ from dataclasses import dataclass, replace
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import Port
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import manners, most
+from driveblocks.maps.polls import identity_read
 from driveblocks.modbus.layout import take
 from driveblocks.plc.ask import Asker, Speech
 from driveblocks.plc.guard import Guard
+from driveblocks.simulator.pattern import of_condition
 from driveblocks.simulator.refusal import codes
 from driveblocks.site.register import function, rows, spans
 from driveblocks.site.saved import Word
@@ -92,6 +94,22 @@ class Reader:
             found = dict.fromkeys(span, answer) if isinstance(answer, str) else dict(zip(span, answer, strict=True))
             words.update(found)
             keep()
+
+    def stranger(self) -> str:
+        """What shows that the unit is another family's; empty where nothing does. Raises LostError."""
+        read = identity_read(self._drive)
+        if read is None or self._drive.identity is None:
+            return ""
+        answer = self._answer(Span(read.address, read.address + read.words - 1))
+        if answer == SILENT:
+            raise LostError(f"unit {self._unit} does not answer")
+        if isinstance(answer, str):
+            return f"unit {self._unit} does not give the identity of {self._drive.prefix}: {answer}"
+        for pattern in map(of_condition, self._drive.identity.all):
+            word = answer[pattern.register - read.address]
+            if not pattern.holds(word):
+                return f"unit {self._unit} is no {self._drive.prefix}: {address_text(pattern.register)} is {word:04X}H"
+        return ""
 
     def _answers(self, wait: Callable[[str], None]) -> bool:
         """Wait until a run that was answered before is answered again. Raises LostError."""
