@@ -7,6 +7,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, any_of
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ UNLINKED_CALLS = 100
 """Calls of a drive block without one of the line, after which it says that there is none."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
+RUNS = 4
+"""Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
 JOG_ENDS = b"\x06\x10\x00\x00\x08"
 """CHF: 1000H, 8 ends a jog, line 326 of its manual."""
 LINE_ERRORS = (0, 61)
@@ -86,6 +89,8 @@ class Claim:
     """When a frame was last sent to it."""
     fault_us: int | None = None
     driven_us: int | None = None
+    runs: int = 0
+    """Orders to run since the last edge, or since it last turned."""
     written_us: int = 0
     writes: deque[int] = field(default_factory=lambda: deque([0] * 6, maxlen=6))
     """When it was last written to."""
@@ -111,7 +116,7 @@ class Claims:
         self.doubled_us = -FOREIGN_US
         self.retries: object = 0
         self.all_us = 0
-        """When all drives were last stopped by the line, whose own stops count as sent again."""
+        """When the line last stopped all drives, or one did not obey: stops count as sent again."""
         self.unlinked = 0
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
@@ -125,11 +130,14 @@ class Claims:
         if writes:
             self._again(now_us, index, claim, body)
             self._jog(index, claim, body)
+            claim.runs += runs(self.bench.types[index], body)
+            self._once(index, "runs again", bad=claim.runs > RUNS, seen=body.hex())
             self._first(now_us, index, claim, len(body))
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
         claim.sent_us = now_us
-        idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > QUIET_US
+        most = QUIET_US * (3 if len(self.claims) > 3 else 1)  # a reference of the ramp may have waited for its turn
+        idle = claim.still_us is not None and now_us - max(claim.still_us, claim.changed_us) > most
         asks = any(each.index == index for each in self.judge.asked)
         same = pins == claim.pins
         if (
@@ -158,6 +166,8 @@ class Claims:
         self._stop(index, claim, driven=driven)
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
+        if driven or not any_of(MOVES, before):
+            claim.runs = 0
         turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
         if index == 0:
@@ -267,6 +277,7 @@ class Claims:
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US:
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
+                told = told or (bench.unsaid and bench.reason(index) == "NO_RUN")
                 self._once(index, "follow", bad=not told)
 
     def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
@@ -441,10 +452,9 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]
         self._once(0, "strange", bad=good and strange != 0, seen=f"{strange!r} foreign frames")
-        if any(pins.get("StopAll") for pins in bench.pins):
+        if any(pins.get("StopAll") for pins in bench.pins) or not all(self.willing(i) for i in units):
             self.all_us = now
-        retries, steady = block["TheLine.Retries"], good and all(self.willing(i) for i in units)
-        steady = steady and now - self.all_us > ATTEND_US
+        retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)
         self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
         self.retries = retries

@@ -38,6 +38,7 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     # the line
     "size": SIZES, "ascii": BOTH, "ms": (20, 10, 40), "others run": BOTH, "before": ("", "a jog", "a coast"),
     "reverse": BOTH, "no scale": BOTH, "limit": BOTH, "refresh": (0, 300, 65535), "learns": BOTH,
+    "echo": BOTH,
     # all models
     "start_us": (0, 200_000), "reply_us": ((10_000, 10_000), (10_000, 18_000)), "late_per_1000": (0, 30),
     "stop_key": BOTH, "start_key": BOTH, "stop_key_holds": BOTH, "terminals_act": (False,),
@@ -55,7 +56,10 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "SN300G5.key_cuts_line": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
 }  # fmt: skip
-LINE = ("size", "ascii", "ms", "others run", "before", "reverse", "no scale", "limit", "refresh", "learns", "KeepWord")
+LINE = (
+    "size", "ascii", "ms", "others run", "before", "reverse", "no scale", "limit", "refresh", "learns", "KeepWord",
+    "echo",
+)  # fmt: skip
 
 
 @cache
@@ -140,7 +144,7 @@ class Run:
         for index in range(1, len(types)):
             b.put(index, RefreshMs=row["refresh"])
         self.judge = b.judge
-        b.mode = cell.mode
+        b.mode, b.echo = cell.mode, row["echo"]
         b.start_pin = ("Jog" if cell.mode == "jog" else "Run") + ("Reverse" if row["reverse"] else "Forward")
 
     def _options(self, family: str) -> dict[str, Any]:
@@ -296,6 +300,8 @@ class Run:
             driven = set()
         if any(each.stops for each in events) or self.cell.mode == "MonitorOnly":
             driven -= {0}
+        if any(each.neighbour for each in events):
+            driven -= {1}
         self.judge.kept = driven
 
     def heal(self) -> None:
