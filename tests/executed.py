@@ -101,6 +101,10 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
     yield ("run", str(folder / "fails.st"), "--simulate", "chf@1", "--for", "2s", "--show", "n", *picture), ""
     yield ("run", str(folder / "bad.st")), ""
     yield ("run", motor, "--tcp", port, "--allow-run", "--for", "1s"), "Motor 1\nWIRED\n"
+    kept = str(folder / "chf.csv")
+    yield ("parameters", "save", "chf@1", kept, "--tcp", port), ""
+    yield ("parameters", "compare", kept, kept, "--all"), ""
+    yield ("line", "chf@1", "jscc@2", "--picture", str(folder / "round.svg")), ""
     _, slave = pty.openpty()
     yield ("simulate", "chf@1", "--port", os.ttyname(slave), "--for", "4s"), ""
     yield ("simulate", "chf@1", "--pty", "--frames", "--for", "1s"), ""

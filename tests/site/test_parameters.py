@@ -6,7 +6,6 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -297,7 +296,7 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
         command = [sys.executable, "-m", "driveblocks", *words]
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as begun:
             while not path.exists() and begun.poll() is None:
-                time.sleep(0.01)
+                threading.Event().wait(0.01)
             begun.send_signal(signal.SIGINT)
             said = begun.communicate()[1]
         kept = saved.read(path).words
