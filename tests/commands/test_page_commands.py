@@ -104,7 +104,9 @@ def own(tmp_path: Path) -> Path:
     shutil.copy(ROOT / "examples/three_makes.st", tmp_path / "my_line.st")
     shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / "my_drive.yaml")
     for name in ("pump", "pump_last_year"):
-        saved.write(tmp_path / f"{name}.csv", "jscc", load(ROOT / "vendor_maps/jscc.yaml"), 2, {0: 1})
+        saved.write(
+            tmp_path / f"{name}.csv", "jscc", load(ROOT / "vendor_maps/jscc.yaml"), 2, dict.fromkeys(range(256), 1)
+        )
     return tmp_path
 
 
