@@ -29,6 +29,7 @@ BLOCKS = {
     "Trail": ("MB_StopTrack", "what is kept about a stop"),
     "Ear": ("MB_LineFrame", "a reply"),
     "Count": ("UDINT", "what a user keeps"),
+    "Preset": ("VFD_Settings", "settings"),
 }
 _INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
 
