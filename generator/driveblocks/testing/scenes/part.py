@@ -30,6 +30,7 @@ BLOCKS = {
     "Ear": ("MB_LineFrame", "a reply"),
     "Count": ("UDINT", "what a user keeps"),
     "Preset": ("VFD_Settings", "settings"),
+    "Call": ("MB_Open", "a request"),
 }
 _INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
 
