@@ -52,6 +52,7 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 # ---------------------------------------------------------------- starts
 
 _MEASURES = ("OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower")
+_UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES}
 
 
 def starts(can: Ability) -> Iterator[Scene]:
@@ -72,10 +73,10 @@ def starts(can: Ability) -> Iterator[Scene]:
 
 
 def _power_up(can: Ability) -> Iterator[Step]:
-    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=500, shows={
+    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=500, shows=_UNMEASURED | {
         "CommOk": False, "Reason": "NO_REPLY", "Ready": False, "StopConfirmed": False, "StopOverdue": False,
         "HardStop.HardStopOk": False,
-    } | {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES})  # fmt: skip
+    })  # fmt: skip
     told: Shows = {
         "CommOk": True, "StopConfirmed": True, "ZeroSpeed": True, "Running": False, "Fault": False, "Error": False,
         "ErrorID": 0, "FaultCode": 0, "StopOverdue": False, "Reason": "READY", "Seen.Stops >= 1": True,
