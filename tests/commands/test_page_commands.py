@@ -16,6 +16,9 @@ from pathlib import Path
 import pytest
 from tests.maps.bad import cases
 
+from driveblocks.maps.load import load
+from driveblocks.site import saved
+
 ROOT = Path(__file__).parents[2]
 TESTING = ROOT / "docs/testing.md"
 OWN = [ROOT / "README.md", ROOT / "vendor_maps/README.md", *sorted({*ROOT.glob("docs/*.md")} - {TESTING})]
@@ -30,6 +33,7 @@ ELSEWHERE = {
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
     r"driveblocks test my_drive.yaml --junit": "tests/commands/test_ci_jobs.py runs the job in a clone",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
+    r"driveblocks parameters .*--port": "a real port; tests/site/test_parameters.py has them at simulated drives",
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
     r"make (?!(blocks|counts|schema)$)": "minutes to hours; tests/building/test_release.py has `make release`",
@@ -38,7 +42,7 @@ ELSEWHERE = {
     r"copy |bash ": "for another shell, or its name alone",
 }
 """How the command lines begin that do not run here, and why."""
-BARE = {f"driveblocks {name}" for name in ("explain", "lint", "run", "show", "simulate")}
+BARE = {f"driveblocks {name}" for name in ("explain", "line", "lint", "parameters", "run", "show", "simulate")}
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {
     "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),
@@ -99,6 +103,10 @@ def own(tmp_path: Path) -> Path:
         (tmp_path / f"{name}.st").write_text(BLOCK.format(Path(name).name.title()), encoding="utf-8")
     shutil.copy(ROOT / "examples/three_makes.st", tmp_path / "my_line.st")
     shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / "my_drive.yaml")
+    for name in ("pump", "pump_last_year"):
+        saved.write(
+            tmp_path / f"{name}.csv", "jscc", load(ROOT / "vendor_maps/jscc.yaml"), 2, dict.fromkeys(range(256), 1)
+        )
     return tmp_path
 
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import click
 import pytest
 
 from driveblocks.cli import app
@@ -63,11 +64,13 @@ def lines(page: Path) -> Iterator[str]:
 
 @EACH
 def test_commands_and_their_options_are_there(page: Path) -> None:
-    commands = app.commands
     for text in (*code(page), *lines(page)):
         name, *words = text.removeprefix("driveblocks ").split()
         if text.startswith("driveblocks ") and "*" not in text:
-            known = {option for each in commands[name].params for option in each.opts}
+            command = app.commands[name]
+            if isinstance(command, click.Group) and words:
+                command = command.commands[words[0]]
+            known = {option for each in command.params for option in each.opts}
             assert {word for word in words if word.startswith("-")} <= known, text
 
 

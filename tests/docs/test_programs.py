@@ -13,7 +13,10 @@ from structured_text.language.lint import lint_sources
 
 ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r"^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-ELSEWHERE = {"ci.md", "lint.md", "linux.md", "prove.md", "run.md", "simulate.md", "stop.md"}
+ELSEWHERE = {
+    "before-buying.md", "ci.md", "lint.md", "linux.md", "prove.md", "run.md", "save-parameters.md",
+    "simulate.md", "stop.md",
+}  # fmt: skip
 """Pages whose blocks are commands, rules, formulas or C; tests of their own take what runs."""
 HARD_STOP = (
     "PROGRAM HardStops\nVAR\n  HardStop : VFD_HardStop;\n  Bus, Bus1, Bus2 : MB_ByteLine8;\n  FirstScan : BOOL;\n"

@@ -88,7 +88,7 @@ def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: i
 
 def promised(drive: Drive, rate: int, count: int, *, keeps: bool) -> tuple[int, int]:
     """`StopAloneMs` and `WorstStopMs` of a line with this many drives."""
-    bench = _standing(drive, Config(rate=rate, keeps=keeps, turn_ms=20), count)
+    bench = _standing(drive, Config(rate=rate, keeps=keeps, turn_ms=20, max_scan=20), count)
     return bench["TheLine.StopAloneMs"], bench["TheLine.WorstStopMs"]
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from pathlib import PurePosixPath
 
 import pytest
+from tests import shipped
 from tests.export import tc_reader
 from tests.export.stock import Canon, canon, made
 
@@ -206,3 +207,12 @@ def test_what_the_format_cannot_say_is_refused_with_its_place() -> None:
         "types/MB_Adu.st:3:15: the character 000CH cannot be in a file of TwinCAT: leave it out",
         "types/MB_Adu.st:7:38: `]]>` ends the text in a file of TwinCAT: put a blank between the brackets",
     ]
+
+
+def test_the_page_names_every_folder_of_the_library() -> None:
+    """But for those of the families, which it names together."""
+    order = written()["README.md"].partition("in the order")[2].partition("The adapter")[0]
+    folders = {path.split("/")[1] for path in objects() if path.startswith("library/")}
+    shared = folders - {each.path.stem for each in shipped.sources()}
+    assert shared >= {"types", "device"}
+    assert [name for name in sorted(shared) if f"`{name}`" not in order] == []

@@ -1,5 +1,7 @@
 """When a stop is overdue: silence that is beyond doubt, and no other; from a cut cable to the contact."""
 
+from dataclasses import replace
+
 import pytest
 from tests.line.vline import STOP, Bench, Config
 
@@ -31,9 +33,10 @@ def cut(config: Config, held: bool, after: int = 0) -> tuple[int, int]:
 
 @pytest.mark.parametrize("held", [False, True])
 @pytest.mark.parametrize("config", [LEARNED, EIGHT])
+@pytest.mark.parametrize("echo", [False, True])
 @pytest.mark.parametrize("after", [0, 7, 23, 61])
-def test_from_a_cut_cable_to_the_contact(config: Config, held: bool, after: int) -> None:
-    took, stated = cut(config, held, after)
+def test_from_a_cut_cable_to_the_contact(config: Config, held: bool, echo: bool, after: int) -> None:
+    took, stated = cut(replace(config, echo=echo), held, after)
     assert config.longest_ms < took <= stated
     assert stated <= (2500 if config.drives == 1 else 4000)
 
@@ -43,8 +46,10 @@ def test_before_reply_times_are_learned_it_takes_longer() -> None:
     assert 2500 < took <= stated
 
 
-def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds() -> None:
-    bench = Bench(EIGHT).ready()
+@pytest.mark.parametrize("echo", [False, True])
+def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds(echo: bool) -> None:
+    """A port that echoes answers for nobody."""
+    bench = Bench(replace(EIGHT, echo=echo)).ready()
     bench.drives[3].alive = False
     began = bench.now
     while bench.slot(3, "Online"):

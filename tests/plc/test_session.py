@@ -12,7 +12,8 @@ from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import AGAIN_US, DevicePort
 from driveblocks.desk.script import Setting
 from driveblocks.plc import live
-from driveblocks.plc.ending import CHATTER_US, REPLY_US, Ending
+from driveblocks.plc.ask import CHATTER_US, REPLY_US
+from driveblocks.plc.ending import Ending
 from driveblocks.plc.pace import Pace
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits

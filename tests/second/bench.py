@@ -7,7 +7,7 @@ from tests.drives.bench import RUNS, Bench
 from tests.second import chf, jscc, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
-from tests.second.frames import rtu
+from tests.second.frames import rtu, runs
 from tests.second.judge import Asked, Judge
 from tests.second.observer import Figures
 from tests.second.script import drive as model
@@ -67,6 +67,8 @@ class Second(Bench):
         """When it spoke last."""
         self.strangers: list[int] = []
         """When it has spoken."""
+        self.unsaid = False
+        """Nobody hears the first drive acknowledge a run."""
         self.lineless = False
         """The line is not called."""
         self.flicker = ""
@@ -201,7 +203,8 @@ class Second(Bench):
             if index + 1 in self.deaf:
                 continue
             for at, text in one.receive(raw, end):
-                if not self._happens(self.faults.unanswered):
+                unsaid = self.unsaid and not index and runs(self.types[0], data)
+                if not unsaid and not self._happens(self.faults.unanswered):
                     self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
 
     def _reply(self, index: int, text: bytes, at: int, frame: Any) -> None:

@@ -40,6 +40,8 @@ class Event:
     """The first drive may stop for it; else it must run on."""
     stops_all: bool = False
     """Others may stop for it, too."""
+    neighbour: bool = False
+    """The second drive may stop for it."""
 
 
 def pin(name: str, value: bool, lasts: int, **more: bool) -> Event:
@@ -136,6 +138,33 @@ def _right(b: Second, _: Random) -> None:
 
 def _dead(b: Second, _: Random) -> None:
     b.deaf.add(1)
+
+
+def _neighbour_dead(b: Second, _: Random) -> None:
+    if len(b.models) > 1:
+        b.deaf.add(2)
+
+
+def _neighbour_back(b: Second, _: Random) -> None:
+    b.deaf.discard(2)
+
+
+def _unsaid(b: Second, _: Random) -> None:
+    """It runs, and the master hears nothing of it."""
+    _ready_again(b)
+    b.unsaid = True
+    b.put(0, **{b.start_pin: True})
+
+
+def _unsaid_and_ignored(b: Second, chance: Random) -> None:
+    _ready_again(b)
+    _ignores(b, RUNS)
+    _unsaid(b, chance)
+
+
+def _said(b: Second, chance: Random) -> None:
+    b.unsaid = False
+    _obeys(b, chance)
 
 
 def _dead_and_restart(b: Second, _: Random) -> None:
@@ -362,6 +391,8 @@ AIMED = {
     "a stall of 2 s and time after it": Event(lambda b, _: b.stall(2000), 7000, stops_all=True),
     "Enable is FALSE for long": pin("Enable", False, 11_000),
     "a stop pin for long": pin("QuickStop", True, 11_000),
+    "a run is not acknowledged": Event(_unsaid, 6000, _said),
+    "a run is neither acknowledged nor obeyed": Event(_unsaid_and_ignored, 9000, _said),
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
 }
@@ -384,6 +415,7 @@ EVENTS: dict[str, Event] = {
     "a wrong address from the start": Event(_wrong_from_the_start, 3000, _right, stops_all=True),
     "a reset": pin("FaultReset", True, 100),
     "a dead drive": Event(_dead, 9000, _back),
+    "a dead neighbour": Event(_neighbour_dead, 9000, _neighbour_back, stops=False, neighbour=True),
     "a trip": Event(_trip, 9000),
     "a supply dip of 300 ms": Event(_power(False), 300, _power(True)),
     "a safe torque off": Event(_inhibit(True), 1000, _inhibit(False)),

@@ -10,6 +10,8 @@ def _entry(byte: int) -> int:
     return byte
 
 
+RUNS = {"CHF": (1, 2, 3, 4), "JSCC": (1, 2)}
+"""Values of 1000H: CHF lines 319 to 326, JSCC lines 105 to 108."""
 TABLE = tuple(_entry(byte) for byte in range(256))
 
 
@@ -38,6 +40,13 @@ def ascii_(body: bytes) -> bytes:
 
 
 @lru_cache(maxsize=1 << 16)
+def runs(kind: str, body: bytes) -> bool:
+    """Whether a request without checksum makes a drive of this make run or jog."""
+    if kind == "SN300G5":
+        return body[1:4] == b"\x10\0\0" and bool(body[8] & 3)  # 0000H: bits 0 and 1
+    return body[1:4] == b"\x06\x10\0" and body[5] in RUNS[kind]
+
+
 def opened(frame: bytes) -> bytes | None:
     """Unit, function and data of an RTU frame; None: damaged."""
     return frame[:-2] if len(frame) >= 4 and crc(frame[:-2]) == frame[-2:] else None

@@ -300,6 +300,8 @@ class Run:
             driven = set()
         if any(each.stops for each in events) or self.cell.mode == "MonitorOnly":
             driven -= {0}
+        if any(each.neighbour for each in events):
+            driven -= {1}
         self.judge.kept = driven
 
     def heal(self) -> None:

@@ -12,10 +12,7 @@ if TYPE_CHECKING:
 
 FILE = click.Path(path_type=Path)
 MAPS = click.argument(
-    "maps",
-    nargs=-1,
-    metavar="[MAP]...",
-    help="Paths of maps, or names of shipped ones; all shipped ones if none is given.",
+    "maps", nargs=-1, metavar="[MAP]...", help="Paths of maps, or names of shipped ones; if none, all shipped ones."
 )
 JUNIT = click.option("--junit", metavar="FILE", type=FILE, help="Write all results there as JUnit XML.")
 

@@ -76,7 +76,7 @@ def _held(drive: "Drive") -> str:
         "errata": held.errata,
         "absent": held.absent,
     }
-    return ", ".join(f"{number} {kind}" for kind, number in kinds.items())
+    return ", ".join(f"{number} {kind.removesuffix('s') if number == 1 else kind}" for kind, number in kinds.items())
 
 
 def _summary(mistakes: list[int]) -> None:

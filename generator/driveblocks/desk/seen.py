@@ -30,7 +30,7 @@ class View:
 
 
 def spelled(value: Value) -> str:
-    """A value as ST writes it, more or less."""
+    """A value in the words of ST, a REAL with two places."""
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
     if isinstance(value, float):

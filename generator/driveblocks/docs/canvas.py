@@ -68,7 +68,7 @@ class Canvas:
         self.body.append(f'<path class="line" d="M{x0:g},{y0:g} Q{x1:g},{y1:g} {x:g},{y:g}"/>')
 
     def arrow(self, points: list[tuple[float, float]], kind: str = "line") -> None:
-        """The same with a head at its end."""
+        """A line through these points, with an arrowhead at its end."""
         self.path(points, kind)
         (x0, y0), (x, y) = points[-2:]
         dx, dy = (x > x0) - (x < x0), (y > y0) - (y < y0)

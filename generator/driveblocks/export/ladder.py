@@ -245,7 +245,7 @@ class _Drawing:
         self.y += 2 * _PITCH
 
     def out(self, target: str, source: int, start: Point, pin: str | None) -> None:
-        """A variable at the right end of a wire."""
+        """Draw a variable at the right end of a wire."""
         place, width = (max(start[0], _BLOCK) + 100, start[1]), 8 * len(target) + 20
         wire = _pin("In", (0, 10), _link(source, place, start, pin=pin))
         text = Element("expression", {}, text=target)

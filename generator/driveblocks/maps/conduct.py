@@ -62,7 +62,7 @@ def trip(drive: Drive) -> str:
 
 
 def in_command(drive: Drive) -> str:
-    """By what one sees that the bus is in command."""
+    """How the drive shows that the bus is in command."""
     bus = drive.operation.commanded_by
     return UNKNOWN + " how to see it" if bus is None else f"while {' and '.join(map(condition, bus.all))}"
 

@@ -14,8 +14,9 @@ from driveblocks.desk.recorder import Recorder
 from driveblocks.desk.script import Setting
 from driveblocks.desk.seen import View
 from driveblocks.maps.model import Drive
+from driveblocks.plc.ask import Speech
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Speech, Stopper
+from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Stopper
 from driveblocks.plc.gate import Gate, GivenUp
 from driveblocks.plc.look import look
 from driveblocks.plc.pace import Pace

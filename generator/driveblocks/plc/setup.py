@@ -2,7 +2,6 @@
 
 import difflib
 import sys
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from dataclasses import replace
@@ -18,7 +17,7 @@ from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import demo, live, source, wiring
+from driveblocks.plc import demo, live, probe, source
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.ending import Ending
@@ -29,7 +28,6 @@ from driveblocks.plc.simulated import Simulation
 from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.simulator.drive import SimulatedDrive
-from structured_text.engines.engine import BuildError, ScanError
 from structured_text.visible import file_name
 
 LONGEST_SCAN_US = 60_000_000
@@ -68,7 +66,7 @@ class Setup:
             console.write(f"{self.label}  compiling {file_name(self._path.name)}")
         self._maps = _maps(options)
         self._loaded = self._load()
-        self.probe = self._probed()
+        self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
         self._wanted = [] if options.tcp or options.port else self._simulates()
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
@@ -87,41 +85,7 @@ class Setup:
 
     def _load(self) -> source.Loaded:
         name = file_name(catalog.shown(self._path))
-        try:
-            return source.load(name, _text(self._path, name), self._maps, self._options.name)
-        except BuildError as error:
-            raise Refused(f"{error}{source.advice(str(error))}") from None
-
-    def _controller(self) -> Controller:
-        loaded = self._loaded
-        try:
-            wired = wiring.find(loaded.program, set(loaded.drives))
-        except BuildError as error:
-            raise Refused(str(error)) from None
-        return Controller(loaded.library, loaded.program.name, wired, loaded.drives, self._scan_us)
-
-    def _probed(self) -> Controller:
-        """The program after one scan without a port: what it says of its line and drives. Raises Refused."""
-        probe = self._controller()
-        probe.connect(_Nowhere(), None)
-        errors: list[ScanError] = []
-
-        def scan() -> None:
-            try:
-                probe.scan(self._scan_us)
-            except ScanError as error:
-                errors.append(error)
-
-        thread = threading.Thread(target=scan, daemon=True)
-        thread.start()
-        limit_s = max(FIRST_US, self._watchdog_us) / 1e6
-        thread.join(limit_s)
-        if thread.is_alive():
-            place = probe.place(thread.ident)
-            raise Refused(f"{place}: the first scan has not ended within {limit_s:g} s; nothing was sent")
-        for error in errors:
-            raise Refused(str(error)) from None
-        return probe
+        return probe.compiled(name, probe.text(self._path, name), self._maps, self._options.name)
 
     def _line(self, pin: str) -> int:
         return self.probe.number(f"{self.probe.wiring.line}.{pin}") or USUAL.get(pin, 0)
@@ -216,7 +180,7 @@ class Setup:
         return "REAL PORT" if self._options.real else "SIMULATED"
 
     def _made(self) -> Session:
-        controller = self._controller()
+        controller = probe.controller(self._loaded, self._scan_us)
         session = Session(controller, self._clock, Ending(), self._scan_us)
         session.recorded = self._recorded(controller)
         session.script, session.shown = self._script(controller), self._options.show
@@ -256,7 +220,7 @@ class Setup:
             return []
         name = file_name(path)
         try:
-            return script.read(name, _text(path, name), controller.instance)
+            return script.read(name, probe.text(path, name), controller.instance)
         except script.ScriptError as error:
             raise Refused(str(error)) from None
 
@@ -352,18 +316,6 @@ class Setup:
         return self._status(result) or (2 if failed else 0)
 
 
-def _text(path: Path, name: str) -> str:
-    """The text of a plain file: a pipe would be waited for. Raises Refused."""
-    try:
-        if path.exists() and not path.is_file():
-            raise Refused(f"{name}:1:1: cannot be read: it is no file")
-        return path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        raise Refused(f"{name}:1:1: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise Refused(f"{name}:1:1: cannot be read: it is not UTF-8; save it as such") from None
-
-
 def _print(text: str) -> None:
     """On standard output, else on the other stream."""
     try:
@@ -389,22 +341,6 @@ def _maps(options: Options) -> list[Map]:
         return source.known([catalog.resolve(name) for name in named])
     except (catalog.UnknownDrive, MapError) as error:
         raise Refused(str(error)) from None
-
-
-class _Nowhere:
-    """A port at which nobody is."""
-
-    late_ms = 0
-    error = ""
-
-    def send(self, data: bytes) -> None:
-        pass
-
-    def receive(self) -> bytes:
-        return b""
-
-    def close(self) -> None:
-        pass
 
 
 class _Since:

@@ -50,7 +50,7 @@ class Watchdog:
         self._begun_us = self._now_us()
 
     def end(self) -> None:
-        """It has ended."""
+        """The scan has ended."""
         self._begun_us = None
         self.may_us = self.limit_us
 

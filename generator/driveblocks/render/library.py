@@ -35,8 +35,8 @@ CONTROL_BLOCKS = (
     "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter",
     "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
-DEVICE = "MB_Device"
-"""The block of a meter or a sensor, which needs some of those."""
+DEVICE = ("MB_Device", "MB_Float")
+"""What is for a meter or a sensor; the block needs some of those."""
 DRIVE_TYPES = ("VFD_Settings", "VFD_Diagnosis", "VFD_Asked", "VFD_Seen")
 LINE_SIZES = (8, 32)
 """How many slots a line can have."""
@@ -93,7 +93,7 @@ def generic(languages: list[Language]) -> Iterator[File]:
         yield File("types", name, render(f"types/{name}.st.j2", **_texts_of(languages)))
     for name in CONTROL_BLOCKS:
         yield File("vfd", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
-    yield File("device", DEVICE, render(f"device/{DEVICE}.st.j2", **_texts_of(languages)))
+    yield from (File("device", name, render(f"device/{name}.st.j2", **_texts_of(languages))) for name in DEVICE)
     for language in languages:
         yield _file("vfd", "CodeText", text.reason_texts(language))
         yield _file("vfd", "CodeText", text.state_texts(language))

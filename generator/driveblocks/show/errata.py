@@ -10,7 +10,7 @@ from driveblocks.show.layout import both, card, heading, listed, own_head
 
 def errata(drive: Drive) -> Iterator[RenderableType]:
     """Every misprint and contradiction, in the order of the map."""
-    yield heading(f"{len(drive.errata)} misprints and contradictions of the manual")
+    yield heading(f"Misprints and contradictions of the manual: {len(drive.errata)}")
     for number, erratum in enumerate(drive.errata, 1):
         yield of_erratum(drive, erratum, f"{number}. ")
 
@@ -30,7 +30,7 @@ def of_erratum(drive: Drive, erratum: Erratum, number: str = "") -> RenderableTy
 
 def absences(drive: Drive) -> Iterator[RenderableType]:
     """Everything that a person needs and the manual does not say."""
-    yield heading(f"{len(drive.absent)} things that the manual does not say")
+    yield heading(f"What the manual does not say: {len(drive.absent)}")
     for number, absence in enumerate(drive.absent, 1):
         yield of_absence(drive, absence, f"{number}. ")
 
@@ -48,7 +48,7 @@ def of_absence(drive: Drive, absence: Absence, number: str = "") -> RenderableTy
 
 def notices(drive: Drive) -> Iterator[RenderableType]:
     """Prohibitions, warnings, hazards and procedures."""
-    yield heading(f"{len(drive.notices)} prohibitions, warnings, hazards and procedures of the manual")
+    yield heading(f"Prohibitions, warnings, hazards and procedures of the manual: {len(drive.notices)}")
     for notice in drive.notices:
         yield of_notice(notice)
 

@@ -14,7 +14,7 @@ from driveblocks.show.layout import OWN, both, card, code_text, facts, heading, 
 def faults(drive: Drive) -> Iterator[RenderableType]:
     """The registers that report faults, and every fault code."""
     known = drive.faults
-    yield heading(f"{len(known.codes)} fault codes")
+    yield heading(f"Fault codes: {len(known.codes)}")
     relation = known.bits and (
         f"code = 16 x (word - {address_text(known.bits.first)}) + bit + 1, words {address_text(known.bits.first)} to "
         f"{address_text(known.bits.last)} ({known.bits.source})"
@@ -56,7 +56,7 @@ def all_bits(drive: Drive) -> Iterator[tuple[str, Register, Bit]]:
 
 def errors(drive: Drive) -> Iterator[RenderableType]:
     """What a refusal looks like on the wire, and every reason."""
-    yield heading(f"{len(drive.errors.codes)} error codes")
+    yield heading(f"Error codes: {len(drive.errors.codes)}")
     yield facts(("form", _form(drive)), ("source", drive.errors.source))
     for error in drive.errors.codes:
         yield of_error(drive, error)

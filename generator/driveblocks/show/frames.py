@@ -14,7 +14,7 @@ from driveblocks.show.layout import card, code_text, heading, listed
 def frames(drive: Drive) -> Iterator[RenderableType]:
     """Every example frame, in the manual's order."""
     wrong = sum(frame.checksum == "wrong" for frame in drive.frames)
-    yield heading(f"{len(drive.frames)} example frames, {wrong} with a wrong checksum")
+    yield heading(f"Example frames: {len(drive.frames)}, {wrong} of them with a wrong checksum")
     if not drive.frames:
         yield UNPROVED
     for frame in drive.frames:

@@ -23,7 +23,8 @@ def test_a_block_that_is_the_same_is_listed_with_its_engines(
     assert _run(monkeypatch, "--scans", "30", "--blocks", "MB_HexDigit") == 0
     told = capsys.readouterr().out
     assert "embedded: runs" in told
-    assert "MB_HexDigit: 30 scans the same on embedded" in told
+    line = next(each for each in told.splitlines() if each.startswith("MB_HexDigit: 30 scans the same on "))
+    assert "embedded" in line
     assert "1 blocks and functions, 30 scans each, 0 that differ" in told
 
 

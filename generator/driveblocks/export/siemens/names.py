@@ -20,7 +20,7 @@ class Names:
         self.problems.append(Problem(part.unit.path, line, column, text, "siemens"))
 
     def find(self, name: str) -> Part | None:
-        """The part of a name, in any case of letters."""
+        """The part with this name, in capital or small letters."""
         return self.parts.get(name.upper())
 
     def array(self, name: str) -> ArraySpec | None:

@@ -53,7 +53,7 @@ class Ability:
 
     @property
     def motions(self) -> tuple[str, ...]:
-        """Its motions."""
+        """The motions that the drive can be commanded, of MOTIONS."""
         return tuple(each for each in MOTIONS if self.can(each))
 
     @property

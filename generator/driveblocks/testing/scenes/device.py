@@ -42,6 +42,9 @@ MORE = More(
 )
 HELD = (0x0102, 0xA0B0, 0x7FFF)
 """Words of the meter."""
+FLOATS = ((0x4148, 0, "12.5"), (0xBE80, 0, "-0.25"), (0x4B00, 1, "8388609.0"), (0x4CC0, 0, "1.00663296E8"),
+          (0x0040, 0, "0.0"), (0xFF80, 0, "-3.4E38"))  # fmt: skip
+"""High word, low word, and what MB_Float makes of them; the last one is minus infinity."""
 STALE_MS = 800
 
 
@@ -121,6 +124,10 @@ def _orders() -> Iterator[Step]:
     yield Step("the low byte first", {".Bytes": True}, ms=400, shows=GOOD | _shown(*bytes_))
     yield Step("and the low word", {".Pairs": True}, ms=400, shows=GOOD | _shown(bytes_[1], bytes_[0], bytes_[2]))
     yield Step("the low word", {".Bytes": False}, ms=400, shows=GOOD | _shown(HELD[1], HELD[0], HELD[2]))
+    floats: Shows = {
+        f"MB_Float(High := {word(high)}, Low := {word(low)}) = REAL#{real}": True for high, low, real in FLOATS
+    }
+    yield Step("numbers with a decimal point", ms=100, shows=floats)
 
 
 def _senseless(drive: Drive, first: int) -> Iterator[Step]:

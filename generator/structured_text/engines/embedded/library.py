@@ -89,7 +89,7 @@ class EmbeddedLibrary:
         return EmbeddedInstance(self.paths(block), root, self._scanner(block, root), shared)
 
     def paths(self, block: Block) -> Paths:
-        """The paths of a block."""
+        """The paths of a block's variables, made at the first call."""
         if block not in self._paths:
             self._paths[block] = Paths(block)
         return self._paths[block]

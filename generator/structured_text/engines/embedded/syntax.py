@@ -115,7 +115,7 @@ class Pen:
         return ast.AugAssign(target, ast.Add(), self.constant(1), **self.here)
 
     def statement(self, value: ast.expr) -> ast.Expr:
-        """Evaluate and drop."""
+        """An expression as a statement; its value is not used."""
         return ast.Expr(value, **self.here)
 
     def branch(self, test: ast.expr, body: list[ast.stmt], otherwise: list[ast.stmt]) -> ast.If:

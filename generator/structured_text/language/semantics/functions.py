@@ -175,7 +175,7 @@ def _shared_argument(scope: Scope, argument: Argument, shared: Type) -> None:
 
 
 def type_conversion(scope: Scope, value: Call, name: str, found: Conversion) -> Type:
-    """`X_TO_Y(x)` and its kind."""
+    """The type of a conversion, such as INT_TO_REAL(x) or TO_REAL(x)."""
     parameter = Parameter("IN", found.source or UNKNOWN)
     given = sort_arguments(scope, value, [parameter], name)
     argument = given.get("IN")

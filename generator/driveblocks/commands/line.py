@@ -1,0 +1,68 @@
+"""`driveblocks line`: how fast a line is and how late its stops are, before anything is bought."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from driveblocks.commands import FILE, refuse
+
+
+@click.command()
+@click.argument(
+    "line",
+    nargs=-1,
+    metavar="DRIVE[@UNIT]...|PROGRAM.st",
+    help="Drives and unit addresses (else the next free), or a program.",
+)
+@click.option("--program", "name", metavar="NAME", help="Which PROGRAM, where the file has several.")
+@click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that the program uses.")
+@click.option(
+    "--device",
+    multiple=True,
+    type=int,
+    metavar="REGISTERS",
+    help="A meter or a sensor beside the drives, of which as many registers are read; may be repeated.",
+)
+@click.option("--rate", type=int, metavar="RATE", help="Bit rate; else that of the program, or 9600.")
+@click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else as the program, or 8N1.")
+@click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU.")
+@click.option("--scan", metavar="TIME", default="10ms", help="Time between two scans.")
+@click.option("--max-scan", metavar="TIME", help="The longest; else MaxScanMs of the program, or two scans.")
+@click.option("--keeps-silence", is_flag=True, help="The port itself keeps the silence between frames.")
+@click.option("--port-late", metavar="TIME", help="How long the port or its adapter delays request and reply.")
+@click.option("--reply", metavar="TIME", default="20ms", help="How long a drive takes until its reply begins.")
+@click.option("--watchdog", metavar="TIME", help="Time of the drives' own watchdogs; a program has it itself.")
+@click.option("--stop-within", metavar="TIME", help="The stops of all drives have to be sent within this time.")
+@click.option("--picture", type=FILE, metavar="FILE.svg", help="Draw one round of the line.")
+@click.option("--json", is_flag=True, help="Print all figures of all rates as JSON.")
+def run(picture: Path | None, json: bool, **words: Any) -> None:
+    """Compute how often each drive is read and how late a stop can be, before anything is bought.
+
+    The figures of stops are those of the line block itself, run for one scan at each bit rate; nothing is sent. The
+    exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's own rate; 2 for bad input.
+
+    Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
+    """
+    import sys
+    from json import dumps
+
+    from driveblocks import console
+    from driveblocks.plc.options import Refused
+    from driveblocks.site import asked, report
+    from driveblocks.site import picture as pictures
+    from driveblocks.site.line import figures
+
+    try:
+        line = asked.line(asked.Words(**words))
+    except Refused as refused:
+        refuse(str(refused))
+    tried = [figures(line, rate) for rate in line.rates()]
+    own = next(each for each in tried if each.rate == line.rate)
+    if picture is not None:
+        picture.write_text(pictures.drawn(own), encoding="utf-8")
+    if json:
+        click.echo(dumps(report.plain(tried), ensure_ascii=False, indent=2))
+    else:
+        console.write(*report.tables(tried))
+    sys.exit(1 if own.broken else 0)

@@ -1,0 +1,86 @@
+"""`driveblocks parameters`: the registers of a drive saved to a file, and compared."""
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from driveblocks.commands import FILE, refuse
+
+PLACE: tuple[Callable[[Any], Any], ...] = (
+    click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT."),
+    click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, or `driveblocks simulate`."),
+    click.option("--rate", type=int, default=9600, metavar="RATE", help="Bit rate of --port."),
+    click.option("--format", "form", default="8N1", metavar="8N1", help="Data bits, parity, stop bits of --port."),
+    click.option("--ascii", is_flag=True, help="MODBUS ASCII instead of RTU."),
+    click.option("--patience", default="30s", metavar="TIME", help="How long to wait for a line that was lost."),
+)
+
+
+def _placed(command: Callable[..., None]) -> Callable[..., None]:
+    """The options of a port."""
+    for option in reversed(PLACE):
+        command = option(command)
+    return command
+
+
+@click.group()
+def run() -> None:
+    """Save the registers of a drive, or compare them: it reads, and never writes.
+
+    Disconnect the PLC first: two masters on one line damage each other's frames.
+    """
+
+
+@run.command()
+@click.argument("drive", metavar="DRIVE[@UNIT]", help="The drive's map by name or path, and its unit address, else 1.")
+@click.argument("file", type=FILE, metavar="FILE.csv", help="Where to; a file that is not complete is continued.")
+@_placed
+def save(drive: str, file: Path, **words: Any) -> None:
+    """Read every register that the map lists into a file, with names and units.
+
+    The file is whole at any moment, and says how far it came. The exit status is 0 when it is complete, 1 when the
+    drive has fallen silent or a person has ended it, 2 for bad input.
+
+    Example: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0
+    """
+    from driveblocks.plc.options import Refused
+    from driveblocks.site import drives
+    from driveblocks.site.reader import LostError
+
+    try:
+        click.echo(drives.save(drive, file, drives.Place(**words)))
+    except Refused as refused:
+        refuse(str(refused))
+    except LostError as lost:
+        click.echo(str(lost), err=True)
+        sys.exit(1)
+
+
+@run.command()
+@click.argument("left", metavar="FILE.csv|DRIVE[@UNIT]", help="A file that `save` has written, or a drive.")
+@click.argument("right", metavar="FILE.csv|DRIVE[@UNIT]", help="Another of the same family.")
+@click.option("--all", "everything", is_flag=True, help="Compare what the drive measures, too, not only what is set.")
+@click.option("--map", "own", metavar="MAP", help="The map of two files, where it is your own.")
+@_placed
+def compare(left: str, right: str, everything: bool, own: str | None, **words: Any) -> None:
+    """Show what differs between two drives, two files, or a drive and a file, in the order of the manual.
+
+    The exit status is 0 if all is equal, 1 if something differs or was not read, 2 for bad input or a drive that
+    does not answer.
+
+    Example: driveblocks parameters compare pump.csv chf@2 --port /dev/ttyUSB0
+    """
+    from driveblocks import console
+    from driveblocks.plc.options import Refused
+    from driveblocks.site import drives
+    from driveblocks.site.reader import LostError
+
+    try:
+        told, differs = drives.compare((left, right), drives.Place(**words), own, everything=everything)
+    except (Refused, LostError) as refused:
+        refuse(str(refused))
+    console.write(*told)
+    sys.exit(1 if differs else 0)

@@ -1,0 +1,86 @@
+"""The parameters of a drive in a file: a table with commas, whole at any moment, which says how far it came."""
+
+import csv
+import io
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import Drive
+from driveblocks.maps.revision import revision
+from driveblocks.plc.options import Refused
+from driveblocks.site.register import rows, unread, value
+from structured_text.visible import file_name
+
+COLUMNS = ("address", "id", "name", "word", "value", "unit", "default")
+_HEAD = re.compile(r"# map: (?P<map>\S+), revision (?P<revision>[0-9A-F]{8})")
+_UNIT = re.compile(r"# unit: (?P<unit>[0-9]{1,3})")
+_WORD = re.compile(r"[0-9]{1,5}")
+
+Word = int | str
+"""What was read, or why nothing was: `refused 2`, `no reply`."""
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A drive's words by address; where a file's map is another, its revision differs."""
+
+    where: str
+    stem: str
+    unit: int
+    words: dict[int, Word]
+    revision: str
+
+
+def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Word]) -> None:
+    """Put the file in the place of the one that is there, in one step. Raises OSError."""
+    known = {address: word for address, word in words.items() if isinstance(word, int)}
+    every = rows(drive)
+    text = io.StringIO()
+    text.write(f"# parameters of {drive.prefix}, read by driveblocks\n")
+    text.write(f"# map: {stem}, revision {revision(drive):08X}\n# unit: {unit}\n")
+    text.write(f"# read: {len(words)} of {len(every)}\n")
+    text.writelines(f"# {line}\n" for line in unread(drive))
+    table = csv.writer(text, lineterminator="\n")
+    table.writerow(COLUMNS)
+    for row in every:
+        if row.address in words:
+            word = words[row.address]
+            shown = value(row, word, known) if isinstance(word, int) else ("", "")
+            table.writerow((address_text(row.address), row.id, row.name, word, *shown, row.default))
+    part = path.with_name(f".{path.name}.part")
+    try:
+        part.write_text(text.getvalue(), encoding="utf-8")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def read(path: Path) -> Saved:
+    """A file that `write` has made. Raises Refused with everything that is wrong with it."""
+    name = file_name(path)
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise Refused(f"{name}:1:1: cannot be read: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from None
+    head = next((found for line in lines if (found := _HEAD.fullmatch(line))), None)
+    unit = next((found for line in lines if (found := _UNIT.fullmatch(line))), None)
+    if head is None or unit is None:
+        raise Refused(f"{name}:1:1: is no file of `driveblocks parameters save`: it names no map and no unit")
+    words, wrong = dict[int, Word](), list[str]()
+    for number, line in enumerate(lines, 1):
+        if line.startswith("#") or line == ",".join(COLUMNS):
+            continue
+        cells = next(csv.reader([line]), [])
+        found = re.fullmatch("([0-9A-F]{4})H", cells[0]) if len(cells) == len(COLUMNS) else None
+        if found is None:
+            wrong.append(f"{name}:{number}:1: is no row; write {', '.join(COLUMNS)}")
+        elif _WORD.fullmatch(cells[3]) and int(cells[3]) > 0xFFFF:
+            wrong.append(f"{name}:{number}:1: {cells[3]} is no word; write 0 to 65535")
+        else:
+            words[int(found[1], 16)] = int(cells[3]) if _WORD.fullmatch(cells[3]) else cells[3]
+    if wrong:
+        raise Refused("\n".join(wrong))
+    return Saved(name, head["map"], int(unit["unit"]), words, head["revision"])

@@ -1,0 +1,112 @@
+"""`driveblocks line`: tables that fit, JSON, a picture, mistakes all at once, and the exit status."""
+
+import json
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from click.testing import CliRunner, Result
+from rich.cells import cell_len
+
+from driveblocks.cli import app
+
+EXAMPLE = str(Path(__file__).parents[2] / "examples" / "three_makes.st")
+
+
+def line(*words: str, columns: int = 80) -> Result:
+    """Run `driveblocks line` as if in a terminal of some width."""
+    return CliRunner().invoke(app, ["line", *words], env={"COLUMNS": str(columns)})
+
+
+@pytest.mark.parametrize("columns", [80, 120])
+def test_tables_fit_and_name_what_does_not_hold(columns: int) -> None:
+    names = "chf@1", "sn300g5@2", "jscc", "--device", "2", "--watchdog", "6s", "--stop-within"
+    good, bad = (line(*names, within, columns=columns) for within in ("500ms", "150ms"))
+    assert (good.exit_code, bad.exit_code) == (0, 1)
+    assert max(map(cell_len, good.stdout.splitlines())) <= columns
+    rows = [row.split() for row in good.stdout.splitlines()]
+    assert [row[:2] for row in rows if row[:1] in (["1"], ["2"], ["3"], ["4"])] == [
+        ["1", "CHF_1"], ["2", "SN300G5_2"], ["3", "JSCC_3"], ["4", "device"],
+    ]  # fmt: skip
+    assert [row[-1] for row in rows if row[:1] in (["4800"], ["9600"])] == ["stops", "yes"]
+    said = " ".join(good.stdout.split()), " ".join(bad.stdout.split())
+    both = "all stops are sent within {} ms and every watchdog is fed in half of its time"
+    assert f"The smallest rate at which {both.format(500)}: 9600 bit/s." in said[0]
+    assert f"There is no rate at which {both.format(150)}." in said[1]
+
+
+def test_the_shipped_example_has_the_figures_of_its_own_line(tmp_path: Path) -> None:
+    picture = tmp_path / "round.svg"
+    got = line(EXAMPLE, "--json", "--picture", str(picture))
+    assert got.exit_code == 0
+    told = json.loads(got.stdout)
+    (own,) = [each for each in told["rates"] if each["rate"] == told["rate"]]
+    assert [(each["unit"], each["name"], each["drive"]) for each in own["units"]] == [
+        (1, "Pump1", "SN300G5"), (2, "Pump2", "JSCC"), (3, "Fan", "CHF"),
+    ]  # fmt: skip
+    assert (told["bits"], told["max_scan"], told["smallest_rate"]) == (11, 20, 4800)
+    # what the same program shows in its first scan, with 500 ms of turn-round for each drive
+    assert (own["all_stops_before_replies"], own["broken"]) == (1759, [])
+    drawn = ElementTree.fromstring(picture.read_text(encoding="utf-8"))  # noqa: S314  (what the command has written)
+    texts = [each.text for each in drawn.iter("{http://www.w3.org/2000/svg}text")]
+    assert {"Pump1 (1)", "Pump2 (2)", "Fan (3)", "0 ms", f"{own['round']} ms"} <= {*texts}
+    bars = [each for each in drawn.iter("{http://www.w3.org/2000/svg}rect") if each.get("class") in ("mark", "rail")]
+    ends = [float(each.get("x", "0")) + float(each.get("width", "0")) for each in bars[-2:]]
+    assert len(bars) == 2 + 3 * 2
+    assert ends[0] < ends[1] <= 970
+
+
+def test_a_rate_and_a_scan_beside_a_program_try_another_line() -> None:
+    slow, quick = (json.loads(line(EXAMPLE, "--json", "--rate", rate).stdout) for rate in ("4800", "9600"))
+    assert (slow["rate"], quick["rate"]) == (4800, 9600)
+    assert slow["rates"] == quick["rates"]
+    short = json.loads(line(EXAMPLE, "--json", "--scan", "5ms").stdout)
+    assert short["rates"][0]["round"] < slow["rates"][0]["round"]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((), ["name a drive or a program; for example: driveblocks line chf@1 jscc@2"]),
+        (("--device", "1"), ["there is no drive on the line; name one, such as chf@1"]),
+        (
+            ("chf@300", "--rate", "5", "--format", "9X1", "--scan", "0s", "--device", "17", "--reply", "soon"),
+            [
+                "--scan 0s is out of range; write 0.001s to 1s",
+                "--reply: `soon` is no time; write 10ms, 2.5s or 1min",
+                "--rate 5 is out of range; write 300 to 1000000 bit/s",
+                "--format 9X1 is no format; write one of 8N1, 8E1, 8O1, 8N2, 7E1, 7O1, 7N2",
+                "--device 17 is out of range; write 1 to 16 registers",
+                "chf@300: units are 1 to 247, one drive each; write chf@1",
+            ],
+        ),
+        (("chf", "--scan", "30ms", "--max-scan", "20ms"), ["--max-scan 20ms is shorter than --scan 30ms"]),
+        (("chf",) * 33, ["33 units; a line has 1 to 32"]),
+        (("chf", "--program", "X"), ["--program is for a file with several PROGRAMs"]),
+        (
+            (EXAMPLE, "chf", "--device", "1", "--watchdog", "1s"),
+            [
+                "name one program, or drives",
+                "--device is for named drives; a program says so itself",
+                "--watchdog is for named drives; a program says so itself",
+            ],
+        ),
+        (("absent.st",), ["absent.st:1:1: cannot be read: No such file or directory"]),
+        (
+            ("sn300g5@3", "--rate", "115200", "--ascii", "--format", "7O1"),
+            [
+                "SN300G5_3 has no 115200 bit/s; its manual names 1200, 2400, 4800, 9600",
+                "SN300G5_3 speaks no ASCII",
+            ],
+        ),
+    ],
+)
+def test_all_mistakes_are_reported_at_once(words: tuple[str, ...], said: list[str]) -> None:
+    got = line(*words)
+    assert (got.exit_code, got.stderr.splitlines(), got.stdout) == (2, said, "")
+
+
+def test_seven_data_bits_are_for_ascii() -> None:
+    got = line("jscc", "--format", "7E1")
+    assert (got.exit_code, got.stderr) == (2, "7 data bits are for ASCII; add --ascii\n")
+    assert line("jscc", "--format", "7E1", "--ascii").exit_code == 0
