@@ -15,8 +15,9 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from hashlib import sha256
+from itertools import zip_longest
 from pathlib import Path
-from random import Random
 from typing import Any
 
 import yaml
@@ -169,17 +170,14 @@ def _parts(plain: str, begins: int) -> Iterator[tuple[str, int, int, str]]:
 
 
 def drawn(seed: int) -> Iterator[Mutant]:
-    """All changes in the order of a seed, kinds in turn, so that none is rare."""
-    random = Random(seed)
+    """All changes in the order of a seed, kinds in turn, so that none is rare; other changes keep their order."""
     by_kind: dict[str, list[Mutant]] = {}
     for one in every():
         by_kind.setdefault(one.kind, []).append(one)
     for kind in sorted(by_kind):
-        random.shuffle(by_kind[kind])
-    while any(by_kind.values()):
-        for kind in sorted(by_kind):
-            if by_kind[kind]:
-                yield by_kind[kind].pop()
+        by_kind[kind].sort(key=lambda one: sha256(f"{seed} {one.path} {one.was} {one.now}".encode()).digest())
+    for turn in zip_longest(*(by_kind[kind] for kind in sorted(by_kind))):
+        yield from filter(None, turn)
 
 
 def _idle(one: Mutant) -> bool:

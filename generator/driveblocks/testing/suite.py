@@ -22,7 +22,20 @@ from driveblocks.testing import (
     version,
 )
 from driveblocks.testing.bench import GENERIC
-from driveblocks.testing.scenes import again, count, device, exact, line, manual, motor, others, pace, several, told
+from driveblocks.testing.scenes import (
+    again,
+    count,
+    device,
+    exact,
+    line,
+    manual,
+    motor,
+    others,
+    pace,
+    part,
+    several,
+    told,
+)
 from driveblocks.testing.scenes import drive as simulated
 from driveblocks.testing.scenes import parameter as parameters
 from driveblocks.testing.scenes.ability import Ability
@@ -41,6 +54,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Pace": pace.scripts,
     "Restart": again.scripts,
     "To the millisecond": exact.scripts,
+    "Parts": part.scripts,
     "Parameters": parameters.scripts,
     "Several parameters": several.scripts,
     "A meter beside it": device.scripts,

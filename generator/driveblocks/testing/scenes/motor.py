@@ -51,6 +51,9 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 
 # ---------------------------------------------------------------- starts
 
+_MEASURES = ("OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower")
+_UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES}
+
 
 def starts(can: Ability) -> Iterator[Scene]:
     """Power-up, starts, speeds, directions."""
@@ -70,7 +73,7 @@ def starts(can: Ability) -> Iterator[Scene]:
 
 
 def _power_up(can: Ability) -> Iterator[Step]:
-    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=500, shows={
+    yield Step("nothing is known yet", {"Fate.Dumb": True}, ms=500, shows=_UNMEASURED | {
         "CommOk": False, "Reason": "NO_REPLY", "Ready": False, "StopConfirmed": False, "StopOverdue": False,
         "HardStop.HardStopOk": False,
     })  # fmt: skip
@@ -110,7 +113,11 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
         "Slots[0].Ask[1].Number <> Slots[0].Answer[1].Number": True, "StopConfirmed": False,
     })  # fmt: skip
     yield Step("the start is sent", {}, f"{why('STARTING')} OR {pace}", 200, {"StopConfirmed": False})
-    yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {"Seen.Order": ORDERS[does]})
+    sent = next(one.register for one in can.drive.operation.commands if one.does == does)
+    own = sent != can.drive.operation.reference.register
+    yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
+        "Seen.Order": ORDERS[does], "Slots[0].Once": own, "Slots[0].Begins": own,
+    })  # fmt: skip
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
         "Running": True, "Seen.Starts": 1, "Seen.Order": ORDERS[does], "Error": False, "ZeroSpeed": False,
@@ -830,6 +837,12 @@ def _address(can: Ability) -> Iterator[Step]:
     yield Step(
         "the drive has this address now", {"Fate.Unit": first + 1}, "Motor.Ready", 4000, STANDS | {"Seen.Starts": 1}
     )
+    last = can.drive.serial.unit.max
+    if last < 255:
+        yield Step("one that no drive has", {"Address": last + 1}, why("MISSING"), 3000, {"Ready": False})
+    served = {f"Slots[0].UnitAddress = {last}": True}
+    yield Step("the highest", {"Address": last, "Fate.Unit": last}, "Motor.Ready", 4000, STANDS | served)
+    yield Step("none", {"Address": 0}, why("MISSING"), 3000, {"Ready": False})
 
 
 def _heartbeat(can: Ability) -> Iterator[Step]:

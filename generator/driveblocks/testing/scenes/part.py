@@ -1,0 +1,99 @@
+"""Scenes of the blocks that a drive block and a line are made of, each by itself: the table of calls in part.yaml.
+
+What they are given in one call, no drive shows at will, and a restart in the midst of it least of all.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import yaml
+
+from driveblocks.maps.model import Drive
+from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
+from driveblocks.testing.script import SCAN_MS, Script
+from structured_text.language.writing import word
+
+BLOCKS = {
+    "Part": ("UINT", "which block is called, 0: none"),
+    "Given": ("MB_Words", "its inputs"),
+    "Nothing": ("MB_Words", "none"),
+    "Known": ("VFD_Seen", "what it gets about the drive"),
+    "Unknown": ("VFD_Seen", "nothing"),
+    "Wish": ("VFD_Asked", "what it gets about the pins"),
+    "NoWish": ("VFD_Asked", "nothing"),
+    "Kept": ("VFD_Diagnosis", "what is kept of a drive"),
+    "Lone": ("MB_Slot", "a slot that no line serves"),
+    "Trail": ("MB_StopTrack", "what is kept about a stop"),
+    "Ear": ("MB_LineFrame", "a reply"),
+    "Count": ("UDINT", "what a user keeps"),
+    "Preset": ("VFD_Settings", "settings"),
+    "Call": ("MB_Open", "a request"),
+}
+_INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
+
+
+@cache
+def parts() -> dict[str, Any]:
+    """The table: of each block its inputs and calls."""
+    text = (files(__package__) / "part.yaml").read_text(encoding="utf-8")
+    found: dict[str, Any] = yaml.safe_load(text)
+    return found
+
+
+def scripts(drive: Drive, stem: str) -> Iterator[Script]:
+    """One program."""
+    blocks = BLOCKS | {_instance(block): (block, "under test") for block in parts()}
+    calls = ["CASE Part OF"]
+    for number, (block, part) in enumerate(parts().items(), 1):
+        calls += [f"  {number}:", f"    {_instance(block)}({', '.join(_inputs(part['inputs']))});"]
+    more = More(blocks=blocks, calls=(*calls, "END_CASE;", "Part := 0;"))
+    scenes = (_scene(number, block, part) for number, (block, part) in enumerate(parts().items(), 1))
+    yield script(drive, stem, "MotorParts", "blocks that others are made of", scenes, more)
+
+
+def _instance(block: str) -> str:
+    return f"The{block.partition('_')[2]}"
+
+
+def _inputs(inputs: str) -> Iterator[str]:
+    for at, (name, kind, type_) in enumerate(_INPUT.findall(inputs)):
+        number = f"WORD_TO_UINT(Given[{at}])"
+        if type_:
+            number = f"UINT_TO_{type_}({number})"
+        shapes = {"?": f"Given[{at}] <> WORD#16#0000", "~": f"Given[{at}]", "=": type_, "#": number}
+        yield f"{name} := {shapes[kind]}"
+
+
+def _scene(number: int, block: str, part: Mapping[str, Any]) -> Scene:
+    """A step lasts one call, in which all is as in the call before but what it is given."""
+    blank: Shows = {".Part": 0, ".Given": "Nothing", ".Known": "Unknown", ".Wish": "NoWish"}
+    places = {name: at for at, (name, *_) in enumerate(_INPUT.findall(part["inputs"]))}
+    steps = [Step("nothing", blank, ms=SCAN_MS)]
+    for words, gets, shows in _each(part["calls"]):
+        given = dict(_given(places, key, value) for key, value in gets.items())
+        seen = dict(
+            _shown(key if "." in key and not key.startswith("Asked.") else f"{_instance(block)}.{key}", value)
+            for key, value in shows.items()
+        )
+        steps.append(Step(words, {".Part": number} | given, ms=SCAN_MS, shows=seen))
+    return scene(block, steps)
+
+
+def _each(rows: Iterable[Any]) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
+    """The calls; one with bytes at its end is a call for each of them, looked at after the last."""
+    for words, gets, shows, *heard in rows:
+        octets = [{"Character": int(each, 16)} for each in "".join(heard).split()] or [{}]
+        for at, octet in enumerate(octets):
+            yield words, (octet if at else gets | octet), (shows if at + 1 == len(octets) else {})
+
+
+def _given(places: Mapping[str, int], key: str, value: Any) -> tuple[str, Value]:
+    return (f".Given[{places[key]}]", word(int(value))) if key in places else (key, value)
+
+
+def _shown(key: str, value: Value) -> tuple[str, Value]:
+    """A number is compared whatever its type."""
+    return (key, value) if isinstance(value, bool) else (f"{key.removeprefix('.')} = {value}", True)
