@@ -103,13 +103,6 @@ def test_the_page_of_motors_that_do_not_run_names_each_reason() -> None:
     assert named <= {each.code for each in REASONS}
 
 
-def test_the_way_of_a_bit_is_as_the_page_says() -> None:
-    rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|", (ROOT / "CONTRIBUTING.md").read_text("utf-8"), re.MULTILINE)
-    way = [(path, word) for path, word in rows if "/" in path]
-    assert 1 < len(way) <= 6
-    assert [path for path, word in way if word not in (ROOT / path).read_text("utf-8")] == []
-
-
 def test_the_page_of_other_plcs_names_those_that_import_xml_and_says_that_none_was_tried() -> None:
     text = " ".join((ROOT / "docs/other-plcs.md").read_text("utf-8").split())
     for name in ("GX Works3", "Sysmac Studio", "KV STUDIO", "PLCnext Engineer", "3.5.21"):

@@ -67,7 +67,7 @@ class Measured:
 def measure(drive: Drive, rate: int, *, keeps: bool, seconds: int = 20, stops: int = 40) -> Measured:
     """Let seven drives run, stop one at a time at random moments, and measure."""
     chance = Random(7)
-    config = Config(rate=rate, keeps=keeps, turn_ms=20)
+    config = Config(rate=rate, keeps=keeps, turn_ms=20, max_scan=20)
     bench = _standing(drive, config, COUNT)
     block = bench.block
     command = {one.does: one for one in drive.operation.commands}["stop"]
