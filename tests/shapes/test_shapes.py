@@ -93,7 +93,7 @@ def test_neither_direction_may_go_the_way_of_the_other(name: str) -> None:
     assert judged(drive, replace(forward, does="run_reverse"), replace(reverse, does="run_forward"))
     own = {key: getattr(reverse, key) for key in ("register", "value", "set", "clear")}
     wrong = judged(drive, replace(forward, first=(*forward.first, *reverse.first, Step(**own))))
-    assert "on its way `run_forward` passes through `run_reverse`" in wrong
+    assert "`run_forward` gives the command `run_reverse` in between" in wrong
 
 
 def test_the_run_register_may_not_be_written_before_the_direction() -> None:
@@ -103,8 +103,8 @@ def test_the_run_register_may_not_be_written_before_the_direction() -> None:
         for one in (command(drive, "run_forward"), command(drive, "run_reverse"))
     ]
     assert judged(drive, *swapped) == [
-        "on its way `run_forward` passes through `run_reverse`",
-        "on its way `run_reverse` passes through `run_forward`",
+        "`run_forward` gives the command `run_reverse` in between",
+        "`run_reverse` gives the command `run_forward` in between",
     ]
 
 
@@ -115,7 +115,7 @@ def test_no_reset_passes_through_a_run(name: str, value: int) -> None:
     drive = shapes()[name]
     reset = command(drive, "fault_reset")
     wrong = judged(drive, replace(reset, first=(Step(register=reset.register, value=value),)))
-    assert [each for each in wrong if each.startswith("on its way `fault_reset` passes through `run_")]
+    assert [each for each in wrong if each.startswith("`fault_reset` gives the command `run_")]
 
 
 def test_a_stop_that_forgets_an_active_low_bit_is_refused() -> None:

@@ -14,7 +14,7 @@ import yaml
 from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
-from structured_text.language.writing import word
+from structured_text.language.writing import WIDTH, flowing, word
 
 BLOCKS = {
     "Part": ("UINT", "which block is called, 0: none"),
@@ -48,14 +48,22 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     blocks = BLOCKS | {_instance(block): (block, "under test") for block in parts()}
     calls = ["CASE Part OF"]
     for number, (block, part) in enumerate(parts().items(), 1):
-        calls += [f"  {number}:", f"    {_instance(block)}({', '.join(_inputs(part['inputs']))});"]
-    more = More(blocks=blocks, calls=(*calls, "END_CASE;", "Part := 0;"))
-    scenes = (_scene(number, block, part) for number, (block, part) in enumerate(parts().items(), 1))
+        calls += [f"  {number}:", *_call(block, part["inputs"])]
+    more = More(blocks=blocks, calls=(*calls, "ELSE", "  Part := 0; (* none *)", "END_CASE;", "Part := 0;"))
+    scenes = (each for number, (block, part) in enumerate(parts().items(), 1) for each in _scenes(number, block, part))
     yield script(drive, stem, "MotorParts", "blocks that others are made of", scenes, more)
 
 
 def _instance(block: str) -> str:
     return f"The{block.partition('_')[2]}"
+
+
+def _call(block: str, inputs: str) -> list[str]:
+    """The call, broken between its inputs."""
+    first, *others, last = _inputs(inputs)
+    pieces = (f"{_instance(block)}({first}", *others)
+    lines = flowing([*(f"{each}," for each in pieces), f"{last});"], " " * 6, WIDTH - 2)
+    return [lines[0][2:], *lines[1:]]
 
 
 def _inputs(inputs: str) -> Iterator[str]:
@@ -67,19 +75,31 @@ def _inputs(inputs: str) -> Iterator[str]:
         yield f"{name} := {shapes[kind]}"
 
 
-def _scene(number: int, block: str, part: Mapping[str, Any]) -> Scene:
+def _scenes(number: int, block: str, part: Mapping[str, Any]) -> Iterator[Scene]:
+    """A scene, and one more after each row that is but its name."""
+    name, rows = block, list[Any]()
+    for row in part["calls"]:
+        if len(row) == 1:
+            yield _scene(name, number, block, part["inputs"], rows)
+            name, rows = f"{block}, {row[0]}", []
+        else:
+            rows.append(row)
+    yield _scene(name, number, block, part["inputs"], rows)
+
+
+def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any]) -> Scene:
     """A step lasts one call, in which all is as in the call before but what it is given."""
     blank: Shows = {".Part": 0, ".Given": "Nothing", ".Known": "Unknown", ".Wish": "NoWish"}
-    places = {name: at for at, (name, *_) in enumerate(_INPUT.findall(part["inputs"]))}
+    places = {pin: at for at, (pin, *_) in enumerate(_INPUT.findall(inputs))}
     steps = [Step("nothing", blank, ms=SCAN_MS)]
-    for words, gets, shows in _each(part["calls"]):
+    for words, gets, shows in _each(rows):
         given = dict(_given(places, key, value) for key, value in gets.items())
         seen = dict(
             _shown(key if "." in key and not key.startswith("Asked.") else f"{_instance(block)}.{key}", value)
             for key, value in shows.items()
         )
         steps.append(Step(words, {".Part": number} | given, ms=SCAN_MS, shows=seen))
-    return scene(block, steps)
+    return scene(name, steps)
 
 
 def _each(rows: Iterable[Any]) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
