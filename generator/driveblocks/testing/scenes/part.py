@@ -1,4 +1,4 @@
-"""Scenes of the blocks that a drive block and a line are made of, each by itself: the table of calls in part.yaml.
+"""Scenes of the blocks that a drive block and a line are made of, each by itself: the tables of part.yaml and family.
 
 What they are given in one call, no drive shows at will, and a restart in the midst of it least of all.
 """
@@ -12,6 +12,7 @@ from typing import Any
 import yaml
 
 from driveblocks.maps.model import Drive
+from driveblocks.testing.scenes import family
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
 from structured_text.language.writing import WIDTH, flowing, word
@@ -31,6 +32,7 @@ BLOCKS = {
     "Count": ("UDINT", "what a user keeps"),
     "Preset": ("VFD_Settings", "settings"),
     "Call": ("MB_Open", "a request"),
+    "Fetched": ("MB_Words16", "what was read"),
 }
 _INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
 
@@ -45,12 +47,13 @@ def parts() -> dict[str, Any]:
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program."""
-    blocks = BLOCKS | {_instance(block): (block, "under test") for block in parts()}
+    every = parts() | family.parts(drive)
+    blocks = BLOCKS | {_instance(block): (block, "under test") for block in every}
     calls = ["CASE Part OF"]
-    for number, (block, part) in enumerate(parts().items(), 1):
+    for number, (block, part) in enumerate(every.items(), 1):
         calls += [f"  {number}:", *_call(block, part["inputs"])]
     more = More(blocks=blocks, calls=(*calls, "ELSE", "  Part := 0; (* none *)", "END_CASE;", "Part := 0;"))
-    scenes = (each for number, (block, part) in enumerate(parts().items(), 1) for each in _scenes(number, block, part))
+    scenes = (each for number, (block, part) in enumerate(every.items(), 1) for each in _scenes(number, block, part))
     yield script(drive, stem, "MotorParts", "blocks that others are made of", scenes, more)
 
 
