@@ -15,7 +15,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes import family
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import SCAN_MS, Script
-from structured_text.language.writing import WIDTH, flowing, word
+from structured_text.language.writing import WIDTH, byte, flowing, word
 
 BLOCKS = {
     "Part": ("UINT", "which block is called, 0: none"),
@@ -33,6 +33,10 @@ BLOCKS = {
     "Preset": ("VFD_Settings", "settings"),
     "Call": ("MB_Open", "a request"),
     "Fetched": ("MB_Words16", "what was read"),
+    "Rack": ("MB_Slots8", "the slots of a line"),
+    "NoRack": ("MB_Slots8", "empty ones"),
+    "Plug": ("MB_Port", "its port"),
+    "NoPlug": ("MB_Port", "a blank one"),
 }
 _INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
 
@@ -92,10 +96,12 @@ def _scenes(number: int, block: str, part: Mapping[str, Any]) -> Iterator[Scene]
 
 def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any]) -> Scene:
     """A step lasts one call, in which all is as in the call before but what it is given."""
-    blank: Shows = {".Part": 0, ".Given": "Nothing", ".Known": "Unknown", ".Wish": "NoWish"}
+    blank: Shows = {
+        ".Part": 0, ".Given": "Nothing", ".Known": "Unknown", ".Wish": "NoWish", ".Rack": "NoRack", ".Plug": "NoPlug",
+    }  # fmt: skip
     places = {pin: at for at, (pin, *_) in enumerate(_INPUT.findall(inputs))}
     steps = [Step("nothing", blank, ms=SCAN_MS)]
-    for words, gets, shows in _each(rows):
+    for words, gets, shows in _each(rows, whole="Port" in places):
         given = dict(_given(places, key, value) for key, value in gets.items())
         seen = dict(
             _shown(key if "." in key and not key.startswith("Asked.") else f"{_instance(block)}.{key}", value)
@@ -105,12 +111,22 @@ def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any])
     return scene(name, steps)
 
 
-def _each(rows: Iterable[Any]) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
-    """The calls; one with bytes at its end is a call for each of them, looked at after the last."""
+def _each(rows: Iterable[Any], *, whole: bool) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
+    """The calls; one with bytes at its end is a call for each of them, looked at after the last.
+
+    A line gets them as a `whole`.
+    """
     for words, gets, shows, *heard in rows:
-        octets = [{"Character": int(each, 16)} for each in "".join(heard).split()] or [{}]
+        octets = [{"Character": int(each, 16)} for each in "".join(heard).split()]
+        octets = [_received(octets)] if whole and heard else octets or [{}]
         for at, octet in enumerate(octets):
             yield words, (octet if at else gets | octet), (shows if at + 1 == len(octets) else {})
+
+
+def _received(octets: list[dict[str, int]]) -> dict[str, Any]:
+    """Characters in the port, which is empty after each call."""
+    ring: dict[str, Any] = {f"Plug.Rx[{at}]": byte(octet["Character"]) for at, octet in enumerate(octets)}
+    return ring | {"Plug.RxOut": 0, "Plug.RxIn": len(octets)}
 
 
 def _given(places: Mapping[str, int], key: str, value: Any) -> tuple[str, Value]:
