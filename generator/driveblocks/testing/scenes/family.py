@@ -25,10 +25,11 @@ Row = list[Any]
 def parts(drive: Drive) -> dict[str, Any]:
     """Of the two blocks their inputs and calls."""
     verify = "Verify? " if _reads_of(drive)["verify"] else ""
+    step = "StepNumber# " if _several(drive) else ""
     inputs = f"Anew? Reread? Forget? {verify}StaleMs# PassedMs# Fresh? Entry# Count#USINT Turn# Words=Fetched"
     return {
         f"{drive.prefix}_Reads": {"inputs": inputs, "calls": [*_reads(drive), ["turns"], *_turns(drive)]},
-        f"{drive.prefix}_Orders": {"inputs": "Order# StepNumber# ReferenceWord~", "calls": list(_orders(drive))},
+        f"{drive.prefix}_Orders": {"inputs": f"Order# {step}ReferenceWord~", "calls": list(_orders(drive))},
     }
 
 
@@ -139,10 +140,9 @@ class _Known:
 
     def _words(self, number: int) -> Shows:
         """The words that a read has brought."""
-        read = self.reads[number]
-        kept = fast_words(self.drive) | slow_words(self.drive)
-        rows = ((at, self.drive.register_at(read.address + at)) for at in range(read.words))
-        return {word_pin(row): word(256 * number + 257 + at) for at, row in rows if row and row.address in kept}
+        read, kept = self.reads[number], fast_words(self.drive) | slow_words(self.drive)
+        rows = {at: self.drive.register_at(read.address + at) for at in range(read.words) if read.address + at in kept}
+        return {word_pin(row): word(256 * number + 257 + at) for at, row in rows.items() if row}
 
 
 def _reads_of(drive: Drive) -> dict[str, set[int]]:
@@ -179,26 +179,34 @@ def _orders(drive: Drive) -> Iterator[Row]:
     """Each write of each command; what is no command is a stop."""
     numbers = KINDS | ORDERS | {"fault_reset": 9}
     known = {one.does: one for one in drive.operation.commands}
-    stop, reference = known["stop"], drive.operation.reference.register
-    yield ["none", {"Order": 0}, _write(stop, 0)]
+    several = _several(drive)
+    none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]
+    yield none
     for does, one in known.items():
         for step in range(len(one.writes)):
             words = does.replace("_", " ") + (f", write {step + 1}" if one.first else "")
-            yield [words, {"Order": numbers[does], "StepNumber": step}, _write(one, step)]
-            yield ["none", {"Order": 0}, _write(stop, 0)]
-    yield ["the reference", {"Order": 10, "StepNumber": 0, "ReferenceWord": 0x1234}, {
-        "Register": word(reference), "Value": word(0x1234), "Last": 0, "HoldMs": 0, "Moves": False,
-    }]  # fmt: skip
+            number = {"StepNumber": step} if several else {}
+            yield [words, {"Order": numbers[does]} | number, _write(one, step, several=several)]
+            yield none
+    reference = word(drive.operation.reference.register)
+    shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
+    yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
 
 
-def _write(one: Command, step: int) -> Shows:
+def _several(drive: Drive) -> bool:
+    """Whether a command has several writes."""
+    return any(one.first for one in drive.operation.commands)
+
+
+def _write(one: Command, step: int, *, several: bool) -> Shows:
     """One of its writes; the bits that it keeps do not count."""
     write, last = one.writes[step], step == len(one.first)
     pattern = of_write(write)
-    return {
+    value = f"(TheOrders.Value AND {word(pattern.mask)})"
+    found: Shows = {
         "Register": word(pattern.register),
-        f"(TheOrders.Value AND {word(pattern.mask)})": word(pattern.value),
-        "Last": len(one.first),
-        "HoldMs": 0 if last else one.first[step].for_ms or 0,
+        value: word(pattern.value),
         "Moves": last and one.does in MOTIONS,
     }
+    more: Shows = {"Last": len(one.first), "HoldMs": 0 if last else one.first[step].for_ms or 0}
+    return found | (more if several else {})

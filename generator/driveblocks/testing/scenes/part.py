@@ -101,7 +101,7 @@ def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any])
     }  # fmt: skip
     places = {pin: at for at, (pin, *_) in enumerate(_INPUT.findall(inputs))}
     steps = [Step("nothing", blank, ms=SCAN_MS)]
-    for words, gets, shows in _each(rows, whole="Port" in places):
+    for words, gets, shows in _each(rows, port="Port" in places):
         given = dict(_given(places, key, value) for key, value in gets.items())
         seen = dict(
             _shown(key if "." in key and not key.startswith("Asked.") else f"{_instance(block)}.{key}", value)
@@ -111,21 +111,20 @@ def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any])
     return scene(name, steps)
 
 
-def _each(rows: Iterable[Any], *, whole: bool) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
-    """The calls; one with bytes at its end is a call for each of them, looked at after the last.
+def _each(rows: Iterable[Any], *, port: bool) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
+    """The calls; of several for one row, what they show is looked at after the last."""
+    for words, gets, shows, *more in rows:
+        given: list[dict[str, Any]] = [{}]
+        for one in more:
+            octets = [] if isinstance(one, int) else [int(each, 16) for each in one.split()]
+            given = [_received(octets)] if port else [{"Character": each} for each in octets] or one * [gets]
+        for at, each in enumerate(given):
+            yield words, (each if at else gets | each), (shows if at + 1 == len(given) else {})
 
-    A line gets them as a `whole`.
-    """
-    for words, gets, shows, *heard in rows:
-        octets = [{"Character": int(each, 16)} for each in "".join(heard).split()]
-        octets = [_received(octets)] if whole and heard else octets or [{}]
-        for at, octet in enumerate(octets):
-            yield words, (octet if at else gets | octet), (shows if at + 1 == len(octets) else {})
 
-
-def _received(octets: list[dict[str, int]]) -> dict[str, Any]:
+def _received(octets: list[int]) -> dict[str, Any]:
     """Characters in the port, which is empty after each call."""
-    ring: dict[str, Any] = {f"Plug.Rx[{at}]": byte(octet["Character"]) for at, octet in enumerate(octets)}
+    ring: dict[str, Any] = {f"Plug.Rx[{at}]": byte(octet) for at, octet in enumerate(octets)}
     return ring | {"Plug.RxOut": 0, "Plug.RxIn": len(octets)}
 
 
