@@ -81,7 +81,7 @@ PLANTED = (
         "late",
     ),
     Planted(
-        "the checksum is not checked", "      IF Check <> WORD#16#0000 THEN", "      IF Check <> Check THEN", "stops"
+        "the checksum is not checked", "    IF Check <> WORD#16#0000 THEN", "    IF Check <> Check THEN", "stops"
     ),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
