@@ -94,6 +94,7 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
     for topic in ((), ("0026H",), ("1EH",), ("faults",), ("errors",), ("frames",), ("errata",), ("registers",)):
         yield ("show", "sn300g5", *topic), ""
     yield ("prove", "jscc", "--junit", str(folder / "proofs.xml")), ""
+    yield ("diff", "sn300g5", "jscc"), ""
     for words in ("show chf --json", "list", "counts", "schema", "doctor", "simulate --schema"):
         yield tuple(words.split()), ""
     picture = ("--trace", str(folder / "run.csv"), "--picture", str(folder / "run.svg"))

@@ -46,7 +46,8 @@ BARE = {f"driveblocks {name}" for name in ("diff", "explain", "line", "lint", "p
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {
     "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),
-    "make": "make PY=python DB=driveblocks", "OLD": "jscc", "NEW": "jscc", "driveblocks run --demo": "driveblocks run --demo --fast",
+    "make": "make PY=python DB=driveblocks", "OLD": "jscc", "NEW": "jscc",
+    "driveblocks run --demo": "driveblocks run --demo --fast",
 }  # fmt: skip
 """What a reader writes in the place of a word of the page, and what saves the test a wait."""
 COMMAND = re.compile(r"(driveblocks|python3?|pip|pytest|make|cat|copy|grep|rm|bash|xml2st) \S")
