@@ -11,13 +11,13 @@ import pytest
 from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
-from driveblocks.building import units as tested
 from driveblocks.cli import app
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
+from driveblocks.output import units as tested
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
 from driveblocks.testing import runner

@@ -48,7 +48,7 @@ def drive_block(drive: Drive) -> Context:
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
-    reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
+    reference, operation, dialect = context.reference(drive), drive.operation, context.reply(drive)
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
     told = Decoded(drive)
     says = {one.shows: [told.holds(each) for each in one.any] for one in operation.status}
@@ -95,8 +95,8 @@ def drive_block(drive: Drive) -> Context:
         "can": commands,
         "keeps": context.kept(drive),
         "write": 6 if 6 in plan(drive).functions else 16,
-        "manners": manners["form"],
-        "two_byte_count": manners["two_byte_count"],
+        "dialect": dialect["form"],
+        "two_byte_count": dialect["two_byte_count"],
         "busy": next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
         "silence": _silence(drive),
         "second_hand": drive.manual.second_hand,
