@@ -13,6 +13,7 @@ from tests.export.tc6_checks import (
     assert_ladders,
     assert_names,
     assert_room,
+    assert_schema,
     made,
 )
 from tests.export.tc6_planted import PLANTED, Planted
