@@ -112,7 +112,7 @@ def check(blocks: Blocks, prefix: str, dialect: Dialect, asked: Asked, body: byt
     return found.result
 
 
-def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
+def assert_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
     """Right and wrong replies at random; answers the names of all results seen."""
     spoken, chance, seen = dialect(drive), random.Random(drive.prefix), set()
     unit, places = drive.serial.unit.min, [0, 0x1000, spoken.address or 0]
@@ -130,7 +130,7 @@ def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
 
 @DRIVES
 def test_random_replies_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
-    seen = check_by_chance(built(engine), drives()[prefix], 1200)
+    seen = assert_by_chance(built(engine), drives()[prefix], 1200)
     assert {"OK", "REFUSED", "SHORT", "LONG", "BYTE_COUNT", "OTHER_FUNCTION", "OTHER_VALUE", "OTHER_ADDRESS"} <= seen
 
 

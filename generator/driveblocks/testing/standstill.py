@@ -52,12 +52,12 @@ def _standstill(drive: Drive, stem: str) -> Script:
     table = Table(program)
     addresses = list(dict.fromkeys(condition.register for condition in spec.all))
     pins = _pins(drive, table, addresses)
-    table.column("Named", "BOOL", False, "whether the words prove it")
-    table.do(_call("Proof", pins), bench.is_flag("Proof.StandstillProven", "Named", "StandstillProven"))
+    table.column("Wanted", "BOOL", False, "whether the words prove it")
+    table.do(_call("Proof", pins), bench.is_flag("Proof.StandstillProven", "Wanted", "StandstillProven"))
     for about, words in _proofs(drive, addresses):
         wanted = proven(drive, words)
         says = f"{about}: {_said(words)}: {'proven' if wanted else 'not proven'}"
-        table.row(says, {pins[address]: word for address, word in words.items()} | {"Named": wanted})
+        table.row(says, {pins[address]: word for address, word in words.items()} | {"Wanted": wanted})
     return program
 
 
