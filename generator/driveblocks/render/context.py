@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Literal, TypedDict
+from typing import Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
@@ -232,20 +232,9 @@ def _refusal(drive: Drive) -> Refusal:
 # ---------------------------------------------------------------- decoders
 
 
-class _Row(TypedDict):
-    """What the blocks of a register have in common."""
-
-    name: str
-    address_text: str
-    title: str
-    own: str
-    note: str
-    source: str
-
-
 @dataclass(frozen=True, kw_only=True)
-class Decoder:
-    """For Decoder: a register with bits or values."""
+class Row:
+    """For Decoder and Scale: a register, with the outputs of its decoder or with its scale."""
 
     name: str
     address_text: str
@@ -253,49 +242,37 @@ class Decoder:
     own: str
     note: str
     source: str
-    parts: list[Part]
+    parts: tuple[Part, ...] = ()
+    unit: str | None = None
+    scale: Scale | None = None
+    signed: bool = False
 
 
-@dataclass(frozen=True, kw_only=True)
-class Scaled:
-    """For Scale: a register with a scale."""
-
-    name: str
-    address_text: str
-    title: str
-    own: str
-    note: str
-    source: str
-    unit: str
-    scale: Scale
-    signed: bool
-
-
-def decoders(drive: Drive) -> Iterator[Decoder]:
+def decoders(drive: Drive) -> Iterator[Row]:
     """One per register with bits or values."""
     for section, row in drive.registers():
-        parts = [*_bit_parts(row), *_value_parts(row)]
+        parts = (*_bit_parts(row), *_value_parts(row))
         if parts:
-            yield Decoder(**_register(drive, section, row, ""), parts=parts)
+            yield replace(_register(drive, section, row, ""), parts=parts)
 
 
-def scales(drive: Drive) -> Iterator[Scaled]:
+def scales(drive: Drive) -> Iterator[Row]:
     """One per register with a scale."""
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            yield Scaled(**named, unit=row.unit, scale=row.scale, signed=row.signed)
+            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed)
 
 
-def _register(drive: Drive, section: Section, row: Register, suffix: str) -> _Row:
-    return {
-        "name": names.block(drive.prefix, symbol(row) + suffix),
-        "address_text": address_text(row.address.first),
-        "title": inside_a_sentence(row.name or ""),
-        "own": row.own,
-        "note": _elsewhere(row.note or ""),
-        "source": source_of(drive, row.source or section.source),
-    }
+def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row:
+    return Row(
+        name=names.block(drive.prefix, symbol(row) + suffix),
+        address_text=address_text(row.address.first),
+        title=inside_a_sentence(row.name or ""),
+        own=row.own,
+        note=_elsewhere(row.note or ""),
+        source=source_of(drive, row.source or section.source),
+    )
 
 
 def _elsewhere(text: str) -> str:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.model import Condition, Drive, State
 from driveblocks.render import context
-from driveblocks.render.context import Decoder, Part, Word
+from driveblocks.render.context import Row, Word
 from driveblocks.render.expression import Test, holds
 
 WORD = 0xFFFF
@@ -34,7 +34,7 @@ class Decoded:
         word = context.word_input(self._drive, one.register)
         test = context.tested("Value", one)
         decoder = self._decoders.get(word.address_text)
-        parts: list[Part] = decoder.parts if decoder else []
+        parts = decoder.parts if decoder else ()
         flags = {_exact(part.test): part.name for part in parts if part.kind == "flag"}
         for asked, said in ((test, "{}.{}"), (_set(test), "NOT {}.{}")):
             if decoder and asked and _exact(asked) in flags:
@@ -42,7 +42,7 @@ class Decoded:
         pin = f"Reads.{word.name}"
         return f"({holds(test._replace(pin=pin))})"
 
-    def _instance(self, decoder: Decoder, word: Word) -> str:
+    def _instance(self, decoder: Row, word: Word) -> str:
         name = f"{word.name.removesuffix('Word')}Bits"
         found = Call(name, decoder.name, word.name, word.address_text)
         if found not in self.used:
