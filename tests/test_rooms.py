@@ -32,8 +32,8 @@ MOST = {
     "site": 1140,
     "show": 1060, "structured_text": 16_100,
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
-    # the blocks that others are made of are called by themselves, by a table
-    "testing": 7910,
+    # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
+    "testing": 8160,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 

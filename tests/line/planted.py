@@ -80,9 +80,7 @@ PLANTED = (
         "IF (Best > RANK_NONE) AND (DrainMs > 0) THEN",
         "late",
     ),
-    Planted(
-        "the checksum is not checked", "      IF Check <> WORD#16#0000 THEN", "      IF Check <> Check THEN", "stops"
-    ),
+    Planted("the checksum is not checked", "    IF Check <> WORD#16#0000 THEN", "    IF Check <> Check THEN", "stops"),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
         "  Open.PlainMs := MB_Plus(Number := Open.PlainMs, More := PortLateMs);\n",

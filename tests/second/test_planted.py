@@ -7,7 +7,7 @@ from tests.second.station import built
 from structured_text.engines.embedded.engine import EmbeddedEngine
 
 ENDS = "EndsByAnswer := NOT Send.MayMove AND (Send.Proved OR Asked.MonitorOnly OR Asked.SpeedOnly);"
-TWO_STOPS = """  Orders(Order := RAMP_STOP, StepNumber := 0);
+TWO_STOPS = """  Orders(Order := RAMP_STOP);
   Slot.StopRegister := Orders.Register;
   Slot.StopWord := Orders.Value;
   Orders(Order := JOG_STOP"""

@@ -51,7 +51,8 @@ def test_a_scan_has_a_bounded_number_of_checks(all_programs: list[Program]) -> N
         per_stage = [0] * program.stages
         for check in program.checks:
             per_stage[check.stage] += 1
-        assert all(1 <= count <= PER_SCAN for count in per_stage), program.name
+        least = 0 if "_TestPart" in program.name else 1  # a block may be given a few bytes, call by call
+        assert all(least <= count <= PER_SCAN for count in per_stage), program.name
         assert program.stages <= MOST_STAGES
 
 

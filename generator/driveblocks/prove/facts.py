@@ -247,9 +247,10 @@ def _writes(commands: Mapping[str, Command], form: str) -> Iterator[str]:
 
 
 def _holds_ms(drive: Drive) -> Iterator[str]:
-    """For how long each word of a command has to stay."""
+    """For how long each word of a command has to stay, where one has several."""
+    several = any(one.first for one in drive.operation.commands)
     for one in drive.operation.commands:
-        if one.does in SENT:
+        if several and one.does in SENT:
             for step, hold in enumerate([*(each.for_ms or 0 for each in one.first), 0]):
                 sent = f"(Control.Sent = {SENT[one.does]}) AND (Control.StepNumber = {step})"
                 yield f"NOT ({sent}) OR (Orders.HoldMs = {hold})"

@@ -183,6 +183,7 @@ def _echo() -> Iterator[Step]:
 
 def _time() -> Iterator[Step]:
     yield Step("ElapsedMs is 0", {"Pins.ElapsedMs": 0}, why("LINE"), 3000, {"Bus.ErrorID": 58})
+    yield Step("nothing but stops is sent", {".Mark": "Seen.Reads"}, ms=200, shows={"Seen.Reads": "Mark"})
     yield Step("it moves again", {"Pins.ElapsedMs": SCAN_MS}, "Motor.StopConfirmed", 5000, STANDS | {"Seen.Starts": 1})
 
 

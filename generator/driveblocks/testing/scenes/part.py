@@ -1,4 +1,4 @@
-"""Scenes of the blocks that a drive block and a line are made of, each by itself: the table of calls in part.yaml.
+"""The blocks that a drive block and a line are made of, each in a program of its own: the tables of part.yaml, family.
 
 What they are given in one call, no drive shows at will, and a restart in the midst of it least of all.
 """
@@ -7,23 +7,25 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib.resources import files
+from itertools import pairwise
 from typing import Any
 
 import yaml
 
 from driveblocks.maps.model import Drive
-from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
-from driveblocks.testing.script import SCAN_MS, Script
-from structured_text.language.writing import WIDTH, flowing, word
+from driveblocks.testing import bench
+from driveblocks.testing.scenes import family
+from driveblocks.testing.scenes.scene import Value, checks, statements
+from driveblocks.testing.script import Item, Script, Stage
+from structured_text.language.writing import byte, word
 
-BLOCKS = {
-    "Part": ("UINT", "which block is called, 0: none"),
+VARIABLES = {
     "Given": ("MB_Words", "its inputs"),
-    "Nothing": ("MB_Words", "none"),
+    "NotGiven": ("MB_Words", "none"),
     "Known": ("VFD_Seen", "what it gets about the drive"),
-    "Unknown": ("VFD_Seen", "nothing"),
+    "NotKnown": ("VFD_Seen", "nothing"),
     "Wish": ("VFD_Asked", "what it gets about the pins"),
-    "NoWish": ("VFD_Asked", "nothing"),
+    "NotWish": ("VFD_Asked", "nothing"),
     "Kept": ("VFD_Diagnosis", "what is kept of a drive"),
     "Lone": ("MB_Slot", "a slot that no line serves"),
     "Trail": ("MB_StopTrack", "what is kept about a stop"),
@@ -31,7 +33,13 @@ BLOCKS = {
     "Count": ("UDINT", "what a user keeps"),
     "Preset": ("VFD_Settings", "settings"),
     "Call": ("MB_Open", "a request"),
+    "Fetched": ("MB_Words16", "what was read"),
+    "Rack": ("MB_Slots8", "the slots of a line"),
+    "NotRack": ("MB_Slots8", "empty ones"),
+    "Plug": ("MB_Port", "its port"),
+    "NotPlug": ("MB_Port", "a blank one"),
 }
+"""What a program may need; a scene begins with a blank one of those that have one."""
 _INPUT = re.compile(r"(\w+)([?#=~])(\w*)")
 
 
@@ -44,14 +52,18 @@ def parts() -> dict[str, Any]:
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """One program."""
-    blocks = BLOCKS | {_instance(block): (block, "under test") for block in parts()}
-    calls = ["CASE Part OF"]
-    for number, (block, part) in enumerate(parts().items(), 1):
-        calls += [f"  {number}:", *_call(block, part["inputs"])]
-    more = More(blocks=blocks, calls=(*calls, "ELSE", "  Part := 0; (* none *)", "END_CASE;", "Part := 0;"))
-    scenes = (each for number, (block, part) in enumerate(parts().items(), 1) for each in _scenes(number, block, part))
-    yield script(drive, stem, "MotorParts", "blocks that others are made of", scenes, more)
+    """A program of each block: it is called first in each scan, with what the stage before has set."""
+    for block, part in (parts() | family.parts(drive)).items():
+        one = bench.script(drive, stem, f"Part{block.partition('_')[2]}", f"{block}, called by itself")
+        text = f"{part['inputs']} {part['calls']}"
+        used = [name for name in VARIABLES if re.search(rf"\b{name}\b", text) or name == "Given"]
+        blanks = {f".{name}": f"Not{name}" for name in used if f"Not{name}" in VARIABLES}
+        for name in (*used, *blanks.values()):
+            one.variables[name] = VARIABLES[name]
+        one.variables[_instance(block)] = (block, "under test")
+        one.defaults = _call(block, part["inputs"])
+        one.stages = [stage for scene in _scenes(block, part) for stage in _stages(*scene, blanks)]
+        yield one
 
 
 def _instance(block: str) -> str:
@@ -59,11 +71,9 @@ def _instance(block: str) -> str:
 
 
 def _call(block: str, inputs: str) -> list[str]:
-    """The call, broken between its inputs."""
+    """The call, in pieces between which a line may end."""
     first, *others, last = _inputs(inputs)
-    pieces = (f"{_instance(block)}({first}", *others)
-    lines = flowing([*(f"{each}," for each in pieces), f"{last});"], " " * 6, WIDTH - 2)
-    return [lines[0][2:], *lines[1:]]
+    return [*(f"{each}," for each in (f"{_instance(block)}({first}", *others)), f"{last});"]
 
 
 def _inputs(inputs: str) -> Iterator[str]:
@@ -75,39 +85,59 @@ def _inputs(inputs: str) -> Iterator[str]:
         yield f"{name} := {shapes[kind]}"
 
 
-def _scenes(number: int, block: str, part: Mapping[str, Any]) -> Iterator[Scene]:
+_Call = tuple[str, Mapping[str, Value], list[Item]]
+"""In words, what is set before it, what must be so after it."""
+
+
+def _scenes(block: str, part: Mapping[str, Any]) -> Iterator[tuple[str, list[_Call]]]:
     """A scene, and one more after each row that is but its name."""
     name, rows = block, list[Any]()
     for row in part["calls"]:
         if len(row) == 1:
-            yield _scene(name, number, block, part["inputs"], rows)
+            yield name, _calls(block, part["inputs"], rows)
             name, rows = f"{block}, {row[0]}", []
         else:
             rows.append(row)
-    yield _scene(name, number, block, part["inputs"], rows)
+    yield name, _calls(block, part["inputs"], rows)
 
 
-def _scene(name: str, number: int, block: str, inputs: str, rows: Iterable[Any]) -> Scene:
-    """A step lasts one call, in which all is as in the call before but what it is given."""
-    blank: Shows = {".Part": 0, ".Given": "Nothing", ".Known": "Unknown", ".Wish": "NoWish"}
+def _calls(block: str, inputs: str, rows: Iterable[Any]) -> list[_Call]:
+    """All is as in the call before but what it is given."""
     places = {pin: at for at, (pin, *_) in enumerate(_INPUT.findall(inputs))}
-    steps = [Step("nothing", blank, ms=SCAN_MS)]
-    for words, gets, shows in _each(rows):
+    found = list[_Call]()
+    for words, gets, shows in _each(rows, port="Port" in places):
         given = dict(_given(places, key, value) for key, value in gets.items())
         seen = dict(
             _shown(key if "." in key and not key.startswith("Asked.") else f"{_instance(block)}.{key}", value)
             for key, value in shows.items()
         )
-        steps.append(Step(words, {".Part": number} | given, ms=SCAN_MS, shows=seen))
-    return scene(name, steps)
+        found.append((words, given, checks(seen)))
+    return found
 
 
-def _each(rows: Iterable[Any]) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
-    """The calls; one with bytes at its end is a call for each of them, looked at after the last."""
-    for words, gets, shows, *heard in rows:
-        octets = [{"Character": int(each, 16)} for each in "".join(heard).split()] or [{}]
-        for at, octet in enumerate(octets):
-            yield words, (octet if at else gets | octet), (shows if at + 1 == len(octets) else {})
+def _stages(scene: str, calls: list[_Call], blanks: Mapping[str, Value]) -> Iterator[Stage]:
+    """What a call must have shown, then what the next one is given."""
+    first: _Call = ("nothing", blanks, [])
+    for number, (one, after) in enumerate(pairwise([first, *calls, ("", {}, [])]), 1):
+        words, given = one[0], {**(blanks if one is first else {}), **after[1]}
+        yield Stage(f"{scene}, {number}: {words}", "", [*one[2], *statements(given)], scene=scene)
+
+
+def _each(rows: Iterable[Any], *, port: bool) -> Iterator[tuple[str, Mapping[str, Any], Mapping[str, Any]]]:
+    """The calls; of several for one row, what they show is looked at after the last."""
+    for words, gets, shows, *more in rows:
+        given: list[dict[str, Any]] = [{}]
+        for one in more:
+            octets = [] if isinstance(one, int) else [int(each, 16) for each in one.split()]
+            given = [_received(octets)] if port else [{"Character": each} for each in octets] or one * [gets]
+        for at, each in enumerate(given):
+            yield words, (each if at else gets | each), (shows if at + 1 == len(given) else {})
+
+
+def _received(octets: list[int]) -> dict[str, Any]:
+    """Characters in the port, which is empty after each call."""
+    ring: dict[str, Any] = {f"Plug.Rx[{at}]": byte(octet) for at, octet in enumerate(octets)}
+    return ring | {"Plug.RxOut": 0, "Plug.RxIn": len(octets)}
 
 
 def _given(places: Mapping[str, int], key: str, value: Any) -> tuple[str, Value]:

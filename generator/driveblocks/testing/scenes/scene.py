@@ -125,16 +125,26 @@ def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its sce
 def _stage(can: Ability, one: Scene, index: int, step: Step) -> Stage:
     first, last = index == 1, index == len(one.steps)
     items: list[Item] = [*_BEGIN, f"Fate.Unit := {can.drive.serial.unit.min};"] if first else []
-    items += [f"{_path(key, 'Pins')} := {_literal(value)};" for key, value in step.sets.items()]
+    items += statements(step.sets)
     until = step.until if can.measures("output_frequency") else step.until.replace("Motor.AtSpeed", _FAST)
     if step.until:
         items.append(bench.is_flag(until, True, f"within {step.ms} ms: {step.until}"))
-    items += [_check(key, value) for key, value in step.shows.items() if key not in can.absent]
+    items += checks({key: value for key, value in step.shows.items() if key not in can.absent})
     if last or not (step.until or step.shows):
         pins = "Expected := DWORD#16#00000000, Actual := Watch.Broken"
         items.append(Probe("Bytes", pins, "no rule broken", 4, RULES))
     span = Span(until, step.ms, BEGIN_MS if first else SCAN_MS)
     return Stage(f"{one.words}, {index}: {step.words}", "", items, span, one.words)
+
+
+def statements(sets: Mapping[str, Value]) -> list[Item]:
+    """What is set."""
+    return [f"{_path(key, 'Pins')} := {_literal(value)};" for key, value in sets.items()]
+
+
+def checks(shows: Mapping[str, Value]) -> list[Item]:
+    """What must be so."""
+    return [_check(key, value) for key, value in shows.items()]
 
 
 _BEGIN = (

@@ -1,0 +1,212 @@
+"""The tables of a family, called by themselves: what is read of a drive in turn, and what each command writes to it.
+
+In the form of part.yaml; what they must show comes from the map alone.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from driveblocks.maps.model import Command, Drive
+from driveblocks.maps.polls import Poll, beyond, fast_words, polls, schedule, slow_words
+from driveblocks.reference.naming import word_pin
+from driveblocks.simulator.move import MOTIONS
+from driveblocks.simulator.pattern import of_write
+from driveblocks.testing.scenes.drive import KINDS, ORDERS
+from driveblocks.testing.scenes.scene import Shows
+from structured_text.language.writing import word
+
+NEVER_MS, STALE_MS = 65535, 1000
+"""The age of what was never read; what is older is too old, ms."""
+
+Row = list[Any]
+"""In words, what is given, what must be shown."""
+
+
+def parts(drive: Drive) -> dict[str, Any]:
+    """Of the two blocks their inputs and calls."""
+    verify = "Verify? " if _reads_of(drive)["verify"] else ""
+    step = "StepNumber# " if _several(drive) else ""
+    inputs = f"Anew? Reread? Forget? {verify}StaleMs# PassedMs# Fresh? Entry# Count#USINT Turn# Words=Fetched"
+    return {
+        f"{drive.prefix}_Reads": {"inputs": inputs, "calls": [*_reads(drive), ["turns"], *_turns(drive)]},
+        f"{drive.prefix}_Orders": {"inputs": f"Order# {step}ReferenceWord~", "calls": list(_orders(drive))},
+    }
+
+
+# ---------------------------------------------------------------- what is read
+
+
+def _reads(drive: Drive) -> Iterator[Row]:
+    """Each read is answered, first too short; all of it grows old, and is forgotten in three ways."""
+    known = _Known(drive)
+    numbers = range(len(known.reads))
+    yield ["a restart", {"Anew": True, "StaleMs": STALE_MS, "PassedMs": 5}, known.shows()]
+    yield ["nothing is read", {"Anew": False}, known.shows()]
+    for each in numbers:
+        yield from known.answered(each)
+    for each in sorted(known.roles["measures"]):
+        yield ["again", *known.read(each, 3)]
+        yield ["as old as it may be", *known.wait(STALE_MS)]
+        yield ["too old", *known.wait(1)]
+    yield ["what was read proves nothing any more", {"Reread": True, "PassedMs": 0}, known.lost("since")]
+    yield ["it is read again", {"Reread": False, "Entry": 0}, known.shows()]
+    for each in reversed(numbers):
+        yield [f"read {each + 1}", *known.read(each, 7)]
+    if known.roles["verify"]:
+        yield ["settings are checked again", {"Verify": True, "Entry": 0, "PassedMs": 0}, known.lost("settings")]
+        yield ["... once", {"Verify": False}, known.shows()]
+        for each in numbers:
+            yield [f"read {each + 1}", *known.read(each, 11)]
+    yield ["it is forgotten", {"Forget": True, "Entry": 0, "PassedMs": 0}, known.lost("since", "ages")]
+    for each in numbers:
+        yield [f"read {each + 1}", {"Forget": False} | known.read(each, 13)[0], known.shows()]
+    yield ["a restart", {"Anew": True, "PassedMs": 0}, known.lost("since", "ages", "settings")]
+
+
+def _turns(drive: Drive) -> Iterator[Row]:
+    """Which read it is in each turn; without one, the last."""
+    reads = polls(drive)
+    taken = {read.words for read in reads}
+    for turn, index in enumerate(schedule(reads)):
+        read = reads[index]
+        yield [f"turn {turn}", {"Turn": turn}, {
+            "NextEntry": index + 1, "Register": word(read.address), "Quantity": read.words,
+            "OtherQuantity": beyond(drive, read, taken),
+        }]  # fmt: skip
+
+
+class _Known:
+    """What has been read so far: how old each read is, and which were answered since."""
+
+    def __init__(self, drive: Drive) -> None:
+        self.drive, self.reads, self.roles = drive, polls(drive), _reads_of(drive)
+        self.ages = [NEVER_MS] * len(self.reads)
+        self.since = [False] * len(self.reads)
+        self.settled = not self.roles["verify"]
+
+    def answered(self, number: int) -> Iterator[Row]:
+        """A reply that is too short, and a good one."""
+        short, _ = self.read(number, 0, believed=False)
+        yield [f"read {number + 1}, a register too few", short | {"PassedMs": 0}, self.shows()]
+        gets, shows = self.read(number, 10 * number + 10)
+        yield [f"read {number + 1}", gets, shows | self._words(number)]
+
+    def read(self, number: int, passed: int, *, believed: bool = True) -> tuple[dict[str, Any], Shows]:
+        """A reply to one of them."""
+        self._pass(passed)
+        words = self.reads[number].words
+        gets = {"Fresh": True, "Entry": number + 1, "Count": words - (not believed), "PassedMs": passed}
+        if believed:
+            self.ages[number], self.since[number] = 0, True
+            self.settled = self.settled or all(self.since[each] for each in self.roles["verify"])
+        return gets | {f".Fetched[{at}]": word(256 * number + 257 + at) for at in range(words)}, self.shows()
+
+    def wait(self, passed: int) -> tuple[dict[str, Any], Shows]:
+        """No reply for some time."""
+        self._pass(passed)
+        return {"Fresh": False, "PassedMs": passed}, self.shows()
+
+    def lost(self, *what: str) -> Shows:
+        """What counts no longer: what was answered `since`, its `ages`, the `settings`. No time passes meanwhile."""
+        verify = self.roles["verify"]
+        self._pass(0)
+        if "ages" in what:
+            self.ages = [NEVER_MS] * len(self.reads)
+        if "since" in what:
+            self.since = [False] * len(self.reads)
+        if "settings" in what and verify:
+            self.settled = False
+            self.since = [one and number not in verify for number, one in enumerate(self.since)]
+        return self.shows()
+
+    def _pass(self, passed: int) -> None:
+        self.ages = [min(age + passed, NEVER_MS) for age in self.ages]
+
+    def shows(self) -> Shows:
+        """What the block must show."""
+        roles = self.roles
+        found: Shows = {
+            "StatusAgeMs": max(self.ages[each] for each in roles["status"]),
+            "MeasuresAgeMs": max((self.ages[each] for each in roles["measures"]), default=NEVER_MS),
+            "FaultAgeMs": max((self.ages[each] for each in roles["fault"]), default=0),
+            "ProofRead": self._all("proof"), "FaultRead": self._all("fault"), "SettingsRead": self.settled,
+        }  # fmt: skip
+        more = {"master": "MasterRead", "states": "StatesRead"}
+        found |= {name: self._all(role) for role, name in more.items() if roles[role]}
+        return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["measures"])}
+
+    def _all(self, role: str) -> bool:
+        return all(self.since[each] for each in self.roles[role])
+
+    def _words(self, number: int) -> Shows:
+        """The words that a read has brought."""
+        read, kept = self.reads[number], fast_words(self.drive) | slow_words(self.drive)
+        rows = {at: self.drive.register_at(read.address + at) for at in range(read.words) if read.address + at in kept}
+        return {word_pin(row): word(256 * number + 257 + at) for at, row in rows.items() if row}
+
+
+def _reads_of(drive: Drive) -> dict[str, set[int]]:
+    """What each read is needed for."""
+    operation, faults = drive.operation, drive.faults
+    shown = [each.register for one in operation.status if one.shows == "fault" for each in one.any]
+    if faults.present is not None:
+        shown.append(faults.present)
+    elif faults.bits is not None:
+        shown += range(faults.bits.first, faults.bits.last + 1)
+    own = [operation.own_maximum.register] if operation.own_maximum else []
+    bus = operation.commanded_by.all if operation.commanded_by else ()
+    registers: dict[str, Iterable[int]] = {
+        "status": fast_words(drive),
+        "measures": [each.register for each in operation.measures],
+        "fault": shown,
+        "proof": [each.register for each in operation.standstill.all],
+        "verify": [*(each.register for each in operation.reference.verify), *own],
+        "master": [each.register for each in bus],
+        "states": [each.register for each in operation.states],
+    }
+    at = {address: number for number, read in enumerate(polls(drive)) for address in _addresses(read)}
+    return {role: {at[each] for each in found} for role, found in registers.items()}
+
+
+def _addresses(read: Poll) -> range:
+    return range(read.address, read.address + read.words)
+
+
+# ---------------------------------------------------------------- what is written
+
+
+def _orders(drive: Drive) -> Iterator[Row]:
+    """Each write of each command; what is no command is a stop."""
+    numbers = KINDS | ORDERS | {"fault_reset": 9}
+    known = {one.does: one for one in drive.operation.commands}
+    several = _several(drive)
+    none = ["none", {"Order": 0}, _write(known["stop"], 0, several=several)]
+    yield none
+    for does, one in known.items():
+        for step in range(len(one.writes)):
+            words = does.replace("_", " ") + (f", write {step + 1}" if one.first else "")
+            number = {"StepNumber": step} if several else {}
+            yield [words, {"Order": numbers[does]} | number, _write(one, step, several=several)]
+            yield none
+    reference = word(drive.operation.reference.register)
+    shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
+    yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
+
+
+def _several(drive: Drive) -> bool:
+    """Whether a command has several writes."""
+    return any(one.first for one in drive.operation.commands)
+
+
+def _write(one: Command, step: int, *, several: bool) -> Shows:
+    """One of its writes; the bits that it keeps do not count."""
+    write, last = one.writes[step], step == len(one.first)
+    pattern = of_write(write)
+    value = f"(TheOrders.Value AND {word(pattern.mask)})"
+    found: Shows = {
+        "Register": word(pattern.register),
+        value: word(pattern.value),
+        "Moves": last and one.does in MOTIONS,
+    }
+    more: Shows = {"Last": len(one.first), "HoldMs": 0 if last else one.first[step].for_ms or 0}
+    return found | (more if several else {})
