@@ -96,6 +96,7 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
         yield ("show", "sn300g5", *topic), ""
     yield ("prove", "jscc", "--junit", str(folder / "proofs.xml")), ""
     yield ("diff", "sn300g5", "jscc"), ""
+    yield ("import-csv", "-"), "Register;Name\n1AH;Speed\n"
     for words in ("show chf --json", "list", "counts", "schema", "doctor", "simulate --schema"):
         yield tuple(words.split()), ""
     picture = ("--trace", str(folder / "run.csv"), "--picture", str(folder / "run.svg"))

@@ -18,7 +18,8 @@ def app() -> None:
 
 for _module in pkgutil.iter_modules(commands.__path__):
     # A command's module imports little; what it needs to run it imports when it runs.
-    app.add_command(importlib.import_module(f"{commands.__name__}.{_module.name}").run, _module.name)
+    _command = importlib.import_module(f"{commands.__name__}.{_module.name}").run
+    app.add_command(_command, _module.name.replace("_", "-"))
 
 
 def main() -> None:

@@ -105,6 +105,7 @@ def own(tmp_path: Path) -> Path:
     shutil.copy(ROOT / "examples/three_makes.st", tmp_path / "my_line.st")
     for name in ("my_drive", "my_old_drive"):
         shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / f"{name}.yaml")
+    (tmp_path / "registers.csv").write_text("Register,Name\n1AH,Speed\n", encoding="utf-8")
     for name in ("old_release", "blocks"):
         shutil.copytree(ROOT / "blocks/iec61131/device", tmp_path / name / "iec61131", dirs_exist_ok=True)
     for name in ("pump", "pump_last_year"):
