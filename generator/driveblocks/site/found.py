@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from typing import Literal, Protocol
 
+from rich.console import RenderableType
+
 from driveblocks.site.line import CHARACTER_BITS
 
 Trouble = Literal[
@@ -47,11 +49,12 @@ class Line(Protocol):
     def tune(self, way: Way) -> bool:
         """Take another rate, format and mode; whether the port can."""
 
-    def exchange(self, request: bytes, timeout_us: int) -> Heard:
+    def exchange(self, request: bytes, timeout_us: int, expect: int = 0) -> Heard:
         """Send a frame and hear what comes; where it is empty, only listen.
 
         The first byte is waited for until `timeout_us` after the end of the request; later ones until nothing has
-        come for 20 ms, or until `timeout_us` has passed since the first. Raises OSError for a port that has gone.
+        come for 20 ms, or until one second has passed since the first, or until there are `expect` bytes, where
+        that is not 0. Raises OSError for a port that has gone.
         """
 
 
@@ -61,8 +64,8 @@ class Asker(Protocol):
     def ask(self, key: str, text: str) -> str:
         """The answer to a question, without blanks around it; empty: skipped. `key` is the step's or the gap's name."""
 
-    def say(self, text: str) -> None:
-        """A line to read."""
+    def say(self, what: RenderableType) -> None:
+        """A text or a table to read."""
 
     def progress(self, done: int, total: int, text: str) -> None:
         """How far a step has come."""

@@ -1,6 +1,7 @@
 """Finds a drive on a line that nobody else speaks on: it listens first, then reads, and never writes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
@@ -23,7 +24,7 @@ TRIES = 3
 LIKELY = 4
 WORST: tuple[Trouble, ...] = ("silent", "echo", "damaged", "half")
 """What a search without a drive has heard, from the least to what says most."""
-SAID = {
+SAID: dict[Trouble, str] = {
     "silent": "no drive answers", "echo": "the adapter hears itself, and no drive",
     "damaged": "something answers, and every answer is damaged", "half": "only parts of answers come",
 }  # fmt: skip
@@ -48,13 +49,13 @@ def quiet(line: Line, ways: list[Way], asker: Asker) -> Fault | None:
     if not heard:
         return None
     for way in ways:
-        if line.tune(way) and _frames(line, way):
+        if line.tune(way) and _frames(line):
             text = f"another master speaks on this line, at {way}; nothing was sent"
             return Fault("foreign", text, LOOK["foreign"])
     return Fault("noise", "bytes came that are no frames at any rate; nothing was sent", LOOK["noise"])
 
 
-def _frames(line: Line, way: Way) -> bool:
+def _frames(line: Line) -> bool:
     """Whether frames are heard within some seconds."""
     end, heard = line.now_us() + 3_000_000, b""
     while line.now_us() < end:
@@ -106,8 +107,8 @@ def units(drive: Drive, unit: int | None = None) -> list[int]:
     return list(dict.fromkeys([*first, *range(max(1, serial.min), serial.max + 1)]))
 
 
-def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found: Found) -> None:
-    """Search the drive: the likely addresses in every way, then all, then the likely ones with more patience.
+def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found: Found) -> Talk:
+    """Search the drive: the likely addresses in every way, then the likeliest with more patience, then all.
 
     Raises EndedError where no drive is found.
     """
@@ -116,7 +117,9 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
     order = [(way, addresses[:LIKELY], SOON_US) for way in able]
     order += [(way, addresses[:1], LATE_US) for way in able]
     order += [(way, addresses[LIKELY:], SOON_US) for way in able]
+    order = [(way, some, patience) for way, some, patience in order if some]
     begun, done, total = talk.line.now_us(), 0, sum(len(each) for _, each, _ in order)
+    before = talk
     for way, some, patience in order:
         talk.line.tune(way)
         for unit in some:
@@ -124,17 +127,39 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
                 raise ended("bound", f"no drive found; {done} of {total} reads were tried within 10 minutes")
             asker.progress(done, total, f"{way}, unit {unit}")
             done += 1
-            reply = talk.read(way, unit, span, patience)
-            if reply.trouble in ("damaged", "half"):
-                reply = _again(talk, way, unit, span, reply)
+            here = replace(talk, way=way, unit=unit)
+            here, reply = _once(here, before, span, patience, found)
             if reply.answered:
-                found.way, found.unit = way, unit
-                return
-            if reply.trouble == "two":
-                raise ended("two", f"several units reply at address {unit}, {way}")
+                found.way, found.unit = here.way, here.unit
+                return here
+            if reply.trouble in ("two", "foreign"):
+                raise ended(reply.trouble, f"address {unit}, {way}: more than one unit replies")
             heard.add(reply.trouble or "silent")
+            before = here
     worst = max((each for each in heard if each in WORST), key=WORST.index, default="silent")
     raise ended(worst, SAID[worst])
+
+
+def _once(here: Talk, before: Talk, span: Span, patience: int, found: Found) -> tuple[Talk, Reply]:
+    """A read of the search; a late reply to the one before it makes that one asked again, with patience."""
+    try:
+        reply = here.read(span, patience)
+        late = reply.trouble == "foreign"
+    except EndedError as end:
+        if end.fault.kind != "slow":
+            raise
+        late, reply = True, Reply(trouble="silent")
+    if late and before != here:
+        here.line.tune(before.way)
+        here.line.exchange(b"", LATE_US)
+        again = before.read(span, LATE_US)
+        if again.answered:
+            found.faults.append(Fault("slow", f"the drive needs {again.after_us // 1000} ms to reply", LOOK["slow"]))
+            return before, again
+        here.line.tune(here.way)
+    if reply.trouble in ("damaged", "half"):
+        reply = _again(here, span, reply)
+    return here, reply
 
 
 def _tuned(line: Line, way: Way, found: Found) -> bool:
@@ -143,10 +168,10 @@ def _tuned(line: Line, way: Way, found: Found) -> bool:
     return able
 
 
-def _again(talk: Talk, way: Way, unit: int, span: Span, first: Reply) -> Reply:
+def _again(talk: Talk, span: Span, first: Reply) -> Reply:
     """An answer that was spoilt: asked for again, with patience, until one is whole."""
     for _ in range(TRIES):
-        reply = talk.read(way, unit, span, LATE_US)
+        reply = talk.read(span, LATE_US)
         if reply.answered or reply.trouble == "two":
             return reply
     return first
@@ -161,53 +186,48 @@ def first_read(drive: Drive) -> Span:
 # ------------------------------------------------------------ is it this family
 
 
-def recognise(talk: Talk, found: Found, others: dict[str, Drive]) -> None:
+def recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
     """Whether the drive is of the map's family. Raises EndedError where it is not."""
-    way, unit = _place(found)
-    reply = steady(talk, way, unit, first_read(talk.drive))
+    reply, name = steady(talk, first_read(talk.drive)), talk.drive.prefix
     if talk.drive.identity is not None:
         _identified(talk.drive, reply, first_read(talk.drive))
         found.family = "identity"
         return
-    refused = [each for each in polls(talk.drive) if not _reads(talk, way, unit, each)]
-    if strange := list(_strange(talk, way, unit)):
-        raise ended("family", f"what unit {unit} gives is no {talk.drive.prefix}: {'; '.join(strange)}")
+    every = polls(talk.drive)
+    refused = [each for each in every if not _reads(talk, each)]
+    for other, drive in others.items():
+        if refused and all(_reads(replace(talk, drive=drive), each) for each in polls(drive)):
+            raise ended("family", f"unit {talk.unit} refuses reads of {name} and answers all of {other}")
+    spans = ", ".join(f"{each.words} words from {address_text(each.address)}" for each in refused)
+    if len(refused) == len(every):
+        raise ended("family", f"unit {talk.unit} gives nothing that {name} has: {spans}")
+    if strange := list(_strange(talk)):
+        raise ended("family", f"what unit {talk.unit} gives is no {name}: {'; '.join(strange)}")
     if refused:
-        for name, drive in others.items():
-            if all(_reads(Talk(talk.line, drive), way, unit, each) for each in polls(drive)):
-                raise ended("family", f"unit {unit} refuses reads of {talk.drive.prefix} and answers all of {name}")
-        spans = ", ".join(f"{each.words} words from {address_text(each.address)}" for each in refused)
-        if len(refused) == len(polls(talk.drive)):
-            raise ended("family", f"unit {unit} gives nothing that {talk.drive.prefix} has: {spans}")
-        raise ended("refused", f"unit {unit} refuses what the map lists: {spans}")
+        found.faults.append(Fault("refused", f"unit {talk.unit} refuses what the map lists: {spans}", LOOK["refused"]))
     found.family = "fits"
 
 
-def steady(talk: Talk, way: Way, unit: int, span: Span) -> Reply:
+def steady(talk: Talk, span: Span) -> Reply:
     """A read, tried again where the line spoils it or the drive is busy. Raises EndedError where it never comes."""
     busy, reply = codes(talk.drive)["busy"], Reply()
     for _ in range(2 * TRIES):
-        reply = talk.read(way, unit, span, LATE_US)
+        reply = talk.read(span, LATE_US)
         if reply.trouble is None and (reply.refused is None or reply.refused != busy):
             return reply
-        if reply.trouble in ("two", "family"):
+        if reply.trouble in ("two", "family", "foreign"):
             break
     kind = "lost" if reply.trouble in ("silent", "echo") else reply.trouble or "refused"
     said = {"lost": "does not answer any more", "two": "is several units", "family": "answers in another form"}
-    raise ended(kind, f"unit {unit} {said.get(kind, f'gives no good answer: {kind}')}")
+    raise ended(kind, f"unit {talk.unit} {said.get(kind, 'gives no good answer')}")
 
 
-def _place(found: Found) -> tuple[Way, int]:
-    assert found.way is not None
-    assert found.unit is not None
-    return found.way, found.unit
-
-
-def _reads(talk: Talk, way: Way, unit: int, poll: Poll) -> bool:
+def _reads(talk: Talk, poll: Poll) -> bool:
+    """Whether a read is answered by words; silence to one of several reads counts as a refusal."""
     try:
-        return bool(steady(talk, way, unit, Span(poll.address, poll.address + poll.words - 1)).words)
+        return bool(steady(talk, Span(poll.address, poll.address + poll.words - 1)).words)
     except EndedError as end:
-        if end.fault.kind == "family":
+        if end.fault.kind in ("family", "lost"):
             return False
         raise
 
@@ -221,11 +241,11 @@ def _identified(drive: Drive, reply: Reply, span: Span) -> None:
             raise ended("identity", f"this is no {drive.prefix}: {address_text(pattern.register)} is {word:04X}H")
 
 
-def _strange(talk: Talk, way: Way, unit: int) -> Iterator[str]:
+def _strange(talk: Talk) -> Iterator[str]:
     """Words of the status that the manual does not list."""
     for poll in polls(talk.drive):
-        words = steady(talk, way, unit, Span(poll.address, poll.address + poll.words - 1)).words
-        for address, word in zip(range(poll.address, poll.address + poll.words), words, strict=False):
+        span = Span(poll.address, poll.address + poll.words - 1)
+        for address, word in zip(span, steady(talk, span).words if poll.fast else (), strict=False):
             row = talk.drive.register_at(address)
-            if poll.fast and row and row.values and not row.masks and word not in {each.value for each in row.values}:
+            if row and row.values and not row.masks and word not in {each.value for each in row.values}:
                 yield f"{address_text(address)} is {word}, which its manual does not list"

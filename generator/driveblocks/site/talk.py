@@ -1,6 +1,6 @@
 """Reads on a line that nobody else should speak on, and what the bytes that come say of the line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
@@ -14,7 +14,7 @@ from driveblocks.site.register import function
 SETTLE_US = 20_000
 """Silence before each request, at least."""
 LOOK = {
-    "silent": "drive switched on? A and B swapped? its keypad: address, bit rate, format, RTU or ASCII; is MODBUS chosen",
+    "silent": "drive switched on? A and B swapped? its keypad: address, bit rate, format, RTU or ASCII",
     "half": "termination at both ends, a common wire, another device with this address; an adapter that switches "
     "its direction too late",
     "echo": "the adapter hears itself and no drive: A and B, the wires to the drive, the drive's own address and rate",
@@ -24,7 +24,7 @@ LOOK = {
     "identity": "the plate: is it this family? Nothing is written to this drive",
     "two": "disconnect all drives but one, and give each an address of its own at the keypad",
     "foreign": "disconnect the PLC, and every other master",
-    "noise": "nothing is sent: look at A and B, bias resistors, shield, motor cables beside the line; is a master on it",
+    "noise": "nothing is sent: look at A and B, bias resistors, shield, motor cables beside the line",
     "slow": "the drive's own reply delay at the keypad; an adapter or a server on the way",
     "refused": "the edition of the manual; the firmware of the drive",
     "lost": "the adapter and its plug, the drive's supply",
@@ -66,59 +66,64 @@ class Reply:
 
 @dataclass(frozen=True)
 class Talk:
-    """A line and a drive's manners on it; it reads and nothing else."""
+    """A line, a drive's manners, and a unit on it; it reads and nothing else."""
 
     line: Line
     drive: Drive
+    way: Way = Way(9600)
+    unit: int = 1
 
-    def read(self, way: Way, unit: int, span: Span, timeout_us: int) -> Reply:
-        """A read, once. Raises EndedError, with the fault, where somebody else speaks."""
-        code, manner = function(self.drive), manners(self.drive)
-        body = bytes([unit, code]) + span.first.to_bytes(2, "big") + len(span).to_bytes(2, "big")
+    def read(self, span: Span, timeout_us: int, settle_us: int | None = None) -> Reply:
+        """A read, once, after silence. Raises EndedError where somebody else speaks."""
+        way, code, manner = self.way, function(self.drive), manners(self.drive)
+        body = bytes([self.unit, code]) + span.first.to_bytes(2, "big") + len(span).to_bytes(2, "big")
         request = seal(way.mode, body)
-        self._silence(way)
-        heard = self.line.exchange(request, timeout_us)
+        self._silence(max(SETTLE_US, int(4 * way.character_us)) if settle_us is None else settle_us)
+        whole = len(seal(way.mode, bytes(3 + 2 * len(span))))
+        heard = self.line.exchange(request, timeout_us, 0 if settle_us is None else whole)
         echo = heard.data.startswith(request)
-        data = heard.data.removeprefix(request)
-        found = judged(data, way, body, manner, allow_echo=echo)
-        return Reply(found.words, found.refused, found.trouble, heard.after_us, echo, found.strange)
+        found = judged(heard.data.removeprefix(request), way, body, manner, echo=echo)
+        return replace(found, after_us=heard.after_us, echo=echo)
 
-    def _silence(self, way: Way) -> None:
-        wait = max(SETTLE_US, int(4 * way.character_us))
-        if stray := self.line.exchange(b"", wait).data:
-            late = judged(stray, way, b"", manners(self.drive), allow_echo=False)
+    def _silence(self, wait_us: int) -> None:
+        if stray := self.line.exchange(b"", wait_us).data:
+            late = judged(stray, self.way, b"", manners(self.drive), echo=False)
             if late.words or late.refused is not None:
-                raise ended("slow", "a reply came after more than a second, when nobody waited for it any more")
-            raise ended("foreign", "somebody else speaks on this line")
+                raise ended("slow", "a reply came so late that nobody waited for it any more")
+            raise ended("foreign", "somebody else speaks on this line, or noise does")
 
 
-def judged(data: bytes, way: Way, body: bytes, manner: Manners, *, allow_echo: bool) -> Reply:
-    """What the bytes after a request are; an empty `body`: a reply to any."""
+def judged(data: bytes, way: Way, body: bytes, manner: Manners, *, echo: bool) -> Reply:
+    """What the bytes after a request are; an empty `body`: a reply to any request."""
     if not data:
-        return Reply(trouble="echo" if allow_echo else "silent")
-    if way.mode == "ascii":
-        frames = [frame for each in pieces(data, manner) if (frame := opened("ascii", each.data)) is not None]
-        spoilt = len(frames) != data.count(b":") or not frames
-    else:
-        cut = pieces(data, manner)
-        frames = [each.data[:-2] for each in cut if each.good]
-        spoilt = any(not each.good for each in cut)
+        return Reply(trouble="echo" if echo else "silent")
+    frames, spoilt = _frames(data, way, manner)
     if len(frames) > 1:
         return Reply(trouble="two")
-    if not frames:
-        half = bool(body) and way.mode == "rtu" and data[:2] == body[:2] and len(data) < 5 + 2 * body[5]
-        half = half or (way.mode == "ascii" and data[:1] == b":" and not data.endswith(b"\n"))
-        return Reply(trouble="half" if half else "damaged")
-    if spoilt:
-        return Reply(trouble="damaged")
+    if not frames or spoilt:
+        return Reply(trouble="half" if not frames and _begun(data, way, body) else "damaged")
     frame = frames[0]
     layout = take(frame, "reply", manner)
     if body and frame[0] != body[0]:
         return Reply(trouble="foreign")
     if layout.refusal:
         return Reply(refused=layout.number("reason") or 0)
-    if body and (
-        layout.function != body[1] or not layout.fits or len(layout.words) != int.from_bytes(body[4:6], "big")
-    ):
+    asked = int.from_bytes(body[4:6], "big")
+    if body and (layout.function != body[1] or not layout.fits or len(layout.words) != asked):
         return Reply(trouble="family", strange=True)
     return Reply(layout.words)
+
+
+def _frames(data: bytes, way: Way, manner: Manners) -> tuple[list[bytes], bool]:
+    """The bodies of good frames, and whether there is anything beside them."""
+    cut = pieces(data, manner)
+    good = [opened(way.mode, each.data) for each in cut if each.good]
+    found = [each for each in good if each is not None]
+    return found, len(found) != len(cut)
+
+
+def _begun(data: bytes, way: Way, body: bytes) -> bool:
+    """Whether bytes are the beginning of a reply that is cut off."""
+    if way.mode == "ascii":
+        return data[:1] == b":" and not data.endswith(b"\n")
+    return bool(body) and data[:2] == body[:2] and len(data) < 5 + 2 * body[5]
