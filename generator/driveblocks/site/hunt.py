@@ -136,7 +136,7 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
                 raise ended(reply.trouble, f"address {unit}, {way}: more than one unit replies")
             heard.add(reply.trouble or "silent")
             before = here
-    worst = max((each for each in heard if each in WORST), key=WORST.index, default="silent")
+    worst = next((each for each in reversed(WORST) if each in heard), WORST[0])
     raise ended(worst, SAID[worst])
 
 

@@ -1,6 +1,6 @@
 """What is read from a drive that was found: its settings, its times, and what a person says of its gaps."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from decimal import Decimal, InvalidOperation
 
@@ -21,7 +21,6 @@ LOST = 5
 """Reads in a row without an answer."""
 LEAST_COUNTS = 50
 """A word below it does not show its scale: a person's reading is too coarse."""
-RESULT = "yes", "no"
 
 # ------------------------------------------------------------ 3: keypad
 
@@ -144,7 +143,7 @@ def script(drive: Drive) -> Iterator[tuple[str, str]]:
             yield each.what, f"{each.on_site.do}; {each.on_site.ask}"
 
 
-def gaps(talk: Talk, asker: Asker, found: Found) -> None:
+def gaps(talk: Talk, asker: Asker, found: Found, keep: Callable[[], None]) -> None:
     """Ask about each gap; where a register answers, read it at that moment. Raises EndedError."""
     for gap in asked(talk.drive):
         one = gap.on_site
@@ -159,6 +158,7 @@ def gaps(talk: Talk, asker: Asker, found: Found) -> None:
         word = words[0] if words else None
         value = scale(answer, word) if one.gives else ""
         found.answers.append(Answer(gap.what, answer, word, one.gives or "", value))
+        keep()
         if one.read is not None:
             said = f": {one.gives} is {value}" if value else ": that shows no scale" if one.gives else ""
             asker.say(f"{address_text(one.read)} is {'not given' if word is None else word}{said}")
@@ -167,7 +167,7 @@ def gaps(talk: Talk, asker: Asker, found: Found) -> None:
 def scale(answer: str, word: int | None) -> str:
     """The power of ten that makes the number of a keypad of a word; empty where none does, to 2 % and a count."""
     try:
-        number = Decimal(answer.split()[0].replace(",", "."))
+        number = Decimal(answer.split(maxsplit=1)[0].replace(",", "."))
     except InvalidOperation:
         return ""
     if word is None or not LEAST_COUNTS <= word < 0x8000 or not number.is_finite():

@@ -70,7 +70,7 @@ class Talk:
 
     line: Line
     drive: Drive
-    way: Way = Way(9600)
+    way: Way
     unit: int = 1
 
     def read(self, span: Span, timeout_us: int, settle_us: int | None = None) -> Reply:
@@ -102,13 +102,16 @@ def judged(data: bytes, way: Way, body: bytes, manner: Manners, *, echo: bool) -
         return Reply(trouble="two")
     if not frames or spoilt:
         return Reply(trouble="half" if not frames and _begun(data, way, body) else "damaged")
-    frame = frames[0]
-    layout = take(frame, "reply", manner)
+    return _meant(frames[0], body, manner)
+
+
+def _meant(frame: bytes, body: bytes, manner: Manners) -> Reply:
+    """What one good frame is."""
+    layout, asked = take(frame, "reply", manner), int.from_bytes(body[4:6], "big")
     if body and frame[0] != body[0]:
         return Reply(trouble="foreign")
     if layout.refusal:
         return Reply(refused=layout.number("reason") or 0)
-    asked = int.from_bytes(body[4:6], "big")
     if body and (layout.function != body[1] or not layout.fits or len(layout.words) != asked):
         return Reply(trouble="family", strange=True)
     return Reply(layout.words)
