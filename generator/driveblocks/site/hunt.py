@@ -113,16 +113,14 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
     Raises EndedError where no drive is found.
     """
     heard, span = set[Trouble](), first_read(talk.drive)
-    able = [way for way in every if _tuned(talk.line, way, found)]
-    order = [(way, addresses[:LIKELY], SOON_US) for way in able]
-    order += [(way, addresses[:1], LATE_US) for way in able]
-    order += [(way, addresses[LIKELY:], SOON_US) for way in able]
+    order = [(way, addresses[:LIKELY], SOON_US) for way in every]
+    order += [(way, addresses[:1], LATE_US) for way in every]
+    order += [(way, addresses[LIKELY:], SOON_US) for way in every]
     order = [(way, some, patience) for way, some, patience in order if some]
     begun, done, total = talk.line.now_us(), 0, sum(len(each) for _, each, _ in order)
     before = talk
     for way, some, patience in order:
-        talk.line.tune(way)
-        for unit in some:
+        for unit in some if _tuned(talk.line, way, found) else ():
             if talk.line.now_us() - begun > BOUND_US:
                 raise ended("bound", f"no drive found; {done} of {total} reads were tried within 10 minutes")
             asker.progress(done, total, f"{way}, unit {unit}")
@@ -164,7 +162,8 @@ def _once(here: Talk, before: Talk, span: Span, patience: int, found: Found) -> 
 
 def _tuned(line: Line, way: Way, found: Found) -> bool:
     able = line.tune(way)
-    found.tried.append(f"{way}" if able else f"{way}: this port cannot")
+    said = f"{way}" if able else f"{way}: this port cannot"
+    found.tried += [said] if said not in found.tried else []
     return able
 
 
