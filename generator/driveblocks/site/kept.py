@@ -74,7 +74,7 @@ class Kept(Entry):
     revision: Str = fact("its revision", '"1A2B3C4D"')
     date: Str = fact("when", '"2026-11-23 10:30"')
     who: Str | None = fact("who", "A. Person", optional=True)
-    place: Place = fact("the line", "{rate: 9600, form: 8N1, mode: rtu, unit: 1}")
+    line: Place = fact("the line", "{rate: 9600, form: 8N1, mode: rtu, unit: 1}")
     family: Literal["identity", "fits"] = fact("`identity`: by the map's; `fits`: it answers as the map says", "fits")
     plate: Str | None = fact("type, rating, firmware", '"5.5 kW, 1.02"', optional=True)
     finished: tuple[Word, ...] = fact("steps that were finished", "[quiet, find]", optional=True, default=())
@@ -155,7 +155,7 @@ def _lines(about: About, found: Found) -> Iterator[str]:
         yield from [f"{key}: {_flow(value)}"] if value else []
     if found.way and found.unit is not None:
         way = found.way
-        yield f"place: {_flow({'rate': way.rate, 'form': way.form, 'mode': way.mode, 'unit': found.unit})}"
+        yield f"line: {_flow({'rate': way.rate, 'form': way.form, 'mode': way.mode, 'unit': found.unit})}"
     open_ = [each for each in STEPS if each not in found.done and not (each in SKIPPABLE and each in found.skipped)]
     ended = found.ended or (f"not finished: {', '.join(open_)}" if open_ else "")
     for key, value in (("family", found.family), ("plate", found.plate), ("ended", ended)):

@@ -1,7 +1,7 @@
 """What `driveblocks site` makes of `site.yaml`: settings for the PLC, a page to be signed, a field report."""
 
 import html
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from driveblocks import __version__
 from driveblocks.maps.model import Drive
@@ -56,12 +56,16 @@ def _sheet(label: str, one: Kept, drive: Drive | None) -> str:
     settings = [(each.id, _text(each.read), _text(each.must) or "as the PLC", each.told or "") for each in one.settings]
     answers = [(each.gap, each.answer, _text(each.word), _given(each.gives, each.value)) for each in one.answers]
     runs = [(what, do, "") for what, do in script(drive)] if drive else []
-    for title, heads, rows in (
+    tables: tuple[tuple[str, tuple[str, ...], Sequence[tuple[str, ...]]], ...] = (
         ("Keypad", ("id", "read", "must be", "right, by eye"), settings),
         ("What the manual does not say", ("gap", "answer", "word read", "setting"), answers),
-        ("For <code>driveblocks run --allow-run</code>: motor uncoupled, hard stop in hand",
-         ("gap", "what to do", "seen"), runs),
-    ):  # fmt: skip
+        (
+            "For <code>driveblocks run --allow-run</code>: motor uncoupled, hard stop in hand",
+            ("gap", "what to do", "seen"),
+            runs,
+        ),
+    )
+    for title, heads, rows in tables:
         parts += [f"<h3>{title}</h3>", _table(heads, rows)] if rows else []
     note = "These are facts of one drive. They say nothing of its family, and do not replace the test of the hard stop."
     return "".join((*parts, f"<p>{note}</p><div class='sign'><div>date</div><div>name</div><div>signature</div></div>"))
@@ -69,7 +73,7 @@ def _sheet(label: str, one: Kept, drive: Drive | None) -> str:
 
 def _facts(one: Kept) -> Iterator[tuple[str, str]]:
     family = {"identity": "recognised by the map's identity", "fits": "answers as its map says; compare the plate"}
-    place, times = one.place, one.measured
+    place, times = one.line, one.measured
     yield "map", f"{one.map}, revision {one.revision}"
     yield "date", one.date
     yield "who", one.who or ""
@@ -112,7 +116,7 @@ def _text(number: int | None) -> str:
     return "" if number is None else str(number)
 
 
-def _table(heads: tuple[str, ...], rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
+def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     head = f"<tr>{''.join(f'<th>{each}</th>' for each in heads)}</tr>" if any(heads) else ""
     body = "".join(f"<tr>{''.join(f'<td>{html.escape(each)}</td>' for each in row)}</tr>" for row in rows)
     return f"<table>{head}{body}</table>"
