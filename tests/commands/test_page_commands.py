@@ -42,11 +42,12 @@ ELSEWHERE = {
     r"copy |bash ": "for another shell, or its name alone",
 }
 """How the command lines begin that do not run here, and why."""
-BARE = {f"driveblocks {name}" for name in ("explain", "line", "lint", "parameters", "run", "show", "simulate")}
+BARE = {f"driveblocks {name}" for name in ("diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")}
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {
     "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),
-    "make": "make PY=python DB=driveblocks", "driveblocks run --demo": "driveblocks run --demo --fast",
+    "make": "make PY=python DB=driveblocks", "OLD": "jscc", "NEW": "jscc",
+    "driveblocks run --demo": "driveblocks run --demo --fast",
 }  # fmt: skip
 """What a reader writes in the place of a word of the page, and what saves the test a wait."""
 COMMAND = re.compile(r"(driveblocks|python3?|pip|pytest|make|cat|copy|grep|rm|bash|xml2st) \S")
@@ -102,7 +103,10 @@ def own(tmp_path: Path) -> Path:
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / f"{name}.st").write_text(BLOCK.format(Path(name).name.title()), encoding="utf-8")
     shutil.copy(ROOT / "examples/three_makes.st", tmp_path / "my_line.st")
-    shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / "my_drive.yaml")
+    for name in ("my_drive", "my_old_drive"):
+        shutil.copy(ROOT / "tests/maps/example.yaml", tmp_path / f"{name}.yaml")
+    for name in ("old_release", "blocks"):
+        shutil.copytree(ROOT / "blocks/iec61131/device", tmp_path / name / "iec61131", dirs_exist_ok=True)
     for name in ("pump", "pump_last_year"):
         saved.write(
             tmp_path / f"{name}.csv", "jscc", load(ROOT / "vendor_maps/jscc.yaml"), 2, dict.fromkeys(range(256), 1)

@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 FENCE = re.compile(r"^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 ELSEWHERE = {
     "before-buying.md", "ci.md", "lint.md", "linux.md", "prove.md", "run.md", "save-parameters.md",
-    "simulate.md", "stop.md",
+    "simulate.md", "stop.md", "what-changed.md",
 }  # fmt: skip
 """Pages whose blocks are commands, rules, formulas or C; tests of their own take what runs."""
 HARD_STOP = (

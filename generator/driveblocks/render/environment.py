@@ -1,6 +1,7 @@
 """The Jinja environment: strict, no escaping, and the few functions that templates may call."""
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from functools import cache
 from itertools import chain
 
@@ -29,6 +30,7 @@ def environment() -> jinja2.Environment:
     """The environment of all templates. An undefined name is an error."""
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("driveblocks.render"),
+        bytecode_cache=_kept(),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -70,6 +72,13 @@ def environment() -> jinja2.Environment:
         real=expression.real,
     )
     return made
+
+
+def _kept() -> jinja2.BytecodeCache | None:
+    """Compiled templates in the user's own folder of the system's temporary one: a third of the time of a command."""
+    with suppress(OSError, RuntimeError):  # no such folder can be made, or it is somebody else's
+        return jinja2.FileSystemBytecodeCache()
+    return None
 
 
 def render(template: str, **context: object) -> str:

@@ -14,6 +14,7 @@ from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Refused, time
 from driveblocks.plc.watchdog import FIRST_US
 from driveblocks.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
+from structured_text.engines.embedded.library import EmbeddedInstance
 from structured_text.visible import file_name
 
 MOST_UNITS = 32
@@ -155,7 +156,7 @@ def _text(words: Words, drives: list[wanted.Wanted], watchdog: int) -> str:
 def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[str, int | None]) -> Line:
     """The line of a program that was scanned once. Raises Refused."""
     bus, block = seen.wiring.line, seen.instance
-    size = 8 if f"{bus}.Slots[8].Alive".upper() not in block.state() else MOST_UNITS
+    size = _size(block, bus)
     port = f"{seen.wiring.port}.LateMs" if seen.wiring.port else f"{bus}.PortLateMs"
     keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
     scan, reply = times["scan"] or 0, times["reply"] or 0
@@ -175,6 +176,15 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
         keeps=words.keeps_silence or bool(number(block, keeps)),
         port_late=number(block, port) if late is None else late,
     )  # fmt: skip
+
+
+def _size(block: EmbeddedInstance, bus: str) -> int:
+    """How many slots the line has."""
+    try:
+        block[f"{bus}.Slots[8].Alive"]
+    except KeyError:
+        return 8
+    return MOST_UNITS
 
 
 def _slots(seen: Controller, size: int) -> dict[str, int]:

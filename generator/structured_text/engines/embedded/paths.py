@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -162,40 +161,31 @@ class Paths:
 
     def _compile_snapshot(self) -> Callable[[Any], dict[str, Value]]:
         """One Python function that reads everything at once, since tests call it after every scan."""
-        keys: list[ast.expr | None] = []
-        items: list[ast.expr] = []
-        for path, _, node in leaves("", self.block, ast.Name("s", ast.Load())):
-            keys.append(ast.Constant(path))
-            items.append(node)
-        arguments = ast.arguments([], [ast.arg("s")], None, [], [], None, [])
-        tree = ast.fix_missing_locations(ast.Expression(ast.Lambda(arguments, ast.Dict(keys, items))))
-        code = compile(tree, f"<state of {self.block.name}>", "eval")
+        items = ", ".join(f"{path!r}: {place}" for path, _, place in leaves("", self.block, "s"))
+        code = compile(f"lambda s: {{{items}}}", f"<state of {self.block.name}>", "eval")
         snapshot: Callable[[Any], dict[str, Value]] = eval(code, {})  # noqa: S307 - our own compiled code
         return snapshot
 
 
-def leaves(path: str, kind: Type, node: ast.expr) -> Iterator[tuple[str, Type, ast.expr]]:
+def leaves(path: str, kind: Type, place: str) -> Iterator[tuple[str, Type, str]]:
     """Every scalar in a variable: its path, its type, and the Python expression that reads it."""
     if is_scalar(kind):
-        yield path, kind, node
+        yield path, kind, place
     elif isinstance(kind, Array):
-        yield from _element_leaves(path, kind, node, ())
+        yield from _element_leaves(path, kind, place, ())
     else:
         dot = f"{path}." if path else ""
         for name, each in members(kind).items():
-            yield from leaves(dot + name, each, ast.Attribute(node, name, ast.Load()))
+            yield from leaves(dot + name, each, f"{place}.{name}")
 
 
-def _element_leaves(
-    path: str, kind: Array, node: ast.expr, indices: tuple[int, ...]
-) -> Iterator[tuple[str, Type, ast.expr]]:
+def _element_leaves(path: str, kind: Array, place: str, indices: tuple[int, ...]) -> Iterator[tuple[str, Type, str]]:
     if len(indices) == len(kind.bounds):
-        yield from leaves(f"{path}[{','.join(map(str, indices))}]", kind.element, node)
+        yield from leaves(f"{path}[{','.join(map(str, indices))}]", kind.element, place)
         return
     low, high = kind.bounds[len(indices)]
     for index in range(low, high + 1):
-        item = ast.Subscript(node, ast.Constant(index - low), ast.Load())
-        yield from _element_leaves(path, kind, item, (*indices, index))
+        yield from _element_leaves(path, kind, f"{place}[{index - low}]", (*indices, index))
 
 
 def _is_constant(kind: Type, name: str | None) -> bool:

@@ -1,0 +1,69 @@
+"""Two versions as a person names them, two maps or two folders of Structured Text, and what differs between them."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from driveblocks.diff import facts, interface
+from driveblocks.diff.change import Change, Kind
+from driveblocks.maps import catalog, view
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.revision import revision
+from driveblocks.render import library
+from driveblocks.render.text import languages
+from structured_text.language.problems import SourceError
+
+
+@dataclass(frozen=True)
+class Version:
+    """A map, or without one a folder: what it declares and what it says."""
+
+    title: str
+    faces: dict[str, interface.Face]
+    drive: Drive | None = None
+    stem: str = ""
+
+
+def version(name: str) -> Version:
+    """What a word of the command line names: a folder, or a map. Raises MapError, UnknownDrive, OSError, ValueError."""
+    if Path(name).is_dir():
+        return Version(name, _folder(Path(name)))
+    path = catalog.resolve(name)
+    drive = load(path)
+    files = library.drive(path.stem, drive, languages(["en", "zh"], "utf-8"))
+    faces = interface.faces((file.path, file.text) for file in files)
+    return Version(f"{view.title(drive)}, map revision {revision(drive):08X}", faces, drive, path.stem)
+
+
+def _folder(folder: Path) -> dict[str, interface.Face]:
+    paths = sorted(folder.rglob("*.st"))
+    if not paths:
+        raise ValueError(f"{folder}: holds no .st file; name two maps, or two folders with blocks as text")
+    try:
+        return interface.faces((str(path), path.read_text("utf-8-sig")) for path in paths)
+    except (SourceError, UnicodeDecodeError) as error:
+        raise ValueError(str(error)) from error
+
+
+def compared(old: Version, new: Version) -> list[Change]:
+    """All that differs, the worst first. Raises ValueError for a map and a folder."""
+    if (old.drive is None) != (new.drive is None):
+        raise ValueError("one is a map and the other a folder of blocks; name two of a kind")
+    changes = [*interface.compared(old.faces, new.faces)]
+    if old.drive is not None and new.drive is not None:
+        changes = [*_prefixed(old.drive.prefix, new.drive.prefix, old.faces, new.faces)]
+        changes += facts.compared(view.of_drive(old.drive, old.stem), view.of_drive(new.drive, new.stem))
+    order = list(Kind)
+    return sorted(dict.fromkeys(changes), key=lambda each: order.index(each.kind))
+
+
+def _prefixed(before: str, after: str, old: dict[str, interface.Face], new: dict[str, interface.Face]) -> list[Change]:
+    """What differs in blocks; another prefix is one change, and the blocks are compared under the new one."""
+    if before == after:
+        return [*interface.compared(old, new)]
+    renamed = {
+        name.replace(before.upper(), after.upper(), 1): replace(face, name=face.name.replace(before, after, 1))
+        for name, face in old.items()
+    }
+    said = Change(Kind.BREAKS, "every block and function", f"begins with {before}_, now with {after}_")
+    return [said, *interface.compared(renamed, new)]
