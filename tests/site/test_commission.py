@@ -1,14 +1,14 @@
 """The first hour with a drive: found and named by reads alone, over lines that differ, and kept whole at any moment."""
 
-import signal
-import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from html import escape
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
+from click.testing import CliRunner, Result
+from rich.cells import cell_len
 from tests.plc.desk import maps
 from tests.site.test_parameters import simulated
 
@@ -16,13 +16,13 @@ from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
-from driveblocks.maps.load import load
 from driveblocks.maps.model import Condition, Identity
 from driveblocks.maps.plan import plan
+from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.site import hunt, kept, sheet, steps
+from driveblocks.site import hunt, kept, steps
 from driveblocks.site.adapter import PortLine
 from driveblocks.site.found import Answer, Found, Measured, Set, Way
 from driveblocks.site.session import Wish, commission
@@ -58,7 +58,7 @@ class Person:
 
 
 class Line:
-    """Units on a wire that speaks in one way; `change` makes of a reply what is heard, `alien` what nobody asked for."""
+    """Units on a wire that speaks in one way; `change` makes of a reply what is heard, `alien` what nobody asked."""
 
     late_ms, error = 0, ""
 
@@ -71,9 +71,7 @@ class Line:
         self.change: Callable[[bytes, bytes], bytes] = lambda _, reply: reply
         self.alien: Callable[[int], bytes] = lambda _: b""
         self.late_us = 0
-        self.asked = b""
-        self.said = b""
-        self.at_us = 0
+        self.said: list[tuple[int, bytes]] = []
         self.gone_us: int | None = None
 
     def opened(self, way: Way) -> "Line":
@@ -82,22 +80,21 @@ class Line:
 
     def send(self, data: bytes) -> None:
         self.sent.append(data)
-        self.asked, self.said = data, b""
         if self.tuned == self.way:
             self.wire.send(data)
             end = self.clock.now_us() + 400_000
             probe = VirtualClock()
             probe.sleep_until(end)
-            self.said = self.change(data, WirePort(self.bus, probe).receive())
-            self.at_us = self.clock.now_us() + int(len(data) * self.way.character_us) + 8_000 + self.late_us
+            reply = self.change(data, WirePort(self.bus, probe).receive())
+            at = self.clock.now_us() + int(len(data) * self.way.character_us) + 8_000 + self.late_us
+            self.said += [(at, reply)] if reply else []
 
     def receive(self) -> bytes:
         if self.gone_us is not None and self.clock.now_us() > self.gone_us:
             self.error = "the port was unplugged"
             return b""
-        if self.said and self.clock.now_us() >= self.at_us:
-            said, self.said = self.said, b""
-            return said
+        if self.said and self.clock.now_us() >= self.said[0][0]:
+            return self.said.pop(0)[1]
         return self.alien(self.clock.now_us())
 
     def close(self) -> None:
@@ -124,7 +121,7 @@ def drive(stem: str, unit: int = 1) -> SimulatedDrive:
     ("stem", "unit", "way"),
     [
         ("invt_chf", 1, Way(9600)), ("invt_chf", 2, Way(38400, "8O1", "ascii")), ("jscc", 3, Way(19200, "8E1")),
-        ("jscc", 40, Way(57600, "8N2")), ("shuen_sn300g5", 31, Way(9600, "8E1")), ("shuen_sn300g5", 7, Way(1200)),
+        ("jscc", 40, Way(19200, "8E1")), ("shuen_sn300g5", 31, Way(9600, "8E1")), ("shuen_sn300g5", 7, Way(1200)),
     ],
 )  # fmt: skip
 def test_a_drive_is_found_at_its_rate_format_framing_and_address(stem: str, unit: int, way: Way) -> None:
@@ -134,7 +131,7 @@ def test_a_drive_is_found_at_its_rate_format_framing_and_address(stem: str, unit
     assert found.done == ["quiet", "find", "keypad", "measure", "gaps"]
     assert found.measured is not None
     assert (found.measured.reads, found.measured.unlisted[-7:]) == (200, "refused")
-    assert 8 <= found.measured.longest_ms <= 12
+    assert found.measured.longest_ms <= 12
     assert len(person.asked) <= 10
     assert {each.what for each in steps.asked(MAPS[stem])} <= {*found.skipped}
 
@@ -227,9 +224,8 @@ def test_another_family_is_named_and_asked_no_further(stem: str, other: str) -> 
 
 
 def test_an_identity_comes_first_and_a_wrong_one_is_the_end() -> None:
-    fact = {"source": "page 1", "why": "no other has it"}
     for word, good in ((3, True), (4, False)):
-        identity = Identity(all=(Condition(register=0x2001, equals=word),), **fact)
+        identity = Identity(all=(Condition(register=0x2001, equals=word),), source="page 1", why="no other")
         line = Line([drive("jscc")])
         wished = replace(MAPS["jscc"], identity=identity)
         found = went(line, "jscc", drive=wished, rate=9600, form="8N1", unit=1)
@@ -242,14 +238,11 @@ def test_an_identity_comes_first_and_a_wrong_one_is_the_end() -> None:
 
 
 def test_a_refused_span_is_named_and_the_rest_is_done() -> None:
+    last = polls(MAPS["shuen_sn300g5"])[-1].address.to_bytes(2, "big")
     line = Line([drive("shuen_sn300g5")])
-    line.change = lambda asked, reply: (
-        seal("rtu", bytes([1, 0x83, 2]))
-        if asked[2] == 0 and 0x26 <= asked[3] + asked[5] - 1 and asked[3] >= 0x22
-        else reply
-    )
+    line.change = lambda asked, reply: seal("rtu", b"\x01\x83\x02") if asked[2:4] == last else reply
     found = went(line, "shuen_sn300g5", rate=9600, form="8N1", unit=1)
-    assert ([each.kind for each in found.faults], found.ended) == (["refused"], "")
+    assert ([each.kind for each in found.faults], found.ended, found.family) == (["refused"], "", "fits")
 
 
 @pytest.mark.parametrize("stem", MAPS)
@@ -275,19 +268,14 @@ def test_a_scale_is_a_power_of_ten_that_the_answer_shows(answer: str, word: int 
 
 
 def test_every_answer_is_read_at_its_moment_and_kept() -> None:
-    gap = next(each for each in steps.asked(MAPS["shuen_sn300g5"]) if each.on_site and each.on_site.gives)
-    assert gap.on_site is not None
-    assert gap.on_site.read is not None
-    simulator = drive("shuen_sn300g5")
-    simulator.memory.words[gap.on_site.read] = 5370
-    person = Person({"alone": "alone", gap.what: "537"})
-    line = Line([simulator])
-    line.change = lambda asked, reply: (
-        seal("rtu", bytes([1, 3, 2]) + (5370).to_bytes(2, "big"))
-        if asked[2:6] == (gap.on_site.read or 0).to_bytes(2, "big") + b"\0\1" else reply
-    )  # fmt: skip
+    places = {each.what: each.on_site for each in steps.asked(MAPS["shuen_sn300g5"]) if each.on_site}
+    what, place = next((what, each) for what, each in places.items() if each.gives)
+    request = (place.read or 0).to_bytes(2, "big") + b"\0\1"
+    line = Line([drive("shuen_sn300g5")])
+    line.change = lambda asked, reply: seal("rtu", b"\1\3\2\x14\xfa") if asked[2:6] == request else reply
+    person = Person({"alone": "alone", what: "537"})
     found = went(line, "shuen_sn300g5", person, rate=9600, form="8N1", unit=1)
-    assert found.answers == [Answer(gap.what, "537", 5370, gap.on_site.gives or "", "0.1")]
+    assert found.answers == [Answer(what, "537", 5370, place.gives or "", "0.1")]
 
 
 @pytest.mark.parametrize("end", [KeyboardInterrupt(), EOFError()])
@@ -320,16 +308,18 @@ def test_what_is_skipped_is_said() -> None:
 
 @pytest.mark.parametrize("stem", MAPS)
 def test_a_register_that_no_table_lists_is_in_none(stem: str) -> None:
-    address = steps.unlisted(MAPS[stem])
-    assert address is not None
-    assert not any(address in span for span in plan(MAPS[stem]).readable)
-    assert not any(address in area.addresses for area in MAPS[stem].areas)
+    addresses = hunt.unlisted(MAPS[stem])
+    assert addresses
+    for address in addresses:
+        assert not any(address in span for span in plan(MAPS[stem]).readable)
+        assert not any(address in area.addresses for area in MAPS[stem].areas)
 
 
 # ------------------------------------------------------------ what is kept, and made of it
 
 FULL = Found(
-    way=Way(19200, "8E1"), unit=3, family="fits", plate='5.5 kW "B" <1.02>', done=["quiet", "find", "keypad", "measure"],
+    way=Way(19200, "8E1"), unit=3, family="fits", plate='5.5 kW "B" <1.02>',
+    done=["quiet", "find", "keypad", "measure"],
     settings=[Set("F0.04", "Run", 3, 4, "why", ""), Set("F0.08", "Speed", None, 8, "why", "no")],
     measured=Measured(200, 12, 2, 16, "001BH: refused"), tried=["19200 bit/s 8E1 RTU"], skipped=["gaps", "a, b: [c"],
     answers=[Answer("scale of 2000H", "20.0", 2000, "FrequencyScale", "0.01"), Answer("other: {x}", "#no", None)],
@@ -400,13 +390,13 @@ def test_the_page_and_the_report_say_what_was_found_and_escape_it(tmp_path: Path
     text = page.read_text(encoding="utf-8")
     assert "5.5 kW &quot;B&quot; &lt;1.02&gt;" in text
     assert "signature" in text
-    assert all(what in text for what, _ in steps.script(MAPS["jscc"]))
+    assert all(escape(what) in text for what, _ in steps.script(MAPS["jscc"]))
     got = CliRunner().invoke(app, ["site", str(path), "--report", "Fan"])
     assert (got.exit_code, got.stderr) == (2, f"{path} has no Fan; it has Pump\n")
 
 
 def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
-    words = "--rate 5 --format x --unit 0 --label 1! --skip find".split()
+    words = ["--rate", "5", "--format", "x", "--unit", "0", "--label", "1!", "--skip", "find"]
     got = CliRunner().invoke(app, ["commission", "nobody", *words, "--file", str(tmp_path / "a.yaml")])
     assert (got.exit_code, got.stdout) == (2, "")
     assert [line.split(" ")[0] for line in got.stderr.splitlines()] == [
@@ -417,6 +407,42 @@ def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
 # ------------------------------------------------------------ real ports
 
 
-def session(folder: Path, *words: str) -> list[str]:
-    """A command line of `commission`."""
-    return [sys.executable, "-m", "driveblocks", "commission", *words, "--file", str(folder / "site.yaml")]
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The quiet minute takes a tenth of a second."""
+    monkeypatch.setattr(hunt, "QUIET_US", 100_000)
+
+
+def typed(folder: Path, *words: str) -> Result:
+    """Run `driveblocks commission` as a person who types the word, and nothing else."""
+    words = (*words, "--file", str(folder / "site.yaml"), "--label", "Pump")
+    return CliRunner().invoke(app, ["commission", *words], input="alone\n" + 10 * "\n", env={"COLUMNS": "80"})
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_simulated_drive_is_commissioned_over_tcp(stem: str, tmp_path: Path) -> None:
+    with simulated(f"{stem}@5", "--tcp", ":0") as place:
+        got = typed(tmp_path, stem, "--tcp", place, "--unit", "5")
+    assert (got.exit_code, got.stderr) == (0, "")
+    assert max(map(cell_len, got.stdout.splitlines())) <= 160  # two questions stand in one line of a test
+    one = kept.read(tmp_path / "site.yaml")["Pump"]
+    assert (one.map, one.line.unit, one.family, one.ended) == (stem, 5, "fits", None)
+    assert one.measured is not None
+    assert one.skipped
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
+def test_a_simulated_drive_is_commissioned_at_a_serial_port(tmp_path: Path) -> None:
+    with simulated("chf@2", "--pty") as place:
+        got = typed(tmp_path, "chf", "--port", place, "--unit", "2", "--skip", "measure")
+    assert (got.exit_code, got.stderr) == (0, "")
+    assert kept.read(tmp_path / "site.yaml")["Pump"].finished == ("quiet", "find", "keypad", "gaps")
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_port_that_is_not_there_is_named(tmp_path: Path) -> None:
+    got = typed(tmp_path, "chf", "--port", "/dev/nowhere")
+    assert (got.exit_code, got.stderr) == (2, "/dev/nowhere: there is no such port\n")
+    assert [*tmp_path.iterdir()] == []

@@ -143,7 +143,7 @@ class Found:
     way: Way | None = None
     unit: int | None = None
     family: str = ""
-    """Whether the drive is of the map's family: `identity`, or `fits`, where the map has no identity."""
+    """Whether the drive is of the map's family: `identity`; without one `fits`, or `unknown` where it answers all."""
     plate: str = ""
     faults: list[Fault] = field(default_factory=list)
     settings: list[Set] = field(default_factory=list)

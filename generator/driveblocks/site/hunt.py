@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import Poll, identity_read, polls
 from driveblocks.modbus.layout import Manners
 from driveblocks.modbus.scan import pieces
@@ -22,6 +23,8 @@ SOON_US, LATE_US = 200_000, 1_200_000
 """How long a reply is waited for: in the search, and where a unit is known."""
 TRIES = 3
 LIKELY = 4
+UNLISTED = 12
+"""Registers that no table lists, of which some must be refused for a family to be told from another."""
 WORST: tuple[Trouble, ...] = ("silent", "echo", "damaged", "half")
 """What a search without a drive has heard, from the least to what says most."""
 SAID: dict[Trouble, str] = {
@@ -118,7 +121,7 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
     order += [(way, addresses[LIKELY:], SOON_US) for way in every]
     order = [(way, some, patience) for way, some, patience in order if some]
     begun, done, total = talk.line.now_us(), 0, sum(len(each) for _, each, _ in order)
-    before = talk
+    before = talk.way
     for way, some, patience in order:
         for unit in some if _tuned(talk.line, way, found) else ():
             if talk.line.now_us() - begun > BOUND_US:
@@ -133,28 +136,29 @@ def find(talk: Talk, every: list[Way], addresses: list[int], asker: Asker, found
             if reply.trouble in ("two", "foreign"):
                 raise ended(reply.trouble, f"address {unit}, {way}: more than one unit replies")
             heard.add(reply.trouble or "silent")
-            before = here
+            before = here.way
     worst = next((each for each in reversed(WORST) if each in heard), WORST[0])
     raise ended(worst, SAID[worst])
 
 
-def _once(here: Talk, before: Talk, span: Span, patience: int, found: Found) -> tuple[Talk, Reply]:
-    """A read of the search; a late reply to the one before it makes that one asked again, with patience."""
+def _once(here: Talk, before: Way, span: Span, patience: int, found: Found) -> tuple[Talk, Reply]:
+    """A read of the search; where a late reply of another unit comes, that one is asked again, with patience."""
     try:
         reply = here.read(span, patience)
-        late = reply.trouble == "foreign"
+        late = reply.unit if reply.trouble == "foreign" else None
     except EndedError as end:
         if end.fault.kind != "slow":
             raise
-        late, reply = True, Reply(trouble="silent")
-    if late and before != here:
-        here.line.tune(before.way)
-        here.line.exchange(b"", LATE_US)
-        again = before.read(span, LATE_US)
+        late, reply = end.unit, Reply(trouble="silent")
+    for way in dict.fromkeys((here.way, before)) if late is not None else ():
+        there = replace(here, way=way, unit=late or 0)
+        there.line.tune(way)
+        there.line.exchange(b"", LATE_US)
+        again = there.read(span, LATE_US)
         if again.answered:
             found.faults.append(Fault("slow", f"the drive needs {again.after_us // 1000} ms to reply", LOOK["slow"]))
-            return before, again
-        here.line.tune(here.way)
+            return there, again
+    here.line.tune(here.way)
     if reply.trouble in ("damaged", "half"):
         reply = _again(here, span, reply)
     return here, reply
@@ -178,8 +182,7 @@ def _again(talk: Talk, span: Span, first: Reply) -> Reply:
 
 def first_read(drive: Drive) -> Span:
     """What a drive is looked for by: its identity, else the status that its block reads."""
-    poll = identity_read(drive) or polls(drive)[0]
-    return Span(poll.address, poll.address + poll.words - 1)
+    return _span(identity_read(drive) or polls(drive)[0])
 
 
 # ------------------------------------------------------------ is it this family
@@ -194,17 +197,40 @@ def recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
         return
     every = polls(talk.drive)
     refused = [each for each in every if not _reads(talk, each)]
-    for other, drive in others.items():
-        if refused and all(_reads(replace(talk, drive=drive), each) for each in polls(drive)):
-            raise ended("family", f"unit {talk.unit} refuses reads of {name} and answers all of {other}")
     spans = ", ".join(f"{each.words} words from {address_text(each.address)}" for each in refused)
+    rivals = [other for other, drive in others.items() if _is_rival(talk, drive)]
+    if rivals and (refused or _refuses_some(talk)):
+        raise ended("family", f"unit {talk.unit} answers as {rivals[0]} does, and not as {name}")
     if len(refused) == len(every):
         raise ended("family", f"unit {talk.unit} gives nothing that {name} has: {spans}")
     if strange := list(_strange(talk)):
         raise ended("family", f"what unit {talk.unit} gives is no {name}: {'; '.join(strange)}")
     if refused:
         found.faults.append(Fault("refused", f"unit {talk.unit} refuses what the map lists: {spans}", LOOK["refused"]))
-    found.family = "fits"
+    found.family = "unknown" if rivals else "fits"
+
+
+def _is_rival(talk: Talk, drive: Drive) -> bool:
+    """Whether a unit answers what another family's block reads, where the own map lists nothing."""
+    own = plan(talk.drive).readable
+    apart = [each for each in polls(drive) if not any(span.overlaps(_span(each)) for span in own)]
+    return bool(apart) and all(_reads(replace(talk, drive=drive), each) for each in apart)
+
+
+def _refuses_some(talk: Talk) -> bool:
+    """Whether a unit refuses any register that its map does not list: one that answers all has no family to be seen."""
+    return any(not _reads(talk, Poll(3, each, 1, fast=True)) for each in unlisted(talk.drive)[:UNLISTED])
+
+
+def unlisted(drive: Drive) -> list[int]:
+    """Registers that come after the tables of a map, and are in none of its tables and areas."""
+    taken = [*plan(drive).readable, *plan(drive).writable, *(each.addresses for each in drive.areas)]
+    after = (each.last + 1 for each in plan(drive).readable)
+    return [each for each in after if each < 0xFFFF and not any(each in span for span in taken)]
+
+
+def _span(poll: Poll) -> Span:
+    return Span(poll.address, poll.address + poll.words - 1)
 
 
 def steady(talk: Talk, span: Span) -> Reply:
@@ -224,7 +250,7 @@ def steady(talk: Talk, span: Span) -> Reply:
 def _reads(talk: Talk, poll: Poll) -> bool:
     """Whether a read is answered by words; silence to one of several reads counts as a refusal."""
     try:
-        return bool(steady(talk, Span(poll.address, poll.address + poll.words - 1)).words)
+        return bool(steady(talk, _span(poll)).words)
     except EndedError as end:
         if end.fault.kind in ("family", "lost"):
             return False
@@ -243,7 +269,7 @@ def _identified(drive: Drive, reply: Reply, span: Span) -> None:
 def _strange(talk: Talk) -> Iterator[str]:
     """Words of the status that the manual does not list."""
     for poll in polls(talk.drive):
-        span = Span(poll.address, poll.address + poll.words - 1)
+        span = _span(poll)
         for address, word in zip(span, steady(talk, span).words if poll.fast else (), strict=False):
             row = talk.drive.register_at(address)
             if row and row.values and not row.masks and word not in {each.value for each in row.values}:

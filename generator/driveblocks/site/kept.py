@@ -75,7 +75,9 @@ class Kept(Entry):
     date: Str = fact("when", '"2026-11-23 10:30"')
     who: Str | None = fact("who", "A. Person", optional=True)
     line: Place = fact("the line", "{rate: 9600, form: 8N1, mode: rtu, unit: 1}")
-    family: Literal["identity", "fits"] = fact("`identity`: by the map's; `fits`: it answers as the map says", "fits")
+    family: Literal["identity", "fits", "unknown"] = fact(
+        "`identity`: by the map's; `fits`: it answers as the map says; `unknown`: it answers every address", "fits"
+    )
     plate: Str | None = fact("type, rating, firmware", '"5.5 kW, 1.02"', optional=True)
     finished: tuple[Word, ...] = fact("steps that were finished", "[quiet, find]", optional=True, default=())
     skipped: tuple[Str, ...] = fact("steps and questions passed over", "[plate]", optional=True, default=())

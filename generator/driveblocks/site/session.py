@@ -79,6 +79,8 @@ def _rest(talk: Talk, asker: Asker, wish: Wish, found: Found, keep: Callable[[],
     asker.say(f"Found: unit {talk.unit} at {talk.way}.")
     if found.family == "fits":
         asker.say(f"It answers as {talk.drive.prefix} would. Its map has no identity: compare the plate yourself.")
+    if found.family == "unknown":
+        asker.say("It answers every address, so its family could not be found out: compare the plate yourself.")
     keep()
     if "plate" not in wish.skip:
         found.plate = asker.ask("plate", "Type, rating and firmware, from the plate and the keypad (Enter skips):")

@@ -72,7 +72,11 @@ def _sheet(label: str, one: Kept, drive: Drive | None) -> str:
 
 
 def _facts(one: Kept) -> Iterator[tuple[str, str]]:
-    family = {"identity": "recognised by the map's identity", "fits": "answers as its map says; compare the plate"}
+    family = {
+        "identity": "recognised by the map's identity",
+        "fits": "answers as its map says; compare the plate",
+        "unknown": "could not be found out: it answers every address; compare the plate",
+    }
     place, times = one.line, one.measured
     yield "map", f"{one.map}, revision {one.revision}"
     yield "date", one.date

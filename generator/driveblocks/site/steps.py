@@ -9,7 +9,7 @@ from driveblocks.maps.model import Absence, Drive, Setting
 from driveblocks.maps.plan import most, plan
 from driveblocks.show.layout import table
 from driveblocks.site.found import Answer, Asker, Found, Measured, Set
-from driveblocks.site.hunt import LATE_US, first_read, steady
+from driveblocks.site.hunt import LATE_US, first_read, steady, unlisted
 from driveblocks.site.register import rows, spans
 from driveblocks.site.talk import EndedError, Talk, ended
 
@@ -114,18 +114,11 @@ def _longest_read(talk: Talk) -> int:
 
 
 def _unlisted(talk: Talk) -> str:
-    address = unlisted(talk.drive)
+    address = next(iter(unlisted(talk.drive)), None)
     if address is None:
         return "not tried"
     reply = talk.read(Span(address, address), LATE_US)
     return f"{address_text(address)}: {'words' if reply.words else 'refused' if reply.answered else 'no reply'}"
-
-
-def unlisted(drive: Drive) -> int | None:
-    """A register after a table of the map, in none of its tables and areas; None where there is none."""
-    taken = [*plan(drive).readable, *plan(drive).writable, *(each.addresses for each in drive.areas)]
-    after = (each.last + 1 for each in plan(drive).readable)
-    return next((each for each in after if each < 0xFFFF and not any(each in span for span in taken)), None)
 
 
 # ------------------------------------------------------------ 5: gaps

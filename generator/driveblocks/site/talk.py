@@ -35,10 +35,10 @@ LOOK = {
 class EndedError(Exception):
     """The steps must not go on."""
 
-    def __init__(self, fault: Fault) -> None:
-        """For this reason."""
+    def __init__(self, fault: Fault, unit: int | None = None) -> None:
+        """For this reason; `unit` is the one whose reply came late."""
         super().__init__(fault.text)
-        self.fault = fault
+        self.fault, self.unit = fault, unit
 
 
 def ended(kind: Trouble, text: str) -> EndedError:
@@ -53,6 +53,8 @@ class Reply:
     words: tuple[int, ...] = ()
     refused: int | None = None
     trouble: Trouble | None = None
+    unit: int | None = None
+    """Whose frame it is."""
     after_us: int = 0
     echo: bool = False
     strange: bool = False
@@ -89,7 +91,8 @@ class Talk:
         if stray := self.line.exchange(b"", wait_us).data:
             late = judged(stray, self.way, b"", manners(self.drive), echo=False)
             if late.words or late.refused is not None:
-                raise ended("slow", "a reply came so late that nobody waited for it any more")
+                said = "a reply came so late that nobody waited for it any more"
+                raise EndedError(Fault("slow", said, LOOK["slow"]), late.unit)
             raise ended("foreign", "somebody else speaks on this line, or noise does")
 
 
@@ -109,12 +112,12 @@ def _meant(frame: bytes, body: bytes, manner: Manners) -> Reply:
     """What one good frame is."""
     layout, asked = take(frame, "reply", manner), int.from_bytes(body[4:6], "big")
     if body and frame[0] != body[0]:
-        return Reply(trouble="foreign")
+        return Reply(trouble="foreign", unit=frame[0])
     if layout.refusal:
-        return Reply(refused=layout.number("reason") or 0)
+        return Reply(refused=layout.number("reason") or 0, unit=frame[0])
     if body and (layout.function != body[1] or not layout.fits or len(layout.words) != asked):
-        return Reply(trouble="family", strange=True)
-    return Reply(layout.words)
+        return Reply(trouble="family", unit=frame[0], strange=True)
+    return Reply(layout.words, unit=frame[0])
 
 
 def _frames(data: bytes, way: Way, manner: Manners) -> tuple[list[bytes], bool]:
