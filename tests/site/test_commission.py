@@ -22,7 +22,7 @@ from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.site import hunt, kept, steps
+from driveblocks.site import adapter, hour, hunt, kept, steps
 from driveblocks.site.adapter import PortLine
 from driveblocks.site.found import Answer, Found, Measured, Set, Way
 from driveblocks.site.session import Wish, commission
@@ -80,7 +80,7 @@ class Line:
 
     def send(self, data: bytes) -> None:
         self.sent.append(data)
-        if self.tuned == self.way:
+        if replace(self.tuned, mode=self.way.mode) == self.way:
             self.wire.send(data)
             end = self.clock.now_us() + 400_000
             probe = VirtualClock()
@@ -404,13 +404,38 @@ def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+PAGE = Path(__file__).parents[2] / "docs" / "first-hour.md"
+TYPED = ["alone", "4 kW, V2.31", "F0.04", "yes", "", "", "", ""]
+
+
+def test_the_session_of_the_page_is_what_a_person_sees(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    answers, others = iter(TYPED), {name: each for name, each in MAPS.items() if name != "jscc"}
+
+    def read(text: str) -> str:
+        answer = next(answers)
+        sys.stdout.write(f"{text}{answer}\n")
+        return answer
+
+    line, person = Line([drive("jscc", 5)], Way(9600, "8E1")), adapter.Person(read)
+    found = commission(PortLine(line.opened, line.clock), person, Wish(MAPS["jscc"], others), lambda _: None)
+    hour.told(person, hour.Words(map="jscc", label="Pump"), MAPS["jscc"], found)
+    assert found.ended == ""
+    said = "\n".join(each.rstrip() for each in capsys.readouterr().out.splitlines())
+    shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]
+    assert shown.partition("\n```\n<!-- session:end -->")[0] == said
+
+
 # ------------------------------------------------------------ real ports
 
 
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The quiet minute takes a tenth of a second."""
+    """The quiet minute takes a tenth of a second, and the reply time comes from 20 reads."""
     monkeypatch.setattr(hunt, "QUIET_US", 100_000)
+    monkeypatch.setattr(steps, "READS", 20)
 
 
 def typed(folder: Path, *words: str) -> Result:

@@ -1,6 +1,7 @@
 """A line at a port of this machine, and a person at its terminal."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from rich.console import RenderableType
 from rich.progress import BarColumn, Progress, TextColumn
@@ -33,7 +34,8 @@ class PortLine:
 
     def tune(self, way: Way) -> bool:
         """Open the port for a way; whether it can. Raises OSError for a port that is not there at all."""
-        if way == self._way:
+        if self._way is not None and replace(way, mode=self._way.mode) == self._way:
+            self._way = way  # the same port carries both framings
             return True
         self.close()
         try:

@@ -95,11 +95,11 @@ def run(words: Words, read: Callable[[str], str]) -> Found:
         found = commission(line, person, wish, lambda some: kept.write(words.file, about, some))
     finally:
         line.close()
-    _told(person, words, drive, found)
+    told(person, words, drive, found)
     return found
 
 
-def _told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
+def told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
     """The end: what was wrong, what was kept, and what is next."""
     for fault in found.faults:
         person.say(f"{fault.kind.upper()}: {fault.text}\n  look at: {fault.look}")
@@ -111,8 +111,14 @@ def _told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
         line = asked.line(typed)
         for each in report.tables([figures(line, rate)]):
             person.say(each)
-    for what, do in steps.script(drive) if found.family else ():
-        person.say(f"Only a run by the bus shows {what}: {do}")
+    if found.family:
+        person.say(
+            "\nOnly a run by the bus shows the rest. Motor uncoupled, hard stop in hand, low speed, by `driveblocks run\n"
+            "--allow-run`:"
+        )
+        for what, do in steps.script(drive):
+            person.say(f"- {what}: {do}")
+        person.say("")
     if found.skipped:
         person.say(f"Skipped: {', '.join(found.skipped)}")
     where = f"{words.file}, label {words.label}" if found.family else "nothing was kept"

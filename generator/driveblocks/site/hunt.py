@@ -150,7 +150,7 @@ def _once(here: Talk, before: Way, span: Span, patience: int, found: Found) -> t
         if end.fault.kind != "slow":
             raise
         late, reply = end.unit, Reply(trouble="silent")
-    for way in dict.fromkeys((here.way, before)) if late is not None else ():
+    for way in dict.fromkeys((*here.framings, before)) if late is not None else ():
         there = replace(here, way=way, unit=late or 0)
         there.line.tune(way)
         there.line.exchange(b"", LATE_US)

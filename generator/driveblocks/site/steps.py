@@ -142,7 +142,7 @@ def gaps(talk: Talk, asker: Asker, found: Found, keep: Callable[[], None]) -> No
         one = gap.on_site
         if one is None:
             continue
-        asker.say(f"{gap.what}: {one.do}")
+        asker.say(f"\nNot in the manual: {gap.what}.\nDo: {one.do}.")
         answer = asker.ask(gap.what, one.ask)
         if not answer:
             found.skipped.append(gap.what)

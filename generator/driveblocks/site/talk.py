@@ -85,12 +85,25 @@ class Talk:
         heard = self.line.exchange(request, timeout_us, 0 if settle_us is None else whole)
         echo = heard.data.startswith(request)
         found = judged(heard.data.removeprefix(request), way, body, manner, echo=echo)
+        if found.trouble == "damaged" and (late := self.stray(heard.data)).answered:
+            found = Reply(trouble="foreign", unit=late.unit)
         return replace(found, after_us=heard.after_us, echo=echo)
+
+    @property
+    def framings(self) -> list[Way]:
+        """The way, and with it those of the drive's other framings."""
+        modes = self.drive.serial.mode.modes
+        return list(dict.fromkeys((self.way, *(replace(self.way, mode=mode) for mode in modes))))
+
+    def stray(self, data: bytes) -> Reply:
+        """What bytes are that nobody has just asked for: a late reply, in any framing, or nothing."""
+        read = (judged(data, way, b"", manners(self.drive), echo=False) for way in self.framings)
+        return next((each for each in read if each.answered), Reply())
 
     def _silence(self, wait_us: int) -> None:
         if stray := self.line.exchange(b"", wait_us).data:
-            late = judged(stray, self.way, b"", manners(self.drive), echo=False)
-            if late.words or late.refused is not None:
+            late = self.stray(stray)
+            if late.answered:
                 said = "a reply came so late that nobody waited for it any more"
                 raise EndedError(Fault("slow", said, LOOK["slow"]), late.unit)
             raise ended("foreign", "somebody else speaks on this line, or noise does")
