@@ -43,7 +43,10 @@ ELSEWHERE = {
     r"copy |bash ": "for another shell, or its name alone",
 }
 """How the command lines begin that do not run here, and why."""
-BARE = {f"driveblocks {name}" for name in ("commission", "diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")}
+BARE = {
+    f"driveblocks {name}"
+    for name in ("commission", "diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")
+}
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {
     "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),

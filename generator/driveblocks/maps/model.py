@@ -999,7 +999,7 @@ class OnSite(Entry):
     """How `driveblocks commission` closes a gap for one drive: what a person does, and what is asked then."""
 
     do: English = fact("what a person does first", "set the keypad to 20.0 Hz and run by the keypad, motor uncoupled")
-    ask: English = fact("the question", "which frequency does the keypad show, in Hz?")
+    ask: English = fact("the question, without its mark", "which frequency does the keypad show, in Hz")
     read: Address | None = fact("the register that is read at the answer", "3000H", optional=True)
     gives: OpenScale | None = fact(
         "the member of `VFD_Settings` that the answer, a number, and the register give", "FrequencyScale", optional=True

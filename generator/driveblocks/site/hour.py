@@ -112,10 +112,8 @@ def told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
         for each in report.tables([figures(line, rate)]):
             person.say(each)
     if found.family:
-        person.say(
-            "\nOnly a run by the bus shows the rest. Motor uncoupled, hard stop in hand, low speed, by `driveblocks run\n"
-            "--allow-run`:"
-        )
+        person.say("\nOnly a run by the bus shows the rest: `driveblocks run --allow-run`, motor uncoupled,")
+        person.say("hard stop in hand, low speed:")
         for what, do in steps.script(drive):
             person.say(f"- {what}: {do}")
         person.say("")

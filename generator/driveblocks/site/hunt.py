@@ -24,7 +24,7 @@ SOON_US, LATE_US = 200_000, 1_200_000
 TRIES = 3
 LIKELY = 4
 UNLISTED = 12
-"""Registers that no table lists, of which some must be refused for a family to be told from another."""
+"""Registers that no table lists: a unit that answers all of these answers everything."""
 WORST: tuple[Trouble, ...] = ("silent", "echo", "damaged", "half")
 """What a search without a drive has heard, from the least to what says most."""
 SAID: dict[Trouble, str] = {

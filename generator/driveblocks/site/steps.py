@@ -133,7 +133,7 @@ def script(drive: Drive) -> Iterator[tuple[str, str]]:
     """What only a run by the bus can show: the gap, and what to do."""
     for each in drive.absent:
         if each.on_site and each.on_site.by_run:
-            yield each.what, f"{each.on_site.do}; {each.on_site.ask}"
+            yield each.what, f"{each.on_site.do}; {each.on_site.ask}?"
 
 
 def gaps(talk: Talk, asker: Asker, found: Found, keep: Callable[[], None]) -> None:
@@ -143,7 +143,7 @@ def gaps(talk: Talk, asker: Asker, found: Found, keep: Callable[[], None]) -> No
         if one is None:
             continue
         asker.say(f"\nNot in the manual: {gap.what}.\nDo: {one.do}.")
-        answer = asker.ask(gap.what, one.ask)
+        answer = asker.ask(gap.what, f"{one.ask[0].upper()}{one.ask[1:]}?")
         if not answer:
             found.skipped.append(gap.what)
             continue
