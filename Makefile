@@ -86,4 +86,4 @@ bench:                ## every figure, side by side in one run; writes docs/meas
 
 release:              ## one archive per platform from blocks/ into dist/, the same bytes each time
 	$(DB) build --check
-	$(PY) -m driveblocks.building.release
+	$(PY) -m driveblocks.output.release

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 NOT_COUNTED = (
     "bench/", "blocks/", "native/", "regression/", "drives/", "line/", "reference/", "shapes/",
-    "building/test_build.py::test_english",
+    "output/test_build.py::test_english",
     "commands/test_build.py::test_what_is_checked_in", "commands/test_explain.py::test_an_explanation_fits",
     "commands/test_show.py::test_a_page_fits", "commands/test_test.py", "docs/test_pages.py::test_the_example",
     "maps/test_agreement.py", "maps/test_bad.py::test_every", "maps/test_form.py", "maps/test_fuzz.py",

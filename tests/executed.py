@@ -26,7 +26,7 @@ from click.testing import CliRunner
 from tests.rooms import ROOT, modules
 
 if TYPE_CHECKING:  # each module of the generator is imported while calls are noted
-    from driveblocks.prove.proof import Question
+    from driveblocks.prove.question import Question
     from driveblocks.testing.unit import Unit
 
 PACKAGES = ("driveblocks", "structured_text")
@@ -170,12 +170,12 @@ def executed(folder: Path) -> set[str]:
     seen = set[str]()
     vars(builtins)["__executed__"] = seen
     sys.meta_path.insert(0, Finder)
-    from driveblocks.building import units
-    from driveblocks.prove import proof, prover
+    from driveblocks.output import units
+    from driveblocks.prove import prover, question
 
     patch = pytest.MonkeyPatch()
     patch.setattr(units, "units", few_programs(units.units))
-    patch.setattr(prover, "questions", few_questions(proof.questions))
+    patch.setattr(prover, "questions", few_questions(question.questions))
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = f"127.0.0.1:{free.getsockname()[1]}"
     arguments = [sys.executable, "-m", "driveblocks", "simulate", "chf@1", "--tcp", port]

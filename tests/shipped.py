@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from driveblocks.building.units import units as tested
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
+from driveblocks.output.units import units as tested
 from driveblocks.render.text import languages
 from driveblocks.testing.unit import Unit
 

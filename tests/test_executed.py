@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ELSEWHERE = {
-    "driveblocks.building.release": "`make release`",
+    "driveblocks.output.release": "`make release`",
 }
 
 

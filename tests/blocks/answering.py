@@ -3,16 +3,16 @@
 import random
 from dataclasses import replace
 
-from driveblocks.reference.reply import Manners
+from driveblocks.reference.reply import Dialect
 from driveblocks.reference.request import Asked
 
 
-def good(manner: Manners, asked: Asked, chance: random.Random) -> bytes:
+def good(dialect: Dialect, asked: Asked, chance: random.Random) -> bytes:
     """The body of a reply that is believed."""
     head = bytes([asked.unit, asked.function])
     if asked.function in {3, 4}:
         data = chance.randbytes(2 * asked.quantity)
-        wide = manner.two_byte_count and chance.random() < 0.3
+        wide = dialect.two_byte_count and chance.random() < 0.3
         return head + len(data).to_bytes(2 if wide else 1, "big") + data
     pair = {
         6: (asked.address, asked.value),
@@ -22,11 +22,11 @@ def good(manner: Manners, asked: Asked, chance: random.Random) -> bytes:
     return head + b"".join(word.to_bytes(2, "big") for word in pair)
 
 
-def refusal(manner: Manners, asked: Asked, reason: int) -> bytes:
+def refusal(dialect: Dialect, asked: Asked, reason: int) -> bytes:
     """The body of a refusal in the drive's form."""
-    if manner.function is not None and manner.address is not None:
-        return bytes([asked.unit, manner.function]) + manner.address.to_bytes(2, "big") + reason.to_bytes(2, "big")
-    return bytes([asked.unit, (asked.function + (manner.add or 0)) & 0xFF, reason & 0xFF])
+    if dialect.function is not None and dialect.address is not None:
+        return bytes([asked.unit, dialect.function]) + dialect.address.to_bytes(2, "big") + reason.to_bytes(2, "big")
+    return bytes([asked.unit, (asked.function + (dialect.add or 0)) & 0xFF, reason & 0xFF])
 
 
 def spoilt(body: bytes, other: bytes, chance: random.Random) -> bytes:

@@ -89,7 +89,7 @@ def borders(allowed: frozenset[int]) -> Iterator[int]:
                 yield beside
 
 
-def check_request(blocks: Blocks, asking: Asking, asked: Asked) -> str:
+def assert_request(blocks: Blocks, asking: Asking, asked: Asked) -> str:
     """One request against the reference; answers the result's name."""
     sent = wire.build(blocks, asking.drive.prefix, asked)
     wanted = asking.model.build(asked)

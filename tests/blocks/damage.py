@@ -8,7 +8,7 @@ from tests.blocks import answering
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_encode, rtu_seal
-from driveblocks.reference.reply import Manners, manners
+from driveblocks.reference.reply import Dialect, dialect
 from driveblocks.reference.request import Asked
 
 HEX = b"0123456789ABCDEFabcdef:\r\n"
@@ -31,13 +31,13 @@ def frame(body: bytes, in_ascii: bool) -> bytes:
 
 def line(drive: Drive, chance: random.Random, in_ascii: bool) -> Line:
     """A random request and frames around it."""
-    manner = manners(drive)
-    places = [0, 0x1000, 0x2000, 0xFFFF, manner.address or 0x5001]
+    spoken = dialect(drive)
+    places = [0, 0x1000, 0x2000, 0xFFFF, spoken.address or 0x5001]
     asked = answering.questions(chance.choice([1, 2, 247]), [3, 3, 3, 4, 6, 8, 16], 16, places, chance)
     others = [answering.questions(asked.unit, [3, 4, 6, 8, 16], 16, places, chance) for _ in range(4)]
-    bodies = [answering.good(manner, asked, chance) for _ in range(4)]
-    bodies += [answering.refusal(manner, asked, chance.randrange(256)) for _ in range(2)]
-    bodies += [answering.good(Manners(), other, chance) for other in others]
+    bodies = [answering.good(spoken, asked, chance) for _ in range(4)]
+    bodies += [answering.refusal(spoken, asked, chance.randrange(256)) for _ in range(2)]
+    bodies += [answering.good(Dialect(), other, chance) for other in others]
     return Line(asked, bodies, [frame(body, in_ascii) for body in bodies])
 
 

@@ -35,7 +35,7 @@ SCALES = (0.0, 10.0, 100.0, 0.5, -1.0, nan, inf)
 """Counts per Hz; only asked for where the map has no scale."""
 
 
-def check_commands(blocks: Blocks, drive: Drive, steps: Iterator[Pins]) -> None:
+def assert_commands(blocks: Blocks, drive: Drive, steps: Iterator[Pins]) -> None:
     """One instance and one reference model through the same steps; each command register keeps other bits."""
     model = Commands(drive)
     kept = {f"KeepWord{'' if at == model.home else f'{at:04X}H'}": at for at, bits in model.kept.items() if bits}
@@ -98,7 +98,7 @@ def encode(blocks: Blocks, drive: Drive, given: References) -> Encoded:
     return Encoded(result(done), number(done, "Value"), limited, hertz=hertz)
 
 
-def check_reference(blocks: Blocks, drive: Drive, given: References) -> None:
+def assert_reference(blocks: Blocks, drive: Drive, given: References) -> None:
     """The result and the word, or those that arithmetic in single precision may give beside a half."""
     wanted, found = SpeedReference(drive).encode(*given), encode(blocks, drive, given)
     assert found.result in wanted.results, (given, found, wanted)

@@ -21,7 +21,7 @@ from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_decode, rtu_open
-from driveblocks.reference.reply import Answer, manners, parse
+from driveblocks.reference.reply import Answer, dialect, parse
 from driveblocks.reference.request import Asked
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
@@ -126,7 +126,7 @@ def wanted(drive_manner: Any, asked: Asked, data: bytes, in_ascii: bool) -> Answ
 
 def run(library: EmbeddedLibrary, drive: Drive, count: int, seed: int, lines: int = LINES) -> Tally:
     """So many replies through one drive's chain."""
-    chance, manner, tally = random.Random(f"{seed} {drive.prefix}"), manners(drive), Tally()
+    chance, spoken, tally = random.Random(f"{seed} {drive.prefix}"), dialect(drive), Tally()
     chain = Chain(library, drive.prefix)
     start = time.perf_counter()
     for number in range(lines):
@@ -139,7 +139,7 @@ def run(library: EmbeddedLibrary, drive: Drive, count: int, seed: int, lines: in
                 found = chain.receive(data, in_ascii)
             except ScanError as error:
                 found = Answer(str(error))
-            due = wanted(manner, wire.asked, data, in_ascii)
+            due = wanted(spoken, wire.asked, data, in_ascii)
             tally.results[due.result] += 1
             if found != due:
                 tally.wrong.append(f"{wire.asked} {data!r}: found {found}, the reference says {due}")

@@ -10,7 +10,7 @@ from typing import Any
 
 from tests.blocks import asking, driving, meanings, permissions, vectors
 from tests.blocks.library import Blocks
-from tests.blocks.test_reply import check_by_chance
+from tests.blocks.test_reply import assert_by_chance
 from tests.maps import test_facts
 from tests.shipped import drives
 
@@ -36,16 +36,16 @@ def judge(blocks: Blocks, drive: Drive, changed: list[str], other: Drive) -> Non
         )
     for row in meanings.decoded(drive):
         if f"{drive.prefix}_{name_of(row)}" in changed:
-            meanings.check_decoder(blocks, drive, row)
+            meanings.assert_decoder(blocks, drive, row)
     for row in meanings.scaled(drive):
         if meanings.scale_name(drive, row) in changed:
-            meanings.check_scale(blocks, drive, row)
+            meanings.assert_scale(blocks, drive, row)
 
 
 def _requests(blocks: Blocks, drive: Drive, other: Drive) -> None:
     for frame in drive.frames:
         if frame.direction == "request" and frame.means.function in BUILDABLE:
-            vectors.check_request(blocks, drive, frame)
+            vectors.assert_request(blocks, drive, frame)
     draw, changed = asking.Asking(drive), asking.Asking(other)
     apart = draw.model.readable ^ changed.model.readable | draw.model.writable ^ changed.model.writable
     unit, words = drive.serial.unit.min, tuple(range(125))
@@ -53,24 +53,24 @@ def _requests(blocks: Blocks, drive: Drive, other: Drive) -> None:
     limits = [*draw.limits()]
     casts = (asked for asked in limits if asked.unit == 0)
     for asked in itertools.chain(first, casts, limits[:: max(1, len(limits) // 400)], (draw.any() for _ in range(400))):
-        asking.check_request(blocks, draw, asked)
+        asking.assert_request(blocks, draw, asked)
 
 
 def _replies(blocks: Blocks, drive: Drive) -> None:
     for frame in drive.frames:
         if frame.direction == "reply":
-            vectors.check_reply(blocks, drive, frame)
-    check_by_chance(blocks, drive, 400)
+            vectors.assert_reply(blocks, drive, frame)
+    assert_by_chance(blocks, drive, 400)
 
 
 def _commands(blocks: Blocks, drive: Drive) -> None:
-    driving.check_commands(blocks, drive, driving.all_pins())
-    driving.check_commands(blocks, drive, driving.motions())
+    driving.assert_commands(blocks, drive, driving.all_pins())
+    driving.assert_commands(blocks, drive, driving.motions())
 
 
 def _references(blocks: Blocks, drive: Drive) -> None:
     for given in driving.references(drive):
-        driving.check_reference(blocks, drive, given)
+        driving.assert_reference(blocks, drive, given)
 
 
 def _nothing(_: Blocks, __: Drive) -> None:
@@ -81,14 +81,14 @@ _JUDGES: dict[str, Judge] = {
     "Reply": _replies,
     "Command": _commands,
     "Reference": _references,
-    "Standstill": meanings.check_standstill,
-    "MayWrite": permissions.check_writes,
-    "ParameterAddress": permissions.check_numbers,
-    "FaultNumber": meanings.check_fault_number,
-    "FaultText": meanings.check_code_texts,
-    "ErrorText": meanings.check_code_texts,
-    "BitText": meanings.check_bit_texts,
-    "ValueText": meanings.check_value_texts,
+    "Standstill": meanings.assert_standstill,
+    "MayWrite": permissions.assert_writes,
+    "ParameterAddress": permissions.assert_numbers,
+    "FaultNumber": meanings.assert_fault_number,
+    "FaultText": meanings.assert_code_texts,
+    "ErrorText": meanings.assert_code_texts,
+    "BitText": meanings.assert_bit_texts,
+    "ValueText": meanings.assert_value_texts,
 }
 
 # ---------------------------------------------------------------- facts typed by hand

@@ -40,7 +40,7 @@ def decoded(drive: Drive) -> Iterator[Register]:
     return (row for _, row in drive.registers() if register.decode(row, 0))
 
 
-def check_decoder(blocks: Blocks, drive: Drive, row: Register) -> None:
+def assert_decoder(blocks: Blocks, drive: Drive, row: Register) -> None:
     """Every output for every interesting word."""
     instance = blocks.library.instance(f"{drive.prefix}_{name_of(row)}")
     for word in interesting(row):
@@ -60,7 +60,7 @@ def scaled(drive: Drive) -> Iterator[Register]:
     return (row for _, row in drive.registers() if row.scale is not None and row.unit is not None)
 
 
-def check_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int] = range(0, 0x10000, 257)) -> None:
+def assert_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int] = range(0, 0x10000, 257)) -> None:
     """The nearest REAL to the exact value, within the last place that one operation may cost."""
     for word in (*EDGES, *some):
         value = blocks.call(scale_name(drive, row), {"Raw": word})
@@ -69,7 +69,7 @@ def check_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int]
         assert abs(value - exact) <= abs(exact) / 2**23, (f"{row.address.first:04X}H", word, value, float(exact))
 
 
-def check_standstill(blocks: Blocks, drive: Drive) -> None:
+def assert_standstill(blocks: Blocks, drive: Drive) -> None:
     """Each condition alone broken and kept, and random words."""
     pins = {one.register: word_pin(drive, one.register) for one in drive.operation.standstill.all}
     instance = blocks.library.instance(f"{drive.prefix}_Standstill")
@@ -99,7 +99,7 @@ def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:
         yield {address: chance.choice([good[address], chance.randrange(0x10000)]) for address in addresses}
 
 
-def check_fault_number(blocks: Blocks, drive: Drive) -> None:
+def assert_fault_number(blocks: Blocks, drive: Drive) -> None:
     """Every bit alone, and random words: the lowest number and the count."""
     relation = drive.faults.bits
     assert relation is not None
@@ -120,25 +120,25 @@ def codes(known: Iterable[int | None]) -> list[int]:
     return sorted({*listed, *((code + 1) % 0x10000 for code in listed), 0, 255, 65535})
 
 
-def check_text(blocks: Blocks, function: str, pins: dict[str, int], found: text.Texts | None) -> None:
+def assert_text(blocks: Blocks, function: str, pins: dict[str, int], found: text.Texts | None) -> None:
     """A text function in the language that its name ends in."""
     which, encoding = TEXTS[function[-2:]]
     wanted = (found or text.UNKNOWN)[which].encode(encoding)
     assert blocks.call(function, dict(pins)) == wanted, (function, pins)
 
 
-def check_code_texts(blocks: Blocks, drive: Drive) -> None:
+def assert_code_texts(blocks: Blocks, drive: Drive) -> None:
     """Texts of faults and refusals, in both languages."""
     faults = codes(one.code for one in drive.faults.codes)
     errors = codes(text.error_number(one) for one in drive.errors.codes)
     for language in TEXTS:
         for code in faults:
-            check_text(blocks, f"{drive.prefix}_FaultText{language}", {"Code": code}, text.fault(drive, code))
+            assert_text(blocks, f"{drive.prefix}_FaultText{language}", {"Code": code}, text.fault(drive, code))
         for code in errors:
-            check_text(blocks, f"{drive.prefix}_ErrorText{language}", {"Code": code}, text.error(drive, code))
+            assert_text(blocks, f"{drive.prefix}_ErrorText{language}", {"Code": code}, text.error(drive, code))
 
 
-def check_bit_texts(blocks: Blocks, drive: Drive) -> None:
+def assert_bit_texts(blocks: Blocks, drive: Drive) -> None:
     """Texts of the bits of every register, in both languages; an address without bits has none."""
     rows = [row.address.first for _, row in drive.registers() if any(bit.name for bit in row.bits)]
     for language in TEXTS if rows else ():
@@ -146,10 +146,10 @@ def check_bit_texts(blocks: Blocks, drive: Drive) -> None:
             for bit in range(17):
                 pins = {"Address": address, "BitNumber": bit}
                 found = text.bit(drive, address, bit) if address in rows else None
-                check_text(blocks, f"{drive.prefix}_BitText{language}", pins, found)
+                assert_text(blocks, f"{drive.prefix}_BitText{language}", pins, found)
 
 
-def check_value_texts(blocks: Blocks, drive: Drive) -> None:
+def assert_value_texts(blocks: Blocks, drive: Drive) -> None:
     """Texts of the values of every register, in both languages."""
     rows = {row.address.first: row for _, row in drive.registers() if row.values}
     for language in TEXTS if rows else ():
@@ -157,4 +157,4 @@ def check_value_texts(blocks: Blocks, drive: Drive) -> None:
             listed = rows[address].values if address in rows else ()
             for value in codes(one.value for one in listed):
                 pins = {"Address": address, "Value": value}
-                check_text(blocks, f"{drive.prefix}_ValueText{language}", pins, text.value(drive, address, value))
+                assert_text(blocks, f"{drive.prefix}_ValueText{language}", pins, text.value(drive, address, value))

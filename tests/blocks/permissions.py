@@ -12,7 +12,7 @@ from structured_text.engines.engine import Value
 NEAR = (-1, 0, 1)
 
 
-def check_writes(blocks: Blocks, drive: Drive) -> None:
+def assert_writes(blocks: Blocks, drive: Drive) -> None:
     """Every side of every row, area and alias; every side of every range."""
     judge = Judge(drive)
     for wish in _wishes(drive):
@@ -33,7 +33,7 @@ def _wishes(drive: Drive) -> Iterator[Write]:
                 yield from (Write(row.address.first, value + step & 0xFFFF) for step in NEAR)
 
 
-def check_numbers(blocks: Blocks, drive: Drive) -> None:
+def assert_numbers(blocks: Blocks, drive: Drive) -> None:
     """Every number of every group, and those beside them."""
     known = parameters(drive)
     named = any(letter or group for letter, group, _ in known)

@@ -18,17 +18,17 @@ STOPS = {"SN300G5": (0x0000, 0x0000), "JSCC": (0x1000, 3), "CHF": (0x1000, 5)}
 
 @DRIVES
 def test_every_combination_of_pins(engine: Engine, drive: Drive) -> None:
-    driving.check_commands(built(engine), drive, driving.all_pins())
+    driving.assert_commands(built(engine), drive, driving.all_pins())
 
 
 @DRIVES
 def test_every_motion_after_every_other(engine: Engine, drive: Drive) -> None:
-    driving.check_commands(built(engine), drive, driving.motions())
+    driving.assert_commands(built(engine), drive, driving.motions())
 
 
 @DRIVES
 def test_resets_beside_everything_else(engine: Engine, drive: Drive) -> None:
-    driving.check_commands(built(engine), drive, driving.resets())
+    driving.assert_commands(built(engine), drive, driving.resets())
 
 
 @pytest.mark.parametrize("prefix", STOPS)
@@ -161,7 +161,7 @@ def test_chf_ends_a_jog_by_its_own_word(engine: Engine) -> None:
 @DRIVES
 def test_references_at_every_limit(engine: Engine, drive: Drive) -> None:
     for given in driving.references(drive):
-        driving.check_reference(built(engine), drive, given)
+        driving.assert_reference(built(engine), drive, given)
 
 
 WORDS = [

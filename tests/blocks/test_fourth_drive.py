@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from tests.blocks import asking, driving, meanings, vectors, wire
 from tests.blocks.library import Blocks, built, scan
-from tests.blocks.test_reply import check_by_chance
+from tests.blocks.test_reply import assert_by_chance
 
 from driveblocks.maps import collection
 from driveblocks.maps.load import loads
@@ -51,49 +51,49 @@ def test_blocks_pass_the_linter() -> None:
 def test_frames(engine: Engine, drive: Drive) -> None:
     for frame in drive.frames:
         if frame.direction == "request":
-            vectors.check_request(fourth(engine), drive, frame)
+            vectors.assert_request(fourth(engine), drive, frame)
         else:
-            vectors.check_reply(fourth(engine), drive, frame)
-            vectors.check_quantities(fourth(engine), drive, frame)
+            vectors.assert_reply(fourth(engine), drive, frame)
+            vectors.assert_quantities(fourth(engine), drive, frame)
         if frame.plc is not None:
-            vectors.check_table(fourth(engine), frame)
+            vectors.assert_table(fourth(engine), frame)
 
 
 @EVERY
 def test_requests(engine: Engine, drive: Drive) -> None:
     draw = asking.Asking(drive)
-    limits = {asking.check_request(fourth(engine), draw, asked) for asked in draw.limits()}
-    chance = {asking.check_request(fourth(engine), draw, draw.any()) for _ in range(500)}
+    limits = {asking.assert_request(fourth(engine), draw, asked) for asked in draw.limits()}
+    chance = {asking.assert_request(fourth(engine), draw, draw.any()) for _ in range(500)}
     assert {"OK", "MODE", "UNIT", "QUANTITY", "WRAP", "NOT_READABLE", "FUNCTION"} <= limits | chance
 
 
 @EVERY
 def test_replies(engine: Engine, drive: Drive) -> None:
-    assert {"OK", "REFUSED"} <= check_by_chance(fourth(engine), drive, 800)
+    assert {"OK", "REFUSED"} <= assert_by_chance(fourth(engine), drive, 800)
 
 
 @EVERY
 def test_meanings(engine: Engine, drive: Drive) -> None:
     blocks = fourth(engine)
     for row in meanings.decoded(drive):
-        meanings.check_decoder(blocks, drive, row)
+        meanings.assert_decoder(blocks, drive, row)
     for row in meanings.scaled(drive):
-        meanings.check_scale(blocks, drive, row)
-    meanings.check_standstill(blocks, drive)
+        meanings.assert_scale(blocks, drive, row)
+    meanings.assert_standstill(blocks, drive)
     if drive.faults.bits is not None:
-        meanings.check_fault_number(blocks, drive)
-    meanings.check_code_texts(blocks, drive)
-    meanings.check_bit_texts(blocks, drive)
-    meanings.check_value_texts(blocks, drive)
+        meanings.assert_fault_number(blocks, drive)
+    meanings.assert_code_texts(blocks, drive)
+    meanings.assert_bit_texts(blocks, drive)
+    meanings.assert_value_texts(blocks, drive)
 
 
 @EVERY
 def test_driving(engine: Engine, drive: Drive) -> None:
-    driving.check_commands(fourth(engine), drive, driving.all_pins())
-    driving.check_commands(fourth(engine), drive, driving.motions())
-    driving.check_commands(fourth(engine), drive, driving.resets())
+    driving.assert_commands(fourth(engine), drive, driving.all_pins())
+    driving.assert_commands(fourth(engine), drive, driving.motions())
+    driving.assert_commands(fourth(engine), drive, driving.resets())
     for given in driving.references(drive):
-        driving.check_reference(fourth(engine), drive, given)
+        driving.assert_reference(fourth(engine), drive, given)
 
 
 def requests() -> Iterator[tuple[str, Asked, str]]:
@@ -142,7 +142,7 @@ def test_refusals_that_no_shipped_drive_has(
     assert wire.parse(fourth(engine), f"{prefix}_Reply", wire.opened(asked), bytes.fromhex(body)) == wanted
 
 
-def steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Value) -> None:
+def assert_steps(instance: Instance, *calls: tuple[str, tuple[int, int]], **always: Value) -> None:
     """Calls with the pins that are TRUE beside Enable, and the register and word that must be reported."""
     pins = ("RunForward", "RunReverse", "QuickStop", "CoastStop", "FaultReset", "StopAcknowledged", "ResetAcknowledged")
     for asked, telegram in calls:
@@ -155,7 +155,7 @@ def test_a_reset_is_written_to_its_own_register_and_never_to_the_command_registe
     running, stopped, reset = (0x8000, 0x0011), (0x8000, 0x0001), (0x8002, 16)
     calls = [("RunForward", running), ("RunForward FaultReset", stopped), ("StopAcknowledged", reset)]
     instance = fourth(engine).library.instance("BH_Command")
-    steps(instance, *calls, ("", reset), ("ResetAcknowledged", stopped), KeepWord=0xFFFF)
+    assert_steps(instance, *calls, ("", reset), ("ResetAcknowledged", stopped), KeepWord=0xFFFF)
 
 
 def edited(engine: Engine, *edits: tuple[str, str]) -> tuple[Drive, Blocks]:
@@ -189,25 +189,25 @@ TWO_REGISTERS = (
 def test_commands_by_bits_in_other_places(engine: Engine, edits: tuple[tuple[str, str], ...]) -> None:
     drive, blocks = edited(engine, *edits)
     for walk in (driving.all_pins(), driving.motions(), driving.resets()):
-        driving.check_commands(blocks, drive, walk)
+        driving.assert_commands(blocks, drive, walk)
 
 
 def test_a_reset_by_a_bit_beside_the_run_bits_is_a_stop_as_well(engine: Engine) -> None:
     instance = edited(engine, *RESET_BIT)[1].library.instance("BH_Command")
     calls = [("RunForward", 0x0011), ("RunForward FaultReset", 0x0001), ("RunForward StopAcknowledged", 0x0101)]
     more = [("RunForward ResetAcknowledged", 0x0001), ("", 0x0001), ("RunReverse", 0x0021)]
-    steps(instance, *((asked, (0x8000, word)) for asked, word in (*calls, *more)), KeepWord=0xFFFF)
+    assert_steps(instance, *((asked, (0x8000, word)) for asked, word in (*calls, *more)), KeepWord=0xFFFF)
 
 
 def test_each_command_register_keeps_its_own_bits_and_passes_no_unused_one(engine: Engine) -> None:
     instance = edited(engine, *TWO_REGISTERS)[1].library.instance("BH_Command")
     kept: dict[str, Value] = {"KeepWord": 0xFFFF, "KeepWord8002H": 0xFFFE}
     quick = ("QuickStop", (0x8002, 0x000A))
-    steps(instance, ("RunForward", (0x8000, 0x0011)), quick, ("StopAcknowledged", (0x8000, 0x0001)), **kept)
+    assert_steps(instance, ("RunForward", (0x8000, 0x0011)), quick, ("StopAcknowledged", (0x8000, 0x0001)), **kept)
     reset = [("FaultReset", (0x8000, 0x0001)), ("StopAcknowledged", (0x8002, 0x000C))]
-    steps(instance, *reset, ("ResetAcknowledged", (0x8000, 0x0001)), **kept)
+    assert_steps(instance, *reset, ("ResetAcknowledged", (0x8000, 0x0001)), **kept)
     swapped: dict[str, Value] = {"KeepWord": 0xFFFE, "KeepWord8002H": 0x0001}
-    steps(instance, ("RunForward", (0x8000, 0x0010)), ("QuickStop", (0x8002, 0x0003)), **swapped)
+    assert_steps(instance, ("RunForward", (0x8000, 0x0010)), ("QuickStop", (0x8002, 0x0003)), **swapped)
 
 
 def test_there_is_no_reverse_where_the_map_has_none(engine: Engine) -> None:

@@ -22,17 +22,17 @@ def ids(pairs: list[tuple[Drive, Register]]) -> list[str]:
 
 @pytest.mark.parametrize(("drive", "row"), DECODED, ids=ids(DECODED))
 def test_decoder(engine: Engine, drive: Drive, row: Register) -> None:
-    meanings.check_decoder(built(engine), drive, row)
+    meanings.assert_decoder(built(engine), drive, row)
 
 
 @pytest.mark.parametrize(("drive", "row"), SCALED, ids=ids(SCALED))
 def test_scale(engine: Engine, drive: Drive, row: Register) -> None:
-    meanings.check_scale(built(engine), drive, row)
+    meanings.assert_scale(built(engine), drive, row)
 
 
 @DRIVES
 def test_standstill_is_proven_by_all_conditions_at_once_and_by_nothing_less(engine: Engine, drive: Drive) -> None:
-    meanings.check_standstill(built(engine), drive)
+    meanings.assert_standstill(built(engine), drive)
 
 
 STANDS = [
@@ -56,18 +56,18 @@ def test_standstill_of_the_manuals(engine: Engine, prefix: str, pins: dict[str, 
 
 @pytest.mark.parametrize("drive", [drive for drive in drives().values() if drive.faults.bits], ids=lambda d: d.prefix)
 def test_fault_numbers(engine: Engine, drive: Drive) -> None:
-    meanings.check_fault_number(built(engine), drive)
+    meanings.assert_fault_number(built(engine), drive)
 
 
 @DRIVES
 def test_texts_of_faults_and_refusals(engine: Engine, drive: Drive) -> None:
-    meanings.check_code_texts(built(engine), drive)
+    meanings.assert_code_texts(built(engine), drive)
 
 
 @DRIVES
 def test_texts_of_bits_and_values(engine: Engine, drive: Drive) -> None:
-    meanings.check_bit_texts(built(engine), drive)
-    meanings.check_value_texts(built(engine), drive)
+    meanings.assert_bit_texts(built(engine), drive)
+    meanings.assert_value_texts(built(engine), drive)
 
 
 def test_texts_of_results(engine: Engine) -> None:

@@ -9,7 +9,7 @@ from tests.blocks.library import Blocks, built
 from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
-from driveblocks.reference.reply import Answer, Manners, manners, parse
+from driveblocks.reference.reply import Answer, Dialect, dialect, parse
 from driveblocks.reference.request import Asked
 from structured_text.engines.engine import Engine
 
@@ -65,7 +65,7 @@ def test_each_result_of_the_generic_parser(engine: Engine, asked: Asked, body: s
     data = bytes.fromhex(body)
     found = wire.parse(built(engine), "MB_ParseReply", wire.opened(asked), data, ExceptionAdd=128)
     assert found == wanted
-    assert parse(Manners(), asked, data) == wanted
+    assert parse(Dialect(), asked, data) == wanted
 
 
 def test_a_length_beyond_the_frame_is_no_reply(engine: Engine) -> None:
@@ -105,41 +105,41 @@ def test_a_two_byte_count_is_taken_only_where_the_map_says_so(engine: Engine) ->
         assert found == (Answer("OK", (0x01F4, 5)) if tolerant else Answer("BYTE_COUNT"))
 
 
-def check(blocks: Blocks, prefix: str, manner: Manners, asked: Asked, body: bytes) -> str:
+def check(blocks: Blocks, prefix: str, dialect: Dialect, asked: Asked, body: bytes) -> str:
     """One reply against the reference; answers the result's name."""
     found = wire.parse(blocks, f"{prefix}_Reply", wire.opened(asked), body)
-    assert found == parse(manner, asked, body), (asked, body.hex(" "), found)
+    assert found == parse(dialect, asked, body), (asked, body.hex(" "), found)
     return found.result
 
 
-def check_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
+def assert_by_chance(blocks: Blocks, drive: Drive, count: int) -> set[str]:
     """Right and wrong replies at random; answers the names of all results seen."""
-    manner, chance, seen = manners(drive), random.Random(drive.prefix), set()
-    unit, places = drive.serial.unit.min, [0, 0x1000, manner.address or 0]
+    spoken, chance, seen = dialect(drive), random.Random(drive.prefix), set()
+    unit, places = drive.serial.unit.min, [0, 0x1000, spoken.address or 0]
     for _ in range(count):
         asked = answering.questions(chance.choice([unit, unit, unit + 6]), [3, 4, 6, 8, 16], 16, places, chance)
-        body = answering.good(manner, asked, chance)
-        other = answering.good(manner, replace(asked, function=chance.choice([3, 6, 16])), chance)
+        body = answering.good(spoken, asked, chance)
+        other = answering.good(spoken, replace(asked, function=chance.choice([3, 6, 16])), chance)
         if chance.random() < 0.2:
-            body = answering.refusal(manner, asked, chance.randrange(256))
+            body = answering.refusal(spoken, asked, chance.randrange(256))
         if chance.random() < 0.7:
             body = answering.spoilt(body, other, chance)
-        seen.add(check(blocks, drive.prefix, manner, asked, body))
+        seen.add(check(blocks, drive.prefix, spoken, asked, body))
     return seen
 
 
 @DRIVES
 def test_random_replies_are_judged_as_by_the_reference(engine: Engine, prefix: str) -> None:
-    seen = check_by_chance(built(engine), drives()[prefix], 1200)
+    seen = assert_by_chance(built(engine), drives()[prefix], 1200)
     assert {"OK", "REFUSED", "SHORT", "LONG", "BYTE_COUNT", "OTHER_FUNCTION", "OTHER_VALUE", "OTHER_ADDRESS"} <= seen
 
 
 @DRIVES
 @pytest.mark.parametrize("ascii_mode", [False, True], ids=["rtu", "ascii"])
 def test_any_single_changed_bit_of_a_frame_is_noticed(engine: Engine, prefix: str, ascii_mode: bool) -> None:
-    manner, chance, blocks = manners(drives()[prefix]), random.Random(prefix), built(engine)
+    spoken, chance, blocks = dialect(drives()[prefix]), random.Random(prefix), built(engine)
     for asked in (READ, WRITE, SEVERAL, LOOP, Asked(3, 1, 0, 16)):
-        frame = wire.frame(blocks, answering.good(manner, asked, chance), ascii_mode=ascii_mode)
+        frame = wire.frame(blocks, answering.good(spoken, asked, chance), ascii_mode=ascii_mode)
         request = wire.opened(asked)
         assert wire.receive(blocks, prefix, request, frame, ascii_mode=ascii_mode).result == "OK"
         for at in range(len(frame)):

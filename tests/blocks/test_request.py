@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from tests.blocks import wire
-from tests.blocks.asking import Asking, check_request
+from tests.blocks.asking import Asking, assert_request
 from tests.blocks.library import built, result
 from tests.shipped import drives
 
@@ -56,14 +56,14 @@ def test_every_limit_and_every_border_of_addresses(engine: Engine, prefix: str) 
     asking, blocks = Asking(drives()[prefix]), built(engine)
     several = list(asking.limits())
     some = several if len(several) < 1500 else several[:: len(several) // 1500]
-    seen = {check_request(blocks, asking, asked) for asked in some}
+    seen = {assert_request(blocks, asking, asked) for asked in some}
     assert {"OK", "QUANTITY", "NOT_READABLE"} <= seen
 
 
 @DRIVES
 def test_random_requests_give_the_reference_bytes_or_its_result(engine: Engine, prefix: str) -> None:
     asking, blocks = Asking(drives()[prefix], engine.name), built(engine)
-    seen = {check_request(blocks, asking, asking.any()) for _ in range(800)}
+    seen = {assert_request(blocks, asking, asking.any()) for _ in range(800)}
     assert {"OK", "UNIT", "FUNCTION", "QUANTITY"} <= seen
 
 

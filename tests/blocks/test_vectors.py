@@ -17,12 +17,12 @@ EVERY = pytest.mark.parametrize(("drive", "frame"), FRAMES, ids=IDS)
 def test_frame_is_built_and_parsed_byte_for_byte(engine: Engine, drive: Drive, frame: Frame) -> None:
     blocks = built(engine)
     if frame.direction == "request":
-        vectors.check_request(blocks, drive, frame)
+        vectors.assert_request(blocks, drive, frame)
     else:
-        vectors.check_reply(blocks, drive, frame)
-        vectors.check_quantities(blocks, drive, frame)
+        vectors.assert_reply(blocks, drive, frame)
+        vectors.assert_quantities(blocks, drive, frame)
     if frame.plc is not None:
-        vectors.check_table(blocks, frame)
+        vectors.assert_table(blocks, frame)
 
 
 PRINTED_WRONG = {

@@ -29,7 +29,7 @@ def asked(frame: Frame) -> Asked:
     )
 
 
-def check_request(blocks: Blocks, drive: Drive, frame: Frame) -> None:
+def assert_request(blocks: Blocks, drive: Drive, frame: Frame) -> None:
     """Build and frame a request: every byte as the manual has it; opening it gives the body back."""
     assert frame.means.function in BUILDABLE, frame.id
     sent = wire.build(blocks, drive.prefix, asked(frame))
@@ -62,7 +62,7 @@ def wanted(frame: Frame) -> Answer:
     return Answer("OK", tuple(value & 0xFFFF for value in means.values) if means.function in {3, 4} else ())
 
 
-def check_reply(blocks: Blocks, drive: Drive, frame: Frame) -> None:
+def assert_reply(blocks: Blocks, drive: Drive, frame: Frame) -> None:
     """Open and parse a reply; sealing its body again gives its bytes."""
     in_ascii = frame.mode == "ascii"
     for question in questions(drive, frame):
@@ -72,7 +72,7 @@ def check_reply(blocks: Blocks, drive: Drive, frame: Frame) -> None:
     assert wire.frame(blocks, body.body, ascii_mode=in_ascii) == frame.correct, frame.id
 
 
-def check_quantities(blocks: Blocks, drive: Drive, frame: Frame) -> None:
+def assert_quantities(blocks: Blocks, drive: Drive, frame: Frame) -> None:
     """The engineering values that the manual states for a reply's words."""
     request = next((one for one in drive.frames if one.id == frame.answers), frame)
     for quantity in frame.means.quantities:
@@ -84,7 +84,7 @@ def check_quantities(blocks: Blocks, drive: Drive, frame: Frame) -> None:
         assert value == stored(float(quantity.value)), (frame.id, value, quantity.value)
 
 
-def check_table(blocks: Blocks, frame: Frame) -> None:
+def assert_table(blocks: Blocks, frame: Frame) -> None:
     """The manual's table of PLC registers, packed and unpacked by both boxes that can hold the frame."""
     assert frame.plc is not None
     registers = [int(text.replace("--", "00"), 16) for text in frame.plc.registers]

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from driveblocks.building import build, manifest, transaction
 from driveblocks.cli import app
 from driveblocks.maps import collection
+from driveblocks.output import build, manifest, transaction
 from driveblocks.render.text import Language
 
 ROOT = Path(__file__).parents[2]
@@ -348,7 +348,7 @@ def test_a_second_build_at_once_is_refused() -> None:
 KILLED = """
 import os, signal, sys
 from driveblocks.cli import app
-from driveblocks.building import build
+from driveblocks.output import build
 from driveblocks.maps import collection
 from tests.commands.test_build import few
 replace, left = os.replace, [int(sys.argv.pop(1))]

@@ -6,9 +6,9 @@ import pytest
 from click.testing import CliRunner
 from tests.testing.conftest import only
 
-from driveblocks.building import build, units
 from driveblocks.cli import app
 from driveblocks.maps import catalog, page, view
+from driveblocks.output import build, units
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 

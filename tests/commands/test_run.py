@@ -256,7 +256,7 @@ def test_a_named_map_takes_the_place_of_the_shipped_one(program: Path, name: str
     for simulate in ((), ("chf@7",), (f"{name}@7",)):
         maps = () if simulate == (f"{name}@7",) else (name,)
         made = Setup(Options(program=program, maps=maps, simulate=simulate, fast=True, length="1s"), Keyboard(0))
-        assert [one.path for one in made._wanted] == [Path(name)]
+        assert [one.path for one in made._drives] == [Path(name)]
         assert shipped not in [each.path for each in made._maps]
 
 
@@ -349,12 +349,12 @@ def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[s
 LOOPBACK = """
 import socket, sys
 from driveblocks.plc.simulated import Simulation
-from driveblocks.plc.wanted import Wanted
+from driveblocks.plc.drives import Named
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.modbus.frame import seal
 path = catalog.resolve("chf")
-made = Simulation([Wanted(path, load(path), 5, 60, (("DcVoltageScale", "0.1"),))], 19200, 10, ascii_mode=False)
+made = Simulation([Named(path, load(path), 5, 60, (("DcVoltageScale", "0.1"),))], 19200, 10, ascii_mode=False)
 with socket.create_connection(("127.0.0.1", made.port)) as line:
     line.settimeout(600)
     line.sendall(seal("rtu", bytes.fromhex("05 03 30 02 00 01")))

@@ -106,15 +106,15 @@ def _numbers(drive: SimulatedDrive) -> dict[str, int]:
     """The scalars of a table."""
     table, reference, storage = drive.table, drive.table.reference, drive.table.storage
     first, last = table.fault_bits or (1, 0)
-    manners = table.manners
+    dialect = table.dialect
     return {
         "functions": sum(1 << code for code in table.functions),
         "most_read": table.most.read,
         "most_write": table.most.write,
         "broadcast": -1 if table.broadcast is None else table.broadcast,
-        "error_function": -1 if manners.function is None else manners.function,
-        "error_address": -1 if manners.address is None else manners.address,
-        "error_add": manners.added,
+        "error_function": -1 if dialect.function is None else dialect.function,
+        "error_address": -1 if dialect.address is None else dialect.address,
+        "error_add": dialect.added,
         "reference": reference.register,
         "times": reference.times,
         "per": reference.per,

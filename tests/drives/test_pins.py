@@ -59,7 +59,7 @@ def zeroed(kind: str, stations: Library) -> Bench:
     return bench.line(BitRate=19200).put(Address=1, **WIRED)
 
 
-def alike(kind: str, stations: Library) -> None:
+def assert_alike(kind: str, stations: Library) -> None:
     """What it does is what declared memory does, scan by scan, from power-up to a stop."""
     both = [zeroed(kind, stations), Bench(kind, start=False, stations=stations)]
     both[1].line(BitRate=19200, MaxScanMs=0).put(**dict.fromkeys(("TurnRoundMs", "LongestMs"), 0))
@@ -79,14 +79,14 @@ def alike(kind: str, stations: Library) -> None:
 
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_memory_of_zeros_behaves_like_declared_memory(kind: str) -> None:
-    alike(kind, library())
+    assert_alike(kind, library())
 
 
 def test_memory_of_zeros_on_matiec(matiec: Engine) -> None:
     for engine in beside(matiec).values():
         stations = built(engine, kinds=FAMILIES)
         for kind in FAMILIES:
-            alike(kind, stations)
+            assert_alike(kind, stations)
 
 
 @pytest.mark.parametrize(

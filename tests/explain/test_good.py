@@ -199,7 +199,7 @@ def test_without_the_request_a_reply_has_no_names(explain: Explain) -> None:
 
 def test_a_tolerated_two_byte_count(explain: Explain) -> None:
     frame, request = "01 03 00 04 00 02 00 00", rtu("01 03 00 04 00 02")
-    tolerant = explain.of["CHF"].manners.two_byte_count
+    tolerant = explain.of["CHF"].dialect.two_byte_count
     made = explain("CHF", rtu(frame), request)
     assert made.good is tolerant
     assert not explain("JSCC", rtu(frame), rtu("01 03 00 04 00 02")).good

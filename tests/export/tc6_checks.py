@@ -83,27 +83,27 @@ def _own(shelf: Shelf, target: str) -> Iterator[_Meant]:
                 yield f"{drive.prefix}_{name}", (text,), ()
 
 
-def names(one: Made) -> None:
+def assert_names(one: Made) -> None:
     """Every type and unit is there once, in the order of its use."""
     assert one.file.named() == [meant.name for _, meant in one.pairs]
     assert max(Counter(name.upper() for name in one.file.named()).values()) == 1
 
 
-def declarations(one: Made) -> None:
+def assert_declarations(one: Made) -> None:
     """Kinds, sections, types and initial values are those of the canonical text."""
     for read, meant in one.pairs:
         assert (read.kind, read.name, read.returns) == (meant.kind, meant.name, meant.returns)
         assert [replace(row, comment="") for row in read.rows] == [replace(row, comment="") for row in meant.rows]
 
 
-def comments(one: Made) -> None:
+def assert_comments(one: Made) -> None:
     """Each declaration has its comment, and each unit its head."""
     for read, meant in one.pairs:
         assert [(row.name, row.comment) for row in read.rows] == [(row.name, row.comment) for row in meant.rows]
         assert read.head == meant.head
 
 
-def bodies(one: Made) -> None:
+def assert_bodies(one: Made) -> None:
     """Each body is untouched, and its tokens have the hash in its head."""
     for read, meant in one.pairs:
         if not meant.name.endswith("_Ladder"):
@@ -117,14 +117,14 @@ def _schema() -> etree.XMLSchema:
     return etree.XMLSchema(etree.parse(Path(__file__).with_name("tc6_xml_v201.xsd")))
 
 
-def schema(one: Made) -> None:
+def assert_schema(one: Made) -> None:
     """The file is valid by the schema of TC6 2.01; another dialect with its namespace swapped."""
     neutral, own = DIALECTS["plcopen"][0], DIALECTS[one.target][0]
     text = one.file.text.replace(own, neutral) if own != neutral else one.file.text
     _schema().assertValid(etree.fromstring(text.encode("utf-8")))
 
 
-def marks(one: Made) -> None:
+def assert_marks(one: Made) -> None:
     """Each text of the neutral form is a CDATA section in its tag, as Beremiz's loader looks for it."""
     if one.target == "plcopen":
         sections, text = (
@@ -136,7 +136,7 @@ def marks(one: Made) -> None:
     assert one.file.text.startswith('<?xml version="1.0" encoding="utf-8"?>\n<project ')
 
 
-def plain(one: Made) -> None:
+def assert_plain(one: Made) -> None:
     """CODESYS's text of a declaration is the canonical one, and says what the elements say."""
     if one.target != "codesys":
         return
@@ -153,7 +153,7 @@ def _pous(one: Made) -> list[Unit]:
     return [unit for unit in one.file.units if unit.kind != "TYPE"]
 
 
-def folders(one: Made) -> None:
+def assert_folders(one: Made) -> None:
     """CODESYS's tree has every object once, with the identity that the object itself has."""
     if one.target == "codesys":
         (tree,) = one.file.data("projectstructure", one.file.root)
@@ -164,7 +164,7 @@ def folders(one: Made) -> None:
         assert len(set(own.values())) == len(nodes) == len(one.file.all(".//Object", tree))
 
 
-def tasks(one: Made) -> None:
+def assert_tasks(one: Made) -> None:
     """A project to begin with runs its first motor in one task; a library runs nothing."""
     found = one.file.all("instances/configurations/configuration/resource/task")
     assert len(found) == len(one.prefixes)
@@ -180,7 +180,7 @@ def drawings(one: Made) -> list[tuple[Node, str]]:
     return [(nodes[unit.name], unit.body) for _, unit in one.pairs if unit.name.endswith("_Ladder")]
 
 
-def ladders(one: Made) -> None:
+def assert_ladders(one: Made) -> None:
     """A ladder calls the same blocks with the same values as the program in text, and its wires meet its pins."""
     for node, body in drawings(one):
         drawn = one.file.ladder(node)
@@ -206,7 +206,7 @@ def truth(value: str) -> str | tuple[tuple[str, ...], list[bool]]:
     return names, [bool(eval(said, {"v": v})) for v in product((False, True), repeat=len(names))]  # noqa: S307 - made above
 
 
-def room(one: Made) -> None:
+def assert_room(one: Made) -> None:
     """No two things of a ladder touch: boxes, contacts and coils with the names above them, rails."""
     for node, _ in drawings(one) if one.target == "plcopen" else ():
         boxes = one.file.boxes(node)
@@ -215,7 +215,7 @@ def room(one: Made) -> None:
         assert not close
 
 
-def libraries(one: Made) -> None:
+def assert_libraries(one: Made) -> None:
     """A file of CODESYS names the library that its serial port needs, and no other does."""
     if one.target == "codesys":
         named = [each.get("Name") for node in one.file.data("libraries", one.file.root) for each in node]
@@ -224,5 +224,6 @@ def libraries(one: Made) -> None:
 
 
 CHECKS: tuple[Callable[[Made], None], ...] = (
-    names, declarations, comments, bodies, schema, marks, plain, folders, libraries, tasks, ladders, room,
+    assert_names, assert_declarations, assert_comments, assert_bodies, assert_schema, assert_marks, assert_plain,
+    assert_folders, assert_libraries, assert_tasks, assert_ladders, assert_room,
 )  # fmt: skip

@@ -6,7 +6,16 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from tests.export.tc6_checks import CHECKS, Made, declarations, ladders, made, names, room, schema
+from tests.export.tc6_checks import (
+    CHECKS,
+    Made,
+    assert_declarations,
+    assert_ladders,
+    assert_names,
+    assert_room,
+    assert_schema,
+    made,
+)
 from tests.export.tc6_planted import PLANTED, Planted
 from tests.shapes import shapes
 from tests.shipped import BOTH, sources
@@ -81,8 +90,8 @@ def test_a_ladder_keeps_the_comment_of_a_pin() -> None:
     drive = stock().drives["jscc"]
     unproved = replace(drive, manual=replace(drive.manual, second_hand=True))
     for one in made(WRITERS["plcopen"], replace(_few(), drives={"jscc": unproved}), "plcopen"):
-        ladders(one)
-        room(one)
+        assert_ladders(one)
+        assert_room(one)
         assert one.file.text.count(f"ManualChecked := 0, (* {checked(drive)} once") == len(one.prefixes)
         assert one.file.text.count(f"<![CDATA[{checked(drive)} once") == len(one.prefixes)
 
@@ -92,8 +101,8 @@ def test_a_drive_whose_commands_are_a_way_of_states_has_no_program_for_another_m
     files = [*library.generic(BOTH), *library.drive("cia402", drive, BOTH)]
     for target in ("plcopen", "codesys"):
         for one in made(WRITERS[target], shelf(files, {"cia402": drive}, BOTH), target):
-            names(one)
-            declarations(one)
+            assert_names(one)
+            assert_declarations(one)
             assert not any(name.endswith("_Master") for name in one.file.named())
 
 
@@ -215,7 +224,7 @@ def test_what_cannot_be_said_is_refused(old: str, new: str, neutral: str, codesy
 
 
 def test_the_end_of_a_section_in_a_comment_would_break_the_file() -> None:
-    mistake = Planted("nobody refuses it", "tc6", '"]]>", "<![CDATA[", ', "", schema)
+    mistake = Planted("nobody refuses it", "tc6", '"]]>", "<![CDATA[", ', "", assert_schema)
     assert mistake.found(_parsed(BLOCK.replace("a number", "a ]]> b")), "plcopen")
 
 

@@ -20,7 +20,7 @@ from pymodbus.pdu.register_message import (
 from driveblocks.maps import adu
 from driveblocks.maps.adu import Fields, FrameError
 from driveblocks.modbus.frame import checksum
-from driveblocks.modbus.layout import Direction, Manners
+from driveblocks.modbus.layout import Dialect, Direction
 
 WORDS = st.lists(st.integers(0, 0xFFFF), min_size=1, max_size=16)
 UNIT = st.integers(1, 247)
@@ -33,13 +33,13 @@ def both(pdu: ModbusPDU) -> list[tuple[str, bytes]]:
     return [(mode, framer.buildFrame(pdu)) for mode, framer in framers]
 
 
-def apart(pdu: ModbusPDU, direction: Direction, manners: Manners = Manners()) -> Fields:  # noqa: B008 - frozen
+def apart(pdu: ModbusPDU, direction: Direction, dialect: Dialect = Dialect()) -> Fields:  # noqa: B008 - frozen
     """What the frames of a PDU carry; the same in both modes, and their checksums hold."""
     found = set()
     for mode, frame in both(pdu):
         body, given = adu.split(mode, frame)
         assert given == checksum(mode, body)
-        found.add(adu.fields(body, direction, manners))
+        found.add(adu.fields(body, direction, dialect))
     assert len(found) == 1
     return found.pop()
 
@@ -93,11 +93,11 @@ def test_exceptions(unit: int, function: int, code: int) -> None:
 
 
 def test_exceptions_with_another_addition() -> None:
-    assert adu.fields(bytes([1, 0x43, 2]), "reply", Manners(add=0x40)) == Fields(1, 0x43, error=2)
+    assert adu.fields(bytes([1, 0x43, 2]), "reply", Dialect(add=0x40)) == Fields(1, 0x43, error=2)
 
 
 def test_a_refusal_by_a_write_to_a_fixed_address() -> None:
-    refusal = Manners(function=6, address=0x5001)
+    refusal = Dialect(function=6, address=0x5001)
     body = bytes([1, 6, 0x50, 1, 0, 5])
     assert adu.fields(body, "reply", refusal) == Fields(1, 6, address=0x5001, error=5)
     assert adu.fields(body, "request", refusal) == Fields(1, 6, address=0x5001, values=(5,))
@@ -105,7 +105,7 @@ def test_a_refusal_by_a_write_to_a_fixed_address() -> None:
 
 
 def test_what_a_refused_request_is_due() -> None:
-    assert adu.refused(Fields(7, 3, address=1, words=2), Manners()) == Fields(7, 0x83)
+    assert adu.refused(Fields(7, 3, address=1, words=2), Dialect()) == Fields(7, 0x83)
 
 
 @pytest.mark.parametrize(
@@ -127,7 +127,7 @@ def test_what_a_refused_request_is_due() -> None:
 )
 def test_a_wrong_length_is_named(body: str, direction: Direction, wrong: str) -> None:
     with pytest.raises(FrameError) as caught:
-        adu.fields(bytes.fromhex(body), direction, Manners())
+        adu.fields(bytes.fromhex(body), direction, Dialect())
     assert str(caught.value) == wrong
     assert caught.value.right
 
@@ -153,7 +153,7 @@ def test_a_frame_that_cannot_be_split_is_named(mode: str, frame: bytes, wrong: s
 @given(st.sampled_from(["request", "reply"]), st.binary(min_size=3, max_size=40))
 def test_any_body_is_taken_apart_or_named(direction: Direction, body: bytes) -> None:
     try:
-        found = adu.fields(body, direction, Manners(function=6, address=0x5001))
+        found = adu.fields(body, direction, Dialect(function=6, address=0x5001))
     except FrameError:
         return
     assert (found.unit, found.function) == (body[0], body[1])

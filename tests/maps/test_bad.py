@@ -49,7 +49,7 @@ def wrong(names: Iterable[str]) -> dict[str, tuple[list[str], list[str]]]:
 def test_every_bad_map_gets_its_messages_and_every_message_has_a_bad_map(monkeypatch: pytest.MonkeyPatch) -> None:
     hit = _watched(monkeypatch)
     assert wrong(bad.cases()) == {}
-    _what_no_small_map_shows(monkeypatch)
+    _assert_what_no_small_map_shows(monkeypatch)
     assert [site for site in _sites() if not any(_within(site, one) for one in hit)] == []
 
 
@@ -101,7 +101,7 @@ def _watched(monkeypatch: pytest.MonkeyPatch) -> set[Site]:
     return hit
 
 
-def _what_no_small_map_shows(monkeypatch: pytest.MonkeyPatch) -> None:
+def _assert_what_no_small_map_shows(monkeypatch: pytest.MonkeyPatch) -> None:
     found(Path("...yaml"))
     monkeypatch.setattr(nodes, "MAX_TEXT", 10)
     found(bad.FOLDER / "small.yaml")

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from driveblocks.building import build
 from driveblocks.cli import app
 from driveblocks.maps import collection, names
 from driveblocks.maps.load import load
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.rules.identifier import OWN
+from driveblocks.output import build
 from driveblocks.render import text
 
 EXAMPLE = Path(__file__).with_name("example.yaml")

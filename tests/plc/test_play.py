@@ -11,9 +11,9 @@ from driveblocks.desk import scenario
 from driveblocks.desk.bus import Loss
 from driveblocks.maps import catalog
 from driveblocks.modbus.frame import seal
+from driveblocks.plc.drives import Named
 from driveblocks.plc.play import Play
 from driveblocks.plc.simulated import Simulation
-from driveblocks.plc.wanted import Wanted
 from driveblocks.simulator.drive import SimulatedDrive
 
 NET = 600
@@ -96,7 +96,7 @@ def test_what_happens_reaches_drives_in_another_process_that_runs_nothing_of_the
     for name in ("yaml.py", "types.py", "socket.py"):
         (tmp_path / name).write_text("import os; os.mkdir('was-run')", encoding="utf-8")
     monkeypatch.chdir(tmp_path)
-    made = Simulation([Wanted(catalog.resolve("jscc"), MAPS["JSCC"], 7)], 19200, 10, ascii_mode=False)
+    made = Simulation([Named(catalog.resolve("jscc"), MAPS["JSCC"], 7)], 19200, 10, ascii_mode=False)
     tripped, request = SimulatedDrive(MAPS["JSCC"], 7), bytes.fromhex("07 03 20 01 00 01")
     standing = tripped.reply(request)
     tripped.trip(4)

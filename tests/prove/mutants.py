@@ -23,7 +23,7 @@ from tests.second.mutants import Mutant, changes, named
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import models
-from driveblocks.prove.proof import STEPS, Question, questions
+from driveblocks.prove.question import STEPS, Question, questions
 from driveblocks.prove.rules import Subject
 from driveblocks.prove.sorts import UnsupportedError
 from structured_text.engines.embedded.engine import EmbeddedEngine

@@ -17,8 +17,8 @@ from driveblocks.maps import catalog, collection
 from driveblocks.maps.page import skeleton
 from driveblocks.prove import prover, report, rules
 from driveblocks.prove.facts import facts
-from driveblocks.prove.proof import Verdict
 from driveblocks.prove.prover import Proved
+from driveblocks.prove.question import Verdict
 from structured_text.engines.embedded.engine import EmbeddedEngine
 
 FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")

@@ -5,7 +5,7 @@ import z3
 from tests.prove.agreement import compared
 
 from driveblocks.prove.model import models
-from driveblocks.prove.proof import Verdict, answers, questions
+from driveblocks.prove.question import Verdict, answers, questions
 from driveblocks.prove.rules import Rule, Subject
 from driveblocks.prove.sorts import UnsupportedError
 from structured_text.engines.embedded.engine import EmbeddedEngine

@@ -12,11 +12,11 @@ from pymodbus.pdu.register_message import (
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_decode, rtu_open
-from driveblocks.reference.reply import Answer, Manners, manners, parse
+from driveblocks.reference.reply import Answer, Dialect, dialect, parse
 from driveblocks.reference.request import Asked, body
 
-STANDARD = Manners()
-WRITE_REPLY = Manners(add=None, function=6, address=0x5001)
+STANDARD = Dialect()
+WRITE_REPLY = Dialect(add=None, function=6, address=0x5001)
 READ = Asked(3, 1, 0x2000, 2)
 WRITE = Asked(6, 1, 0x1000, value=3)
 SEVERAL = Asked(16, 1, 0x0001, 2, words=(7, 8))
@@ -100,13 +100,13 @@ def test_a_refusal_in_the_form_of_a_write(asked: Asked, data: str, answer: Answe
     ],
 )
 def test_a_byte_count_of_two_bytes_where_it_is_tolerated(data: str, answer: Answer) -> None:
-    assert parse(Manners(two_byte_count=True), READ, bytes.fromhex(data)) == answer
+    assert parse(Dialect(two_byte_count=True), READ, bytes.fromhex(data)) == answer
 
 
-def test_the_manners_of_the_shipped_drives(drives: dict[str, Drive]) -> None:
-    assert manners(drives["SN300G5"]).add == 0x80
-    assert manners(drives["JSCC"]).add == 0x80
-    chf = manners(drives["CHF"])
+def test_the_dialect_of_the_shipped_drives(drives: dict[str, Drive]) -> None:
+    assert dialect(drives["SN300G5"]).add == 0x80
+    assert dialect(drives["JSCC"]).add == 0x80
+    chf = dialect(drives["CHF"])
     assert (chf.add, chf.function, chf.address) == (None, 6, 0x5001)
 
 
@@ -121,7 +121,7 @@ def test_every_example_reply_is_believed(drives: dict[str, Drive]) -> None:
                 value = said.data if said.data is not None else (*said.values, 0)[0]
                 asked = Asked(said.function, said.unit, said.address or 0, said.words or 1, value)
             opened = (ascii_decode if frame.mode == "ascii" else rtu_open)(frame.correct)
-            answer = parse(manners(drive), asked, opened.data)
+            answer = parse(dialect(drive), asked, opened.data)
             if frame.means.error is not None:
                 assert answer == Answer("REFUSED", reason=frame.means.error), frame.id
             else:

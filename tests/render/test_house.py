@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 from tests.shipped import drives
 
-from driveblocks.building import build
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import loads
+from driveblocks.output import build
 from driveblocks.render import library as library_of
 from driveblocks.render import text
 from structured_text.language.checker import check

@@ -9,7 +9,7 @@ from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Step
 from driveblocks.maps.plan import plan
 from driveblocks.reference.permission import Judge, Write, parameters
-from driveblocks.render.parameter import addresses, may_write, passing
+from driveblocks.render.parameter import NumberAddress, ParameterAddress, addresses, may_write, passing
 
 
 def with_id(id_: str, address: Span) -> Drive:
@@ -29,7 +29,7 @@ def with_step(register: int) -> Drive:
 
 def test_what_is_sent_before_a_command_moves_the_motor_too() -> None:
     drive = with_step(0x0042)
-    refused = {name: spans for name, _, spans in may_write(drive, plan(drive))["refused"]}
+    refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
     assert {Span(0x0042, 0x0042), Span(0x8042, 0x8042)} <= set(refused["OWNED"])
     judge = Judge(drive)
     assert [judge.result(Write(at)) for at in (0x0042, 0x8042, 0x0043)] == ["OWNED", "OWNED", "OK"]
@@ -51,13 +51,12 @@ def test_what_is_sent_before_a_command_moves_the_motor_too() -> None:
 def test_an_id_is_a_letter_a_group_and_a_number(id_: str, parts: tuple[str, int, int] | None) -> None:
     drive = with_id(id_, Span(0x0500, 0x0500))
     found = addresses(drive)
-    assert found is not None
-    template, values = found
     if parts is None:
-        assert template == "NumberAddress"
+        assert isinstance(found, NumberAddress)
         return
     letter, group, number = parts
-    (run,) = values["letters"][ord(letter or "\0")][group]["runs"]
+    assert isinstance(found, ParameterAddress)
+    (run,) = found.letters[ord(letter or "\0")][group].runs
     assert (run.first, run.last, run.base) == (number, number, 0x0500)
     assert parameters(drive) == {parts: 0x0500}
 
@@ -65,8 +64,8 @@ def test_an_id_is_a_letter_a_group_and_a_number(id_: str, parts: tuple[str, int,
 def test_a_range_of_ids_is_one_run() -> None:
     drive = with_id("A2-01..A2-32", Span(0x0106, 0x0125))
     found = addresses(drive)
-    assert found is not None
-    (run,) = found[1]["letters"][65][2]["runs"]
+    assert isinstance(found, ParameterAddress)
+    (run,) = found.letters[65][2].runs
     assert (run.first, run.last, run.base, run.away) == (1, 32, 0x0106, 0x0105)
     assert parameters(drive)["A", 2, 32] == 0x0125
 
@@ -80,5 +79,5 @@ def test_two_areas_prove_no_number() -> None:
 
 def test_what_passes_keeps_to_the_drives_functions_and_limits() -> None:
     found = {prefix: passing(drive, plan(drive)) for prefix, drive in drives().items()}
-    limits = {prefix: (one["read"], one["most_read"], one["most_written"]) for prefix, one in found.items()}
+    limits = {prefix: (one.read, one.most_read, one.most_written) for prefix, one in found.items()}
     assert limits == {"JSCC": (3, 4, 3), "CHF": (3, 4, 1), "SN300G5": (3, 4, 3)}

@@ -11,14 +11,14 @@ import pytest
 from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
-from driveblocks.building import units as tested
 from driveblocks.cli import app
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
-from driveblocks.render.drive import drive_block
+from driveblocks.output import units as tested
+from driveblocks.render.drive import Masked, drive_block
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
 from driveblocks.testing.script import Suite
@@ -190,18 +190,22 @@ def test_json_carries_what_the_drive_does_by_itself_and_says_of_itself(tmp_path:
 
 
 def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
-    values = drive_block(shapes()["cia402"])
-    identity, bus, maximum = values["identity"], values["commanded_by"], values["own_maximum"]
-    assert (identity["function"], identity["address"], identity["words"]) == (3, 0x2003, 1)
-    assert identity["tests"] == [{"index": 0, "mask": 0xFFFF, "value": 0x0312}]
-    assert (bus["holds"], bus["reads"]) == (["DriveStatusBits.Remote"], [1])
-    assert (maximum["word"].address, maximum["scale"].factor) == (0x2004, Decimal("0.1"))
-    assert values["verify_reads"] == [1]
-    assert {name: drive_block(drive)["feeds"] for name, drive in shapes().items()} == {
+    block = drive_block(shapes()["cia402"])
+    identity, bus, maximum = block.reading.identity, block.showing.commanded_by, block.showing.own_maximum
+    assert identity
+    assert bus
+    assert maximum
+    assert maximum.scale
+    assert (identity.function, identity.address, identity.words) == (3, 0x2003, 1)
+    assert identity.tests == [Masked(0, 0xFFFF, 0x0312)]
+    assert (bus.holds, bus.reads) == (["DriveStatusBits.Remote"], [1])
+    assert (maximum.word.address, maximum.scale.factor) == (0x2004, Decimal("0.1"))
+    assert block.reading.verify_reads == [1]
+    assert {name: drive_block(drive).own.feeds for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
     }  # fmt: skip
     bare = drive_block(shapes()["active_low"])
-    assert [bare[key] for key in ("identity", "commanded_by", "own_maximum")] == [None, None, None]
+    assert (bare.reading.identity, bare.showing.commanded_by, bare.showing.own_maximum) == (None, None, None)
 
 
 def test_an_identity_of_several_bits_is_one_read() -> None:
@@ -211,12 +215,10 @@ def test_an_identity_of_several_bits_is_one_read() -> None:
         Condition(register=0x2003, mask=0xFF00, equals=0x0300),
     )
     assert drive.identity is not None
-    identity = drive_block(replace(drive, identity=replace(drive.identity, all=asked)))["identity"]
-    assert (identity["address"], identity["words"]) == (0x2003, 2)
-    assert identity["tests"] == [
-        {"index": 1, "mask": 0x00F0, "value": 0x0090},
-        {"index": 0, "mask": 0xFF00, "value": 0x0300},
-    ]
+    identity = drive_block(replace(drive, identity=replace(drive.identity, all=asked))).reading.identity
+    assert identity
+    assert (identity.address, identity.words) == (0x2003, 2)
+    assert identity.tests == [Masked(1, 0x00F0, 0x0090), Masked(0, 0xFF00, 0x0300)]
 
 
 def test_explain_knows_a_write_on_the_way_and_a_mask(tmp_path: Path) -> None:

@@ -25,14 +25,14 @@ class DriveBench(Bench):
         self.simulated = list(drives)
         self.stepped = 0
         for slot, drive in enumerate(drives):
-            manners = drive.table.manners
+            dialect = drive.table.dialect
             self.drives[slot] = Drive(drive.unit, self.kind, turn_us=drive.turn_us, answer=drive.reply)
             self.put(
                 slot,
                 UnitAddress=drive.unit,
-                ExceptionAdd=0 if manners.function else manners.added,
-                ErrorFunction=manners.function or 0,
-                ErrorAddress=manners.address or 0,
+                ExceptionAdd=0 if dialect.function else dialect.added,
+                ErrorFunction=dialect.function or 0,
+                ErrorAddress=dialect.address or 0,
             )
 
     def fill_as_kind(self, slot: int) -> None:

@@ -21,7 +21,7 @@ WORDS = {
 every_family = pytest.mark.parametrize("family", sorted(MAPS))
 
 
-def shows(one: Talk, family: str, what: str, hz: float) -> None:
+def assert_shows(one: Talk, family: str, what: str, hz: float) -> None:
     """Check status and output frequency."""
     assert one.read(STATUS[family]) == WORDS[family][what]
     assert one.read(FREQUENCY[family]) == round(hz * COUNTS_PER_HZ[family])
@@ -30,34 +30,34 @@ def shows(one: Talk, family: str, what: str, hz: float) -> None:
 @every_family
 def test_it_starts_ramps_runs_and_stops(family: str) -> None:
     one = talk(family)
-    shows(one, family, "stands", 0)
+    assert_shows(one, family, "stands", 0)
     one.hertz(30)
     one.command("run_forward")
     one.drive.step(1000)
     assert one.drive.mode == "ramping up"
-    shows(one, family, "ramps", 10)
+    assert_shows(one, family, "ramps", 10)
     one.drive.step(2000)
     assert one.drive.mode == "running"
-    shows(one, family, "runs", 30)
+    assert_shows(one, family, "runs", 30)
     one.hertz(20)
     one.drive.step(500)
     assert one.drive.mode == "ramping down"
-    shows(one, family, "ramps", 25)
+    assert_shows(one, family, "ramps", 25)
     one.drive.step(500)
-    shows(one, family, "runs", 20)
+    assert_shows(one, family, "runs", 20)
     one.command("stop")
     one.drive.step(1000)
     assert one.drive.mode == "ramping down"
-    shows(one, family, "ramps", 10)
+    assert_shows(one, family, "ramps", 10)
     one.drive.step(1000)
     assert one.drive.mode == "standstill"
-    shows(one, family, "stands", 0)
+    assert_shows(one, family, "stands", 0)
 
 
 @every_family
 def test_it_runs_in_reverse_and_a_change_of_direction_goes_through_zero(family: str) -> None:
     one = talk(family).at(30, "run_reverse")
-    shows(one, family, "reverse", 30)
+    assert_shows(one, family, "reverse", 30)
     assert one.drive.hertz == -30
     one.command("run_forward")
     one.drive.step(2000)
@@ -71,7 +71,7 @@ def test_a_fault_lets_the_motor_coast_and_is_reset_at_standstill_when_its_cause_
     one = talk(family).at(30)
     one.drive.trip(2)
     assert one.drive.mode == "fault"
-    shows(one, family, "fault", 0)
+    assert_shows(one, family, "fault", 0)
     assert one.drive.hertz == 30
     one.drive.reset()
     one.drive.clear_cause()
@@ -81,7 +81,7 @@ def test_a_fault_lets_the_motor_coast_and_is_reset_at_standstill_when_its_cause_
     one.drive.step(6000)
     assert one.drive.hertz == 0
     one.drive.reset()
-    shows(one, family, "stands", 0)
+    assert_shows(one, family, "stands", 0)
     one.drive.step(1000)
     assert one.drive.hertz == 0
 
@@ -107,7 +107,7 @@ def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
 def test_a_warning_is_shown_where_there_is_one(family: str) -> None:
     one = talk(family)
     one.drive.warning = True
-    shows(one, family, "warning", 0)
+    assert_shows(one, family, "warning", 0)
 
 
 @pytest.mark.parametrize(("prefix", "request_", "reply"), pairs(), ids=lambda each: getattr(each, "id", each))

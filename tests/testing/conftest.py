@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from tests.shipped import BOTH
 
-from driveblocks.building.units import units
 from driveblocks.maps import collection
+from driveblocks.output.units import units
 from driveblocks.testing import harness, runner
 from driveblocks.testing.outcome import Run
 from driveblocks.testing.unit import Unit

@@ -23,8 +23,8 @@ from typing import Any
 import yaml
 from tests.shapes import shapes
 
-from driveblocks.building.units import units
 from driveblocks.maps import catalog, collection
+from driveblocks.output.units import units
 from driveblocks.render.text import languages
 from driveblocks.testing.script import Program
 from driveblocks.testing.unit import Unit

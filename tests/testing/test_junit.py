@@ -45,7 +45,7 @@ SHAPE: dict[str, tuple[set[str], set[str], set[str]]] = {
 }
 
 
-def valid(element: ElementTree.Element) -> None:
+def assert_valid(element: ElementTree.Element) -> None:
     """Fail where an element is none of JUnit's, lacks an attribute, or stands where it may not."""
     must, may, inside = SHAPE[element.tag]
     assert must <= set(element.attrib) <= must | may, element.tag
@@ -55,10 +55,10 @@ def valid(element: ElementTree.Element) -> None:
         assert float(element.attrib["time"]) >= 0
     for child in element:
         assert child.tag in inside
-        valid(child)
+        assert_valid(child)
 
 
-def counted(root: ElementTree.Element) -> None:
+def assert_counted(root: ElementTree.Element) -> None:
     """Fail where a count differs from what is there."""
     for element in (root, *root.iter("testsuite")):
         assert int(element.attrib["tests"]) == len(list(element.iter("testcase")))
@@ -77,8 +77,8 @@ def real(example: Unit) -> Run:
 def test_the_shape_is_that_of_junit(real: Run) -> None:
     for each in (RUN, real, Run()):
         root = ElementTree.fromstring(junit.text(each))  # noqa: S314  (our own text)
-        valid(root)
-        counted(root)
+        assert_valid(root)
+        assert_counted(root)
 
 
 def test_a_case_is_named_for_its_check_and_classed_by_drive_and_program() -> None:

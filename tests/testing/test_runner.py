@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from tests.shipped import BOTH
 
-from driveblocks.building.units import units
 from driveblocks.maps import collection
 from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
+from driveblocks.output.units import units
 from driveblocks.testing import page, runner
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine

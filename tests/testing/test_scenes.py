@@ -8,8 +8,8 @@ import pytest
 from tests import shipped
 from tests.shapes import shapes
 
-from driveblocks.building.units import units
 from driveblocks.maps import collection
+from driveblocks.output.units import units
 from driveblocks.render.text import languages
 from driveblocks.testing.scenes.reason import REASONS
 from driveblocks.testing.scenes.scene import RULES

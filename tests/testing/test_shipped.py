@@ -11,8 +11,8 @@ from tests import shipped
 from tests.blocks.library import BLOCKS
 from tests.counting import uncounted
 
-from driveblocks.building.units import units
 from driveblocks.maps import collection
+from driveblocks.output.units import units
 from driveblocks.testing import runner
 from driveblocks.testing.coverage import Coverage, exemptions
 from driveblocks.testing.outcome import Run

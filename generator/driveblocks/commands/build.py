@@ -13,7 +13,7 @@ from driveblocks.commands import MAPS, refuse
 from driveblocks.export import TARGETS
 
 if TYPE_CHECKING:
-    from driveblocks.building.build import Plan
+    from driveblocks.output.build import Plan
     from driveblocks.render.text import Language
 
 
@@ -37,8 +37,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.building import transaction
-    from driveblocks.building.manifest import NAME
+    from driveblocks.output import transaction
+    from driveblocks.output.manifest import NAME
     from driveblocks.render.text import missing
 
     folder = _folder(output)
@@ -69,8 +69,8 @@ class _Wanted:
 
 
 def _planned(folder: Path, wanted: _Wanted) -> "Plan":
-    from driveblocks.building import build
     from driveblocks.maps import catalog
+    from driveblocks.output import build
 
     with _told(folder):
         named = catalog.chosen(wanted.maps)
@@ -78,7 +78,7 @@ def _planned(folder: Path, wanted: _Wanted) -> "Plan":
 
 
 def _carried_out(folder: Path, wanted: _Wanted, force: bool) -> "Plan":
-    from driveblocks.building import build, transaction
+    from driveblocks.output import build, transaction
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
@@ -91,11 +91,11 @@ def _carried_out(folder: Path, wanted: _Wanted, force: bool) -> "Plan":
 @contextlib.contextmanager
 def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
-    from driveblocks.building.manifest import Refused
-    from driveblocks.building.transaction import interrupted
     from driveblocks.export.problem import ExportError
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
+    from driveblocks.output.manifest import Refused
+    from driveblocks.output.transaction import interrupted
 
     try:
         yield

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from driveblocks.building.health import Health
+    from driveblocks.output.health import Health
 
 _COLOURS = {"ok": "green", "missing": "yellow", "broken": "red"}
 
@@ -23,7 +23,7 @@ def run(json: bool) -> None:
 
     Example: driveblocks doctor --json | jq .missing
     """
-    from driveblocks.building.health import examine
+    from driveblocks.output.health import examine
     from structured_text.engines.discovery import survey
 
     health = examine(survey())

@@ -58,9 +58,9 @@ def _print(made: "Explanation", drive: "Drive | None", stem: str | None, json: b
     if json:
         from json import dumps
 
-        from driveblocks.explain import view
+        from driveblocks.explain import plain
 
-        click.echo(dumps(view.of_explanation(made, stem), ensure_ascii=False, indent=2))
+        click.echo(dumps(plain.of_explanation(made, stem), ensure_ascii=False, indent=2))
         return
     from driveblocks import console
     from driveblocks.explain import page

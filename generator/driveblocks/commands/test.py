@@ -55,7 +55,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     Example: driveblocks test my_drive.yaml --engine all --require-coverage 85
     """
-    from driveblocks.building.units import units
+    from driveblocks.output.units import units
     from driveblocks.render.text import languages
     from driveblocks.testing import junit as xml
     from driveblocks.testing import runner

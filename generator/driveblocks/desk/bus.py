@@ -112,7 +112,7 @@ class Bus(Wire):
                 yield from self._answered(drive, body, reply)
 
     def _answered(self, drive: SimulatedDrive, body: bytes, reply: bytes) -> Iterator[tuple[int, bytes]]:
-        counts, at = self.counts[drive.unit], drive.table.manners.address
+        counts, at = self.counts[drive.unit], drive.table.dialect.address
         counts.replied += 1
         counts.refused += reply[1] != body[1] or (at is not None and reply[2:4] == at.to_bytes(2, "big") != body[2:4])
         frame, fate = self._sealed(reply), self.loss.fate()

@@ -72,29 +72,29 @@ def _zero(said: str, unit: str) -> str:
 def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
     """What the map says of a setting."""
     block = drive_block(drive)
-    word = address_text(block["reference"])
+    word = address_text(block.ordering.reference)
     missing = f"required: the manual gives no scale of {word}"
-    yield "ReferenceScale", MAP_HAS if block["scaled"] or block["percent"] else missing
+    yield "ReferenceScale", MAP_HAS if block.ordering.scaled or block.ordering.percent else missing
     for shows, (_, _, setting) in MEASURES.items():
-        measure = block["measures"].get(shows)
+        measure = block.showing.measures.get(shows)
         if measure is None:
             yield setting, NOT_SHOWN
-        elif measure["scale"]:
+        elif measure.scale:
             yield setting, MAP_HAS
         else:
-            yield setting, f"of {measure['word'].address_text}: without it `{measure['pin']}` is the raw count"
-    keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block["keeps"].items()]
+            yield setting, f"of {measure.word.address_text}: without it `{measure.pin}` is the raw count"
+    keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block.ordering.keeps.items()]
     yield "KeepWord", ", ".join(keeps) or "no use: no bit is left over"
 
 
 def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     """What the block can say of a drive, and what it cannot."""
-    found = drive_block(drive)["measures"]
+    found = drive_block(drive).showing.measures
     for shows, (name, unit, setting) in MEASURES.items():
         says = "" if shows in found else "always 0: the drive does not show it"
-        valid = f"FALSE without `{setting}`" if shows in found and not found[shows]["scale"] else ""
-        yield f"{name}{unit}", f"from {found[shows]['word'].address_text}" if shows in found else says
-        yield pin_of(shows)["valid"], valid or says.replace("0", "FALSE")
+        valid = f"FALSE without `{setting}`" if shows in found and not found[shows].scale else ""
+        yield f"{name}{unit}", f"from {found[shows].word.address_text}" if shows in found else says
+        yield pin_of(shows).valid, valid or says.replace("0", "FALSE")
     for name, shows in _AT_FAULT.items():
         if shows not in found:
             yield name, "always 0: the drive does not show it"

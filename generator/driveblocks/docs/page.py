@@ -126,9 +126,9 @@ def _swapped(drive: Drive) -> dict[str, str]:
     first, unit = motor(drive), drive.serial.unit
     return {
         "prefix": drive.prefix,
-        "full": f"required: what {first['maximum']} says" if first["percent"] else "no use",
-        "scale": "required" if first["unscaled"] else "no use",
-        "reset": "yes" if first["has_reset"] else "no",
+        "full": f"required: what {first.maximum} says" if first.percent else "no use",
+        "scale": "required" if first.unscaled else "no use",
+        "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{unit.min} to {unit.max}",
     }
@@ -195,7 +195,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: s
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
         turn_round=TURN_ROUND_MS,
-        **motor(drive),
+        **vars(motor(drive)),
         **values,
     )
 
@@ -218,7 +218,7 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     rows["report whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
     rows["report its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
     for shows in MEASURES:
-        rows[f"show `{pin_of(shows)['pin']}`"] = [_shows(drive, shows) for drive in drives]
+        rows[f"show `{pin_of(shows).pin}`"] = [_shows(drive, shows) for drive in drives]
     return {"families": [drive.prefix for drive in drives], "rows": rows}
 
 
@@ -238,8 +238,8 @@ def _yes(one: bool) -> str:
 
 
 def _shows(drive: Drive, shows: str) -> str:
-    measure = drive_block(drive)["measures"].get(shows)
-    return _yes(measure is not None) if measure is None or measure["scale"] else "with a scale that you find out"
+    measure = drive_block(drive).showing.measures.get(shows)
+    return _yes(measure is not None) if measure is None or measure.scale else "with a scale that you find out"
 
 
 def _guessed(drive: Drive) -> bool:
@@ -292,17 +292,17 @@ def _bears(drive: Drive, one: Erratum) -> bool:
 
 def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
     """Each read with its registers and what it takes on the wire, turn-round and silences included."""
-    found = drive_block(drive)["reads"]
-    fast = [read for read in found if read["read"].fast]
+    found = drive_block(drive).reading.reads
+    fast = [one for one in found if one.read.fast]
     # see `schedule`: a status that one read brings comes twice before what is slow
     often = "twice a round" if len(fast) == 1 < len(found) else "once a round"
-    for read in found:
-        poll: Poll = read["read"]
+    for one in found:
+        poll = one.read
         yield {
             "poll": poll,
             "often": often if poll.fast else "one slow read a round",
             "first": address_text(poll.address),
-            "titles": [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in read["words"]],
+            "titles": [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
             "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
         }
 

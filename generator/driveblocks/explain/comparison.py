@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.explain.reading import Wrong
-from driveblocks.modbus.layout import Layout, Manners, granted, take
+from driveblocks.modbus.layout import Dialect, Layout, granted, take
 from driveblocks.modbus.request import READS, Asked, asked_by
 
 LONGEST = 254
@@ -13,50 +13,50 @@ _LATE = "a late reply to an earlier request"
 _OTHER_DRIVE = "another drive answered, or two have the same address"
 
 
-def compared(manners: Manners, asked: Asked, data: bytes) -> tuple[Wrong, ...]:
+def compared(dialect: Dialect, asked: Asked, data: bytes) -> tuple[Wrong, ...]:
     """What is wrong with a body as the reply to a request; nothing if it answers or refuses it."""
-    wrong = next(_wrongs(manners, asked, data), None)
-    if wrong is not None and _is_request(manners, asked, data):
+    wrong = next(_wrongs(dialect, asked, data), None)
+    if wrong is not None and _is_request(dialect, asked, data):
         return (Wrong("this is the request itself", ("the adapter hears what it sends (half-duplex echo)",)),)
     return (wrong,) if wrong is not None else ()
 
 
-def _is_request(manners: Manners, asked: Asked, data: bytes) -> bool:
-    one = take(data, "request", manners)
+def _is_request(dialect: Dialect, asked: Asked, data: bytes) -> bool:
+    one = take(data, "request", dialect)
     return asked.function in (3, 4, 16) and one.fits and asked_by(one, ascii_mode=asked.ascii) == asked
 
 
-def _wrongs(manners: Manners, asked: Asked, data: bytes) -> Iterator[Wrong]:
-    one = take(data, "reply", manners)
+def _wrongs(dialect: Dialect, asked: Asked, data: bytes) -> Iterator[Wrong]:
+    one = take(data, "reply", dialect)
     if asked.unit == 0:
         yield Wrong("the request was a broadcast, and nobody answers one")
     if not 3 <= len(data) <= LONGEST:
         yield _length(one, asked)
     elif data[0] != asked.unit:
         yield Wrong(f"unit: {data[0]} answers, and unit {asked.unit} was asked", (_OTHER_DRIVE, _LATE))
-    elif _refuses(manners, asked, one):
+    elif _refuses(dialect, asked, one):
         if one.missing:
             yield _length(one, asked)
     elif data[1] != asked.function:
         wrong = f"function: {data[1]:02X}H answers, and {asked.function:02X}H was asked"
         yield Wrong(wrong, (_why_function(data, asked),))
     else:
-        yield from _granted(manners, asked, granted(data, "reply"))
+        yield from _granted(dialect, asked, granted(data, "reply"))
 
 
-def _refuses(manners: Manners, asked: Asked, one: Layout) -> bool:
+def _refuses(dialect: Dialect, asked: Asked, one: Layout) -> bool:
     """Whether a reply refuses this request, in the way in which the drive refuses."""
     if not one.refusal:
         return False
     refused = one.number("refused function")
     if refused is not None:
-        return manners.add is not None and refused == asked.function
-    return one.missing == 0 and (asked.function, asked.address) != (manners.function, manners.address)
+        return dialect.add is not None and refused == asked.function
+    return one.missing == 0 and (asked.function, asked.address) != (dialect.function, dialect.address)
 
 
-def _granted(manners: Manners, asked: Asked, one: Layout) -> Iterator[Wrong]:
+def _granted(dialect: Dialect, asked: Asked, one: Layout) -> Iterator[Wrong]:
     size = _bytes_of(asked)
-    forgiven = manners.two_byte_count or not one.two_byte_count
+    forgiven = dialect.two_byte_count or not one.two_byte_count
     if size is not None and (one.number("byte count") != size or not forgiven):
         yield Wrong(_count(one, asked, size), _why_count(one.body, size))
     if one.missing:

@@ -8,11 +8,11 @@ from driveblocks.explain.paste import Paste
 from driveblocks.explain.reading import Field, Reader, Reading, Wrong
 from driveblocks.explain.unreadable import UnreadableError
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import manners
+from driveblocks.maps.plan import dialect
 from driveblocks.modbus import layout, scan
 from driveblocks.modbus.envelope import Wire, open_
 from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.request import Asked, asked_by
 
 MOST_INSIDE = 16
@@ -50,7 +50,7 @@ class Explainer:
     def __init__(self, drive: Drive | None = None) -> None:
         """Take from the map how the drive refuses."""
         self.drive = drive
-        self.manners = manners(drive) if drive is not None else Manners()
+        self.dialect = dialect(drive) if drive is not None else Dialect()
 
     def explain(self, paste: Paste, request: Paste | None = None) -> Explanation:
         """Explain a pasted frame, as the reply to a request if one is given. Raises UnreadableError for that one."""
@@ -61,7 +61,7 @@ class Explainer:
     def _asked(self, request: Paste) -> tuple[Asked, bytes]:
         """The request that was pasted. Raises UnreadableError if it is no good request."""
         made = self._explained(request.data, None, None)
-        taken = layout.take(made.wire.body, "request", self.manners) if made.wire.right else None
+        taken = layout.take(made.wire.body, "request", self.dialect) if made.wire.right else None
         fits = taken is not None and taken.fits and any(one.direction == "request" for one in made.readings)
         if made.wrongs or taken is None or not fits:
             why = made.all_wrongs[0].what if made.all_wrongs else "it reads as a reply"
@@ -72,7 +72,7 @@ class Explainer:
 
     def _explained(self, data: bytes, asked: Asked | None, sent: bytes | None) -> Explanation:
         wire = open_(data)
-        pieces = scan.pieces(data, self.manners)
+        pieces = scan.pieces(data, self.dialect)
         broken = tuple(Wrong(what, (instead,) if instead else ()) for what, instead in wire.broken)
         broken = (*broken, *self._mode(wire), *_other_mode(wire, asked), *_size(wire))
         if len(pieces) > 1 and any(piece.good for piece in pieces) and not self._whole(wire):
@@ -96,7 +96,7 @@ class Explainer:
 
     def _whole(self, wire: Wire) -> bool:
         """Whether the bytes are one frame from end to end."""
-        fits = len(wire.body) > 2 and any(one.fits for one in layout.readings(wire.body, self.manners))
+        fits = len(wire.body) > 2 and any(one.fits for one in layout.readings(wire.body, self.dialect))
         return wire.right and not wire.broken and fits
 
     def _mode(self, wire: Wire) -> tuple[Wrong, ...]:
@@ -106,7 +106,7 @@ class Explainer:
         return (Wrong(f"this is {wire.mode.upper()}, and {self.drive.prefix} speaks {speaks} only"),)
 
     def _damaged(self, wire: Wire, broken: tuple[Wrong, ...], asked: Asked | None) -> Explanation:
-        found = guesses(wire, self.manners)
+        found = guesses(wire, self.dialect)
         meant = next((open_(guess.frame) for guess in found if guess.frame is not None), None)
         check = Wrong(_checksum(wire), tuple(guess.says for guess in found) or _nothing_found(wire))
         told = (check,) if wire.aligned and (wire.found or not broken) else ()
@@ -118,7 +118,7 @@ class Explainer:
         """Whether a body with a wrong checksum has the length of what it says that it is."""
         if len(wire.body) < 3 or not wire.found:
             return False
-        return any(one.fits and one.function in layout.KNOWN for one in layout.readings(wire.body, self.manners))
+        return any(one.fits and one.function in layout.KNOWN for one in layout.readings(wire.body, self.dialect))
 
     # ------------------------------------------------------------ what it says
 
@@ -129,8 +129,8 @@ class Explainer:
         """The readings of a body that nothing speaks against, or all of them."""
         if len(wire.body) < 2:
             return ()
-        reader = Reader(self.drive, self.manners, ascii_mode=wire.mode == "ascii")
-        possible = layout.readings(wire.body, self.manners)
+        reader = Reader(self.drive, self.dialect, ascii_mode=wire.mode == "ascii")
+        possible = layout.readings(wire.body, self.dialect)
         requests = tuple(one for one in possible if one.direction == "request")
         found = tuple(reader.read(one) for one in (requests if wire.body[0] == 0 and requests else possible))
         clean = tuple(one for one in found if not one.wrongs)
@@ -140,13 +140,13 @@ class Explainer:
         """The body as the reply to a request."""
         if len(wire.body) < 2:
             return ()
-        reader = Reader(self.drive, self.manners, ascii_mode=wire.mode == "ascii")
-        wrongs = compared(self.manners, asked, wire.body)
+        reader = Reader(self.drive, self.dialect, ascii_mode=wire.mode == "ascii")
+        wrongs = compared(self.dialect, asked, wire.body)
         if not wrongs:
-            one = reader.read(layout.take(wire.body, "reply", self.manners), asked)
+            one = reader.read(layout.take(wire.body, "reply", self.dialect), asked)
             against = tuple(f"The map speaks against this: {wrong.what}." for wrong in one.wrongs)
             return (_framed(replace(one, wrongs=(), notes=(*one.notes, *against)), wire),)
-        request, reply = (layout.take(wire.body, direction, self.manners) for direction in layout.DIRECTIONS)
+        request, reply = (layout.take(wire.body, direction, self.dialect) for direction in layout.DIRECTIONS)
         told = reader.read(request if request.fits and not reply.fits else reply)
         return (_framed(replace(told, wrongs=wrongs), wire),)
 
@@ -164,7 +164,7 @@ class Explainer:
             if not made.good and (piece.data == before[1] or before[1] != sent):
                 made = self._explained(piece.data, None, None)
             if made.good and made.asked is None and made.readings[0].direction == "request":
-                before = _as_asked(made, self.manners)
+                before = _as_asked(made, self.dialect)
             inside.append(made)
         echo = any(one.good and one.asked == inside[0].wire.frame for one in inside[1:])
         wrong = _glue(pieces, inside[0].wire.frame if echo else None)
@@ -185,8 +185,8 @@ class Explainer:
         return tuple(found)
 
 
-def _as_asked(made: Explanation, manner: Manners) -> tuple[Asked, bytes]:
-    one = layout.take(made.wire.body, "request", manner)
+def _as_asked(made: Explanation, dialect: Dialect) -> tuple[Asked, bytes]:
+    one = layout.take(made.wire.body, "request", dialect)
     return asked_by(one, ascii_mode=made.wire.mode == "ascii"), made.wire.frame
 
 

@@ -10,7 +10,7 @@ from driveblocks.maps.model import Drive, ErrorCode
 from driveblocks.maps.plan import READ_WORDS
 from driveblocks.maps.view import error_number
 from driveblocks.modbus import layout
-from driveblocks.modbus.layout import Direction, Layout, Manners, Part
+from driveblocks.modbus.layout import Dialect, Direction, Layout, Part
 from driveblocks.modbus.request import Asked
 from driveblocks.show.layout import both
 
@@ -64,10 +64,10 @@ class Reading:
 class Reader:
     """Reads bodies with what a map says, or with the standard alone."""
 
-    def __init__(self, drive: Drive | None, manners: Manners, *, ascii_mode: bool) -> None:
+    def __init__(self, drive: Drive | None, dialect: Dialect, *, ascii_mode: bool) -> None:
         """Keep the drive, and whether its ASCII limits hold."""
         self.drive = drive
-        self.manners = manners
+        self.dialect = dialect
         self.ascii_mode = ascii_mode
 
     def read(self, one: Layout, asked: Asked | None = None) -> Reading:
@@ -109,7 +109,7 @@ class Reader:
 
     def _foreign(self, one: Layout) -> bool:
         """Whether a refusal has the form of the standard and the drive another; its codes are not the drive's."""
-        return one.part("refused function") is not None and self.manners.add is None
+        return one.part("refused function") is not None and self.dialect.add is None
 
     def function(self, code: int) -> str:
         """A function by its number, as the drive's manual or the standard names it."""
@@ -208,7 +208,7 @@ class Reader:
             count, quantity = one.number("byte count"), one.number("quantity")
             fits = f"a quantity of {quantity} needs {2 * quantity}" if quantity else "registers have two bytes each"
             yield f"the byte count {count} does not fit: {fits}", ""
-        if one.two_byte_count and not self.manners.two_byte_count:
+        if one.two_byte_count and not self.dialect.two_byte_count:
             yield (
                 "the byte count is a word: two-byte count",
                 "the standard has one byte, and this map tolerates no other",
@@ -219,7 +219,7 @@ class Reader:
             yield "A read reply carries no address: give its --request, and the registers get their names."
         if one.refusal and self.drive is not None and not self._foreign(one):
             yield from _causes(self.drive, one.number("reason"))
-        if one.two_byte_count and self.manners.two_byte_count:
+        if one.two_byte_count and self.dialect.two_byte_count:
             yield "The byte count is a word; the map tolerates it."
         if one.function not in layout.KNOWN:
             yield f"The fields of function {one.function:02X}H are not taken apart."

@@ -21,7 +21,7 @@ def files(shelf: Shelf) -> dict[str, str]:
     port, line, *_ = (file.text for file in library.adapter("linux", list(shelf.languages)))
     for drive in shelf.drives.values():
         first, other = f"{drive.prefix}_Motor", f"{drive.prefix}_MotorBytes"
-        program = render("openplc/Bytes.st.j2", **motor(drive))
+        program = render("openplc/Bytes.st.j2", **vars(motor(drive)))
         made[f"{LINUX}.st"] = f"{port}\n{line}"
         made[f"{first}.st"] = f"{library.first_motor('linux', drive).text}\n{_task(first)}"
         made[f"{other}.st"] = f"{program}\n{_task(other)}"

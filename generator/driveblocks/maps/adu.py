@@ -5,7 +5,7 @@ Only for judging a map's vectors; blocks and their tests have their own.
 
 from dataclasses import dataclass
 
-from driveblocks.modbus.layout import DIRECTIONS, Direction, Layout, Manners, take
+from driveblocks.modbus.layout import DIRECTIONS, Dialect, Direction, Layout, take
 
 _MOST_SHOWN = 16
 _WIDTHS = {"address": "04X", "sub_function": "04X", "data": "04X", "function": "02X", "error": "02X"}
@@ -55,9 +55,9 @@ def number(word: int, signed: bool) -> int:
     return word - 0x10000 if signed and word & 0x8000 else word
 
 
-def refused(request: Fields, manners: Manners) -> Fields:
+def refused(request: Fields, dialect: Dialect) -> Fields:
     """Unit and function of an exception reply to a request."""
-    return Fields(request.unit, request.function + manners.added)
+    return Fields(request.unit, request.function + dialect.added)
 
 
 def split(mode: str, frame: bytes) -> tuple[bytes, bytes]:
@@ -90,11 +90,11 @@ def _split_ascii(frame: bytes) -> tuple[bytes, bytes]:
     return body[:-1], body[-1:]
 
 
-def fields(body: bytes, direction: Direction, manners: Manners) -> Fields:
+def fields(body: bytes, direction: Direction, dialect: Dialect) -> Fields:
     """Take a body (without checksum) apart. Raises FrameError when the length does not fit the function."""
-    one = take(body, direction, manners)
+    one = take(body, direction, dialect)
     if direction == "reply" and not one.refusal and body[1] & 0x80:
-        one = take(body, direction, Manners())
+        one = take(body, direction, Dialect())
     if not one.refusal and (body[1], direction) not in _NAMES:
         raise FrameError(f"function {body[1]:02X}H is not one that a map's frame may have", "03H, 04H, 06H, 08H or 10H")
     count = 0 if one.two_byte_count else one.number("byte count")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Limit
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Dialect
 
 READ_WORDS, WRITE_WORDS = 125, 123
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: registers that fit into a PDU of 253 bytes."""
@@ -93,10 +93,10 @@ def _merged(spans: Iterable[Span]) -> tuple[Span, ...]:
     return tuple(merged)
 
 
-def manners(drive: Drive) -> Manners:
+def dialect(drive: Drive) -> Dialect:
     """How the drive refuses and what it is forgiven; where the manual does not say, the standard holds."""
     tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
     form = drive.errors.form
     if form is None:
-        return Manners(two_byte_count=tolerant)
-    return Manners(form.add, form.function, form.address, tolerant)
+        return Dialect(two_byte_count=tolerant)
+    return Dialect(form.add, form.function, form.address, tolerant)

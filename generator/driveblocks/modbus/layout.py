@@ -30,7 +30,7 @@ KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
 
 
 @dataclass(frozen=True)
-class Manners:
+class Dialect:
     """How a drive refuses, and what is tolerated. By default: what the standard says."""
 
     add: int | None = 0x80
@@ -119,24 +119,24 @@ class Layout:
         return tuple(int.from_bytes(data.data[at : at + 2], "big") for at in range(0, len(data.data) - 1, 2))
 
 
-def take(body: bytes, direction: Direction, manners: Manners) -> Layout:
+def take(body: bytes, direction: Direction, dialect: Dialect) -> Layout:
     """Take a body of at least two bytes apart."""
     if direction == "reply":
-        refusal = _exception(body, manners) or _write_reply(body, manners)
+        refusal = _exception(body, dialect) or _write_reply(body, dialect)
         if refusal is not None:
             return refusal
     return granted(body, direction)
 
 
-def readings(body: bytes, manners: Manners) -> tuple[Layout, ...]:
+def readings(body: bytes, dialect: Dialect) -> tuple[Layout, ...]:
     """The body as a request and as a reply: the directions that fit, else those of the right length, else both."""
-    both = tuple(take(body, direction, manners) for direction in DIRECTIONS)
+    both = tuple(take(body, direction, dialect) for direction in DIRECTIONS)
     fitting = tuple(layout for layout in both if layout.fits)
     return fitting or tuple(layout for layout in both if layout.missing == 0) or both
 
 
-def _exception(body: bytes, manners: Manners) -> Layout | None:
-    add = manners.added
+def _exception(body: bytes, dialect: Dialect) -> Layout | None:
+    add = dialect.added
     if body[1] < add or (add != 0x80 and body[1] - add not in KNOWN):
         return None
     parts = [Part("unit", body[:1]), Part("function", body[1:2]), Part("reason", body[2:3])]
@@ -144,10 +144,10 @@ def _exception(body: bytes, manners: Manners) -> Layout | None:
     return Layout("reply", body, (*_filled(parts), known, *_surplus(body[3:])), 3, refusal=True)
 
 
-def _write_reply(body: bytes, manners: Manners) -> Layout | None:
-    if manners.address is None or body[1] != manners.function:
+def _write_reply(body: bytes, dialect: Dialect) -> Layout | None:
+    if dialect.address is None or body[1] != dialect.function:
         return None
-    if body[2:4] != manners.address.to_bytes(2, "big"):
+    if body[2:4] != dialect.address.to_bytes(2, "big"):
         return None
     parts = [Part("unit", body[:1]), Part("function", body[1:2]), Part("address", body[2:4]), Part("reason", body[4:6])]
     return Layout("reply", body, (*_filled(parts), *_surplus(body[6:])), 6, refusal=True)
@@ -200,11 +200,11 @@ def _surplus(data: bytes) -> Iterator[Part]:
         yield Part("surplus", data)
 
 
-def expected_sizes(data: bytes, manners: Manners) -> Iterator[int]:
+def expected_sizes(data: bytes, dialect: Dialect) -> Iterator[int]:
     """How long a body that begins like this may be; nothing for functions that are not known here."""
     if len(data) < 2:
         return
     for direction in DIRECTIONS:
-        layout = take(data, direction, manners)
+        layout = take(data, direction, dialect)
         if layout.function in KNOWN:
             yield layout.size

@@ -6,7 +6,7 @@ from driveblocks.modbus import layout
 from driveblocks.modbus.checksum import crc_bytes
 from driveblocks.modbus.envelope import mode_of, open_
 from driveblocks.modbus.frame import RTU_BYTES
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Dialect
 
 
 @dataclass(frozen=True)
@@ -18,16 +18,16 @@ class Piece:
     good: bool
 
 
-def pieces(data: bytes, manners: Manners) -> tuple[Piece, ...]:
+def pieces(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
     """Cut bytes into good frames and what is between them."""
-    return _ascii(data) if mode_of(data) == "ascii" else _rtu(data, manners)
+    return _ascii(data) if mode_of(data) == "ascii" else _rtu(data, dialect)
 
 
-def _rtu(data: bytes, manners: Manners) -> tuple[Piece, ...]:
+def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
     found: list[Piece] = []
     at = between = 0
     while at < len(data):
-        size = _size(data[at : at + RTU_BYTES], manners)
+        size = _size(data[at : at + RTU_BYTES], dialect)
         if size == 0:
             at += 1
             continue
@@ -40,9 +40,9 @@ def _rtu(data: bytes, manners: Manners) -> tuple[Piece, ...]:
     return tuple(found)
 
 
-def _size(data: bytes, manners: Manners) -> int:
+def _size(data: bytes, dialect: Dialect) -> int:
     """The length of the good frame that bytes begin with; 0 if they begin with none."""
-    for size in layout.expected_sizes(data, manners):
+    for size in layout.expected_sizes(data, dialect):
         body, check = data[:size], data[size : size + 2]
         if len(body) >= 3 and len(check) == 2 and crc_bytes(body) == check:
             return size + 2

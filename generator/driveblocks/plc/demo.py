@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import driveblocks
-from driveblocks.plc import wanted
+from driveblocks.plc.drives import COUNTS_PER_HERTZ, PER_COUNT
 from driveblocks.plc.session import Session
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Value
@@ -14,7 +14,7 @@ PROGRAM = "three_makes.st"
 RAMP, COAST = 40, 60
 """Hz/s: short, since nobody waits for a motor that does not turn."""
 SCALES: dict[str, Value] = {
-    "CountsPerHertz": float(wanted.COUNTS_PER_HERTZ), "Fan.Settings.FrequencyScale": float(wanted.PER_COUNT),
+    "CountsPerHertz": float(COUNTS_PER_HERTZ), "Fan.Settings.FrequencyScale": float(PER_COUNT),
 }  # fmt: skip
 """What a person finds out on the motor, since no manual says it; here, what simulated drives have."""
 FAULT = 4

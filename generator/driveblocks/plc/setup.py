@@ -20,12 +20,12 @@ from driveblocks.maps.problem import MapError
 from driveblocks.plc import demo, live, probe, source
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
+from driveblocks.plc.drives import Named, named, of_program, words
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
 from driveblocks.plc.play import Play
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
-from driveblocks.plc.wanted import Wanted, named, of_program, words
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, Watchdog
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.visible import file_name
@@ -68,7 +68,7 @@ class Setup:
         self._loaded = self._load()
         self.probe = probe.probed(self._loaded, self._scan_us, max(FIRST_US, self._watchdog_us))
         """The program after one scan, without a port: what `permission` asks a person about."""
-        self._wanted = [] if options.tcp or options.port else self._simulates()
+        self._drives = [] if options.tcp or options.port else self._simulates()
         self._clock: Clock = VirtualClock() if options.fast else RealClock()
         self._demo: demo.Demo | None = None
         self._session = self._made()
@@ -120,7 +120,7 @@ class Setup:
             raise Refused(f"CharacterBits = {bits} of {self.probe.wiring.line} leaves no format; write --format")
         return found
 
-    def _simulates(self) -> list[Wanted]:
+    def _simulates(self) -> list[Named]:
         """The drives that are named, else those of the program. Raises Refused."""
         known = {each.path.resolve(): (each.path, each.drive) for each in self._maps}
         if not self._options.simulate:
@@ -136,25 +136,24 @@ class Setup:
             raise Refused(str(error)) from None
 
     def _simulated(self) -> Port:
-        wanted = self._wanted
         rate, bits, ascii_mode = self._line("BitRate"), self._line("CharacterBits"), bool(self._line("Ascii"))
         if not (300 <= rate <= 1_000_000 and 8 <= bits <= 12):
             raise Refused(f"{self.probe.wiring.line} has BitRate {rate} and CharacterBits {bits}, which is no line")
         if isinstance(self._clock, VirtualClock) or self._options.demo:
-            drives = [one.made(ascii_mode=ascii_mode) for one in wanted]
+            drives = [one.made(ascii_mode=ascii_mode) for one in self._drives]
             if self._options.demo:
                 self._show(drives)
             bus, clock = Bus(drives, rate, bits, ascii_mode=ascii_mode), _Since(self._clock)
             self._acts(lambda happening: bus.happen(happening.act, clock.now_us()))
             return WirePort(bus, clock)
-        process = Simulation(wanted, rate, bits, ascii_mode=ascii_mode)
+        process = Simulation(self._drives, rate, bits, ascii_mode=ascii_mode)
         self._stack.callback(process.close)
         self._acts(process.happen)
         return port.tcp(LOOPBACK[1], process.port, self._clock)
 
     def _play(self) -> Play | None:
         """What happens to simulated drives; None where nobody can know what they are. Raises Refused."""
-        path, drives = self._options.scenario, {one.unit: one.drive for one in self._wanted}
+        path, drives = self._options.scenario, {one.unit: one.drive for one in self._drives}
         if self._options.tcp or self._options.port or self._options.demo:
             return None
         try:
@@ -246,7 +245,7 @@ class Setup:
                 console.write(str(note))
             if self._options.real and self._options.loopback and not free:
                 self._session.told.put("only reads and stops are sent; if a simulator is there, add --simulated")
-            for one in self._wanted:
+            for one in self._drives:
                 for line in one.told():
                     self._session.told.put(line)
             screen = self._screen()

@@ -23,7 +23,7 @@ from driveblocks.desk.clock import RealClock
 from driveblocks.desk.scenario import Act, Happening, said
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
-from driveblocks.plc.wanted import Wanted
+from driveblocks.plc.drives import Named
 from structured_text.engines.embedded.certainty import present
 
 HOST = "127.0.0.1"
@@ -33,7 +33,7 @@ LOOK_S = 0.001
 class Simulation:
     """The process, from the side of the one who starts it."""
 
-    def __init__(self, drives: Sequence[Wanted], rate: int, bits: int, *, ascii_mode: bool) -> None:
+    def __init__(self, drives: Sequence[Named], rate: int, bits: int, *, ascii_mode: bool) -> None:
         """Start it and wait until it listens. Raises OSError."""
         words = json.dumps({"drives": rows(drives), "rate": rate, "bits": bits, "ascii": ascii_mode})
         self._process = subprocess.Popen(
@@ -58,15 +58,15 @@ class Simulation:
         self._process.communicate()
 
 
-def rows(drives: Sequence[Wanted]) -> list[list[Any]]:
+def rows(drives: Sequence[Named]) -> list[list[Any]]:
     """Drives as JSON can say them."""
     return [[str(one.path.resolve()), one.unit, one.maximum_hz, one.scales] for one in drives]
 
 
-def wanted(rows: Sequence[Sequence[Any]]) -> list[Wanted]:
+def named(rows: Sequence[Sequence[Any]]) -> list[Named]:
     """The drives of such rows. Raises MapError."""
     return [
-        Wanted(Path(path), load(Path(path)), unit, hz, tuple((name, number) for name, number in scales))
+        Named(Path(path), load(Path(path)), unit, hz, tuple((name, number) for name, number in scales))
         for path, unit, hz, scales in rows
     ]
 
@@ -77,10 +77,10 @@ def main(words: str) -> None:
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
     given = json.loads(words)
-    named = wanted(given["drives"])
-    drives = [one.made(ascii_mode=given["ascii"]) for one in named]
+    units = named(given["drives"])
+    drives = [one.made(ascii_mode=given["ascii"]) for one in units]
     line = _Line(Bus(drives, given["rate"], given["bits"], ascii_mode=given["ascii"]), RealClock().now_us())
-    threading.Thread(target=_listen, args=(line, {one.unit: one.drive for one in named}), daemon=True).start()
+    threading.Thread(target=_listen, args=(line, {one.unit: one.drive for one in units}), daemon=True).start()
     with socket.create_server((HOST, 0)) as server:
         print(server.getsockname()[1], flush=True)
         while True:

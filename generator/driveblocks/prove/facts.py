@@ -186,7 +186,7 @@ def _settings(drive: Drive) -> str:
 def _shown(drive: Drive) -> dict[str, str]:
     """That the pins show what the map says of the words that were read, and what is handed to the line."""
     said, pins = [], []
-    manners, silence = reply(drive)["form"], drive.serial.silence
+    dialect, silence = reply(drive).form, drive.serial.silence
     busy = next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0)
     for one in drive.operation.status:
         holds = _any(_holds(drive, each) for each in one.any)
@@ -197,9 +197,9 @@ def _shown(drive: Drive) -> dict[str, str]:
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
         f"Slot.SilenceMs = {int(silence.milliseconds or 0) if silence else 0}",
-        f"Slot.ExceptionAdd = {manners['add']}",
-        f"Slot.ErrorFunction = {manners['function']}",
-        f"Slot.ErrorAddress = {word(manners['address'])}",
+        f"Slot.ExceptionAdd = {dialect.add}",
+        f"Slot.ErrorFunction = {dialect.function}",
+        f"Slot.ErrorAddress = {word(dialect.address)}",
         f"Slot.BusyReason = {busy}",
     ]
     ready = [_holds(drive, each) for one in drive.operation.status if one.shows == "ready" for each in one.any]

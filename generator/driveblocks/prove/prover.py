@@ -12,7 +12,7 @@ from driveblocks.prove.example import Values, least
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import Model, models
 from driveblocks.prove.operations import FREE
-from driveblocks.prove.proof import Answer, Verdict, answers, questions
+from driveblocks.prove.question import Answer, Verdict, answers, questions
 from driveblocks.prove.replay import Call, Replay
 from driveblocks.prove.rules import Subject
 from driveblocks.render import library

@@ -12,7 +12,7 @@ import z3
 from driveblocks.prove import observer
 from driveblocks.prove.example import Values
 from driveblocks.prove.model import BEFORE, Model, in_outs
-from driveblocks.prove.proof import Question
+from driveblocks.prove.question import Question
 from driveblocks.prove.sorts import leaves
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary

@@ -4,8 +4,8 @@ import re
 from collections.abc import Iterator, Sequence
 
 from driveblocks.prove.model import BEFORE
-from driveblocks.prove.proof import CALLS, Verdict
 from driveblocks.prove.prover import Proof, Proved
+from driveblocks.prove.question import CALLS, Verdict
 from driveblocks.prove.replay import Call, known_paths
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
 from structured_text.engines.engine import Value

@@ -23,7 +23,7 @@ class Answer:
 
 
 @dataclass(frozen=True)
-class Manners:
+class Dialect:
     """How a drive refuses, and what is tolerated. By default: what the standard says."""
 
     add: int | None = 0x80
@@ -34,25 +34,25 @@ class Manners:
     two_byte_count: bool = False
 
 
-def manners(drive: Drive) -> Manners:
+def dialect(drive: Drive) -> Dialect:
     """What a map says; where it does not say how the drive refuses, the standard holds."""
     tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
     form = drive.errors.form
     if form is None:
-        return Manners(two_byte_count=tolerant)
+        return Dialect(two_byte_count=tolerant)
     if form.kind == "exception":
-        return Manners(add=form.add, two_byte_count=tolerant)
-    return Manners(add=None, function=form.function, address=form.address, two_byte_count=tolerant)
+        return Dialect(add=form.add, two_byte_count=tolerant)
+    return Dialect(add=None, function=form.function, address=form.address, two_byte_count=tolerant)
 
 
-def parse(manner: Manners, asked: Asked | None, body: bytes) -> Answer:
+def parse(dialect: Dialect, asked: Asked | None, body: bytes) -> Answer:
     """Compare a reply's body with the open request; None or function 0 means that there is none, and so does a quantity
     that no request has.
     """
     refused = _nobody(asked, body)
     if refused is not None or asked is None:
         return Answer(refused or "NO_REQUEST")
-    return _refusal(manner, asked, body) or _granted(manner, asked, body)
+    return _refusal(dialect, asked, body) or _granted(dialect, asked, body)
 
 
 def _nobody(asked: Asked | None, body: bytes) -> str | None:
@@ -67,32 +67,32 @@ def _nobody(asked: Asked | None, body: bytes) -> str | None:
     return next((name for name, holds in reasons if holds), None)
 
 
-def _refusal(manner: Manners, asked: Asked, body: bytes) -> Answer | None:
+def _refusal(dialect: Dialect, asked: Asked, body: bytes) -> Answer | None:
     """What a refusal says; None if the reply is none."""
-    if manner.function is not None and manner.address is not None:
-        head = bytes([asked.unit, manner.function]) + manner.address.to_bytes(2, "big")
-        own = (asked.function, asked.address) == (manner.function, manner.address)
+    if dialect.function is not None and dialect.address is not None:
+        head = bytes([asked.unit, dialect.function]) + dialect.address.to_bytes(2, "big")
+        own = (asked.function, asked.address) == (dialect.function, dialect.address)
         if len(body) == 6 and body.startswith(head) and not own:
             return Answer("REFUSED", reason=_word(body, 4))
-    if manner.add is not None and body[1] == asked.function + manner.add:
+    if dialect.add is not None and body[1] == asked.function + dialect.add:
         return Answer("REFUSED", reason=body[2]) if len(body) == 3 else Answer("LONG")
     return None
 
 
-def _granted(manner: Manners, asked: Asked, body: bytes) -> Answer:
+def _granted(dialect: Dialect, asked: Asked, body: bytes) -> Answer:
     if body[1] != asked.function:
         return Answer("OTHER_FUNCTION")
     if asked.function in READS:
-        return _read(manner, asked, body)
+        return _read(dialect, asked, body)
     if len(body) != 6:
         return Answer("SHORT" if len(body) < 6 else "LONG")
     return Answer(_echo(asked, _word(body, 2), _word(body, 4)))
 
 
-def _read(manner: Manners, asked: Asked, body: bytes) -> Answer:
+def _read(dialect: Dialect, asked: Asked, body: bytes) -> Answer:
     size = 2 * asked.quantity
     data = body[3:]
-    if manner.two_byte_count and len(body) == 4 + size and _word(body, 2) == size:
+    if dialect.two_byte_count and len(body) == 4 + size and _word(body, 2) == size:
         data = body[4:]
     elif body[2] != size:
         return Answer("BYTE_COUNT")

@@ -1,31 +1,61 @@
 """The requests of a program for one motor where the PLC's own master has a channel for each."""
 
+from dataclasses import dataclass
+
 from driveblocks.maps.model import Drive
+from driveblocks.maps.polls import Poll
 from driveblocks.render import context
-from driveblocks.render.context import Context
+from driveblocks.render.context import Word
 from driveblocks.render.drive import drive_block
 from driveblocks.render.motor import motor
 
 
-def channels(drive: Drive) -> Context:
-    """For codesys/Master: the requests with the words that matter, and the blocks that make and read them."""
+@dataclass(frozen=True)
+class Said:
+    """A word, and the block that takes it apart or the function that scales it, where there is one."""
+
+    word: Word
+    decoder: str | None
+    scale: str | None
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A read, and those of its words that matter."""
+
+    read: Poll
+    words: list[Said]
+
+
+@dataclass(frozen=True)
+class Channels:
+    """For codesys/Master, beside the drive block and the motor."""
+
+    command: int
+    reads: list[Channel]
+    checks: list[int]
+    """The channels that bring what a run waits for."""
+
+
+def channels(drive: Drive) -> dict[str, object]:
+    """The requests with the words that matter, and the blocks that make and read them."""
     block = drive_block(drive)
     stop = next(one for one in drive.operation.commands if one.does == "stop")
-    decoders = {one["address_text"]: one["name"] for one in context.decoders(drive)}
-    scales = {one["address_text"]: one["name"] for one in context.scales(drive)}
-    needed = {one.name for one in block["proof"]} | {one.pin for one in block["verify"]}
+    decoders = {one.address_text: one.name for one in context.decoders(drive)}
+    scales = {one.address_text: one.name for one in context.scales(drive)}
+    pins = {one.pin for one in block.showing.verify}
+    needed = {one.name for one in block.reading.proof} | pins
     reads = [
-        {
-            "read": one["read"],
-            "words": [
-                {**vars(each), "decoder": decoders.get(each.address_text), "scale": scales.get(each.address_text)}
-                for each in one["words"]
+        Channel(
+            one.read,
+            [
+                Said(each, decoders.get(each.address_text), scales.get(each.address_text))
+                for each in one.words
                 if each.name in needed or each.address_text in decoders.keys() | scales.keys()
             ],
-        }
-        for one in block["reads"]
+        )
+        for one in block.reading.reads
     ]
-    reads = [one for one in reads if one["words"]]
-    pins = {one.pin for one in block["verify"]}
-    checks = [turn for turn, one in enumerate(reads, 2) if pins & {each["name"] for each in one["words"]}]
-    return {**block, **motor(drive), "command": stop.register, "reads": reads, "checks": checks}
+    reads = [one for one in reads if one.words]
+    checks = [turn for turn, one in enumerate(reads, 2) if pins & {each.word.name for each in one.words}]
+    return block.values | vars(motor(drive)) | vars(Channels(stop.register, reads, checks))

@@ -1,21 +1,31 @@
-"""Map -> values ready to print: one context per template of a drive. No Jinja in here, and no drive by name."""
+"""Map -> values ready to print: one class per template of a drive. No Jinja in here, and no drive by name."""
 
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Literal, TypedDict
 
 from driveblocks import __version__
 from driveblocks.maps import names
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Command, Condition, Drive, Register, Section, State, Value
+from driveblocks.maps.model import (
+    Broadcast,
+    Command,
+    Condition,
+    Drive,
+    Register,
+    Scale,
+    Section,
+    State,
+    UnitAddress,
+    Value,
+)
 from driveblocks.maps.names import UNIT_NAMES, symbol
 from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
 from driveblocks.maps.revision import revision
 from driveblocks.render.expression import Test, is_real
 
-Context = dict[str, Any]
 STANDARD_EXCEPTION_ADD = 0x80
 """MODBUS Application Protocol V1.1b3, 7: what an exception adds to the function code."""
 
@@ -77,14 +87,19 @@ def identity(drive: Drive) -> Identity:
     return Identity(drive.prefix, f"{vendor}{drive.family.en}", manual)
 
 
-def version(drive: Drive) -> Context:
+@dataclass(frozen=True)
+class Version:
     """For Version."""
+
+    version: str
+    number: int
+    revision: int
+
+
+def version(drive: Drive) -> Version:
+    """The library's version as text and as a number, and the revision of the map."""
     major, minor, patch = (int(each) for each in re.findall("[0-9]+", __version__)[:3])
-    return {
-        "version": __version__,
-        "number": 10000 * major + 100 * minor + patch,
-        "revision": revision(drive),
-    }
+    return Version(__version__, 10000 * major + 100 * minor + patch, revision(drive))
 
 
 def source_of(drive: Drive, source: str) -> str:
@@ -105,33 +120,67 @@ FUNCTIONS = {3: "read", 4: "read", 6: "write_single", 8: "diagnostics", 16: "wri
 """Function code -> the folder of its parts of Request."""
 
 
-def access(drive: Drive, use: str, spans: tuple[Span, ...]) -> Context:
+@dataclass(frozen=True)
+class Access:
     """For CanAccess: `use` is r or w."""
-    return {"name": f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}", "use": use, "spans": spans}
+
+    name: str
+    use: str
+    spans: tuple[Span, ...]
 
 
-def request(drive: Drive, allowed: Plan) -> Context:
+def access(drive: Drive, use: str, spans: tuple[Span, ...]) -> Access:
+    """What may be read, or written."""
+    return Access(f"{drive.prefix}_{'CanRead' if use == 'r' else 'CanWrite'}", use, spans)
+
+
+@dataclass(frozen=True)
+class Request:
     """For Request."""
+
+    functions: dict[int, str]
+    """Code -> the folder of its parts."""
+    uncounted: list[int]
+    """Those whose quantity is always 1."""
+    sub_functions: tuple[int, ...]
+    modes: list[str]
+    most: Words
+    ascii: Words
+    tight: bool
+    """An ASCII frame holds less than an RTU frame."""
+    longest: int
+    """Words of the longest write."""
+    unit: UnitAddress
+    beyond: bool
+    """There are addresses that the standard reserves."""
+    unit_pin: str
+    broadcast: Broadcast | None
+    start_addresses: tuple[int, ...]
+    example_read: int
+
+
+def request(drive: Drive, allowed: Plan) -> Request:
+    """What a drive can be asked."""
     functions = {code: folder for code, folder in FUNCTIONS.items() if code in allowed.functions}
     modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
-    return {
-        "functions": functions,
-        "uncounted": [code for code in (6, 8) if code in functions],
-        "sub_functions": allowed.sub_functions,
-        "modes": list(modes),
-        "most": most,
-        "ascii": allowed.ascii,
-        "tight": "ascii" in modes and less,
-        "longest": most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
-        "unit": unit,
-        "beyond": unit.max > 247,
-        "unit_pin": "Standard" if unit.max > 247 else "UnitAddress",
-        "broadcast": broadcast,
-        "start_addresses": broadcast.start_addresses if broadcast else (),
-        "example_read": allowed.readable[0].first if allowed.readable else 0,
-    }
+    return Request(
+        functions=functions,
+        uncounted=[code for code in (6, 8) if code in functions],
+        sub_functions=allowed.sub_functions,
+        modes=list(modes),
+        most=most,
+        ascii=allowed.ascii,
+        tight="ascii" in modes and less,
+        longest=most.write if "rtu" in modes else min(most.write, allowed.ascii.write),
+        unit=unit,
+        beyond=unit.max > 247,
+        unit_pin="Standard" if unit.max > 247 else "UnitAddress",
+        broadcast=broadcast,
+        start_addresses=broadcast.start_addresses if broadcast else (),
+        example_read=allowed.readable[0].first if allowed.readable else 0,
+    )
 
 
 def _without_framing(drive: Drive) -> Words:
@@ -142,45 +191,103 @@ def _without_framing(drive: Drive) -> Words:
     return Words(read, min(write, WRITE_WORDS))
 
 
-def reply(drive: Drive) -> Context:
+@dataclass(frozen=True)
+class Refusal:
+    """The form of a refusal: function code + `add`, or a reply of a function for an address; 0: not so."""
+
+    text: str
+    source: str
+    add: int = 0
+    function: int = 0
+    address: int = 0
+
+
+@dataclass(frozen=True)
+class Reply:
     """For Reply."""
+
+    form: Refusal
+    two_byte_count: bool
+
+
+def reply(drive: Drive) -> Reply:
+    """What a reply looks like."""
+    tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
+    return Reply(_refusal(drive), tolerant)
+
+
+def _refusal(drive: Drive) -> Refusal:
     form = drive.errors.form
     if form is None:
         text = "function code + 80H and one byte, as MODBUS has it; the manual does not say."
         source = "MODBUS Application Protocol V1.1b3, 7; the manual describes no refusal on the wire."
-        values: Context = {"add": STANDARD_EXCEPTION_ADD, "function": 0, "address": 0}
-    elif form.kind == "exception":
-        text = f"function code + {form.add:02X}H and one byte."
-        source = source_of(drive, form.source)
-        values = {"add": form.add, "function": 0, "address": 0}
-    else:
-        text = f"a reply of function {form.function:02X}H for {address_text(form.address or 0)}, whatever was asked."
-        source = source_of(drive, form.source)
-        values = {"add": 0, "function": form.function, "address": form.address}
-    tolerant = any(tolerance.kind == "two_byte_count" for tolerance in drive.tolerances)
-    return {"form": {"text": text, "source": source, **values}, "two_byte_count": tolerant}
+        return Refusal(text, source, add=STANDARD_EXCEPTION_ADD)
+    source = source_of(drive, form.source)
+    if form.kind == "exception":
+        return Refusal(f"function code + {form.add:02X}H and one byte.", source, add=form.add or 0)
+    text = f"a reply of function {form.function:02X}H for {address_text(form.address or 0)}, whatever was asked."
+    return Refusal(text, source, function=form.function or 0, address=form.address or 0)
 
 
 # ---------------------------------------------------------------- decoders
 
 
-def decoders(drive: Drive) -> Iterator[Context]:
-    """For Decoder: one context per register with bits or values."""
+class _Row(TypedDict):
+    """What the blocks of a register have in common."""
+
+    name: str
+    address_text: str
+    title: str
+    own: str
+    note: str
+    source: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Decoder:
+    """For Decoder: a register with bits or values."""
+
+    name: str
+    address_text: str
+    title: str
+    own: str
+    note: str
+    source: str
+    parts: list[Part]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scaled:
+    """For Scale: a register with a scale."""
+
+    name: str
+    address_text: str
+    title: str
+    own: str
+    note: str
+    source: str
+    unit: str
+    scale: Scale
+    signed: bool
+
+
+def decoders(drive: Drive) -> Iterator[Decoder]:
+    """One per register with bits or values."""
     for section, row in drive.registers():
         parts = [*_bit_parts(row), *_value_parts(row)]
         if parts:
-            yield {**_register(drive, section, row, ""), "parts": parts}
+            yield Decoder(**_register(drive, section, row, ""), parts=parts)
 
 
-def scales(drive: Drive) -> Iterator[Context]:
-    """For Scale: one context per register with a scale."""
+def scales(drive: Drive) -> Iterator[Scaled]:
+    """One per register with a scale."""
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            yield {**named, "unit": row.unit, "scale": row.scale, "signed": row.signed}
+            yield Scaled(**named, unit=row.unit, scale=row.scale, signed=row.signed)
 
 
-def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Context:
+def _register(drive: Drive, section: Section, row: Register, suffix: str) -> _Row:
     return {
         "name": names.block(drive.prefix, symbol(row) + suffix),
         "address_text": address_text(row.address.first),
@@ -246,26 +353,58 @@ MOTIONS = {
 """Pin -> the command that it asks for."""
 
 
-def command(drive: Drive) -> Context:
+@dataclass(frozen=True)
+class Keep:
+    """The pin of a command register for the bits, by their mask, that are in use and belong to no command."""
+
+    name: str
+    register: int
+    mask: int
+
+
+@dataclass(frozen=True)
+class Told:
+    """The register of a command, its bits, and the pin whose other bits pass through."""
+
+    register: int
+    bits: int
+    keep: Keep | None
+
+
+@dataclass(frozen=True)
+class Commanded:
     """For Command."""
+
+    source: str
+    elsewhere: bool
+    """Commands have several registers."""
+    stops_elsewhere: bool
+    stop: Told
+    has: dict[str, Told]
+    keeps: list[Keep]
+    branches: list[tuple[str, str, Told]]
+    """In the order in which they count: the template of each, the pin that asks, its word."""
+
+
+def command(drive: Drive) -> Commanded:
+    """What commands write."""
     commands = {one.does: one for one in drive.operation.commands}
     stop = commands["stop"]
     keeps = _keeps(drive, stop.register)
-    told: dict[str, Context] = {does: _told(one, stop, keeps) for does, one in commands.items()}
+    told: dict[str, Told] = {does: _told(one, stop, keeps) for does, one in commands.items()}
     stops = {one.register for one in commands.values() if one.does in ("coast_stop", "quick_stop", "jog_stop")}
-    return {
-        "source": source_of(drive, stop.source),
-        "elsewhere": len({one.register for one in commands.values()}) > 1,
-        "stops_elsewhere": bool(stops - {stop.register}),
-        "stop": told["stop"],
-        "has": told,
-        "keeps": keeps.values(),
-        "branches": list(_branches(told)),
-    }
+    return Commanded(
+        source=source_of(drive, stop.source),
+        elsewhere=len({one.register for one in commands.values()}) > 1,
+        stops_elsewhere=bool(stops - {stop.register}),
+        stop=told["stop"],
+        has=told,
+        keeps=list(keeps.values()),
+        branches=list(_branches(told)),
+    )
 
 
-def _branches(told: dict[str, Context]) -> Iterator[tuple[str, str, Context]]:
-    """The branches of Command in the order in which they count: the template of each, the pin that asks, its word."""
+def _branches(told: dict[str, Told]) -> Iterator[tuple[str, str, Told]]:
     stop = told["stop"]
     chain = [
         ("fault_reset", "", told.get("fault_reset")),
@@ -279,12 +418,12 @@ def _branches(told: dict[str, Context]) -> Iterator[tuple[str, str, Context]]:
     return ((branch, pin, word) for branch, pin, word in chain if word)
 
 
-def _keeps(drive: Drive, first: int) -> dict[int, Context]:
-    """The pin and the mask of each command register with bits that are in use and belong to no command."""
+def _keeps(drive: Drive, first: int) -> dict[int, Keep]:
+    """Those of each command register that has such bits."""
     found = {}
     for register, mask in sorted(kept(drive).items(), key=lambda each: (each[0] != first, each[0])):
         name = "KeepWord" if register == first else f"KeepWord{address_text(register)}"
-        found[register] = {"name": name, "register": register, "mask": mask}
+        found[register] = Keep(name, register, mask)
     return found
 
 
@@ -306,21 +445,37 @@ def bits_of(spans: Iterable[Span]) -> int:
     return sum(1 << bit for bit in {bit for span in spans for bit in span})
 
 
-def _told(one: Command, stop: Command, keeps: dict[int, Context]) -> Context:
-    """The register of a command, its bits, and the pin whose other bits pass through.
-
-    A reset beside the run bits is a stop with the bits of the reset.
-    """
+def _told(one: Command, stop: Command, keeps: dict[int, Keep]) -> Told:
+    """A command; a reset beside the run bits is a stop with the bits of the reset."""
     if one.value is not None:
-        return {"register": one.register, "bits": one.value, "keep": None}
+        return Told(one.register, one.value, None)
     bits = bits_of(one.set)
     if one.does == "fault_reset" and one.register == stop.register:
         bits |= bits_of(stop.set) & ~bits_of(one.clear)
-    return {"register": one.register, "bits": bits, "keep": keeps.get(one.register)}
+    return Told(one.register, bits, keeps.get(one.register))
 
 
-def reference(drive: Drive) -> Context:
+@dataclass(frozen=True)
+class Referred:
     """For Reference."""
+
+    source: str
+    register: int
+    percent: bool
+    maximum: str
+    """What is 100 %."""
+    scale: Scale | None
+    ratio: Fraction
+    """Counts per hertz, or per the whole of a percentage."""
+    exact: bool
+    """A REAL holds it."""
+    verify: tuple[Condition, ...]
+    highest: int
+    highest_why: str
+
+
+def reference(drive: Drive) -> Referred:
+    """How a speed becomes a word."""
     spec = drive.operation.reference
     row = drive.register_at(spec.register)
     assert row is not None  # noqa: S101  (a checked map lists its reference register)
@@ -329,32 +484,43 @@ def reference(drive: Drive) -> Context:
     highest, why = (
         (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
     )
-    return {
-        "source": source_of(drive, spec.source),
-        "register": spec.register,
-        "percent": percent and row.scale is not None,
-        "maximum": spec.maximum or "the maximum frequency",
-        "scale": row.scale,
-        "ratio": ratio,
-        "exact": is_real(ratio),
-        "verify": spec.verify,
-        "highest": highest,
-        "highest_why": f"{why} ends here",
-    }
+    return Referred(
+        source=source_of(drive, spec.source),
+        register=spec.register,
+        percent=percent and row.scale is not None,
+        maximum=spec.maximum or "the maximum frequency",
+        scale=row.scale,
+        ratio=ratio,
+        exact=is_real(ratio),
+        verify=spec.verify,
+        highest=highest,
+        highest_why=f"{why} ends here",
+    )
 
 
-def standstill(drive: Drive) -> Context:
+@dataclass(frozen=True)
+class Standstill:
     """For Standstill."""
+
+    why: str
+    source: str
+    words: list[Word]
+    conditions: tuple[Condition, ...]
+    tests: list[Test]
+
+
+def standstill(drive: Drive) -> Standstill:
+    """What proves that the motor is at standstill."""
     proof = drive.operation.standstill
     words = [word_input(drive, address) for address in dict.fromkeys(one.register for one in proof.all)]
     pins = {word.address: word.name for word in words}
-    return {
-        "why": _elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
-        "source": source_of(drive, proof.source),
-        "words": words,
-        "conditions": proof.all,
-        "tests": [tested(pins[one.register], one) for one in proof.all],
-    }
+    return Standstill(
+        why=_elsewhere(proof.why[:1].upper() + proof.why[1:].rstrip(".") + "."),
+        source=source_of(drive, proof.source),
+        words=words,
+        conditions=proof.all,
+        tests=[tested(pins[one.register], one) for one in proof.all],
+    )
 
 
 def word_input(drive: Drive, address: int) -> Word:
@@ -371,8 +537,16 @@ def tested(pin: str, condition: Condition | State) -> Test:
     return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first)
 
 
-def fault_number(drive: Drive) -> Context | None:
-    """For FaultNumber; None where faults have no relation to bits."""
+@dataclass(frozen=True)
+class FaultNumber:
+    """For FaultNumber: the words whose bits are faults."""
+
+    source: str
+    words: list[Word]
+
+
+def fault_number(drive: Drive) -> FaultNumber | None:
+    """None where faults have no relation to bits."""
     relation = drive.faults.bits
     if relation is None:
         return None
@@ -381,4 +555,4 @@ def fault_number(drive: Drive) -> Context | None:
         row = drive.register_at(address)
         mask = sum(1 << bit.bit.first for bit in (row.bits if row else ()) if bit.id is not None)
         words.append(replace(word_input(drive, address), mask=mask, base=16 * index))
-    return {"source": source_of(drive, relation.source), "words": words}
+    return FaultNumber(source_of(drive, relation.source), words)

@@ -1,11 +1,23 @@
 """What a drive block asks its words, answered by the family's decoders: one fact is decided in one place."""
 
+from dataclasses import dataclass
+
 from driveblocks.maps.model import Condition, Drive, State
 from driveblocks.render import context
-from driveblocks.render.context import Context, Part, Word
+from driveblocks.render.context import Decoder, Part, Word
 from driveblocks.render.expression import Test, holds
 
 WORD = 0xFFFF
+
+
+@dataclass(frozen=True)
+class Call:
+    """A decoder that a drive block calls: the name of its instance, its block, and the word that it takes apart."""
+
+    instance: str
+    block: str
+    word: str
+    address_text: str
 
 
 class Decoded:
@@ -14,15 +26,15 @@ class Decoded:
     def __init__(self, drive: Drive) -> None:
         """None is called yet."""
         self._drive = drive
-        self._decoders = {one["address_text"]: one for one in context.decoders(drive)}
-        self.used: list[Context] = []
+        self._decoders = {one.address_text: one for one in context.decoders(drive)}
+        self.used: list[Call] = []
 
     def holds(self, one: Condition | State) -> str:
         """An expression that is TRUE when a condition holds: an output of a decoder, or a test of the word itself."""
         word = context.word_input(self._drive, one.register)
         test = context.tested("Value", one)
         decoder = self._decoders.get(word.address_text)
-        parts: list[Part] = decoder["parts"] if decoder else []
+        parts: list[Part] = decoder.parts if decoder else []
         flags = {_exact(part.test): part.name for part in parts if part.kind == "flag"}
         for asked, said in ((test, "{}.{}"), (_set(test), "NOT {}.{}")):
             if decoder and asked and _exact(asked) in flags:
@@ -30,9 +42,9 @@ class Decoded:
         pin = f"Reads.{word.name}"
         return f"({holds(test._replace(pin=pin))})"
 
-    def _instance(self, decoder: Context, word: Word) -> str:
+    def _instance(self, decoder: Decoder, word: Word) -> str:
         name = f"{word.name.removesuffix('Word')}Bits"
-        found = {"instance": name, "block": decoder["name"], "word": word.name, "address_text": word.address_text}
+        found = Call(name, decoder.name, word.name, word.address_text)
         if found not in self.used:
             self.used.append(found)
         return name

@@ -1,19 +1,19 @@
 """Map -> values for the drive block: what it reads, what each pin is made of, and what each command writes."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from driveblocks.maps import names
-from driveblocks.maps.model import Command, Condition, Drive, Measured
+from driveblocks.maps import model, names
+from driveblocks.maps.model import Command, Condition, Drive, Scale, State, UnitAddress
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
-from driveblocks.render.context import Context, Word, word_input
-from driveblocks.render.decoded import Decoded
+from driveblocks.render.context import Word, word_input
+from driveblocks.render.decoded import Call, Decoded
 from driveblocks.render.expression import Test
 
 CONSTANTS = {
@@ -39,78 +39,293 @@ STATUS = {
 """What a drive can show -> the pin or variable."""
 
 
+@dataclass(frozen=True)
+class Write:
+    """One write of a command: its register, the bits that it sets, and those that pass through."""
+
+    register: int
+    bits: int
+    keep: int
+    hold: int
+    """How long the next write waits, ms."""
+    moves: bool
+    """With it the motor may begin to turn."""
+
+
+@dataclass(frozen=True)
+class Wait:
+    """The state that a write of an order waits for; `says` is TRUE in it."""
+
+    order: int
+    step: int
+    state: State
+    says: str
+
+
+@dataclass(frozen=True)
+class Read:
+    """A read of the drive block, by its number; `other` is another quantity that it may have."""
+
+    number: int
+    read: Poll
+    words: list[Word]
+    other: int
+
+
+@dataclass(frozen=True)
+class Masked:
+    """A word of the identity by its place in the read, the bits that count and what they must be."""
+
+    index: int
+    mask: int
+    value: int
+
+
+@dataclass(frozen=True)
+class Identified:
+    """The one read that shows the family."""
+
+    function: int
+    address: int
+    words: int
+    tests: list[Masked]
+    source: str
+
+
+@dataclass(frozen=True)
+class InCommand:
+    """What all has to hold while the bus is in command, and the reads that bring it."""
+
+    holds: list[str]
+    reads: list[int]
+    source: str
+
+
+@dataclass(frozen=True)
+class Maximum:
+    """The word of the drive's own maximum frequency, its scale and the function that applies it."""
+
+    word: Word
+    scale: Scale | None
+    function: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Faulty:
+    """Where the code of the present fault comes from: a word, or the bits of several."""
+
+    word: Word | None
+    words: list[Word]
+
+
+@dataclass(frozen=True)
+class Pin:
+    """Where a drive block shows a measure, and the member of Diagnosis that says whether it is valid."""
+
+    pin: str
+    valid: str
+    unit: str
+    setting: str
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A measure that the drive shows: its pin, as `Pin` has it, its word and scale."""
+
+    pin: str
+    valid: str
+    unit: str
+    setting: str
+    word: Word
+    scale: Scale | None
+    function: str
+    when: str | None
+    signed: bool
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What the block reads, and which reads bring what; reads count from 1."""
+
+    reads: list[Read]
+    number: dict[int, int]
+    """Address -> its read."""
+    turns: list[int]
+    places: dict[int, list[int]]
+    """Read -> its places among the turns."""
+    proof: list[Word]
+    proof_reads: list[int]
+    fault: Faulty
+    fault_reads: list[int]
+    fast_reads: list[int]
+    state_reads: list[int]
+    verify_reads: list[int]
+    measure_reads: list[int]
+    identity: Identified | None
+
+
+@dataclass(frozen=True)
+class Showing:
+    """What the block makes of the words: pins, and the decoders that it asks."""
+
+    shown: dict[str, str]
+    status: dict[str, list[Test]]
+    says: dict[str, list[str]]
+    verify: list[Test]
+    verified: list[str]
+    measures: dict[str, Measured]
+    pins: dict[str, Pin]
+    commanded_by: InCommand | None
+    own_maximum: Maximum | None
+    decoders: list[Call]
+
+
+@dataclass(frozen=True)
+class Ordering:
+    """What the block writes: stops and orders by their numbers, with names and constants."""
+
+    stops: dict[int, Write]
+    orders: dict[int, list[Write]]
+    order_names: dict[int, str]
+    order_constants: dict[int, str]
+    stop_names: dict[int, str]
+    stop_constants: dict[int, str]
+    longest: int
+    """Writes of the longest order."""
+    waits: list[Wait]
+    can: dict[str, Command]
+    keeps: dict[int, int]
+    write: int
+    """The function code of writes."""
+    reference: int
+    scaled: bool
+    percent: bool
+    maximum: str
+
+
+@dataclass(frozen=True)
+class Own:
+    """What else the block has to know of the family."""
+
+    source: str
+    prefix: str
+    unit: UnitAddress
+    dialect: context.Refusal
+    two_byte_count: bool
+    busy: int
+    silence: int
+    second_hand: bool
+    checked: int
+    feeds: str | None
+
+
+@dataclass(frozen=True)
+class Block:
+    """For Drive and its parts, which are given all four as one."""
+
+    reading: Reading
+    showing: Showing
+    ordering: Ordering
+    own: Own
+
+    @property
+    def values(self) -> dict[str, object]:
+        """What its templates print."""
+        return vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
+
+
 @lru_cache
-def drive_block(drive: Drive) -> Context:
-    """For Drive."""
-    reads = polls(drive)
+def drive_block(drive: Drive) -> Block:
+    """All that the drive block of a family is made of."""
+    told = Decoded(drive)
+    reading = _reading(drive)
+    waits = list(_waits(drive, told))
+    return Block(reading, _showing(drive, reading.number, told), _ordering(drive, waits), _own(drive))
+
+
+def _reading(drive: Drive) -> Reading:
+    reads, operation = polls(drive), drive.operation
     places = list(_places(drive, reads))
-    commands = {one.does: one for one in drive.operation.commands}
-    written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
-    reference, operation, manners = context.reference(drive), drive.operation, context.reply(drive)
+    taken = {each.words for each in reads}
+    return Reading(
+        reads=[_read(drive, index, read, places, taken) for index, read in enumerate(reads, 1)],
+        number=number,
+        turns=turns,
+        places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
+        proof=[word_input(drive, each) for each in _proof(drive)],
+        proof_reads=sorted({number[each] for each in _proof(drive)}),
+        fault=_fault(drive),
+        fault_reads=_fault_reads(drive, number),
+        fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
+        state_reads=sorted({number[each.register] for each in operation.states}),
+        verify_reads=_verify_reads(drive, number),
+        measure_reads=sorted({number[one.register] for one in operation.measures}),
+        identity=_identity(drive),
+    )
+
+
+def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
+    operation = drive.operation
+    return Showing(
+        shown=STATUS,
+        status={one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
+        says={one.shows: [told.holds(each) for each in one.any] for one in operation.status},
+        verify=[_condition(drive, each) for each in operation.reference.verify],
+        verified=[told.holds(each) for each in operation.reference.verify],
+        measures={one.shows: _measure(drive, one, told) for one in operation.measures},
+        pins={shows: pin_of(shows) for shows in MEASURES},
+        commanded_by=_commanded_by(drive, number, told),
+        own_maximum=_own_maximum(drive),
+        decoders=told.used,
+    )
+
+
+def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
+    commands = {one.does: one for one in drive.operation.commands}
+    written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
-    told = Decoded(drive)
-    says = {one.shows: [told.holds(each) for each in one.any] for one in operation.status}
-    verified = [told.holds(each) for each in operation.reference.verify]
-    measures = {one.shows: _measure(drive, one, told) for one in operation.measures}
-    waits = list(_waits(drive, told))
-    return {
-        "source": context.source_of(drive, commands["stop"].source),
-        "prefix": drive.prefix,
-        "unit": drive.serial.unit,
-        "reads": [
-            _read(drive, index, read, places, {each.words for each in reads}) for index, read in enumerate(reads, 1)
-        ],
-        "number": number,
-        "turns": turns,
-        "places": {index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
-        "shown": STATUS,
-        "status": {one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
-        "says": says,
-        "verified": verified,
-        "decoders": told.used,
-        "proof": [word_input(drive, each) for each in _proof(drive)],
-        "proof_reads": sorted({number[each] for each in _proof(drive)}),
-        "fault": _fault(drive),
-        "fault_reads": _fault_reads(drive, number),
-        "fast_reads": [index for index, read in enumerate(reads, 1) if read.fast],
-        "state_reads": sorted({number[each.register] for each in operation.states}),
-        "verify": [_condition(drive, each) for each in operation.reference.verify],
-        "verify_reads": _verify_reads(drive, number),
-        "measures": measures,
-        "measure_reads": sorted({number[one.register] for one in operation.measures}),
-        "pins": {shows: pin_of(shows) for shows in MEASURES},
-        "stops": {STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
-        "orders": orders,
-        "order_names": {ORDERS[does]: does.replace("_", " ") for does in ORDERS},
-        "order_constants": {ORDERS[does]: CONSTANTS[does] for does in ORDERS},
-        "stop_names": {STOPS[does]: does.replace("_", " ") for does in STOPS},
-        "stop_constants": {STOPS[does]: CONSTANTS[does] for does in STOPS},
-        "longest": max(map(len, orders.values())),
-        "waits": waits,
-        "reference": operation.reference.register,
-        "scaled": reference["scale"] is not None,
-        "percent": reference["percent"],
-        "can": commands,
-        "keeps": context.kept(drive),
-        "write": 6 if 6 in plan(drive).functions else 16,
-        "manners": manners["form"],
-        "two_byte_count": manners["two_byte_count"],
-        "busy": next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
-        "silence": _silence(drive),
-        "second_hand": drive.manual.second_hand,
-        "checked": checked(drive),
-        "maximum": reference["maximum"],
-        "identity": _identity(drive),
-        "commanded_by": _commanded_by(drive, number, told),
-        "own_maximum": _own_maximum(drive),
-        "feeds": drive.watchdog.feeds if drive.watchdog else None,
-    }
+    reference = context.reference(drive)
+    return Ordering(
+        stops={STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
+        orders=orders,
+        order_names={ORDERS[does]: does.replace("_", " ") for does in ORDERS},
+        order_constants={ORDERS[does]: CONSTANTS[does] for does in ORDERS},
+        stop_names={STOPS[does]: does.replace("_", " ") for does in STOPS},
+        stop_constants={STOPS[does]: CONSTANTS[does] for does in STOPS},
+        longest=max(map(len, orders.values())),
+        waits=waits,
+        can={str(does): one for does, one in commands.items()},
+        keeps=context.kept(drive),
+        write=6 if 6 in plan(drive).functions else 16,
+        reference=reference.register,
+        scaled=reference.scale is not None,
+        percent=reference.percent,
+        maximum=reference.maximum,
+    )
 
 
-def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
-    """All writes of a command in order: register, bits, and the mask of the bits that pass through.
+def _own(drive: Drive) -> Own:
+    reply = context.reply(drive)
+    stop = next(one for one in drive.operation.commands if one.does == "stop")
+    return Own(
+        source=context.source_of(drive, stop.source),
+        prefix=drive.prefix,
+        unit=drive.serial.unit,
+        dialect=reply.form,
+        two_byte_count=reply.two_byte_count,
+        busy=next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
+        silence=_silence(drive),
+        second_hand=drive.manual.second_hand,
+        checked=checked(drive),
+        feeds=drive.watchdog.feeds if drive.watchdog else None,
+    )
+
+
+def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
+    """All writes of a command in order.
 
     Bits that a write neither sets nor clears stay as the write before has left them; a reset begins as a stop.
     """
@@ -125,23 +340,17 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Context]:
             before = image.get(write.register, 0) & ~context.bits_of(write.clear)
             image[write.register] = before | context.bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
-        yield {
-            "register": write.register,
-            "bits": image[write.register],
-            "keep": keep,
-            "hold": hold,
-            "moves": moves and write is one,
-        }
+        yield Write(write.register, image[write.register], keep, hold, moves and write is one)
 
 
-def _waits(drive: Drive, told: Decoded) -> Iterator[Context]:
+def _waits(drive: Drive, told: Decoded) -> Iterator[Wait]:
     """The state that a write but the last of a command waits for, where it waits for one."""
     states = {one.name: one for one in drive.operation.states}
     for command in drive.operation.commands:
         for number, step in enumerate(command.first):
             if step.until is not None:
                 state = states[step.until]
-                yield {"order": ORDERS[command.does], "step": number, "state": state, "says": told.holds(state)}
+                yield Wait(ORDERS[command.does], number, state, told.holds(state))
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
@@ -152,54 +361,38 @@ def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
                 yield replace(word_input(drive, address), number=number, index=address - read.address)
 
 
-def _read(drive: Drive, number: int, read: Poll, places: list[Word], taken: set[int]) -> Context:
+def _read(drive: Drive, number: int, read: Poll, places: list[Word], taken: set[int]) -> Read:
     words = [place for place in places if place.number == number]
-    return {"number": number, "read": read, "words": words, "other": beyond(drive, read, taken)}
+    return Read(number, read, words, beyond(drive, read, taken))
 
 
-def _identity(drive: Drive) -> Context | None:
-    """The one read that shows the family, and the bits that count in each of its words, in their place."""
+def _identity(drive: Drive) -> Identified | None:
     read = identity_read(drive)
     if read is None or drive.identity is None:
         return None
     tests = [_condition(drive, each) for each in drive.identity.all]
     words = [each.register - read.address for each in drive.identity.all]
-    return {
-        "function": read.function,
-        "address": read.address,
-        "words": read.words,
-        "tests": [
-            {"index": index, "mask": test.mask or 0xFFFF, "value": test.value}
-            for index, test in zip(words, tests, strict=True)
-        ],
-        "source": context.source_of(drive, drive.identity.source),
-    }
+    masked = [Masked(index, test.mask or 0xFFFF, test.value) for index, test in zip(words, tests, strict=True)]
+    source = context.source_of(drive, drive.identity.source)
+    return Identified(read.function, read.address, read.words, masked, source)
 
 
-def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> Context | None:
-    """What all has to hold while the bus is in command, and the reads that bring it."""
+def _commanded_by(drive: Drive, number: dict[int, int], told: Decoded) -> InCommand | None:
     bus = drive.operation.commanded_by
     if bus is None:
         return None
-    return {
-        "holds": [told.holds(each) for each in bus.all],
-        "reads": sorted({number[each.register] for each in bus.all}),
-        "source": context.source_of(drive, bus.source),
-    }
+    reads = sorted({number[each.register] for each in bus.all})
+    return InCommand([told.holds(each) for each in bus.all], reads, context.source_of(drive, bus.source))
 
 
-def _own_maximum(drive: Drive) -> Context | None:
-    """The word of the drive's own maximum frequency, and its scale."""
+def _own_maximum(drive: Drive) -> Maximum | None:
     maximum = drive.operation.own_maximum
     row = drive.register_at(maximum.register) if maximum else None
     if maximum is None or row is None:
         return None
-    return {
-        "word": word_input(drive, maximum.register),
-        "scale": row.scale,
-        "function": names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"]),
-        "source": context.source_of(drive, maximum.source),
-    }
+    function = names.block(drive.prefix, names.symbol(row) + names.UNIT_NAMES[row.unit or "Hz"])
+    source = context.source_of(drive, maximum.source)
+    return Maximum(word_input(drive, maximum.register), row.scale, function, source)
 
 
 def _proof(drive: Drive) -> list[int]:
@@ -210,12 +403,11 @@ def _condition(drive: Drive, one: Condition) -> Test:
     return context.tested(word_input(drive, one.register).name, one)
 
 
-def _fault(drive: Drive) -> Context:
-    """Where the code of the present fault comes from."""
+def _fault(drive: Drive) -> Faulty:
     if drive.faults.present is not None:
-        return {"word": word_input(drive, drive.faults.present), "words": []}
+        return Faulty(word_input(drive, drive.faults.present), [])
     numbers = context.fault_number(drive)
-    return {"word": None, "words": numbers["words"] if numbers else []}
+    return Faulty(None, numbers.words if numbers else [])
 
 
 def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
@@ -230,29 +422,33 @@ def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:
     """The reads that show whether there is a fault, and which."""
     shown = [each.register for one in drive.operation.status if one.shows == "fault" for each in one.any]
     fault = _fault(drive)
-    words = [fault["word"]] if fault["word"] else fault["words"]
+    words = [fault.word] if fault.word else fault.words
     return sorted({number[each] for each in (*shown, *(word.address for word in words))})
 
 
-def pin_of(shows: str) -> Context:
+def pin_of(shows: str) -> Pin:
     """Where a drive block shows a measure: two have pins of their own, all say in Diagnosis whether they are valid."""
     name, unit, setting = MEASURES[shows]
     where = "" if shows in PINNED else "Diagnosis."
-    return {"pin": f"{where}{name}{unit}", "valid": f"{name}Valid", "unit": unit, "setting": setting}
+    return Pin(f"{where}{name}{unit}", f"{name}Valid", unit, setting)
 
 
-def _measure(drive: Drive, one: Measured, told: Decoded) -> Context:
+def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
-    return {
-        **pin_of(one.shows),
-        "word": word_input(drive, one.register),
-        "scale": scale,
-        "function": names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
-        "when": told.holds(scale.when) if scale and scale.when else None,
-        "signed": row.signed,
-    }
+    shown = pin_of(one.shows)
+    return Measured(
+        pin=shown.pin,
+        valid=shown.valid,
+        unit=shown.unit,
+        setting=shown.setting,
+        word=word_input(drive, one.register),
+        scale=scale,
+        function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
+        when=told.holds(scale.when) if scale and scale.when else None,
+        signed=row.signed,
+    )
 
 
 def _silence(drive: Drive) -> int:

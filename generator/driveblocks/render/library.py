@@ -1,13 +1,12 @@
 """The files of the ST library: generic blocks, then the blocks of each drive, each after what it uses."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.render import context, parameter, text
 from driveblocks.render.channels import channels
-from driveblocks.render.context import Context
 from driveblocks.render.drive import drive_block
 from driveblocks.render.environment import render
 from driveblocks.render.motor import master, motor
@@ -50,7 +49,7 @@ PLATFORMS = {
 """Platform -> the prefix of its blocks, and where its line is."""
 BYTES = "plcopen"
 """The platform without an adapter: the program gives and takes the bytes."""
-MASTERS: dict[str, Callable[[Drive], Context]] = {"codesys": channels, "siemens": master}
+MASTERS: dict[str, Callable[[Drive], dict[str, object]]] = {"codesys": channels, "siemens": master}
 """Platforms with a Modbus master of their own -> what the template of a program for it needs."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
@@ -87,7 +86,7 @@ def generic(languages: list[Language]) -> Iterator[File]:
                 rendered = render(f"modbus/{packer.lower()}{bits}.st.j2", **values)
                 yield File("modbus", f"MB_{packer}{box}{bits}", rendered)
     for language in languages:
-        yield _file("modbus", "CodeText", text.result_texts(language))
+        yield _file("modbus", "CodeText", vars(text.result_texts(language)))
     yield from _line_blocks(languages)
     for name in DRIVE_TYPES:
         yield File("types", name, render(f"types/{name}.st.j2", **_texts_of(languages)))
@@ -95,8 +94,8 @@ def generic(languages: list[Language]) -> Iterator[File]:
         yield File("vfd", name, render(f"control/{name}.st.j2", least=LEAST_S, **_texts_of(languages)))
     yield from (File("device", name, render(f"device/{name}.st.j2", **_texts_of(languages))) for name in DEVICE)
     for language in languages:
-        yield _file("vfd", "CodeText", text.reason_texts(language))
-        yield _file("vfd", "CodeText", text.state_texts(language))
+        yield _file("vfd", "CodeText", vars(text.reason_texts(language)))
+        yield _file("vfd", "CodeText", vars(text.state_texts(language)))
 
 
 def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
@@ -118,7 +117,7 @@ def first_motor(platform: str, drive: Drive) -> File:
     """A program for a first motor at a platform's serial port."""
     prefix, where = PLATFORMS[platform]
     line = f"{prefix}_{'ByteLine' if platform == BYTES else 'Line'}{LINE_SIZES[0]}"
-    values = {"platform": platform, "where": where, "line": line, **motor(drive)}
+    values = {"platform": platform, "where": where, "line": line, **vars(motor(drive))}
     return File(platform, f"{drive.prefix}_Motor", render("motor/Motor.st.j2", **values))
 
 
@@ -158,49 +157,47 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
         yield _file(stem, template, {"name": f"{drive.prefix}_{template}", **shared, **values})
 
 
-def _blocks(drive: Drive) -> Iterator[tuple[str, context.Context]]:
+def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
-    yield "CanAccess", context.access(drive, "r", allowed.readable)
-    yield "CanAccess", context.access(drive, "w", allowed.writable)
-    yield "MayWrite", parameter.may_write(drive, allowed)
+    yield "CanAccess", vars(context.access(drive, "r", allowed.readable))
+    yield "CanAccess", vars(context.access(drive, "w", allowed.writable))
+    yield "MayWrite", vars(parameter.may_write(drive, allowed))
     numbers = parameter.addresses(drive)
     if numbers is not None:
-        yield numbers
-    yield "Request", context.request(drive, allowed)
-    yield "Reply", context.reply(drive)
+        yield type(numbers).__name__, vars(numbers)
+    yield "Request", vars(context.request(drive, allowed))
+    yield "Reply", vars(context.reply(drive))
     if drive.operation.in_one_word:
-        yield "Command", context.command(drive)
-    yield "Reference", context.reference(drive)
-    yield "Standstill", context.standstill(drive)
+        yield "Command", vars(context.command(drive))
+    yield "Reference", vars(context.reference(drive))
+    yield "Standstill", vars(context.standstill(drive))
     bits = context.fault_number(drive)
     if bits is not None:
-        yield "FaultNumber", bits
-    for one in context.decoders(drive):
-        yield "Decoder", one
-    for one in context.scales(drive):
-        yield "Scale", one
-    block = {**drive_block(drive), "parameter": parameter.passing(drive, allowed)}
+        yield "FaultNumber", vars(bits)
+    yield from (("Decoder", vars(one)) for one in context.decoders(drive))
+    yield from (("Scale", vars(one)) for one in context.scales(drive))
+    block = {**drive_block(drive).values, "parameter": parameter.passing(drive, allowed)}
     for part in (*(["Identity"] if drive.identity else []), "Reads", "Orders", "ParameterGate", "Drive"):
         yield part, block
-    yield "Version", context.version(drive)
+    yield "Version", vars(context.version(drive))
 
 
-def _texts_of(languages: list[Language]) -> context.Context:
+def _texts_of(languages: list[Language]) -> dict[str, str]:
     """The language whose texts a comment points to, the first that is built, and the function of the result codes."""
     suffix = languages[0].suffix if languages else text.ENGLISH.suffix
     return {"language": suffix, "texts": f"MB_ResultText{suffix}"}
 
 
-def _texts(drive: Drive, languages: list[Language]) -> Iterator[tuple[str, context.Context]]:
+def _texts(drive: Drive, languages: list[Language]) -> Iterator[tuple[str, Mapping[str, object]]]:
     for language in languages:
         if text.exists(drive, "Fault", language):
-            yield "CodeText", text.fault_texts(drive, language)
+            yield "CodeText", vars(text.fault_texts(drive, language))
         if text.exists(drive, "Error", language):
-            yield "CodeText", text.error_texts(drive, language)
+            yield "CodeText", vars(text.error_texts(drive, language))
         for one in text.place_texts(drive, language):
-            yield "PlaceText", one
+            yield "PlaceText", vars(one)
 
 
-def _file(folder: str, template: str, values: context.Context) -> File:
-    return File(folder, values["name"], render(f"drive/{template}.st.j2", **values))
+def _file(folder: str, template: str, values: Mapping[str, object]) -> File:
+    return File(folder, str(values["name"]), render(f"drive/{template}.st.j2", **values))

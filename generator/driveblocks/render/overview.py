@@ -66,9 +66,9 @@ def _heading(folder: str, known: dict[str, context.Identity], files: list[File])
 def _example(drive: Drive, known: context.Identity, blocks: dict[str, FunctionBlock]) -> dict[str, object]:
     """Values for the example of use: read what proves standstill, one register at a time, and decode it."""
     proof = context.standstill(drive)
-    decoders = [one for one in context.decoders(drive) if one["name"].upper() in blocks]
-    decoder = next((one for one in decoders if one["address_text"] == proof["words"][0].address_text), None)
-    return {"drive": known, "word": proof["words"][0], "decoder": decoder}
+    decoders = [one for one in context.decoders(drive) if one.name.upper() in blocks]
+    decoder = next((one for one in decoders if one.address_text == proof.words[0].address_text), None)
+    return {"drive": known, "word": proof.words[0], "decoder": decoder}
 
 
 def _row(file: File, block: Function | FunctionBlock) -> dict[str, object]:

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Drive, Storage
 from driveblocks.maps.plan import Plan
-from driveblocks.render.context import Context, source_of
+from driveblocks.render.context import source_of
 
 MOST = 4
 """Registers of a compartment; the last word of a write holds the mark of its block."""
@@ -21,8 +21,31 @@ _Key = tuple[int, int, int]
 # ---------------------------------------------------------------- which registers may be written
 
 
-def may_write(drive: Drive, allowed: Plan) -> Context:
-    """For MayWrite: spans that are refused with the name of the result and why, from the weakest to the strongest."""
+@dataclass(frozen=True)
+class Ranged:
+    """Registers with a range that a ladder user may write."""
+
+    span: Span
+    signed: bool
+    min: int
+    max: int
+
+
+@dataclass(frozen=True)
+class MayWrite:
+    """For MayWrite."""
+
+    name: str
+    can_write: str
+    fixed: list[Span]
+    """What is read only, or not used."""
+    refused: list[tuple[str, str, list[Span]]]
+    """The name of the result, why, and the spans, from the weakest to the strongest."""
+    ranges: list[Ranged]
+
+
+def may_write(drive: Drive, allowed: Plan) -> MayWrite:
+    """What a ladder user may write, and why not the rest."""
     kept = [
         (
             "LINE_SETTING",
@@ -35,13 +58,13 @@ def may_write(drive: Drive, allowed: Plan) -> Context:
     taken = {one for _, _, some in kept for one in some}
     writable = {address for span in allowed.writable for address in span}
     fixed = _spans(_with_aliases(drive, _listed(drive)) - writable - taken)
-    return {
-        "name": f"{drive.prefix}_MayWrite",
-        "can_write": f"{drive.prefix}_CanWrite",
-        "fixed": fixed,
-        "refused": [(name, why, _spans(some)) for name, why, some in kept if some],
-        "ranges": list(_ranges(drive, writable - taken)),
-    }
+    return MayWrite(
+        name=f"{drive.prefix}_MayWrite",
+        can_write=f"{drive.prefix}_CanWrite",
+        fixed=fixed,
+        refused=[(name, why, _spans(some)) for name, why, some in kept if some],
+        ranges=list(_ranges(drive, writable - taken)),
+    )
 
 
 def _commanded(drive: Drive) -> Iterator[int]:
@@ -77,38 +100,17 @@ def _spans(addresses: Iterable[int]) -> list[Span]:
     return runs
 
 
-def _ranges(drive: Drive, writable: set[int]) -> Iterator[Context]:
-    """Rows with a range that a ladder user may write."""
+def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
     for _, row in drive.registers():
         if row.range is not None and writable.issuperset(row.address):
-            yield {"span": row.address, "signed": row.signed, "min": row.range.min, "max": row.range.max}
+            yield Ranged(row.address, row.signed, row.range.min, row.range.max)
 
 
 # ---------------------------------------------------------------- the manual's numbers
 
 
-def addresses(drive: Drive) -> tuple[str, Context] | None:
-    """The template for the manual's numbers and what it prints; None where they prove no address.
-
-    Ids such as H5-02, F0.04, A40 or 20.01 come from the rows of the tables; the only area gives numbers where no row
-    has an id.
-    """
-    name = f"{drive.prefix}_ParameterAddress"
-    known = _numbered(drive)
-    if known:
-        letter, group, number = min(known)
-        example = {"letter": letter, "group": group, "number": number, "id": f"{_group(letter, group)}-{number:02d}"}
-        return "ParameterAddress", {"name": name, "letters": _letters(known), "example": example}
-    if len(drive.areas) != 1:
-        return None
-    area = drive.areas[0]
-    run = _Run(0, len(area.addresses) - 1, area.addresses.first)
-    what = area.numbered_by.replace("_", " ")
-    return "NumberAddress", {"name": name, "run": run, "what": what, "source": source_of(drive, area.source)}
-
-
 @dataclass(frozen=True)
-class _Run:
+class Run:
     """Numbers whose registers follow each other."""
 
     first: int
@@ -129,6 +131,63 @@ class _Run:
     def away(self) -> int:
         """What turns a number into its register."""
         return self.base - self.first
+
+
+@dataclass(frozen=True)
+class Example:
+    """An id of the manual, whole and in its parts."""
+
+    letter: int
+    group: int
+    number: int
+    id: str
+
+
+@dataclass(frozen=True)
+class Group:
+    """The runs of a group of parameters."""
+
+    name: str
+    runs: list[Run]
+
+
+@dataclass(frozen=True)
+class ParameterAddress:
+    """For ParameterAddress: runs by letter and group."""
+
+    name: str
+    letters: dict[int, dict[int, Group]]
+    example: Example
+
+
+@dataclass(frozen=True)
+class NumberAddress:
+    """For NumberAddress."""
+
+    name: str
+    run: Run
+    what: str
+    source: str
+
+
+def addresses(drive: Drive) -> ParameterAddress | NumberAddress | None:
+    """What turns the manual's numbers into addresses; None where they prove none.
+
+    Ids such as H5-02, F0.04, A40 or 20.01 come from the rows of the tables; the only area gives numbers where no row
+    has an id.
+    """
+    name = f"{drive.prefix}_ParameterAddress"
+    known = _numbered(drive)
+    if known:
+        letter, group, number = min(known)
+        example = Example(letter, group, number, f"{_group(letter, group)}-{number:02d}")
+        return ParameterAddress(name, _letters(known), example)
+    if len(drive.areas) != 1:
+        return None
+    area = drive.areas[0]
+    run = Run(0, len(area.addresses) - 1, area.addresses.first)
+    what = area.numbered_by.replace("_", " ")
+    return NumberAddress(name, run, what, source_of(drive, area.source))
 
 
 def _numbered(drive: Drive) -> dict[_Key, int]:
@@ -158,34 +217,45 @@ def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
             yield setting.id, setting.register, 1
 
 
-def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Context]]:
-    """Runs of numbers whose registers follow each other, by letter and group."""
-    letters: dict[int, dict[int, Context]] = {}
+def _letters(known: dict[_Key, int]) -> dict[int, dict[int, Group]]:
+    letters: dict[int, dict[int, Group]] = {}
     for (letter, group, number), address in sorted(known.items()):
-        empty: Context = {"name": _group(letter, group), "runs": []}
-        runs = letters.setdefault(letter, {}).setdefault(group, empty)["runs"]
+        runs = letters.setdefault(letter, {}).setdefault(group, Group(_group(letter, group), [])).runs
         if runs and number == runs[-1].last + 1 and address == runs[-1].away + number:
             runs[-1] = replace(runs[-1], last=number)
         else:
-            runs.append(_Run(number, number, address))
+            runs.append(Run(number, number, address))
     return letters
 
 
 # ---------------------------------------------------------------- the part of the drive block
 
 
-def passing(drive: Drive, allowed: Plan) -> Context:
+@dataclass(frozen=True)
+class Passing:
     """For the part of a drive block that lets parameters pass: its functions, limits and how it stores."""
+
+    prefix: str
+    read: int
+    most_read: int
+    single: bool
+    multiple: bool
+    most_written: int
+    store: Storage | None
+
+
+def passing(drive: Drive, allowed: Plan) -> Passing:
+    """What of parameters passes."""
     rtu, ascii_, modes = allowed.rtu, allowed.ascii, drive.serial.mode.modes
     words = [some for mode, some in (("rtu", rtu), ("ascii", ascii_)) if mode in modes]
     written = min(some.write for some in words) if 16 in allowed.functions else 0
     store = drive.storage if drive.storage.method == "enter_register" else None
-    return {
-        "prefix": drive.prefix,
-        "read": 3 if 3 in allowed.functions else 4,
-        "most_read": min(MOST, *(some.read for some in words)),
-        "single": 6 in allowed.functions,
-        "multiple": 16 in allowed.functions,
-        "most_written": max(min(MOST - 1, written), int(6 in allowed.functions)),
-        "store": store,
-    }
+    return Passing(
+        prefix=drive.prefix,
+        read=3 if 3 in allowed.functions else 4,
+        most_read=min(MOST, *(some.read for some in words)),
+        single=6 in allowed.functions,
+        multiple=16 in allowed.functions,
+        most_written=max(min(MOST - 1, written), int(6 in allowed.functions)),
+        store=store,
+    )

@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypedDict
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Bit, Drive, Fault, Returned, Worded
 from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
-from driveblocks.render.context import Context, source_of
+from driveblocks.render.context import source_of
 from structured_text.language.writing import string
 
 
@@ -74,32 +75,71 @@ def languages(codes: list[str], encoding: str) -> list[Language]:
     return [ENGLISH if code == "en" else chinese(encoding) for code in codes]
 
 
-def result_texts(language: Language) -> Context:
-    """For CodeText: the result codes of all blocks."""
+@dataclass(frozen=True)
+class Row:
+    """The text of a code as a literal, and what to say beside it."""
+
+    code: int
+    text: str
+    comment: str
+
+
+class _Written(TypedDict):
+    """How texts are written: what an unknown code gives, whether bytes are escaped, and in which encoding."""
+
+    otherwise: str
+    escaped: bool
+    encoding: str
+
+
+class _Head(TypedDict):
+    """What the head of a function with texts says."""
+
+    title: str
+    source: str
+    code_comment: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class CodeText:
+    """For CodeText."""
+
+    name: str
+    rows: list[Row]
+    title: str
+    source: str
+    code_comment: str
+    otherwise: str
+    escaped: bool
+    encoding: str
+
+
+def result_texts(language: Language) -> CodeText:
+    """The result codes of all blocks."""
     texts = [(result.code, result.en, result.zh) for result in results.RESULTS]
-    head = {"title": "what an ErrorID means", "source": "the result codes of DriveBlocks.", "code_comment": "ErrorID"}
+    head = _Head(title="what an ErrorID means", source="the result codes of DriveBlocks.", code_comment="ErrorID")
     return _own("MB_ResultText", texts, head, language)
 
 
-def reason_texts(language: Language) -> Context:
-    """For CodeText: why a drive does not run."""
+def reason_texts(language: Language) -> CodeText:
+    """Why a drive does not run."""
     texts = [(reason.code, reason.en, reason.zh) for reason in reasons.REASONS]
-    head = {"title": "why a drive does not run", "source": "the reasons of DriveBlocks.", "code_comment": "Reason"}
+    head = _Head(title="why a drive does not run", source="the reasons of DriveBlocks.", code_comment="Reason")
     return _own("VFD_ReasonText", texts, head, language)
 
 
-def state_texts(language: Language) -> Context:
-    """For CodeText: what a drive block is at."""
+def state_texts(language: Language) -> CodeText:
+    """What a drive block is at."""
     texts = [(code, en, zh) for code, (en, zh) in enumerate(reasons.STATES)]
-    head = {"title": "what a drive block is at", "source": "the states of DriveBlocks.", "code_comment": "State"}
+    head = _Head(title="what a drive block is at", source="the states of DriveBlocks.", code_comment="State")
     return _own("VFD_StateText", texts, head, language)
 
 
-def _own(name: str, texts: list[tuple[int, str, str]], head: Context, language: Language) -> Context:
+def _own(name: str, texts: list[tuple[int, str, str]], head: _Head, language: Language) -> CodeText:
     """Texts of the library's own codes, each with its English and its Chinese."""
     chosen = [(code, en if language.suffix == "En" else zh) for code, en, zh in texts]
     rows = [_row(language, code, text, text) for code, text in chosen]
-    return {"name": f"{name}{language.suffix}", "rows": rows, **head, **_language(language)}
+    return CodeText(name=f"{name}{language.suffix}", rows=rows, **head, **_language(language))
 
 
 def led(fault: Fault, text: str) -> str:
@@ -107,41 +147,35 @@ def led(fault: Fault, text: str) -> str:
     return f"{fault.id} {text}" if fault.id else text
 
 
-def fault_texts(drive: Drive, language: Language) -> Context:
-    """For CodeText: fault codes."""
+def fault_texts(drive: Drive, language: Language) -> CodeText:
+    """Fault codes."""
     rows = [_row(language, fault.code, led(fault, language.pick(fault)), fault.text_zh) for fault in drive.faults.codes]
-    head = {
-        "title": "fault codes",
-        "source": source_of(drive, drive.faults.source),
-        "code_comment": "fault code",
-    }
-    return {"name": f"{drive.prefix}_FaultText{language.suffix}", "rows": rows, **head, **_language(language)}
+    head = _Head(title="fault codes", source=source_of(drive, drive.faults.source), code_comment="fault code")
+    return CodeText(name=f"{drive.prefix}_FaultText{language.suffix}", rows=rows, **head, **_language(language))
 
 
-def error_texts(drive: Drive, language: Language) -> Context:
-    """For CodeText: error codes; those without a printed code have the number that another document gives."""
+def error_texts(drive: Drive, language: Language) -> CodeText:
+    """Error codes; those without a printed code have the number that another document gives."""
     rows = []
     for error in drive.errors.codes:
         code = error_number(error)
         if code is not None:
             rows.append(_entry(language, code, error))
-    head = {
-        "title": "refusal codes",
-        "source": source_of(drive, drive.errors.source),
-        "code_comment": "Reason of the reply",
-    }
-    return {"name": f"{drive.prefix}_ErrorText{language.suffix}", "rows": rows, **head, **_language(language)}
+    head = _Head(
+        title="refusal codes", source=source_of(drive, drive.errors.source), code_comment="Reason of the reply"
+    )
+    return CodeText(name=f"{drive.prefix}_ErrorText{language.suffix}", rows=rows, **head, **_language(language))
 
 
-def _entry(language: Language, code: int, entry: Returned | Bit) -> Context:
+def _entry(language: Language, code: int, entry: Returned | Bit) -> Row:
     return _row(language, code, language.pick(entry), entry.text_zh)
 
 
-def _row(language: Language, code: int, text: str, zh: str | None) -> Context:
-    return {"code": code, "text": language.literal(text), "comment": (zh or "") if language.suffix == "Zh" else ""}
+def _row(language: Language, code: int, text: str, zh: str | None) -> Row:
+    return Row(code, language.literal(text), (zh or "") if language.suffix == "Zh" else "")
 
 
-def _language(language: Language) -> Context:
+def _language(language: Language) -> _Written:
     return {
         "otherwise": language.literal(language.unknown),
         "escaped": language.suffix == "Zh",
@@ -149,37 +183,56 @@ def _language(language: Language) -> Context:
     }
 
 
-def place_texts(drive: Drive, language: Language) -> Iterator[Context]:
-    """For PlaceText: texts of bits and of values, for the kinds that the drive has."""
+@dataclass(frozen=True)
+class Group:
+    """The texts of a register."""
+
+    address: int
+    address_text: str
+    title: str
+    rows: list[Row]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlaceText:
+    """For PlaceText."""
+
+    name: str
+    title: str
+    pin: str
+    pin_comment: str
+    groups: list[Group]
+    otherwise: str
+    escaped: bool
+    encoding: str
+
+
+def place_texts(drive: Drive, language: Language) -> Iterator[PlaceText]:
+    """Texts of bits and of values, for the kinds that the drive has."""
     bits = [_group(drive, address, "bits", language) for address in _addresses(drive)]
     values = [_group(drive, address, "values", language) for address in _addresses(drive)]
     kinds = (("Bit", "BitNumber", "bit of the word, 0 to 15", bits), ("Value", "Value", "value of the word", values))
     for kind, pin, comment, groups in kinds:
-        if any(group["rows"] for group in groups) and exists(drive, kind, language):
-            yield {
-                "name": f"{drive.prefix}_{kind}Text{language.suffix}",
-                "title": f"{kind.lower()}s",
-                "pin": pin,
-                "pin_comment": comment,
-                "groups": [group for group in groups if group["rows"]],
+        if any(group.rows for group in groups) and exists(drive, kind, language):
+            yield PlaceText(
+                name=f"{drive.prefix}_{kind}Text{language.suffix}",
+                title=f"{kind.lower()}s",
+                pin=pin,
+                pin_comment=comment,
+                groups=[group for group in groups if group.rows],
                 **_language(language),
-            }
+            )
 
 
 def _addresses(drive: Drive) -> list[int]:
     return [row.address.first for _, row in drive.registers()]
 
 
-def _group(drive: Drive, address: int, kind: str, language: Language) -> Context:
+def _group(drive: Drive, address: int, kind: str, language: Language) -> Group:
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (the address was taken from the tables)
     if kind == "bits":
         rows = [_entry(language, bit.bit.first, bit) for bit in row.bits if bit.name]
     else:
         rows = [_entry(language, value.value, value) for value in row.values]
-    return {
-        "address": address,
-        "address_text": address_text(address),
-        "title": row.name or "",
-        "rows": rows,
-    }
+    return Group(address, address_text(address), row.name or "", rows)

@@ -108,8 +108,8 @@ def _refuse(machine: Machine, reason: str) -> None:
 
 
 def _refusal(machine: Machine, request: bytes, reason: str) -> bytes:
-    manners, code = machine.table.manners, machine.table.codes[reason] or 0
-    if manners.address is None or manners.function is None:
-        return bytes([request[0], (request[1] + manners.added) & 0xFF, code])
-    machine.memory.words[manners.address] = code
-    return bytes([request[0], manners.function]) + manners.address.to_bytes(2, "big") + code.to_bytes(2, "big")
+    dialect, code = machine.table.dialect, machine.table.codes[reason] or 0
+    if dialect.address is None or dialect.function is None:
+        return bytes([request[0], (request[1] + dialect.added) & 0xFF, code])
+    machine.memory.words[dialect.address] = code
+    return bytes([request[0], dialect.function]) + dialect.address.to_bytes(2, "big") + code.to_bytes(2, "big")

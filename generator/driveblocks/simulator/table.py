@@ -8,8 +8,8 @@ from functools import lru_cache
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
-from driveblocks.maps.plan import Words, manners, most, plan
-from driveblocks.modbus.layout import Manners
+from driveblocks.maps.plan import Words, dialect, most, plan
+from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
@@ -83,7 +83,7 @@ class Table:
     broadcasts: tuple[int, ...]
     """The only start addresses that it may write to; empty: any."""
     limits: tuple[Limit, ...]
-    manners: Manners
+    dialect: Dialect
     codes: dict[str, int | None]
     moves: tuple[Move, ...]
     states: tuple[str, ...]
@@ -109,7 +109,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     states = tuple(state.name for state in drive.operation.states)
     named = named_bits(drive, measured)
     codes_at = {drive.faults.present, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
-    known = {*measured, *named, *codes_at, *plate(drive, habits), manners(drive).address}
+    known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
     again = copies(drive, habits, known)
     return Table(
         functions=allowed.functions,
@@ -120,7 +120,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         broadcast=broadcast.address if broadcast else None,
         broadcasts=broadcast.start_addresses if broadcast else (),
         limits=(*_limits(drive), *_choices(drive), *_highest(drive, habits)),
-        manners=manners(drive),
+        dialect=dialect(drive),
         codes=codes(drive),
         moves=moves(drive),
         states=states,

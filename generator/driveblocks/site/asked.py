@@ -9,8 +9,11 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import probe, source, wanted
+from driveblocks.plc import probe, source
 from driveblocks.plc.controller import Controller
+from driveblocks.plc.drives import Named
+from driveblocks.plc.drives import named as drives_of
+from driveblocks.plc.drives import words as words_of
 from driveblocks.plc.options import Refused, time
 from driveblocks.plc.watchdog import FIRST_US
 from driveblocks.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
@@ -111,10 +114,10 @@ def _program(words: Words, watchdog: int, wrong: list[str]) -> tuple[str, str, l
             return name, probe.text(path, name), source.known(named)
         if words.name:
             wrong.append("--program is for a file with several PROGRAMs")
-        asked = wanted.words(words.line)
+        asked = words_of(words.line)
         maps = source.known([*named, *(catalog.resolve(each.name) for each in asked if catalog.is_path(each.name))])
         known = {each.path.resolve(): (each.path, each.drive) for each in maps}
-        drives = wanted.named(asked, lambda each: _found(each, known))
+        drives = drives_of(asked, lambda each: _found(each, known))
         if len(drives) + len(words.device) > MOST_UNITS:
             wrong.append(f"{len(drives) + len(words.device)} units; a line has 1 to {MOST_UNITS}")
         return "line.st", _text(words, drives, watchdog), maps
@@ -127,7 +130,7 @@ def _found(name: str, known: dict[Path, tuple[Path, Drive]]) -> tuple[Path, Driv
     return known[catalog.displacing(catalog.resolve(name), [path for path, _ in known.values()]).resolve()]
 
 
-def _text(words: Words, drives: list[wanted.Wanted], watchdog: int) -> str:
+def _text(words: Words, drives: list[Named], watchdog: int) -> str:
     """A program with these drives and devices on one line."""
     size = 8 if len(drives) + len(words.device) <= 8 else MOST_UNITS
     taken = {each.unit for each in drives}

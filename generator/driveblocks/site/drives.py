@@ -19,8 +19,8 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
 from driveblocks.plc.ask import Speech
+from driveblocks.plc.drives import named, words
 from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, is_port, time
-from driveblocks.plc.wanted import named, words
 from driveblocks.show.layout import table
 from driveblocks.site.line import CHARACTER_BITS
 from driveblocks.site.reader import LostError, One, Reader, heard

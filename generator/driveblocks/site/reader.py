@@ -7,7 +7,7 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import Port
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import manners, most
+from driveblocks.maps.plan import dialect, most
 from driveblocks.maps.polls import identity_read
 from driveblocks.modbus.layout import take
 from driveblocks.plc.ask import Asker, Speech
@@ -71,7 +71,7 @@ class Reader:
         silence = int(1000 * told.milliseconds) if told and told.milliseconds else 0
         self._asker = Asker(self._port, clock, replace(speech, silence_us=silence))
         self._most = most(one.drive, "ascii" if speech.ascii_mode else "rtu").read
-        self._manners, self._busy = manners(one.drive), codes(one.drive)["busy"]
+        self._dialect, self._busy = dialect(one.drive), codes(one.drive)["busy"]
         self._patience_us = patience_us
         self._good: Span | None = None
         """A run that the drive has answered."""
@@ -126,13 +126,13 @@ class Reader:
         """The words of a run; why there are none."""
         code, count = function(self._drive), len(span)
         body = bytes([self._unit, code]) + span.first.to_bytes(2, "big") + count.to_bytes(2, "big")
-        manners = self._manners
-        lengths = [3 + 2 * count, 3] + [4 + 2 * count] * manners.two_byte_count + [6] * (manners.address is not None)
-        functions = (code + manners.added & 0xFF, *([manners.function] if manners.function is not None else []))
+        dialect = self._dialect
+        lengths = [3 + 2 * count, 3] + [4 + 2 * count] * dialect.two_byte_count + [6] * (dialect.address is not None)
+        functions = (code + dialect.added & 0xFF, *([dialect.function] if dialect.function is not None else []))
         answer: tuple[int, ...] | str = SILENT
         for _ in range(TRIES):
             reply = self._asker.ask(body, *lengths, functions=functions)
-            found = take(reply, "reply", manners) if reply else None
+            found = take(reply, "reply", dialect) if reply else None
             if found is not None and found.refusal:
                 answer = f"refused {found.number('reason')}"
                 if found.number("reason") == self._busy:

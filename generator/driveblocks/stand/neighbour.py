@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from driveblocks.desk.clock import Clock
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import manners, plan
+from driveblocks.maps.plan import dialect, plan
 from driveblocks.modbus import layout, scan
 from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.frame import seal
@@ -56,10 +56,10 @@ class Neighbours:
 
     def _answers(self, data: bytes, unit: int) -> bool:
         """Whether a unit has answered somebody: a reply by its form, or a request that comes twice, as echoes do."""
-        manner, before = manners(self._drives[unit]), b""
-        for piece in scan.pieces(data, manner):
+        spoken, before = dialect(self._drives[unit]), b""
+        for piece in scan.pieces(data, spoken):
             body = open_(piece.data).body if piece.good else b""
-            forms = [each.direction for each in layout.readings(body, manner) if each.fits] if len(body) > 2 else []
+            forms = [each.direction for each in layout.readings(body, spoken) if each.fits] if len(body) > 2 else []
             if body[:1] == bytes([unit]) and (forms == ["reply"] or ("reply" in forms and piece.data == before)):
                 return True
             before = piece.data

@@ -16,10 +16,10 @@ from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.plc import live
+from driveblocks.plc.drives import named
+from driveblocks.plc.drives import words as drives_of
 from driveblocks.plc.ending import Ending
 from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, time
-from driveblocks.plc.wanted import named
-from driveblocks.plc.wanted import words as drives_of
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
 from driveblocks.stand.neighbour import Neighbours
 from driveblocks.stand.stand import Stand, view

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from driveblocks.maps.model import Drive
-from driveblocks.reference.reply import Manners, manners, parse
+from driveblocks.reference.reply import Dialect, dialect, parse
 from driveblocks.reference.request import BUILDABLE, READS, Asked, Requests, body
 from driveblocks.testing import bench
 from driveblocks.testing.code import NUMBERS, WORDS
@@ -43,7 +43,7 @@ class Subject:
     """What is tested: the statement that calls it, and how it must take refusals."""
 
     call: str
-    manners: Manners
+    dialect: Dialect
     codes: tuple[int, ...]
 
 
@@ -51,7 +51,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     """One program per function of the drive."""
     call = "Parse(Length := Length, Adu := Adu, Request := Request, Words := Words);"
     codes = tuple(dict.fromkeys(code.code for code in drive.errors.codes if code.code is not None))
-    subject = Subject(call, manners(drive), codes)
+    subject = Subject(call, dialect(drive), codes)
     source = drive.errors.form.source if drive.errors.form else drive.errors.source
     model = Requests(drive)
     for function in sorted(set(model.functions) & BUILDABLE):
@@ -124,7 +124,7 @@ def _padded(right: bytes) -> bytes:
 
 
 def _row(table: Table, subject: Subject, base: Asked, case: Case) -> None:
-    found = parse(subject.manners, case.asked, case.data)
+    found = parse(subject.dialect, case.asked, case.data)
     usual = _padded(answer(base))
     assert not any(case.data[len(usual) :])  # noqa: S101  (nothing but zeros follows, in any case)
     changed = bench.changed("Adu", usual, case.data[: len(usual)])
@@ -199,7 +199,7 @@ def _counts(base: Asked, right: bytes) -> Iterator[Case]:
 def _exceptions(subject: Subject, base: Asked) -> Iterator[Case]:
     """Refusals by an exception: with this drive's number and with the standard's."""
     head = bytes([base.unit])
-    for add in sorted({STANDARD_ADD, subject.manners.add or STANDARD_ADD}):
+    for add in sorted({STANDARD_ADD, subject.dialect.add or STANDARD_ADD}):
         function = (base.function + add) & 0xFF
         for code in sorted({0, 1, 2, 3, 4, 255, *(code & 0xFF for code in subject.codes)}):
             yield Case(f"exception {function:02X}H with code {code}", base, head + bytes([function, code]))
@@ -214,8 +214,8 @@ def _exceptions(subject: Subject, base: Asked) -> Iterator[Case]:
 
 def _write_replies(subject: Subject, base: Asked) -> Iterator[Case]:
     """Refusals by a reply to a write that nobody asked for."""
-    function = subject.manners.function or 6
-    address = subject.manners.address if subject.manners.address is not None else ELSEWHERE
+    function = subject.dialect.function or 6
+    address = subject.dialect.address if subject.dialect.address is not None else ELSEWHERE
     head = bytes([base.unit, function])
     for code in sorted({0, 1, 5, 0x0100, 0xFFFF, *subject.codes}):
         data = head + address.to_bytes(2, "big") + (code & 0xFFFF).to_bytes(2, "big")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from driveblocks.reference.permission import MOST_READ
-from driveblocks.reference.reply import Manners, parse
+from driveblocks.reference.reply import Dialect, parse
 from driveblocks.testing import bench, builder, checksum, framing, packing, reply, text
 from driveblocks.testing.script import Script
 from structured_text.language.writing import word
@@ -23,9 +23,9 @@ def scripts(languages: Sequence[text.Language]) -> Iterator[Script]:
 def _replies() -> Iterator[Script]:
     """The parser by itself: with the standard's refusals, then with a drive's that are write replies."""
     rest = "Adu := Adu, Request := Request, Words := Words);"
-    standard = reply.Subject(f"Parse(Length := Length, {rest}", Manners(), (5, 6))
+    standard = reply.Subject(f"Parse(Length := Length, {rest}", Dialect(), (5, 6))
     pins = "ExceptionAdd := 0, ErrorFunction := 6, ErrorAddress := WORD#16#5001, TwoByteCount := TRUE"
-    other = reply.Subject(f"Parse(Length := Length, {pins}, {rest}", Manners(None, 6, 0x5001, True), (8, 33))
+    other = reply.Subject(f"Parse(Length := Length, {pins}, {rest}", Dialect(None, 6, 0x5001, True), (8, 33))
     for kind, subject, functions in (("Standard", standard, (3, 4, 6, 8, 16)), ("Other", other, (3, 6))):
         for function in functions:
             title = f"replies to function {function:02X}H, {kind.lower()} form of refusal"
@@ -44,7 +44,7 @@ def _longest() -> Script:
     bench.declare_ramp(program)
     size = 3 + 2 * MOST_READ
     head = bytes([asked.unit, asked.function, 2 * MOST_READ])
-    words = parse(Manners(), asked, head + bench.sample(size)[3:]).words
+    words = parse(Dialect(), asked, head + bench.sample(size)[3:]).words
     ends = (0, 1, 62, 123, 124)
     program.stage(
         f"{MOST_READ} registers",

@@ -11,12 +11,12 @@ from driveblocks.testing import (
     harness,
     page,
     parameter,
-    proof,
     register,
     reply,
     request,
     shared,
     speed,
+    standstill,
     text,
     vector,
     version,
@@ -67,7 +67,7 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
     "Registers": register.scripts,
     "Commands": command.scripts,
     "Speed": speed.scripts,
-    "Standstill and faults": proof.scripts,
+    "Standstill and faults": standstill.scripts,
     "Version": version.scripts,
 }
 """What is tested of a drive, in the words of a user."""

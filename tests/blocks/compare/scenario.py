@@ -19,7 +19,7 @@ from tests.shipped import drives
 from tests.structured_text.engines.compare.scenarios import Inputs
 
 from driveblocks.maps.model import Drive
-from driveblocks.reference.reply import Manners, manners
+from driveblocks.reference.reply import Dialect, dialect
 from driveblocks.reference.request import Asked
 from structured_text.engines.engine import Value
 
@@ -56,7 +56,7 @@ def _lines(pou: Pou, chance: random.Random, in_ascii: bool) -> Iterator[tuple[Dr
 
 def _long_read(drive: Drive, chance: random.Random, in_ascii: bool) -> Line:
     asked = answering.questions(chance.choice([1, 247]), [3, 4], 125, [0, 0x1000, 0xFF83], chance)
-    bodies = [answering.good(manners(drive), asked, chance), answering.good(Manners(), asked, chance)]
+    bodies = [answering.good(dialect(drive), asked, chance), answering.good(Dialect(), asked, chance)]
     return Line(asked, bodies, [frame(body, in_ascii) for body in bodies])
 
 
@@ -132,12 +132,12 @@ def _pins(asked: Asked) -> dict[str, Value]:
 
 def _settings(drive: Drive) -> Inputs:
     """The pins of the generic parser that say how a drive refuses."""
-    manner = manners(drive)
+    spoken = dialect(drive)
     return {
-        "ExceptionAdd": manner.add or 0,
-        "ErrorFunction": manner.function or 0,
-        "ErrorAddress": manner.address or 0,
-        "TwoByteCount": manner.two_byte_count,
+        "ExceptionAdd": spoken.add or 0,
+        "ErrorFunction": spoken.function or 0,
+        "ErrorAddress": spoken.address or 0,
+        "TwoByteCount": spoken.two_byte_count,
     }
 
 

@@ -38,10 +38,10 @@ def test_matiec_gives_the_same_state_after_every_scan(folder: str, matiec: Engin
     """Every variable of the instance and of all inside it."""
     if matiec.name not in _BESIDE:
         _BESIDE[matiec.name] = build(beside(matiec))
-    _compare(_BESIDE[matiec.name], folder)
+    _assert_compared(_BESIDE[matiec.name], folder)
 
 
-def _compare(libraries: Libraries, folder: str) -> None:
+def _assert_compared(libraries: Libraries, folder: str) -> None:
     pous = [pou for pou in shipped().pous.values() if pou.folder == folder]
     found = [compare(pou, subjects(libraries, pou), enough(pou), SEED) for pou in pous]
     assert [str(each) for each in found if each is not None] == []

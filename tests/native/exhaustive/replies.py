@@ -9,7 +9,7 @@ from tests.native.exhaustive.frames import noise
 from tests.native.exhaustive.scan import Scan
 from tests.shipped import drives
 
-from driveblocks.reference.reply import Manners, manners, parse
+from driveblocks.reference.reply import Dialect, dialect, parse
 from driveblocks.reference.request import COUNTED, Asked
 from driveblocks.render.results import code
 
@@ -32,10 +32,10 @@ LONGEST = 260
 """Up to here every length goes with every byte count."""
 
 GENERIC = (
-    Manners(),
-    Manners(two_byte_count=True),
-    Manners(add=None, function=6, address=0x5001),
-    Manners(add=0x40, function=16, address=0x0000),
+    Dialect(),
+    Dialect(two_byte_count=True),
+    Dialect(add=None, function=6, address=0x5001),
+    Dialect(add=0x40, function=16, address=0x0000),
 )
 """Forms of refusal for the generic block: the standard's, with a count of two bytes, CHF's, and two at once."""
 
@@ -68,23 +68,23 @@ class Reply:
 
 def replies(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """The generic block with several forms of refusal, then each drive's."""
-    for manner in GENERIC[2:] if short else GENERIC:
-        yield from judged(benches, _parsed(PARSE, manner, short, _form(manner)))
+    for form in GENERIC[2:] if short else GENERIC:
+        yield from judged(benches, _parsed(PARSE, form, short, _form(form)))
     for prefix, drive in drives().items():
-        yield from judged(benches, _parsed(of_drive(prefix), manners(drive), short, b""))
+        yield from judged(benches, _parsed(of_drive(prefix), dialect(drive), short, b""))
 
 
-def _form(manner: Manners) -> bytes:
-    return struct.pack("=HHH?", manner.add or 0, manner.function or 0, manner.address or 0, manner.two_byte_count)
+def _form(dialect: Dialect) -> bytes:
+    return struct.pack("=HHH?", dialect.add or 0, dialect.function or 0, dialect.address or 0, dialect.two_byte_count)
 
 
-def _parsed(scan: Scan, manner: Manners, short: bool, form: bytes) -> Iterator[Trial]:
+def _parsed(scan: Scan, dialect: Dialect, short: bool, form: bytes) -> Iterator[Trial]:
     for asked in REQUESTS:
         for function in dict.fromkeys((asked.function, asked.function | 0x80, asked.function | 0x40, 6)):
             cases = [*_replies(asked, function, short)]
             noted = struct.pack("=6H", *_open(asked)) + form
             records = b"".join(struct.pack("=H", one.length) + one.head + noted for one in cases)
-            wanted = b"".join(_answer(manner, asked, one) for one in cases)
+            wanted = b"".join(_answer(dialect, asked, one) for one in cases)
             yield Trial(scan, len(cases), records, wanted, _teller(asked, cases), ADU)
 
 
@@ -116,7 +116,7 @@ def _replies(asked: Asked, function: int, short: bool) -> Iterator[Reply]:
             yield Reply(length, bytes([asked.unit, function, count]) + ADU[3:6])
 
 
-def _answer(manner: Manners, asked: Asked, reply: Reply) -> bytes:
-    done = parse(manner, asked, reply.body)
+def _answer(dialect: Dialect, asked: Asked, reply: Reply) -> bytes:
+    done = parse(dialect, asked, reply.body)
     words = struct.pack(f"={len(done.words)}H", *done.words).ljust(250, b"\0")
     return struct.pack("=HHH", code(done.result), done.reason, len(done.words)) + words

@@ -8,7 +8,7 @@ from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.framing import ascii_encode, rtu_seal
-from driveblocks.reference.reply import Manners, manners
+from driveblocks.reference.reply import Dialect, dialect
 from driveblocks.reference.request import Asked
 
 ASCII, MADE = 1, 2
@@ -34,10 +34,10 @@ def _bodies() -> list[bytes]:
     ]
 
 
-def settings(manner: Manners, asked: Asked, body: bytes) -> bytes:
+def settings(dialect: Dialect, asked: Asked, body: bytes) -> bytes:
     """An input of parse_reply."""
-    form = _words(manner.add or 0, manner.function or 0, manner.address or 0)
-    return bytes([int(manner.two_byte_count)]) + form + fields(asked) + body
+    form = _words(dialect.add or 0, dialect.function or 0, dialect.address or 0)
+    return bytes([int(dialect.two_byte_count)]) + form + fields(asked) + body
 
 
 def fields(asked: Asked) -> bytes:
@@ -47,7 +47,7 @@ def fields(asked: Asked) -> bytes:
 
 def _parses(drive: Drive) -> Iterator[bytes]:
     for line in lines(drive)[:12]:
-        yield from (settings(manners(drive), line.asked, body) for body in line.bodies[:5:2])
+        yield from (settings(dialect(drive), line.asked, body) for body in line.bodies[:5:2])
 
 
 def _replies(drive: Drive) -> Iterator[bytes]:

@@ -10,7 +10,7 @@ from tests.native.sanitize import seeds
 from tests.native.sanitize.pins import Pin, Pou, arrays, fields
 from tests.shipped import drives
 
-from driveblocks.reference.reply import manners
+from driveblocks.reference.reply import dialect
 from driveblocks.render.results import RESULTS
 
 C = Path(__file__).with_name("c")
@@ -79,9 +79,9 @@ def _telling(pou: Pou) -> str:
 def _drives(names: set[str], spans: dict[str, tuple[int, int]]) -> Iterator[str]:
     """The macros of `c/` for what each drive has."""
     for prefix, drive in drives().items():
-        manner = manners(drive)
+        spoken = dialect(drive)
         first, count = spans[prefix]
-        form = f"{manner.add or 0}, {manner.function or 0}, {manner.address or 0}, {int(manner.two_byte_count)}"
+        form = f"{spoken.add or 0}, {spoken.function or 0}, {spoken.address or 0}, {int(spoken.two_byte_count)}"
         calls = {
             "REPLY": f"REPLY({prefix}_REPLY, SET({form}), {first}, {count})",
             "REQUEST": f"REQUEST_BLOCK({prefix}_REQUEST)",

@@ -73,7 +73,7 @@ def hostile(many: int) -> dict[str, str]:
     }
 
 
-def survive(text: str) -> list[Problem]:
+def assert_survived(text: str) -> list[Problem]:
     """Lint a text, and show that what it says has a place within the text."""
     problems = lint_sources([("hostile.st", text)])
     lines = text.count("\n") + 1
@@ -86,12 +86,12 @@ def survive(text: str) -> list[Problem]:
 
 @pytest.mark.parametrize("name", hostile(MANY))
 def test_hostile_text_is_reported(name: str) -> None:
-    assert survive(hostile(MANY)[name])
+    assert assert_survived(hostile(MANY)[name])
 
 
 @pytest.mark.parametrize("name", hostile(FEW))
 def test_twice_the_text_is_about_twice_the_work(name: str) -> None:
-    assert grows_evenly(lambda size: lambda: survive(hostile(FEW * size)[name]))
+    assert grows_evenly(lambda size: lambda: assert_survived(hostile(FEW * size)[name]))
 
 
 def mutated(text: str, source: random.Random) -> str:
@@ -115,7 +115,7 @@ def mutated(text: str, source: random.Random) -> str:
 
 @given(st.sampled_from(SAMPLES), st.integers(0, 2**32))
 def test_mutations_of_good_text_raise_nothing(text: str, seed: int) -> None:
-    survive(mutated(text, random.Random(seed)))
+    assert_survived(mutated(text, random.Random(seed)))
 
 
 VOCABULARY = """
@@ -130,13 +130,13 @@ WORDS = st.sampled_from(VOCABULARY.split())
 
 @given(st.lists(WORDS, max_size=60))
 def test_any_words_raise_nothing(words: list[str]) -> None:
-    survive(" ".join(words))
-    survive(program(" ".join(words)))
+    assert_survived(" ".join(words))
+    assert_survived(program(" ".join(words)))
 
 
 @given(st.text(max_size=200))
 def test_any_text_raises_nothing(text: str) -> None:
-    survive(text)
+    assert_survived(text)
 
 
 def parsed(text: str) -> Unit | None:

@@ -5,7 +5,7 @@ from decimal import Decimal
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Quantity, Register
-from driveblocks.maps.plan import manners
+from driveblocks.maps.plan import dialect
 from driveblocks.maps.problem import Report
 from driveblocks.modbus.request import READS
 
@@ -64,7 +64,7 @@ def _echo(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fields, re
     due = request
     if reply.error is not None:
         keys = ("unit",) if reply.address is not None else ("unit", "function")
-        due = adu.refused(request, manners(drive))
+        due = adu.refused(request, dialect(drive))
     for key in keys:
         if getattr(due, key) != getattr(reply, key):
             got, asked = (adu.shown(key, getattr(fields, key)) for fields in (reply, due))

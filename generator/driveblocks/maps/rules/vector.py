@@ -3,7 +3,7 @@
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, PlcTable, Register
-from driveblocks.maps.plan import READ_WORDS, manners
+from driveblocks.maps.plan import READ_WORDS, dialect
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import exchange
 from driveblocks.maps.rules.access import carried
@@ -40,7 +40,7 @@ def _take_apart(drive: Drive, frame: Frame, report: Report) -> adu.Fields | None
         if given != due:
             wrong = f"the checksum of `correct` is {adu.octets(given)}"
             report.add(frame.place("correct"), wrong, f"these bytes need {adu.octets(due)}")
-        fields = adu.fields(body, frame.direction, manners(drive))
+        fields = adu.fields(body, frame.direction, dialect(drive))
     except adu.FrameError as error:
         report.add(frame.place("correct"), str(error), error.right)
         return None
@@ -95,7 +95,7 @@ def _allowed(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> 
 
 
 def _refused(drive: Drive, frame: Frame, fields: adu.Fields, known: set[int], report: Report) -> None:
-    add = manners(drive).added
+    add = dialect(drive).added
     if fields.address is None and fields.function - add not in known:
         wrong = f"function {fields.function:02X}H refuses a function that is not listed under `functions`"
         report.miss(frame.means.place("function"), wrong, "add it there, or correct the frame")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import most
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Dialect
 from driveblocks.reference.permission import readable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
@@ -63,7 +63,7 @@ def scenes(can: Ability, first: int) -> Iterator[Scene]:
     yield scene("a meter that sends its words in another order", *begin, *_orders())
     yield scene("pins of a meter that make no sense", *begin, *_senseless(drive, first))
     yield scene("a meter that falls silent", *begin, *_silent())
-    if simulated(drive).manners == Manners():
+    if simulated(drive).dialect == Dialect():
         yield scene("a meter that refuses", *begin, *_refused())
     place = place_of(drive)
     if place is not None:

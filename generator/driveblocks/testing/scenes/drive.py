@@ -80,7 +80,7 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
         "codes": made.codes,
         "busy": busy(drive),
-        "two_byte_count": made.manners.two_byte_count,
+        "two_byte_count": made.dialect.two_byte_count,
         "most": made.most,
         "readable": _within("Number", _runs(readable(drive))),
         "writable": _within("Number", _runs(writable(drive))),
@@ -204,11 +204,11 @@ def _stored(made: Table) -> str:
 
 
 def _refusal(made: Table) -> Context:
-    manners = made.manners
-    if manners.address is None or manners.function is None:
-        return {"address": False, "add": manners.added}
-    high, low = divmod(manners.address, 256)
-    return {"address": True, "function": byte(manners.function), "high": byte(high), "low": byte(low)}
+    dialect = made.dialect
+    if dialect.address is None or dialect.function is None:
+        return {"address": False, "add": dialect.added}
+    high, low = divmod(dialect.address, 256)
+    return {"address": True, "function": byte(dialect.function), "high": byte(high), "low": byte(low)}
 
 
 # ---------------------------------------------------------------- what it shows

@@ -65,7 +65,7 @@ def _box(means: Means) -> int:
 
 def _asked(drive: Drive, frame: Frame, means: Means) -> Iterator[Step]:
     """The line gets to know its port by the drive's replies; then the drive is silent, and the request is posted."""
-    form, ask = simulated(drive).manners, f"Slots[0].Ask[{_box(means)}]"
+    form, ask = simulated(drive).dialect, f"Slots[0].Ask[{_box(means)}]"
     slot: Shows = {
         "Pins.NoDrive": True, "Pins.Others": 100, "Pins.Ascii": frame.mode == "ascii", "Fate.Unit": means.unit,
         "Slots[0].UnitAddress": means.unit, "Slots[0].TurnRoundMs": 30, "Slots[0].LongestMs": 60,

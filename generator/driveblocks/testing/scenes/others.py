@@ -87,9 +87,9 @@ def scenes(can: Ability) -> Iterator[Scene]:
     yield scene("another master goes away", START, *_goes_away())
     yield scene("replies that come twice", START, run(), *_twice())
     yield scene("noise before a reply", START, run(), *_noise(modes[0]))
-    if simulated(drive).manners.function == 6:
+    if simulated(drive).dialect.function == 6:
         yield scene("an echo of another write", START, *_other_write(drive, modes[0]))
-    if simulated(drive).manners.two_byte_count:
+    if simulated(drive).dialect.two_byte_count:
         yield scene("replies with a byte count of two bytes", START, run(), *_wide())
     yield scene("a late reply after a stop", START, run(), *_late_stop())
     if can.drive.serial.unit.max > can.drive.serial.unit.min:

@@ -43,7 +43,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
 
 def known(drive: Drive) -> Shows:
     """What a slot holds of a family, whatever its motor does."""
-    form, silence = simulated(drive).manners, drive.serial.silence
+    form, silence = simulated(drive).dialect, drive.serial.silence
     stop, jog = _command(drive, "stop"), _command(drive, "jog_stop")
     found: Shows = {
         "UnitAddress": drive.serial.unit.min, "StopWithinMs": 5000, "HasStop": True, "SupplyOff": False,

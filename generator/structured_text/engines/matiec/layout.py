@@ -6,7 +6,7 @@ compiler, never from rules of our own.
 
 import ctypes
 import struct
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import prod
 from typing import Any, Protocol
@@ -34,24 +34,26 @@ class Node(Protocol):
         """Every scalar inside that belongs to the state: path, offset, node."""
 
 
+Fields = tuple[int | float | bytes, ...]
+
+
+@dataclass(frozen=True)
 class Scalar:
-    """A value without parts. `code`: as module `struct` reads it; `fields`: how many values that gives."""
+    """A value without parts.
+
+    `code`: as module `struct` reads it; `fields`: how many values that gives; `join` makes the Python value of them;
+    `split` makes them of a Python value, and raises ValueError for what the type cannot hold.
+    """
 
     code: str
-    fields = 1
+    join: Callable[[Sequence[int | float | bytes]], Value]
+    split: Callable[[Value], Fields]
+    fields: int = 1
 
     @property
     def size(self) -> int:
         """Bytes, padding included."""
         return struct.calcsize("=" + self.code)
-
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """Make the Python value of what `struct` gave."""
-        raise NotImplementedError
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Make what `struct` takes of a Python value. Raises ValueError."""
-        raise NotImplementedError
 
     def read(self, memory: Memory, offset: int) -> Value:
         """Make the Python value of the bytes at `offset`."""
@@ -66,112 +68,79 @@ class Scalar:
         yield path, offset, self
 
 
-class Boolean(Scalar):
-    """BOOL."""
+def boolean() -> Scalar:
+    """BOOL; whatever is not zero is TRUE."""
 
-    code = "?"
-
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """Whatever is not zero is TRUE."""
-        return bool(parts[0])
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Take a bool, 0 or 1."""
+    def split(value: Value) -> Fields:
         if not isinstance(value, int) or value not in (0, 1):
             raise ValueError(f"{value!r} is no BOOL")
         return (bool(value),)
 
+    return Scalar("?", lambda parts: bool(parts[0]), split)
 
-class Integer(Scalar):
-    """A bit string, an integer or an enumeration, by its `struct` code."""
 
-    def __init__(self, name: str, code: str, last: int | None = None) -> None:
-        """`name` is for messages; `last` is the greatest value if it is not that of the width."""
-        self.name = name
-        self.code = code
-        width = struct.calcsize("=" + code) * 8
-        signed = code.islower()
-        self.low = -(1 << (width - 1)) if signed else 0
-        self.high = last if last is not None else (1 << (width - signed)) - 1
+def integer(name: str, code: str, last: int | None = None) -> Scalar:
+    """A bit string, an integer or an enumeration; `last` is the greatest value if it is not that of the width."""
+    width = struct.calcsize("=" + code) * 8
+    signed = code.islower()
+    low = -(1 << (width - 1)) if signed else 0
+    high = last if last is not None else (1 << (width - signed)) - 1
 
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """As it is."""
-        return int(parts[0])
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Take an int of the type's range."""
-        if not isinstance(value, int) or not self.low <= value <= self.high:
-            raise ValueError(f"{value!r} is outside {self.low}..{self.high} of {self.name}")
+    def split(value: Value) -> Fields:
+        if not isinstance(value, int) or not low <= value <= high:
+            raise ValueError(f"{value!r} is outside {low}..{high} of {name}")
         return (value,)
 
+    return Scalar(code, lambda parts: int(parts[0]), split)
 
-class Floating(Scalar):
+
+def floating(code: str) -> Scalar:
     """REAL (`f`) or LREAL (`d`)."""
 
-    def __init__(self, code: str) -> None:
-        """Take the `struct` code."""
-        self.code = code
-
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """As it is."""
-        return float(parts[0])
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Take a number that the type can hold."""
+    def split(value: Value) -> Fields:
         if not isinstance(value, int | float):
             raise ValueError(f"{value!r} is no number")
         try:
-            struct.pack("=" + self.code, value)
+            struct.pack("=" + code, value)
         except OverflowError as error:
             raise ValueError(f"{value!r} is too large for a REAL") from error
         return (value,)
 
+    return Scalar(code, lambda parts: float(parts[0]), split)
 
-class Text(Scalar):
-    """STRING: its length, then that number of bytes of a body of fixed size."""
 
-    fields = 2
+def text(length_size: int, body_offset: int, body_size: int) -> Scalar:
+    """STRING: its length, then that number of bytes of a body of fixed size, as the C compiler says of the struct."""
+    length = {1: "B", 2: "H", 4: "I"}.get(length_size, "Q")
 
-    def __init__(self, length_size: int, body_offset: int, body_size: int) -> None:
-        """Take what the C compiler says of the struct."""
-        self._room = body_size
-        length = {1: "B", 2: "H", 4: "I"}.get(length_size, "Q")
-        self.code = f"{length}{body_offset - length_size}x{body_size}s"
+    def join(parts: Sequence[int | float | bytes]) -> Value:
+        size, body = parts
+        return bytes(body)[: int(size)] if isinstance(body, bytes) else b""
 
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """Cut the body at the length."""
-        length, body = parts
-        return bytes(body)[: int(length)] if isinstance(body, bytes) else b""
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Take bytes that fit."""
+    def split(value: Value) -> Fields:
         if not isinstance(value, bytes | bytearray):
             raise ValueError(f"{value!r} is not bytes")
-        if len(value) > self._room:
-            raise ValueError(f"{len(value)} bytes do not fit into a STRING of {self._room}")
+        if len(value) > body_size:
+            raise ValueError(f"{len(value)} bytes do not fit into a STRING of {body_size}")
         return len(value), bytes(value)
 
+    return Scalar(f"{length}{body_offset - length_size}x{body_size}s", join, split, fields=2)
 
-class Span(Scalar):
-    """TIME, DATE, TOD and DT: seconds and nanoseconds, in Python nanoseconds."""
 
-    fields = 2
+def span(part_size: int) -> Scalar:
+    """TIME, DATE, TOD and DT: seconds and nanoseconds, in Python nanoseconds; `part_size` is that of a C long.
 
-    def __init__(self, part_size: int) -> None:
-        """Take the size of a C long."""
-        self.code = "qq" if part_size == 8 else "ii"
+    Both parts may be negative, and what iec2c writes need not be normalised; what is written here has one sign.
+    """
 
-    def join(self, parts: Sequence[int | float | bytes]) -> Value:
-        """Both parts may be negative; what iec2c writes need not be normalised."""
-        return int(parts[0]) * NANOSECONDS + int(parts[1])
-
-    def split(self, value: Value) -> tuple[int | float | bytes, ...]:
-        """Take nanoseconds; both parts get the sign, as a literal of iec2c has it."""
+    def split(value: Value) -> Fields:
         if not isinstance(value, int):
             raise ValueError(f"{value!r} is no number of nanoseconds")
         seconds, rest = divmod(abs(value), NANOSECONDS)
         sign = -1 if value < 0 else 1
         return sign * seconds, sign * rest
+
+    return Scalar("qq" if part_size == 8 else "ii", lambda parts: int(parts[0]) * NANOSECONDS + int(parts[1]), split, 2)
 
 
 @dataclass(frozen=True)

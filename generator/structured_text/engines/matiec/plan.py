@@ -23,15 +23,15 @@ from structured_text.engines.matiec.header import (
 )
 from structured_text.engines.matiec.layout import (
     ArrayNode,
-    Boolean,
-    Floating,
-    Integer,
     Node,
     Part,
     PointerNode,
     RecordNode,
-    Span,
-    Text,
+    boolean,
+    floating,
+    integer,
+    span,
+    text,
 )
 
 Measure = Callable[[str], int]
@@ -116,20 +116,20 @@ class Planner:
         """Plan a data type; `spec` is what the ST says of it, if that is known."""
         spec = self.declared.resolve(spec)
         if type_name == "BOOL":
-            return Boolean()
+            return boolean()
         if code := _INTEGERS.get(type_name):
-            return Integer(type_name, code)
+            return integer(type_name, code)
         if type_name in ("REAL", "LREAL"):
-            return Floating("f" if type_name == "REAL" else "d")
+            return floating("f" if type_name == "REAL" else "d")
         if type_name in _SPANS:
-            return Span(self.measure(f"sizeof((({type_name} *)0)->tv_sec)"))
+            return span(self.measure(f"sizeof((({type_name} *)0)->tv_sec)"))
         if type_name == "STRING":
             return self._text()
         return self._declared(type_name, spec)
 
-    def _text(self) -> Text:
+    def _text(self) -> Node:
         length = self.measure("sizeof(((STRING *)0)->len)")
-        return Text(length, self.measure("offsetof(STRING, body)"), self.measure("sizeof(((STRING *)0)->body)"))
+        return text(length, self.measure("offsetof(STRING, body)"), self.measure("sizeof(((STRING *)0)->body)"))
 
     def _declared(self, type_name: str, spec: Spec | None) -> Node:
         declared = self.header.types.get(type_name)
@@ -140,7 +140,7 @@ class Planner:
                 return self._record(type_name, declared, spec)
             case EnumType(names):
                 code = {1: "B", 2: "H", 8: "Q"}.get(self.measure(f"sizeof({type_name})"), "I")
-                return Integer(type_name, code, max(len(names) - 1, 0))
+                return integer(type_name, code, max(len(names) - 1, 0))
             case AliasType(base):
                 return self.node(base, spec)
         raise EngineError(f"the C of iec2c has a variable of type {type_name}, which is not known")

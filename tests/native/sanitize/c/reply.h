@@ -5,26 +5,26 @@ typedef struct {
     uint16_t function; /* refusal: a reply of this function at `address`, a word of reason; 0: no such form */
     uint16_t address;
     int wide; /* a byte count of two bytes is tolerated */
-} Manners;
+} Dialect;
 
 typedef enum { UNBELIEVED, BELIEVED, REFUSED } Judgement;
 
 static unsigned pair(const uint8_t *bytes) { return (unsigned)bytes[0] << 8 | bytes[1]; }
 
 /* A read: where its words stand, or 0. */
-static unsigned words_at(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length)
+static unsigned words_at(const Dialect *dialect, const MB_REQUEST *asked, const uint8_t *body, unsigned length)
 {
     unsigned size = 2u * asked->QUANTITY;
-    if (manners->wide && length == size + 4 && pair(body + 2) == size)
+    if (dialect->wide && length == size + 4 && pair(body + 2) == size)
         return 4;
     return length == size + 3 && body[2] == size ? 3 : 0;
 }
 
 /* Whether a reply of the request's own function says what that function says of a request that was obeyed. */
-static int granted(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length)
+static int granted(const Dialect *dialect, const MB_REQUEST *asked, const uint8_t *body, unsigned length)
 {
     if (asked->FUNCTIONCODE == 3 || asked->FUNCTIONCODE == 4)
-        return words_at(manners, asked, body, length) != 0;
+        return words_at(dialect, asked, body, length) != 0;
     if (length != 6)
         return 0;
     switch (asked->FUNCTIONCODE) {
@@ -39,31 +39,31 @@ static int granted(const Manners *manners, const MB_REQUEST *asked, const uint8_
     }
 }
 
-static Judgement judge(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
+static Judgement judge(const Dialect *dialect, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
                        unsigned *reason)
 {
     if (asked->FUNCTIONCODE == 0 || asked->QUANTITY == 0 || asked->QUANTITY > 125 || asked->UNITADDRESS == 0)
         return UNBELIEVED;
     if (length < 3 || length > 254 || body[0] != asked->UNITADDRESS)
         return UNBELIEVED;
-    int own = asked->FUNCTIONCODE == manners->function && asked->ADDRESS == manners->address;
-    int reply = manners->function && body[1] == manners->function && length == 6;
-    if (reply && pair(body + 2) == manners->address && !own) {
+    int own = asked->FUNCTIONCODE == dialect->function && asked->ADDRESS == dialect->address;
+    int reply = dialect->function && body[1] == dialect->function && length == 6;
+    if (reply && pair(body + 2) == dialect->address && !own) {
         *reason = pair(body + 4);
         return REFUSED;
     }
-    if (manners->add && body[1] == (unsigned)asked->FUNCTIONCODE + manners->add) {
+    if (dialect->add && body[1] == (unsigned)asked->FUNCTIONCODE + dialect->add) {
         *reason = body[2];
         return length == 3 ? REFUSED : UNBELIEVED;
     }
-    return body[1] == asked->FUNCTIONCODE && granted(manners, asked, body, length) ? BELIEVED : UNBELIEVED;
+    return body[1] == asked->FUNCTIONCODE && granted(dialect, asked, body, length) ? BELIEVED : UNBELIEVED;
 }
 
-static const char *check_reply(const Manners *manners, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
+static const char *check_reply(const Dialect *dialect, const MB_REQUEST *asked, const uint8_t *body, unsigned length,
                                const uint16_t *words, unsigned word_count, unsigned error, unsigned said)
 {
     unsigned reason = 0;
-    Judgement due = judge(manners, asked, body, length, &reason);
+    Judgement due = judge(dialect, asked, body, length, &reason);
     if ((error == 0) != (due == BELIEVED))
         return error ? "an answer is not believed" : "what is no answer is believed";
     if ((error == 40) != (due == REFUSED))
@@ -73,7 +73,7 @@ static const char *check_reply(const Manners *manners, const MB_REQUEST *asked, 
     int reading = due == BELIEVED && (asked->FUNCTIONCODE == 3 || asked->FUNCTIONCODE == 4);
     if (word_count != (reading ? asked->QUANTITY : 0))
         return "the number of words is wrong";
-    unsigned first = reading ? words_at(manners, asked, body, length) : 0;
+    unsigned first = reading ? words_at(dialect, asked, body, length) : 0;
     for (unsigned at = 0; at < word_count; at++)
         if (words[at] != pair(body + first + 2 * at))
             return "a word is wrong";
@@ -125,7 +125,7 @@ static void receive_into(BYTE *table, UINT *told_length, const Line *line, int f
     *told_length = told(frame.length, framing == 0 ? 254 : room);
 }
 
-#define REPLY(NAME, MANNERS, FIRST, COUNT_OF)                                                                          \
+#define REPLY(NAME, DIALECT, FIRST, COUNT_OF)                                                                          \
     static void NAME##_fill(NAME *x)                                                                                   \
     {                                                                                                                  \
         const Line *line = LINES + FIRST + below(COUNT_OF);                                                            \
@@ -135,29 +135,29 @@ static void receive_into(BYTE *table, UINT *told_length, const Line *line, int f
     }                                                                                                                  \
     static const char *NAME##_right(const NAME *x, const NAME *was)                                                    \
     {                                                                                                                  \
-        static const Manners manners = MANNERS;                                                                        \
-        return check_reply(&manners, &was->REQUEST.value, was->ADU.value.table, was->LENGTH.value,                     \
+        static const Dialect dialect = DIALECT;                                                                        \
+        return check_reply(&dialect, &was->REQUEST.value, was->ADU.value.table, was->LENGTH.value,                     \
                            x->WORDS.value.table, x->WORDCOUNT.value, x->ERRORID.value, x->REASON.value);               \
     }
 #define SET(...) {__VA_ARGS__}
 
 static void MB_PARSEREPLY_fill(MB_PARSEREPLY *x)
 {
-    static const Manners USUAL[] = {
+    static const Dialect USUAL[] = {
         {128, 0, 0, 0}, {0, 6, 0x5001, 1}, {128, 0, 0, 1}, {128, 6, 0x5001, 0}, {0, 0, 0, 0},
     };
     const Line *line = LINES + below(COUNT(LINES));
-    Manners manners = USUAL[below(COUNT(USUAL))];
+    Dialect dialect = USUAL[below(COUNT(USUAL))];
     if (one_in(16))
-        manners.add = some_word(&MB_PARSEREPLY_telling);
+        dialect.add = some_word(&MB_PARSEREPLY_telling);
     if (one_in(16))
-        manners.function = one_in(2) ? (uint16_t)below(20) : some_word(&MB_PARSEREPLY_telling);
+        dialect.function = one_in(2) ? (uint16_t)below(20) : some_word(&MB_PARSEREPLY_telling);
     if (one_in(16))
-        manners.address = some_word(&MB_PARSEREPLY_telling);
-    x->EXCEPTIONADD.value = manners.add;
-    x->ERRORFUNCTION.value = manners.function;
-    x->ERRORADDRESS.value = manners.address;
-    x->TWOBYTECOUNT.value = manners.wide != 0;
+        dialect.address = some_word(&MB_PARSEREPLY_telling);
+    x->EXCEPTIONADD.value = dialect.add;
+    x->ERRORFUNCTION.value = dialect.function;
+    x->ERRORADDRESS.value = dialect.address;
+    x->TWOBYTECOUNT.value = dialect.wide != 0;
     ask(&x->REQUEST.value, line, &MB_PARSEREPLY_telling);
     receive_into(x->ADU.value.table, &x->LENGTH.value, line, 0, 256);
     noise(x->WORDS.value.table, one_in(8) ? 250 : 8);
@@ -165,8 +165,8 @@ static void MB_PARSEREPLY_fill(MB_PARSEREPLY *x)
 
 static const char *MB_PARSEREPLY_right(const MB_PARSEREPLY *x, const MB_PARSEREPLY *was)
 {
-    Manners manners = {was->EXCEPTIONADD.value, was->ERRORFUNCTION.value, was->ERRORADDRESS.value,
+    Dialect dialect = {was->EXCEPTIONADD.value, was->ERRORFUNCTION.value, was->ERRORADDRESS.value,
                        was->TWOBYTECOUNT.value};
-    return check_reply(&manners, &was->REQUEST.value, was->ADU.value.table, was->LENGTH.value, x->WORDS.value.table,
+    return check_reply(&dialect, &was->REQUEST.value, was->ADU.value.table, was->LENGTH.value, x->WORDS.value.table,
                        x->WORDCOUNT.value, x->ERRORID.value, x->REASON.value);
 }

@@ -51,7 +51,7 @@ def outcome(expression: str, result: str, inputs: str, values: Mapping[str, Valu
         return FAULT
 
 
-def check(row: Row) -> None:
+def assert_row(row: Row) -> None:
     """The engine gives what the row says: what C gives, or a fault."""
     expression, result, inputs, values, c, here = row
     assert outcome(expression, result, inputs, values) == here

@@ -4,7 +4,7 @@ import math
 import struct
 
 import pytest
-from tests.structured_text.engines.embedded.snippets import FAULT, Row, block, check, outcome
+from tests.structured_text.engines.embedded.snippets import FAULT, Row, assert_row, block, outcome
 
 # Name -> (bits, signed).
 INTEGERS = {
@@ -142,7 +142,7 @@ ROWS: list[Row] = [
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]} {row[3]}")
 def test_reals_times_and_strings(row: Row) -> None:
     """One row: what C makes of it, or a fault."""
-    check(row)
+    assert_row(row)
 
 
 def test_real_to_int_rounds_halves_to_even() -> None:

@@ -1,7 +1,7 @@
 """What becomes of intermediate results that leave their type."""
 
 import pytest
-from tests.structured_text.engines.embedded.snippets import FAULT, Row, check, fault, outcome
+from tests.structured_text.engines.embedded.snippets import FAULT, Row, assert_row, fault, outcome
 
 U = "u1, u2, u3 : UINT;"
 S = "s1, s2 : SINT;"
@@ -83,7 +83,7 @@ ROWS: list[Row] = [
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: f"{row[0]} {row[3]}")
 def test_each_row(row: Row) -> None:
     """One row: what C makes of it, or a fault."""
-    check(row)
+    assert_row(row)
 
 
 def test_the_fault_says_both_results_and_what_to_do() -> None:

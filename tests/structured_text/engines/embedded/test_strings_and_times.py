@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.structured_text.engines.embedded.snippets import FAULT, Row, block, check
+from tests.structured_text.engines.embedded.snippets import FAULT, Row, assert_row, block
 
 S = "s, z : STRING; n : INT;"
 LONG = b"x" * 126
@@ -100,7 +100,7 @@ ALL = [*ROWS, *TIME_ROWS, *DATE_ROWS]
 @pytest.mark.parametrize("row", ALL, ids=lambda row: f"{row[0]} {row[3]}")
 def test_each_row(row: Row) -> None:
     """One row: what C makes of it, or a fault."""
-    check(row)
+    assert_row(row)
 
 
 def test_strings_are_cut_at_their_length() -> None:

@@ -7,17 +7,18 @@ from tests.plc.desk import EXAMPLE, ONE, Desk, loaded, maps, wired
 from tests.simulator.talk import MAPS
 
 from driveblocks.maps import catalog
-from driveblocks.plc import simulated, wanted
+from driveblocks.plc import drives as called
+from driveblocks.plc import simulated
 from driveblocks.plc.controller import Controller
+from driveblocks.plc.drives import Named
 from driveblocks.plc.options import Refused
-from driveblocks.plc.wanted import Wanted
 
 FILES = {each.path.stem: (each.path, each.drive) for each in maps()}
 
 
-def named(*words: str, option: str = "") -> list[Wanted]:
+def named(*words: str, option: str = "") -> list[Named]:
     """The drives of some words."""
-    return wanted.named(wanted.words(words), lambda name: FILES[catalog.resolve(name).stem], option)
+    return called.named(called.words(words), lambda name: FILES[catalog.resolve(name).stem], option)
 
 
 def turning(text: str, word: str) -> Desk:
@@ -91,7 +92,7 @@ def test_a_program_without_words_gets_its_drives_as_they_left_the_factory() -> N
     program = loaded(text.replace("Setting.ReferenceScale := CountsPerHertz", "Setting.ReferenceScale := 7.0"))
     controller = Controller(program.library, program.program.name, wired(text), program.drives, 10_000)
     controller.instance.scan(0)
-    found = list(wanted.of_program(controller, list(FILES.values())))
+    found = list(called.of_program(controller, list(FILES.values())))
     assert [(one.drive.prefix, one.unit) for one in found] == [("SN300G5", 1), ("JSCC", 2), ("CHF", 3)]
     assert {(one.maximum_hz, one.scales) for one in found} == {(50, ())}
 
@@ -106,12 +107,12 @@ def test_words_name_drives_units_and_what_no_manual_says() -> None:
 
 @pytest.mark.parametrize("path", ["my.yaml", "maps/my.yaml", "C:\\maps\\my.yaml", "C:/maps/my.yaml"])
 def test_a_map_is_named_by_its_path_too(path: str) -> None:
-    assert wanted.words([f"{path}@2:50", path]) == [wanted.Word(path, "2", ("50",)), wanted.Word(path, "", ())]
+    assert called.words([f"{path}@2:50", path]) == [called.Word(path, "2", ("50",)), called.Word(path, "", ())]
 
 
 def test_another_process_gets_the_drives_as_they_are_set() -> None:
     drives = named("chf@7:60:CurrentScale=0.1:PowerScale=2", "jscc")
-    assert simulated.wanted(json.loads(json.dumps(simulated.rows(drives)))) == drives
+    assert simulated.named(json.loads(json.dumps(simulated.rows(drives)))) == drives
 
 
 def test_what_is_set_is_printed_with_the_defaults() -> None:
@@ -161,14 +162,14 @@ def test_nonsense_is_refused(word: str, says: str) -> None:
 
 def test_what_a_simulated_drive_shows_at_its_most_fits_a_word_at_the_finest_scale() -> None:
     for drive in MAPS.values():
-        finest = tuple((name, "0.01") for name in wanted.open_scales(drive) if name != wanted.REFERENCE)
-        made = Wanted(FILES["jscc"][0], drive, 1, wanted.HIGHEST_HZ, finest).made(ascii_mode=False)
+        finest = tuple((name, "0.01") for name in called.open_scales(drive) if name != called.REFERENCE)
+        made = Named(FILES["jscc"][0], drive, 1, called.HIGHEST_HZ, finest).made(ascii_mode=False)
         habits, gauges = made.habits, {each.shows: each for each in made.table.gauges}
         made.load = 100
-        made.keypad_run(wanted.HIGHEST_HZ)
-        made.step(1000 * wanted.HIGHEST_HZ)
+        made.keypad_run(called.HIGHEST_HZ)
+        made.step(1000 * called.HIGHEST_HZ)
         most = {
-            "output_frequency": wanted.HIGHEST_HZ, "output_current": habits.amperes, "output_power": habits.kilowatts,
+            "output_frequency": called.HIGHEST_HZ, "output_current": habits.amperes, "output_power": habits.kilowatts,
             "output_voltage": habits.motor_volts, "dc_bus_voltage": habits.bus_volts,
         }  # fmt: skip
         for shows, gauge in gauges.items():

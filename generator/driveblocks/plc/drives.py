@@ -40,7 +40,7 @@ class Word:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class Named:
     """A drive to be simulated: its map, its unit address, and what no manual says of it."""
 
     path: Path
@@ -90,9 +90,9 @@ def words(named: Sequence[str]) -> list[Word]:
     return [Word(one["name"], one["unit"] or "", tuple(one["facts"].split(":")[1:])) for one in found if one]
 
 
-def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], option: str = "") -> list[Wanted]:
+def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], option: str = "") -> list[Named]:
     """The drives that are named, in their order; `find` gives a name's map. Raises Refused, and what `find` raises."""
-    made: list[Wanted] = []
+    made: list[Named] = []
     for one in drives:
         taken = {each.unit for each in made}
         unit = _unit(one.unit, taken)
@@ -102,16 +102,16 @@ def named(drives: Sequence[Word], find: Callable[[str], tuple[Path, Drive]], opt
             raise Refused(f"{option}{one.name}@{one.unit}: {why}")
         path, drive = find(one.name)
         hertz, scales = _facts(drive, one, option)
-        made.append(Wanted(path, drive, unit, hertz, tuple(scales.items())))
+        made.append(Named(path, drive, unit, hertz, tuple(scales.items())))
     return made
 
 
-def of_program(program: Controller, maps: Sequence[tuple[Path, Drive]]) -> Iterator[Wanted]:
+def of_program(program: Controller, maps: Sequence[tuple[Path, Drive]]) -> Iterator[Named]:
     """The drives of a program, each at the unit address of its block, set as they left the factory."""
     known = {drive.prefix.upper(): (path, drive) for path, drive in maps}
     for block in program.wiring.drives:
         if program.unit(block):
-            yield Wanted(*known[block.prefix], program.unit(block))
+            yield Named(*known[block.prefix], program.unit(block))
 
 
 def _unit(number: str, taken: set[int]) -> int | None:

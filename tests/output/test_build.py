@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from driveblocks.building import build
 from driveblocks.cli import app
 from driveblocks.export import CANONICAL, target
 from driveblocks.maps import catalog, collection, page
+from driveblocks.output import build
 from driveblocks.render import text
 
 ROOT = Path(__file__).parents[2]

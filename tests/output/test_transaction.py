@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from driveblocks.building import transaction
-from driveblocks.building.manifest import Refused, text_digest
+from driveblocks.output import transaction
+from driveblocks.output.manifest import Refused, text_digest
 
 OLD = {"page": "old page", "a/kept": "kept", "a/changed": "old", "gone/b/left": "left"}
 CHANGES: dict[str, str | None] = {"page": "new page", "a/changed": "new", "gone/b/left": None, "n/e/w": "fresh"}

@@ -5,14 +5,14 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from driveblocks.building import manifest, transaction
-from driveblocks.building.manifest import Manifest, Refused, State
 from driveblocks.docs.page import documents
 from driveblocks.export import CANONICAL, TARGETS, target
 from driveblocks.export.part import shelf
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
+from driveblocks.output import manifest, transaction
+from driveblocks.output.manifest import Manifest, Refused, State
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
 from driveblocks.testing.suite import programs

@@ -8,9 +8,9 @@ from zipfile import ZipFile
 
 import pytest
 
-from driveblocks.building import manifest
-from driveblocks.building.release import DATE, release
 from driveblocks.export import TARGETS
+from driveblocks.output import manifest
+from driveblocks.output.release import DATE, release
 
 ROOT = Path(__file__).parents[2]
 

@@ -1,6 +1,6 @@
 """One archive per platform: its files, its page, what that page leads to, and the licence.
 
-`python -m driveblocks.building.release` makes them from blocks/ of the folder where it is run.
+`python -m driveblocks.output.release` makes them from blocks/ of the folder where it is run.
 """
 
 import posixpath
@@ -10,8 +10,8 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from driveblocks import __version__
-from driveblocks.building import manifest
 from driveblocks.export import CANONICAL, TARGETS
+from driveblocks.output import manifest
 
 BLOCKS, LICENCE, OUT = "blocks", "LICENSE", "dist"
 BESIDE = {CANONICAL: ("linux",)}

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.building.manifest import MALFORMED, Refused, barrier_to, below, digest, parents, text_digest, words
+from driveblocks.output.manifest import MALFORMED, Refused, barrier_to, below, digest, parents, text_digest, words
 
 WORK, DONE, LOCK = ".driveblocks.work", ".driveblocks.done", ".driveblocks.lock"
 JOURNAL, NEW, OLD = "journal.json", "new", "old"
