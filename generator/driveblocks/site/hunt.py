@@ -7,7 +7,7 @@ from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import Poll, identity_read, polls
-from driveblocks.modbus.layout import Manners
+from driveblocks.modbus.layout import Dialect
 from driveblocks.modbus.scan import pieces
 from driveblocks.simulator.pattern import of_condition
 from driveblocks.simulator.refusal import codes
@@ -63,7 +63,7 @@ def _frames(line: Line) -> bool:
     end, heard = line.now_us() + 3_000_000, b""
     while line.now_us() < end:
         heard += line.exchange(b"", end - line.now_us()).data
-        if any(each.good for each in pieces(heard, Manners())):
+        if any(each.good for each in pieces(heard, Dialect())):
             return True
     return False
 

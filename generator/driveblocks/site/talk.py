@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import manners
+from driveblocks.maps.plan import dialect
 from driveblocks.modbus.frame import opened, seal
-from driveblocks.modbus.layout import Manners, take
+from driveblocks.modbus.layout import Dialect, take
 from driveblocks.modbus.scan import pieces
 from driveblocks.site.found import Fault, Line, Trouble, Way
 from driveblocks.site.register import function
@@ -68,7 +68,7 @@ class Reply:
 
 @dataclass(frozen=True)
 class Talk:
-    """A line, a drive's manners, and a unit on it; it reads and nothing else."""
+    """A line, a drive's dialect, and a unit on it; it reads and nothing else."""
 
     line: Line
     drive: Drive
@@ -77,14 +77,14 @@ class Talk:
 
     def read(self, span: Span, timeout_us: int, settle_us: int | None = None) -> Reply:
         """A read, once, after silence. Raises EndedError where somebody else speaks."""
-        way, code, manner = self.way, function(self.drive), manners(self.drive)
+        way, code, spoken = self.way, function(self.drive), dialect(self.drive)
         body = bytes([self.unit, code]) + span.first.to_bytes(2, "big") + len(span).to_bytes(2, "big")
         request = seal(way.mode, body)
         self._silence(max(SETTLE_US, int(4 * way.character_us)) if settle_us is None else settle_us)
         whole = len(seal(way.mode, bytes(3 + 2 * len(span))))
         heard = self.line.exchange(request, timeout_us, 0 if settle_us is None else whole)
         echo = heard.data.startswith(request)
-        found = judged(heard.data.removeprefix(request), way, body, manner, echo=echo)
+        found = judged(heard.data.removeprefix(request), way, body, spoken, echo=echo)
         if found.trouble == "damaged" and (late := self.stray(heard.data)).answered:
             found = Reply(trouble="foreign", unit=late.unit)
         return replace(found, after_us=heard.after_us, echo=echo)
@@ -97,7 +97,7 @@ class Talk:
 
     def stray(self, data: bytes) -> Reply:
         """What bytes are that nobody has just asked for: a late reply, in any framing, or nothing."""
-        read = (judged(data, way, b"", manners(self.drive), echo=False) for way in self.framings)
+        read = (judged(data, way, b"", dialect(self.drive), echo=False) for way in self.framings)
         return next((each for each in read if each.answered), Reply())
 
     def _silence(self, wait_us: int) -> None:
@@ -109,21 +109,21 @@ class Talk:
             raise ended("foreign", "somebody else speaks on this line, or noise does")
 
 
-def judged(data: bytes, way: Way, body: bytes, manner: Manners, *, echo: bool) -> Reply:
+def judged(data: bytes, way: Way, body: bytes, spoken: Dialect, *, echo: bool) -> Reply:
     """What the bytes after a request are; an empty `body`: a reply to any request."""
     if not data:
         return Reply(trouble="echo" if echo else "silent")
-    frames, spoilt = _frames(data, way, manner)
+    frames, spoilt = _frames(data, way, spoken)
     if len(frames) > 1:
         return Reply(trouble="two")
     if not frames or spoilt:
         return Reply(trouble="half" if not frames and _begun(data, way, body) else "damaged")
-    return _meant(frames[0], body, manner)
+    return _meant(frames[0], body, spoken)
 
 
-def _meant(frame: bytes, body: bytes, manner: Manners) -> Reply:
+def _meant(frame: bytes, body: bytes, spoken: Dialect) -> Reply:
     """What one good frame is."""
-    layout, asked = take(frame, "reply", manner), int.from_bytes(body[4:6], "big")
+    layout, asked = take(frame, "reply", spoken), int.from_bytes(body[4:6], "big")
     if body and frame[0] != body[0]:
         return Reply(trouble="foreign", unit=frame[0])
     if layout.refusal:
@@ -133,9 +133,9 @@ def _meant(frame: bytes, body: bytes, manner: Manners) -> Reply:
     return Reply(layout.words, unit=frame[0])
 
 
-def _frames(data: bytes, way: Way, manner: Manners) -> tuple[list[bytes], bool]:
+def _frames(data: bytes, way: Way, spoken: Dialect) -> tuple[list[bytes], bool]:
     """The bodies of good frames, and whether there is anything beside them."""
-    cut = pieces(data, manner)
+    cut = pieces(data, spoken)
     good = [opened(way.mode, each.data) for each in cut if each.good]
     found = [each for each in good if each is not None]
     return found, len(found) != len(cut)
