@@ -33,6 +33,7 @@ ELSEWHERE = {
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
     r"driveblocks test my_drive.yaml --junit": "tests/commands/test_ci_jobs.py runs the job in a clone",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
+    r"driveblocks (commission|site) .": "a real port, and its file; tests/site/test_commission.py has them",
     r"driveblocks parameters .*--port": "a real port; tests/site/test_parameters.py has them at simulated drives",
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
@@ -42,7 +43,10 @@ ELSEWHERE = {
     r"copy |bash ": "for another shell, or its name alone",
 }
 """How the command lines begin that do not run here, and why."""
-BARE = {f"driveblocks {name}" for name in ("diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")}
+BARE = {
+    f"driveblocks {name}"
+    for name in ("commission", "diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")
+}
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {
     "PREFIX": "MINE", "SEED": "1", '"CELL" --seed N': '"CHF, jog, a trip, at speed" --seed 1', "NAME": min(cases()),

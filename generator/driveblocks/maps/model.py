@@ -37,6 +37,8 @@ Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warnin
 """What a status word can show on a pin of the drive block."""
 Measure = Literal["output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power"]
 """What a register can show on a pin of the drive block."""
+OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
+"""A scale of a measure in `VFD_Settings`."""
 Feed = Literal["read", "reference", "run", "any"]
 """What a drive's own watchdog takes for a sign of life of its master."""
 Reacts = Literal["stop", "quick_stop", "coast_stop", "runs_on", "other_speed"]
@@ -993,6 +995,24 @@ class Erratum(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class OnSite(Entry):
+    """How `driveblocks commission` closes a gap for one drive: what a person does, and what is asked then."""
+
+    do: English = fact("what a person does first", "set the keypad to 20.0 Hz and run by the keypad, motor uncoupled")
+    ask: English = fact("the question, without its mark", "which frequency does the keypad show, in Hz")
+    read: Address | None = fact("the register that is read at the answer", "3000H", optional=True)
+    gives: OpenScale | None = fact(
+        "the member of `VFD_Settings` that the answer, a number, and the register give", "FrequencyScale", optional=True
+    )
+    by_run: bool = fact(
+        "only a run by the bus shows it: it is printed for `driveblocks run --allow-run`, and not asked",
+        "true",
+        optional=True,
+        default=False,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class Absence(Entry):
     """Something that a person needs and the manual does not say."""
 
@@ -1000,6 +1020,11 @@ class Absence(Entry):
     about: tuple[Ref, ...] = fact("what it is about", "[register 1001H]")
     matters: English = fact("why it matters", "a guessed scale is a tenfold overspeed")
     find_out: English = fact("how to find out", "write 500 with the motor uncoupled and read the keypad")
+    on_site: OnSite | None = fact(
+        "how `driveblocks commission` closes it for one drive; at most ten of a map, six of them asked",
+        "{do: ..., ask: ..., read: 3000H}",
+        optional=True,
+    )
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
     )

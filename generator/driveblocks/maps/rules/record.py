@@ -15,9 +15,13 @@ from driveblocks.maps.model import (
     Text,
     Value,
 )
+from driveblocks.maps.plan import plan
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.reference import Known
 from driveblocks.maps.rules.unique import unique
+
+MOST_ON_SITE, MOST_ASKED = 10, 6
+"""Gaps of a map that are for the first hour on site: in all, and those that a person is asked about."""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -30,7 +34,26 @@ def check(drive: Drive, report: Report) -> None:
     _printed(drive, report)
     _errata(drive, report)
     unique(drive.absent, "what", "absence", report)
+    _on_site(drive, report)
     _documents(drive, report)
+
+
+def _on_site(drive: Drive, report: Report) -> None:
+    """Note what a person could not be asked on site: too much, or about what cannot be read."""
+    marked = [each.on_site for each in drive.absent if each.on_site]
+    for each in (*marked[MOST_ON_SITE:], *[one for one in marked if not one.by_run][MOST_ASKED:]):
+        report.add(
+            each.at, "too many gaps are for the first hour on site", f"{MOST_ON_SITE}, {MOST_ASKED} of them asked"
+        )
+    for each in marked:
+        if each.read is not None and not any(each.read in span for span in plan(drive).readable):
+            wrong = f"{address_text(each.read)} cannot be read"
+            report.miss(each.place("read"), wrong, "name a register that the map lists as readable")
+        row = drive.register_at(each.read) if each.read is not None else None
+        if each.gives and (row is None or row.scale):
+            report.add(each.place("gives"), "a scale comes of a register without one", "add `read`, or remove `gives`")
+        if each.by_run and each.read is not None:
+            report.add(each.place("read"), "what only a run shows is not read on site", "remove `read` or `by_run`")
 
 
 def _references(drive: Drive, report: Report) -> set[str]:

@@ -1,0 +1,39 @@
+"""`driveblocks commission`: find a drive on its line, check its keypad, measure it, ask for what its manual lacks."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from driveblocks.commands import FILE, refuse
+
+
+@click.command()
+@click.argument("map", metavar="MAP", help="The drive's map, by name or path.")
+@click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0: a REAL PORT.")
+@click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP: a REAL PORT, or `driveblocks simulate`.")
+@click.option("--rate", type=int, metavar="RATE", help="Try this bit rate only; else those of the map.")
+@click.option("--format", "form", metavar="8N1", help="Try these data bits, parity, stop bits only.")
+@click.option("--mode", type=click.Choice(["rtu", "ascii"]), help="Try this framing only.")
+@click.option("--unit", type=int, metavar="UNIT", help="Try this unit address only.")
+@click.option("--label", default="Drive1", metavar="NAME", help="What the drive is called in the machine, and in FILE.")
+@click.option("--who", default="", metavar="NAME", help="Who is there, for FILE and its report.")
+@click.option("--skip", multiple=True, metavar="STEP", help="Skip plate, keypad, measure or gaps; may be repeated.")
+@click.option("--file", type=FILE, default=Path("site.yaml"), metavar="FILE", help="Where what was found is kept.")
+def run(**words: Any) -> None:
+    """Spend the first hour with a drive: find it, check its keypad, measure it; it reads, and never writes to it.
+
+    Disconnect the PLC first, and leave one drive on the line. Nothing is sent before 60 s of silence and a typed word.
+    Enter skips a question. The exit status is 0 if all steps came to their end, 1 if not, 2 for bad input.
+
+    Example: driveblocks commission chf --port /dev/ttyUSB0 --label Pump
+    """
+    from driveblocks.plc.options import Refused
+    from driveblocks.site import hour
+
+    try:
+        found = hour.run(hour.Words(**words), input)
+    except Refused as refused:
+        refuse(str(refused))
+    sys.exit(1 if found.ended else 0)

@@ -1,0 +1,43 @@
+"""`driveblocks site`: what commissioning has found, as settings for the PLC, a page to be signed, a field report."""
+
+from pathlib import Path
+
+import click
+
+from driveblocks.commands import FILE, refuse
+
+TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
+
+
+@click.command()
+@click.argument(
+    "file", type=FILE, default=Path("site.yaml"), metavar="[FILE]", help="What `commission` has kept, else site.yaml."
+)
+@click.option("--target", type=click.Choice(TARGETS), default="plcopen", help="The platform of the PLC.")
+@click.option("--html", type=FILE, metavar="FILE.html", help="Write a page to be printed and signed.")
+@click.option("--report", metavar="LABEL", help="Print what was found of one drive, to be sent as an issue.")
+def run(file: Path, target: str, html: Path | None, report: str | None) -> None:
+    """Print one initialised VFD_Settings per drive of site.yaml, or a report.
+
+    What was measured on one drive is for that drive alone: maps and blocks do not change. The exit status is 0, or 2
+    for bad input.
+
+    Example: driveblocks site --target siemens --html pump.html
+    """
+    from driveblocks.maps import catalog
+    from driveblocks.maps.load import load
+    from driveblocks.maps.problem import MapError
+    from driveblocks.site import kept, sheet
+
+    try:
+        entries = kept.read(file)
+        drives = {each.map: load(catalog.resolve(each.map)) for each in entries.values() if html}
+    except (MapError, catalog.UnknownDrive) as error:
+        refuse(str(error))
+    if report is not None and report not in entries:
+        refuse(f"{file} has no {report}; it has {', '.join(entries)}")
+    if html is not None:
+        html.write_text(sheet.page(entries, drives), encoding="utf-8")
+    lines = sheet.report(report, entries[report]) if report else sheet.initialisation(entries, target)
+    for line in lines:
+        click.echo(line)

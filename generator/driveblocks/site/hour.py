@@ -1,0 +1,123 @@
+"""`driveblocks commission` and `driveblocks site`: from the words of the command line to what is kept and shown."""
+
+import datetime
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.desk.clock import RealClock
+from driveblocks.desk.port import reason
+from driveblocks.maps import catalog
+from driveblocks.maps.collection import read as maps_of
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.maps.revision import revision
+from driveblocks.plc.options import NO_PORT, Refused, is_port
+from driveblocks.site import adapter, asked, kept, report, steps
+from driveblocks.site.found import Asker, Found
+from driveblocks.site.line import CHARACTER_BITS, figures
+from driveblocks.site.session import SKIPPABLE, Wish, commission
+
+
+@dataclass(frozen=True, kw_only=True)
+class Words:
+    """The words of the command line."""
+
+    map: str
+    port: str | None = None
+    tcp: str | None = None
+    rate: int | None = None
+    form: str | None = None
+    mode: str | None = None
+    unit: int | None = None
+    label: str = "Drive1"
+    who: str = ""
+    skip: Collection[str] = ()
+    file: Path = Path("site.yaml")
+
+    def wrong(self) -> Iterator[str]:
+        """What does not go together."""
+        if (self.port is None) == (self.tcp is None):
+            yield "name the port of the drive, by --port or by --tcp"
+        if self.port == "":
+            yield NO_PORT
+        if self.tcp is not None and not is_port(self.tcp.rpartition(":")[2]):
+            yield f"--tcp {self.tcp} is no address; write HOST:PORT, with a port of 1 to 65535"
+        if self.rate is not None and not 300 <= self.rate <= 1_000_000:
+            yield f"--rate {self.rate} is out of range; write 300 to 1000000 bit/s"
+        if self.form is not None and self.form.upper() not in CHARACTER_BITS:
+            yield f"--format {self.form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+        if self.unit is not None and not 1 <= self.unit <= 255:
+            yield f"--unit {self.unit} is out of range; write 1 to 255"
+        if not kept.LABEL.fullmatch(self.label):
+            yield f"--label {self.label} is no label; write up to 24 letters and digits, a letter first"
+        for each in self.skip:
+            if each not in SKIPPABLE:
+                yield f"--skip {each} cannot be; write one of {', '.join(SKIPPABLE)}"
+
+
+def run(words: Words, read: Callable[[str], str]) -> Found:
+    """Go through the steps at a real port. Raises Refused."""
+    wrong, stem, drive = list(words.wrong()), "", None
+    try:
+        path = catalog.resolve(words.map)
+        stem, drive = path.stem, load(path)
+    except (catalog.UnknownDrive, MapError) as error:
+        wrong.append(str(error))
+    try:
+        before = kept.read(words.file) if words.file.exists() else {}
+    except MapError as error:
+        wrong, before = [*wrong, str(error)], {}
+    if words.label in before and before[words.label].map != stem:
+        wrong.append(f"{words.label} is of {before[words.label].map} in {words.file}; name another --label")
+    if wrong or drive is None:
+        raise Refused("\n".join(wrong))
+    about = kept.About(
+        words.label, stem, f"{revision(drive):08X}", f"{datetime.datetime.now():%Y-%m-%d %H:%M}", words.who
+    )
+    form = words.form.upper() if words.form else None
+    # a server in between has a rate and a format of its own
+    fixed = (words.rate or 9600, form or "8N1") if words.tcp else (words.rate, form)
+    others = {each.path.stem: each.drive for each in maps_of(catalog.chosen(())) if each.path.stem != stem}
+    wish = Wish(drive, others, *fixed, words.mode, words.unit, frozenset(words.skip))
+    clock = RealClock()
+    line = adapter.PortLine(adapter.at(words.port, words.tcp, clock), clock)
+    person = adapter.Person(read)
+    try:
+        try:
+            able = line.tune(wish.ways()[0])
+        except ImportError as error:
+            raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
+        except OSError as error:
+            raise Refused(f"{words.port or words.tcp}: {reason(error)}") from None
+        del able  # another way may be the port's
+        found = commission(line, person, wish, lambda some: kept.write(words.file, about, some))
+    finally:
+        line.close()
+    told(person, words, drive, found)
+    return found
+
+
+def told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
+    """The end: what was wrong, what was kept, and what is next."""
+    for fault in found.faults:
+        person.say(f"{fault.kind.upper()}: {fault.text}\n  look at: {fault.look}")
+    if found.measured is not None and found.way is not None:
+        person.say(f"Longest reply {found.measured.longest_ms} ms; on a line with this drive alone:")
+        name = f"{words.map}@{found.unit}"
+        rate, reply = found.way.rate, f"{min(500, max(1, found.measured.longest_ms))}ms"
+        typed = asked.Words(line=(name,), rate=rate, form=found.way.form, ascii=found.way.mode == "ascii", reply=reply)
+        line = asked.line(typed)
+        for each in report.tables([figures(line, rate)]):
+            person.say(each)
+    if found.family:
+        person.say("\nOnly a run by the bus shows the rest: `driveblocks run --allow-run`, motor uncoupled,")
+        person.say("hard stop in hand, low speed:")
+        for what, do in steps.script(drive):
+            person.say(f"- {what}: {do}")
+        person.say("")
+    if found.skipped:
+        person.say(f"Skipped: {', '.join(found.skipped)}")
+    where = f"{words.file}, label {words.label}" if found.family else "nothing was kept"
+    person.say(f"{'Ended early: ' + found.ended if found.ended else 'Finished'}; {where}")

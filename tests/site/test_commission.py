@@ -1,0 +1,473 @@
+"""The first hour with a drive: found and named by reads alone, over lines that differ, and kept whole at any moment."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from html import escape
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from rich.cells import cell_len
+from tests.plc.desk import maps
+from tests.site.test_parameters import simulated
+
+from driveblocks.cli import app
+from driveblocks.desk.bus import Bus
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import WirePort
+from driveblocks.maps.model import Condition, Identity
+from driveblocks.maps.plan import plan
+from driveblocks.maps.polls import polls
+from driveblocks.maps.problem import MapError
+from driveblocks.modbus.frame import opened, seal
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.site import adapter, hour, hunt, kept, steps
+from driveblocks.site.adapter import PortLine
+from driveblocks.site.found import Answer, Found, Measured, Set, Way
+from driveblocks.site.session import Wish, commission
+
+MAPS = {each.path.stem: each.drive for each in maps()}
+ABOUT = kept.About("Pump", "jscc", "12345678", "2026-11-23 10:30", "")
+WAY = Way(9600)
+
+
+@dataclass
+class Person:
+    """Answers by key, else nothing; raises an answer that is an exception."""
+
+    answers: dict[str, str | BaseException] = field(default_factory=lambda: {"alone": "alone"})
+    asked: list[str] = field(default_factory=list)
+    before: Callable[[str], None] = lambda _: None
+
+    def ask(self, key: str, text: str) -> str:
+        assert text
+        self.asked.append(key)
+        self.before(key)
+        answer = self.answers.get(key, "")
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    def say(self, what: object) -> None:
+        assert what
+
+    def progress(self, done: int, total: int, text: str) -> None:
+        assert 0 <= done <= total
+        assert text
+
+
+class Line:
+    """Units on a wire that speaks in one way; `change` makes of a reply what is heard, `alien` what nobody asked."""
+
+    late_ms, error = 0, ""
+
+    def __init__(self, drives: list[SimulatedDrive], way: Way = WAY) -> None:
+        self.clock, self.way, self.tuned = VirtualClock(), way, way
+        bits = 1_000_000 / (way.character_us * way.rate)
+        self.bus = Bus(drives, way.rate, round(1 / bits), ascii_mode=way.mode == "ascii")
+        self.wire = WirePort(self.bus, self.clock)
+        self.sent: list[bytes] = []
+        self.change: Callable[[bytes, bytes], bytes] = lambda _, reply: reply
+        self.alien: Callable[[int], bytes] = lambda _: b""
+        self.late_us = 0
+        self.said: list[tuple[int, bytes]] = []
+        self.gone_us: int | None = None
+
+    def opened(self, way: Way) -> "Line":
+        self.tuned = way
+        return self
+
+    def send(self, data: bytes) -> None:
+        self.sent.append(data)
+        if replace(self.tuned, mode=self.way.mode) == self.way:
+            self.wire.send(data)
+            end = self.clock.now_us() + 400_000
+            probe = VirtualClock()
+            probe.sleep_until(end)
+            reply = self.change(data, WirePort(self.bus, probe).receive())
+            at = self.clock.now_us() + int(len(data) * self.way.character_us) + 8_000 + self.late_us
+            self.said += [(at, reply)] if reply else []
+
+    def receive(self) -> bytes:
+        if self.gone_us is not None and self.clock.now_us() > self.gone_us:
+            self.error = "the port was unplugged"
+            return b""
+        if self.said and self.clock.now_us() >= self.said[0][0]:
+            return self.said.pop(0)[1]
+        return self.alien(self.clock.now_us())
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+
+def went(line: Line, stem: str, person: Person | None = None, **words: object) -> Found:
+    """All steps on a line."""
+    others = {name: each for name, each in MAPS.items() if name != stem}
+    wish = replace(Wish(MAPS[stem], others), **words)  # type: ignore[arg-type]  # a test names the fields
+    found = commission(PortLine(line.opened, line.clock), person or Person(), wish, lambda _: None)
+    modes = "rtu", "ascii"
+    bodies = [next(body for mode in modes if (body := opened(mode, each)) is not None) for each in line.sent]
+    assert {body[1] for body in bodies} <= {3, 4}
+    return found
+
+
+def drive(stem: str, unit: int = 1) -> SimulatedDrive:
+    """A drive of a map."""
+    return SimulatedDrive(MAPS[stem], unit)
+
+
+@pytest.mark.parametrize(
+    ("stem", "unit", "way"),
+    [
+        ("invt_chf", 1, Way(9600)), ("invt_chf", 2, Way(38400, "8O1", "ascii")), ("jscc", 3, Way(19200, "8E1")),
+        ("jscc", 40, Way(19200, "8E1")), ("shuen_sn300g5", 31, Way(9600, "8E1")), ("shuen_sn300g5", 7, Way(1200)),
+    ],
+)  # fmt: skip
+def test_a_drive_is_found_at_its_rate_format_framing_and_address(stem: str, unit: int, way: Way) -> None:
+    person = Person()
+    found = went(Line([drive(stem, unit)], way), stem, person)
+    assert (found.way, found.unit, found.family, found.faults, found.ended) == (way, unit, "fits", [], "")
+    assert found.done == ["quiet", "find", "keypad", "measure", "gaps"]
+    assert found.measured is not None
+    assert (found.measured.reads, found.measured.unlisted[-7:]) == (200, "refused")
+    assert found.measured.longest_ms <= 12
+    assert len(person.asked) <= 10
+    assert {each.what for each in steps.asked(MAPS[stem])} <= {*found.skipped}
+
+
+def test_nothing_is_sent_before_a_quiet_minute_and_a_typed_word() -> None:
+    line = Line([drive("jscc")])
+    waited: list[int] = []
+    person = Person({"alone": "yes"}, before=lambda _: waited.append(line.clock.now_us()))
+    found = went(line, "jscc", person)
+    assert (found.done, line.sent, person.asked) == ([], [], ["alone"])
+    assert waited[0] >= hunt.QUIET_US
+    for at in (5_000_000, 59_000_000):
+        line = Line([drive("jscc")])
+        came = iter([b"\x55"])
+        line.alien = lambda now, at=at, came=came: next(came, b"") if now > at else b""  # type: ignore[misc]  # bound here
+        found = went(line, "jscc")
+        assert ([each.kind for each in found.faults], line.sent) == (["noise"], [])
+
+
+def test_another_master_is_named_where_its_frames_decode() -> None:
+    line = Line([drive("jscc")], Way(19200))
+    frame = seal("rtu", bytes.fromhex("010320000002"))
+    line.alien = lambda now: frame if line.tuned.rate == 19200 and now % 100_000 < 500 else b""
+    found = went(line, "jscc")
+    assert ([each.kind for each in found.faults], line.sent) == (["foreign"], [])
+    assert "19200" in found.faults[0].text
+
+
+def _spoilt(_: bytes, reply: bytes) -> bytes:
+    return bytes(each ^ 0x10 for each in reply)
+
+
+def _half(_: bytes, reply: bytes) -> bytes:
+    return reply[: len(reply) // 2]
+
+
+def _echo(asked: bytes, _: bytes) -> bytes:
+    return asked
+
+
+def _both(_: bytes, reply: bytes) -> bytes:
+    return reply + reply
+
+
+def _nothing(_: bytes, __: bytes) -> bytes:
+    return b""
+
+
+@pytest.mark.parametrize(
+    ("kind", "change"),
+    [("damaged", _spoilt), ("half", _half), ("echo", _echo), ("two", _both), ("silent", _nothing)],
+)
+@pytest.mark.parametrize("stem", MAPS)
+def test_what_is_wrong_with_a_line_is_named_with_what_to_look_at(
+    stem: str, kind: str, change: Callable[[bytes, bytes], bytes]
+) -> None:
+    line = Line([drive(stem)])
+    line.change = change
+    found = went(line, stem, rate=9600, form="8N1", mode="rtu", unit=1)
+    assert [each.kind for each in found.faults] == [kind]
+    assert found.faults[0].look
+    assert (found.way, found.ended) == (None, found.faults[0].text)
+
+
+def test_an_adapter_that_hears_itself_does_no_harm() -> None:
+    line = Line([drive("jscc")])
+    line.change = lambda asked, reply: asked + reply
+    found = went(line, "jscc", rate=9600, form="8N1", unit=1)
+    assert (found.ended, found.faults, found.unit) == ("", [], 1)
+
+
+@pytest.mark.parametrize("late_us", [300_000, 900_000])
+def test_a_slow_drive_is_found_and_measured(late_us: int) -> None:
+    line = Line([drive("jscc", 2)])
+    line.late_us = late_us
+    found = went(line, "jscc", rate=9600, form="8N1")
+    assert (found.unit, found.ended) == (2, "")
+    assert [each.kind for each in found.faults] == ["slow"]
+    assert found.measured is not None
+    assert late_us / 1000 <= found.measured.longest_ms <= late_us / 1000 + 12
+    assert found.measured.turn_round_ms > found.measured.longest_ms
+
+
+@pytest.mark.parametrize("stem", MAPS)
+@pytest.mark.parametrize("other", MAPS)
+def test_another_family_is_named_and_asked_no_further(stem: str, other: str) -> None:
+    found = went(Line([drive(other)]), stem, rate=9600, form="8N1", mode="rtu", unit=1)
+    assert (found.family, found.measured is None) == (("fits", False) if stem == other else ("", True))
+    assert [each.kind for each in found.faults] == ([] if stem == other else ["family"])
+
+
+def test_an_identity_comes_first_and_a_wrong_one_is_the_end() -> None:
+    for word, good in ((3, True), (4, False)):
+        identity = Identity(all=(Condition(register=0x2001, equals=word),), source="page 1", why="no other")
+        line = Line([drive("jscc")])
+        wished = replace(MAPS["jscc"], identity=identity)
+        found = went(line, "jscc", drive=wished, rate=9600, form="8N1", unit=1)
+        first = opened("rtu", line.sent[0])
+        assert first is not None
+        assert first[2:4] == b"\x20\x01"
+        shown = {each.kind for each in found.faults} != {"identity"}
+        assert (shown, bool(found.measured)) in {(True, True), (False, False)}
+        assert not good or found.family in {"identity", ""}
+
+
+def test_a_refused_span_is_named_and_the_rest_is_done() -> None:
+    last = polls(MAPS["shuen_sn300g5"])[-1].address.to_bytes(2, "big")
+    line = Line([drive("shuen_sn300g5")])
+    line.change = lambda asked, reply: seal("rtu", b"\x01\x83\x02") if asked[2:4] == last else reply
+    found = went(line, "shuen_sn300g5", rate=9600, form="8N1", unit=1)
+    assert ([each.kind for each in found.faults], found.ended, found.family) == (["refused"], "", "fits")
+
+
+@pytest.mark.parametrize("stem", MAPS)
+def test_what_differs_at_the_keypad_is_read_or_asked(stem: str) -> None:
+    person = Person({"alone": "alone", "keypad": "no"})
+    found = went(Line([drive(stem)]), stem, person, rate=9600, form="8N1", mode="rtu", unit=1)
+    read = [each for each in found.settings if each.read is not None]
+    assert [each.id for each in found.settings] == [each.id for each in MAPS[stem].settings if each.needed]
+    assert all(each.told == ("" if each in read else "no") for each in found.settings)
+    if stem == "shuen_sn300g5":
+        assert [each.id for each in found.settings if each.differs] == ["B1-01", "B1-02"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "word", "value"),
+    [
+        ("20.0", 2000, "0.01"), ("20,0 Hz", 200, "0.1"), ("537", 537, "1"), ("20.0", 1985, "0.01"), ("20", 1234, ""),
+        ("20", 20, ""), ("none", 2000, ""), ("20", None, ""), ("NaN", 2000, ""), ("-20", 65336, ""), ("0", 0, ""),
+    ],
+)  # fmt: skip
+def test_a_scale_is_a_power_of_ten_that_the_answer_shows(answer: str, word: int | None, value: str) -> None:
+    assert steps.scale(answer, word) == value
+
+
+def test_every_answer_is_read_at_its_moment_and_kept() -> None:
+    places = {each.what: each.on_site for each in steps.asked(MAPS["shuen_sn300g5"]) if each.on_site}
+    what, place = next((what, each) for what, each in places.items() if each.gives)
+    request = (place.read or 0).to_bytes(2, "big") + b"\0\1"
+    line = Line([drive("shuen_sn300g5")])
+    line.change = lambda asked, reply: seal("rtu", b"\1\3\2\x14\xfa") if asked[2:6] == request else reply
+    person = Person({"alone": "alone", what: "537"})
+    found = went(line, "shuen_sn300g5", person, rate=9600, form="8N1", unit=1)
+    assert found.answers == [Answer(what, "537", 5370, place.gives or "", "0.1")]
+
+
+@pytest.mark.parametrize("end", [KeyboardInterrupt(), EOFError()])
+@pytest.mark.parametrize("key", ["plate", "whether 2000H is negative in reverse"])
+def test_an_end_at_any_question_is_kept_with_how_far_it_came(end: BaseException, key: str, tmp_path: Path) -> None:
+    path, line = tmp_path / "site.yaml", Line([drive("jscc")])
+    wish = Wish(MAPS["jscc"], rate=9600, form="8N1", unit=1)
+    person = Person({"alone": "alone", key: end})
+    commission(PortLine(line.opened, line.clock), person, wish, lambda found: kept.write(path, ABOUT, found))
+    entry = kept.read(path)["Pump"]
+    assert entry.ended in {"Ctrl-C", "the terminal was closed"}
+    assert entry.finished == ("quiet", "find", *(() if key == "plate" else ("keypad", "measure")))
+    assert [*tmp_path.iterdir()] == [path]
+
+
+def test_an_unplugged_adapter_is_named_wherever_it_happens() -> None:
+    for seconds in (1, 30, 61, 63, 66, 70):
+        line = Line([drive("jscc")])
+        line.gone_us = 1_000_000 * seconds
+        found = went(line, "jscc", rate=9600, form="8N1", unit=1)
+        assert [each.kind for each in found.faults] == ["lost"], seconds
+        assert "unplugged" in found.ended
+
+
+def test_what_is_skipped_is_said() -> None:
+    found = went(Line([drive("jscc")]), "jscc", skip=frozenset({"keypad", "measure", "gaps", "plate"}))
+    assert (found.done, found.skipped) == (["quiet", "find"], ["plate", "keypad", "measure", "gaps"])
+    assert (found.settings, found.measured, found.answers) == ([], None, [])
+
+
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_register_that_no_table_lists_is_in_none(stem: str) -> None:
+    addresses = hunt.unlisted(MAPS[stem])
+    assert addresses
+    for address in addresses:
+        assert not any(address in span for span in plan(MAPS[stem]).readable)
+        assert not any(address in area.addresses for area in MAPS[stem].areas)
+
+
+# ------------------------------------------------------------ what is kept, and made of it
+
+FULL = Found(
+    way=Way(19200, "8E1"), unit=3, family="fits", plate='5.5 kW "B" <1.02>',
+    done=["quiet", "find", "keypad", "measure"],
+    settings=[Set("F0.04", "Run", 3, 4, "why", ""), Set("F0.08", "Speed", None, 8, "why", "no")],
+    measured=Measured(200, 12, 2, 16, "001BH: refused"), tried=["19200 bit/s 8E1 RTU"], skipped=["gaps", "a, b: [c"],
+    answers=[Answer("scale of 2000H", "20.0", 2000, "FrequencyScale", "0.01"), Answer("other: {x}", "#no", None)],
+)  # fmt: skip
+
+
+def test_other_entries_and_every_comment_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    kept.write(path, replace(ABOUT, label="Fan"), FULL)
+    text = (
+        path.read_text(encoding="utf-8")
+        .replace("Pump:\n", "# before\nPump:\n  # mine\n")
+        .replace("Fan:", "# fan\nFan:")
+    )
+    path.write_text(text, encoding="utf-8")
+    kept.write(path, ABOUT, replace(FULL, unit=4))
+    assert path.read_text(encoding="utf-8") == text.replace("unit: 3", "unit: 4", 1)
+    assert {label: one.line.unit for label, one in kept.read(path).items()} == {"Pump": 4, "Fan": 3}
+
+
+def test_what_is_kept_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, replace(ABOUT, who="a\tb\x1b\u202e'\"\\ ü"), FULL)
+    one = kept.read(path)["Pump"]
+    assert (one.who, one.plate, one.skipped) == ("a b??'\"\\ ü", FULL.plate, ("gaps", "a, b: [c"))
+    assert [(each.id, each.read, each.must, each.told) for each in one.settings] == [
+        ("F0.04", 3, 4, None), ("F0.08", None, 8, "no"),
+    ]  # fmt: skip
+    assert [(each.gap, each.answer, each.word, each.value) for each in one.answers] == [
+        ("scale of 2000H", "20.0", 2000, "0.01"), ("other: {x}", "#no", None, None),
+    ]  # fmt: skip
+    assert one.ended is None
+
+
+def test_all_mistakes_of_the_file_are_reported_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    text = path.read_text(encoding="utf-8").replace("Pump:", "Pump 1:").replace("rate: 19200", "rate: fast")
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(MapError) as error:
+        kept.read(path)
+    assert [(each.line, each.wrong[:12]) for each in error.value.problems] == [(3, "`Pump 1` is "), (7, "`rate: fast`")]
+
+
+@pytest.mark.parametrize(("target", "line"), [
+    ("codesys", "PumpSettings.FrequencyScale := 0.01;"), ("siemens", "#PumpSettings.FrequencyScale := 0.01;"),
+])  # fmt: skip
+def test_each_label_gets_settings_of_its_own(target: str, line: str, tmp_path: Path) -> None:
+    kept.write(tmp_path / "site.yaml", ABOUT, FULL)
+    kept.write(tmp_path / "site.yaml", replace(ABOUT, label="Fan"), replace(FULL, measured=None, answers=[]))
+    got = CliRunner().invoke(app, ["site", str(tmp_path / "site.yaml"), "--target", target])
+    assert (got.exit_code, got.stderr) == (0, "")
+    lines = got.stdout.splitlines()
+    assert line in lines
+    assert {each.split(" : ")[0] for each in lines if " : " in each} == {"PumpSettings", "FanSettings"}
+    assert not [each for each in lines if each.lstrip("#").startswith("FanSettings.")]
+
+
+def test_the_page_and_the_report_say_what_was_found_and_escape_it(tmp_path: Path) -> None:
+    path, page = tmp_path / "site.yaml", tmp_path / "site.html"
+    kept.write(path, replace(ABOUT, who="Anna"), FULL)
+    got = CliRunner().invoke(app, ["site", str(path), "--html", str(page), "--report", "Pump"])
+    assert got.exit_code == 0
+    assert "Anna" not in got.stdout
+    assert "- setting F0.08: by eye not right, must be 8" in got.stdout
+    assert "- gap `scale of 2000H`: 20.0; word 2000; FrequencyScale 0.01" in got.stdout
+    text = page.read_text(encoding="utf-8")
+    assert "5.5 kW &quot;B&quot; &lt;1.02&gt;" in text
+    assert "signature" in text
+    assert all(escape(what) in text for what, _ in steps.script(MAPS["jscc"]))
+    got = CliRunner().invoke(app, ["site", str(path), "--report", "Fan"])
+    assert (got.exit_code, got.stderr) == (2, f"{path} has no Fan; it has Pump\n")
+
+
+def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
+    words = ["--rate", "5", "--format", "x", "--unit", "0", "--label", "1!", "--skip", "find"]
+    got = CliRunner().invoke(app, ["commission", "nobody", *words, "--file", str(tmp_path / "a.yaml")])
+    assert (got.exit_code, got.stdout) == (2, "")
+    assert [line.split(" ")[0] for line in got.stderr.splitlines()] == [
+        "name", "--rate", "--format", "--unit", "--label", "--skip", "there",
+    ]  # fmt: skip
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "first-hour.md"
+TYPED = ["alone", "4 kW, V2.31", "F0.04", "yes", "", "", "", ""]
+
+
+def test_the_session_of_the_page_is_what_a_person_sees(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    answers, others = iter(TYPED), {name: each for name, each in MAPS.items() if name != "jscc"}
+
+    def read(text: str) -> str:
+        answer = next(answers)
+        sys.stdout.write(f"{text}{answer}\n")
+        return answer
+
+    line, person = Line([drive("jscc", 5)], Way(9600, "8E1")), adapter.Person(read)
+    found = commission(PortLine(line.opened, line.clock), person, Wish(MAPS["jscc"], others), lambda _: None)
+    hour.told(person, hour.Words(map="jscc", label="Pump"), MAPS["jscc"], found)
+    assert found.ended == ""
+    said = "\n".join(each.rstrip() for each in capsys.readouterr().out.splitlines())
+    shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]
+    assert shown.partition("\n```\n<!-- session:end -->")[0] == said
+
+
+# ------------------------------------------------------------ real ports
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The quiet minute takes a tenth of a second, and the reply time comes from 20 reads."""
+    monkeypatch.setattr(hunt, "QUIET_US", 100_000)
+    monkeypatch.setattr(steps, "READS", 20)
+
+
+def typed(folder: Path, *words: str) -> Result:
+    """Run `driveblocks commission` as a person who types the word, and nothing else."""
+    words = (*words, "--file", str(folder / "site.yaml"), "--label", "Pump")
+    return CliRunner().invoke(app, ["commission", *words], input="alone\n" + 10 * "\n", env={"COLUMNS": "80"})
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_simulated_drive_is_commissioned_over_tcp(stem: str, tmp_path: Path) -> None:
+    with simulated(f"{stem}@5", "--tcp", ":0") as place:
+        got = typed(tmp_path, stem, "--tcp", place, "--unit", "5")
+    assert (got.exit_code, got.stderr) == (0, "")
+    assert max(map(cell_len, got.stdout.splitlines())) <= 160  # two questions stand in one line of a test
+    one = kept.read(tmp_path / "site.yaml")["Pump"]
+    assert (one.map, one.line.unit, one.family, one.ended) == (stem, 5, "fits", None)
+    assert one.measured is not None
+    assert one.skipped
+
+
+@pytest.mark.usefixtures("quick")
+@pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
+def test_a_simulated_drive_is_commissioned_at_a_serial_port(tmp_path: Path) -> None:
+    with simulated("chf@2", "--pty") as place:
+        got = typed(tmp_path, "chf", "--port", place, "--unit", "2", "--skip", "measure")
+    assert (got.exit_code, got.stderr) == (0, "")
+    assert kept.read(tmp_path / "site.yaml")["Pump"].finished == ("quiet", "find", "keypad", "gaps")
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_port_that_is_not_there_is_named(tmp_path: Path) -> None:
+    got = typed(tmp_path, "chf", "--port", "/dev/nowhere")
+    assert (got.exit_code, got.stderr) == (2, "/dev/nowhere: there is no such port\n")
+    assert [*tmp_path.iterdir()] == []
