@@ -107,6 +107,9 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
     kept = str(folder / "chf.csv")
     yield ("parameters", "save", "chf@1", kept, "--tcp", port), ""
     yield ("parameters", "compare", kept, kept, "--all"), ""
+    found = str(folder / "site.yaml")
+    yield ("commission", "chf", "--tcp", port, "--unit", "1", "--file", found), "alone\n" + 12 * "\n"
+    yield ("site", found, "--html", str(folder / "site.html"), "--report", "Drive1"), ""
     yield ("line", "chf@1", "jscc@2", "--picture", str(folder / "round.svg")), ""
     _, slave = pty.openpty()
     yield ("simulate", "chf@1", "--port", os.ttyname(slave), "--for", "4s"), ""
@@ -173,8 +176,10 @@ def executed(folder: Path) -> set[str]:
     sys.meta_path.insert(0, Finder)
     from driveblocks.output import units
     from driveblocks.prove import prover, question
+    from driveblocks.site import hunt
 
     patch = pytest.MonkeyPatch()
+    patch.setattr(hunt, "QUIET_US", 100_000)
     patch.setattr(units, "units", few_programs(units.units))
     patch.setattr(prover, "questions", few_questions(question.questions))
     with socket.create_server(("127.0.0.1", 0)) as free:
