@@ -2,8 +2,11 @@
 
 import gc
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from tests.shipped import BOTH
@@ -13,6 +16,7 @@ from driveblocks.maps.page import skeleton
 from driveblocks.maps.view import UNPROVED
 from driveblocks.output.units import units
 from driveblocks.testing import page, runner
+from driveblocks.testing.outcome import Outcome, Run
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, EngineError, Library, Source
@@ -47,6 +51,28 @@ def test_results_come_in_the_order_of_engines_units_and_programs(example: Unit, 
             ("example", "EX100_TestScales"),
         )
     ]
+
+
+def plain(done: Run) -> list[tuple[str, str, tuple[Outcome, ...]]]:
+    return [(each.unit, each.program, each.outcomes) for each in done.results]
+
+
+def test_processes_side_by_side_find_what_one_finds(
+    example: Unit, shared: Unit, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given = [only(shared, "Digits", "RtuSeal"), only(example, "Scales", "0010H", "Frames")]
+    bad = [replace(unit, blocks=(*unit.blocks, Source("bad.st", "FUNCTION_BLOCK Bad\n"))) for unit in given]
+    for units_ in (given, bad):
+        alone = runner.run(units_, [EmbeddedEngine()])
+        assert plain(runner.run(units_, [EmbeddedEngine()], jobs=3)) == plain(alone)
+    assert [each.program for each in alone.results] == ["build", "build"]
+
+    class Killed(ProcessPoolExecutor):
+        def map(self, *_: object, **__: object) -> NoReturn:
+            raise BrokenProcessPool
+
+    monkeypatch.setattr(runner, "ProcessPoolExecutor", Killed)
+    assert plain(runner.run(bad, [EmbeddedEngine()], jobs=2)) == plain(alone)
 
 
 def test_a_map_without_vectors_passes_and_says_what_its_tests_rest_on() -> None:

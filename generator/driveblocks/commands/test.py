@@ -1,5 +1,6 @@
 """`driveblocks test`: run the test programs that the maps make."""
 
+import os
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -26,6 +27,12 @@ SHOWN, PER_PROGRAM = 20, 3
 @click.option(
     "--time-limit", type=click.FloatRange(min=0.1), metavar="SECONDS", default=120.0, help="Time limit of one program."
 )
+@click.option(
+    "--jobs",
+    type=click.IntRange(1, 16),
+    metavar="N",
+    help="Processes of the embedded engine, else one per processor, 4 at most.",
+)
 @click.option("--picture", type=FILE, metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram.")
 @click.option("--coverage", is_flag=True, help="List the lines and branches of the blocks that no program has run.")
 @click.option(
@@ -39,6 +46,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     engine: str,
     junit: Path | None,
     time_limit: float,
+    jobs: int | None,
     picture: Path | None,
     coverage: bool,
     require_coverage: float | None,
@@ -67,7 +75,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     made = units(read, languages(["en", "zh"], "utf-8"))
     engines = [each.engine for each in chosen if each.engine is not None]
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
-    programs = runner.run(made, [counting(each) for each in engines] if measured else engines, time_limit, measured)
+    some = [counting(each) for each in engines] if measured else engines
+    programs = runner.run(made, some, time_limit, measured, jobs or min(4, os.cpu_count() or 1))
     done = Run([*programs.results, *(result(each, require_coverage or 0.0) for each in measured)], programs.seconds)
     try:
         if junit is not None:

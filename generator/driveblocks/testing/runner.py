@@ -2,7 +2,9 @@
 
 import time
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import replace
 from functools import partial
 
 from driveblocks.maps.view import UNPROVED
@@ -12,6 +14,7 @@ from driveblocks.testing.outcome import ERROR, PASSED, Outcome, Result, Run
 from driveblocks.testing.suite import ROOT
 from driveblocks.testing.unit import Unit
 from structured_text.engines.discovery import EMBEDDED
+from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, EngineError, Library, Source
 from structured_text.language.collector import paused
 
@@ -25,21 +28,51 @@ _Built = Library | EngineError
 
 
 def run(
-    units: Sequence[Unit], engines: Sequence[Engine], seconds: float = SECONDS, coverage: Sequence[Coverage] = ()
+    units: Sequence[Unit],
+    engines: Sequence[Engine],
+    seconds: float = SECONDS,
+    coverage: Sequence[Coverage] = (),
+    jobs: int = 1,
 ) -> Run:
     """Run every program of every unit on every engine; results in the order of engines, units and programs.
 
-    What has run of the blocks is added to the `coverage` of an engine's name, if the engine counts.
+    What has run of the blocks is added to the `coverage` of an engine's name, if the engine counts. Where nothing is
+    counted, `jobs` processes of the embedded engine compile and run a share of the programs each.
     """
     start = time.perf_counter()
     results: list[Result] = []
     with paused(), ThreadPoolExecutor(BUILDS) as pool:
         for engine in engines:
             sums = [each for each in coverage if each.engine == engine.name]
+            if jobs > 1 and engine.name == EMBEDDED and not sums:
+                results += _side_by_side(units, seconds, jobs)
+                continue
             for unit, built in zip(units, _builds(engine, units, pool, together=not sums), strict=True):
                 results += _results(engine, unit, built, seconds)
                 results += [trouble for each in sums for trouble in _counted(each, unit, built)]
     return Run(results, time.perf_counter() - start)
+
+
+def _side_by_side(units: Sequence[Unit], seconds: float, jobs: int) -> list[Result]:
+    """What the embedded engine finds, in as many processes, in the order of units and programs."""
+    shares = [[_share(unit, at, jobs) for unit in units] for at in range(jobs)]
+    try:
+        with ProcessPoolExecutor(jobs) as pool:
+            found = [result for results in pool.map(partial(_embedded, seconds=seconds), shares) for result in results]
+    except BrokenProcessPool:  # a process was killed, as for its memory
+        return _embedded(units, seconds)
+    order = {unit.suite.name: {each.name: at for at, each in enumerate(unit.suite.programs)} for unit in units}
+    names = list(order)
+    unlike = [each for at, each in enumerate(found) if each not in found[:at] or each.group != "Build"]
+    return sorted(unlike, key=lambda each: (names.index(each.unit), order[each.unit].get(each.program, -1)))
+
+
+def _share(unit: Unit, at: int, jobs: int) -> Unit:
+    return replace(unit, suite=replace(unit.suite, programs=unit.suite.programs[at::jobs]))
+
+
+def _embedded(units: Sequence[Unit], seconds: float) -> list[Result]:
+    return run(units, [EmbeddedEngine()], seconds).results
 
 
 def _counted(coverage: Coverage, unit: Unit, built: _Built) -> Iterator[Result]:
