@@ -35,37 +35,45 @@ SAID: dict[Trouble, str] = {
 
 def quiet(line: Line, ways: list[Way], asker: Asker) -> Fault | None:
     """Listen for 60 s, at each rate in its turn; what was heard."""
-    kinds = list({each.rate: each for each in ways}.values())
+    kinds = [each for at, each in enumerate(ways) if each.rate not in {before.rate for before in ways[:at]}]
     begun, share = line.now_us(), QUIET_US // len(kinds)
-    heard = b""
+    heard, here = b"", kinds[0]
     for at, way in enumerate(kinds, 1):
         while line.now_us() < begun + at * share and not heard:
             asker.progress(
                 (line.now_us() - begun) // 1_000_000, QUIET_US // 1_000_000, f"listening at {way.rate} bit/s"
             )
             if line.tune(way):
-                heard = line.exchange(b"", min(1_000_000, begun + at * share - line.now_us())).data
+                here, heard = way, line.exchange(b"", min(1_000_000, begun + at * share - line.now_us())).data
             else:
                 break
     if not heard and line.now_us() < begun + QUIET_US:
         heard = line.exchange(b"", begun + QUIET_US - line.now_us()).data
-    if not heard:
-        return None
-    for way in ways:
-        if line.tune(way) and _frames(line):
-            text = f"another master speaks on this line, at {way}; nothing was sent"
+    return _named(line, ways, here, heard) if heard else None
+
+
+def _named(line: Line, ways: list[Way], here: Way, heard: bytes) -> Fault:
+    """Who speaks: what was heard in a way, then what comes in each of them."""
+    for way in (None, *ways):
+        if way is not None:
+            here, heard = way, _some(line) if line.tune(way) else b""
+        if _decodes(heard):
+            text = f"another master speaks on this line, at {here}; nothing was sent"
             return Fault("foreign", text, LOOK["foreign"])
-    return Fault("noise", "bytes came that are no frames at any rate; nothing was sent", LOOK["noise"])
+    said = "bytes came that made no frame: noise, or another master that speaks rarely; nothing was sent"
+    return Fault("noise", said, LOOK["noise"])
 
 
-def _frames(line: Line) -> bool:
-    """Whether frames are heard within some seconds."""
+def _some(line: Line) -> bytes:
+    """What comes within some seconds, or until there is a frame."""
     end, heard = line.now_us() + 3_000_000, b""
-    while line.now_us() < end:
+    while line.now_us() < end and not _decodes(heard):
         heard += line.exchange(b"", end - line.now_us()).data
-        if any(each.good for each in pieces(heard, Dialect())):
-            return True
-    return False
+    return heard
+
+
+def _decodes(heard: bytes) -> bool:
+    return any(each.good for each in pieces(heard, Dialect()))
 
 
 def ways(drive: Drive, rate: int | None = None, form: str | None = None, mode: str | None = None) -> list[Way]:
