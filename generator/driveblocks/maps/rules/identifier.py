@@ -23,7 +23,7 @@ OWN = re.compile(
     r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
     r"Drive|MayWrite|ParameterAddress|Store|Version|Reads|Orders|ParameterGate|Identity|"
     r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|FaultReset|Frames|JogForward|JogReverse|KeepWord|"
-    r"Motor\w*|Parameter\w*|"
+    r"Motor\w*|Parameter\w*|Part\w*|"
     r"Reference|Request|ResetStop|Scales|Sequence|Standstill|Tables|Write|Drive|MayWrite|ParameterAddress|Store|Version|"
     r"(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
     re.IGNORECASE,
