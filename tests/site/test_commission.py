@@ -75,7 +75,7 @@ class Line:
         self.gone_us: int | None = None
 
     def opened(self, way: Way) -> "Line":
-        self.tuned = way
+        self.tuned, self.said = way, []  # what waits in a port is lost when it is opened again
         return self
 
     def send(self, data: bytes) -> None:
@@ -247,13 +247,29 @@ def test_a_refused_span_is_named_and_the_rest_is_done() -> None:
 
 @pytest.mark.parametrize("stem", MAPS)
 def test_what_differs_at_the_keypad_is_read_or_asked(stem: str) -> None:
-    person = Person({"alone": "alone", "keypad": "no"})
+    ids = [each.id for each in MAPS[stem].settings if each.needed]
+    person = Person({"alone": "alone", "keypad": ", ".join(ids).lower()})
     found = went(Line([drive(stem)]), stem, person, rate=9600, form="8N1", mode="rtu", unit=1)
     read = [each for each in found.settings if each.read is not None]
-    assert [each.id for each in found.settings] == [each.id for each in MAPS[stem].settings if each.needed]
+    assert [each.id for each in found.settings] == ids
     assert all(each.told == ("" if each in read else "no") for each in found.settings)
     if stem == "shuen_sn300g5":
         assert [each.id for each in found.settings if each.differs] == ["B1-01", "B1-02"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "right", "asked"),
+    [
+        ("yes", ["yes"] * 6, 1), ("Yes.", ["yes"] * 6, 1), ("f0.04; FA.03", ["no", *["yes"] * 4, "no"], 1),
+        ("no", [""] * 6, 3), ("F004", [""] * 6, 3), ("nothing is right", [""] * 6, 3), ("F0.04 I think", [""] * 6, 3),
+    ],
+)  # fmt: skip
+def test_only_an_answer_that_is_understood_is_kept_of_the_keypad(answer: str, right: list[str], asked: int) -> None:
+    person = Person({"alone": "alone", "keypad": answer})
+    found = went(Line([drive("jscc")]), "jscc", person, rate=9600, form="8N1", unit=1)
+    assert [each.told for each in found.settings] == right
+    assert person.asked.count("keypad") == asked
+    assert ("keypad" in found.skipped) == ("" in right)
 
 
 @pytest.mark.parametrize(
@@ -289,6 +305,18 @@ def test_an_end_at_any_question_is_kept_with_how_far_it_came(end: BaseException,
     assert entry.ended in {"Ctrl-C", "the terminal was closed"}
     assert entry.finished == ("quiet", "find", *(() if key == "plate" else ("keypad", "measure")))
     assert [*tmp_path.iterdir()] == [path]
+
+
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_byte_while_the_word_is_typed_ends_it_before_anything_is_sent(stem: str) -> None:
+    line = Line([drive(stem)])
+    frame = seal("rtu", b"\x21\x03\x10\x01\x00\x01")
+
+    def speaks(_: str) -> None:
+        line.said.append((line.clock.now_us(), frame))
+
+    found = went(line, stem, Person(before=speaks))
+    assert ([each.kind for each in found.faults], line.sent) == (["foreign"], [])
 
 
 def test_an_unplugged_adapter_is_named_wherever_it_happens() -> None:
@@ -339,6 +367,51 @@ def test_other_entries_and_every_comment_are_kept(tmp_path: Path) -> None:
     kept.write(path, ABOUT, replace(FULL, unit=4))
     assert path.read_text(encoding="utf-8") == text.replace("unit: 3", "unit: 4", 1)
     assert {label: one.line.unit for label, one in kept.read(path).items()} == {"Pump": 4, "Fan": 3}
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("  line:", "# KEPT 1\n  line:"), ('"jscc"\n', '"jscc"  # KEPT 1\n'), ("Pump:", "Pump:  # KEPT 1"),
+        ("Pump:", '"Pump": # KEPT 1'), ("Pump:", "# KEPT 1\nPump :"), ("First:", "---\nFirst: # KEPT 1"),
+        ("\n", "\r\n# KEPT 1\r\n"),
+        ("  settings:\n", "  settings:  # KEPT 1\n    # KEPT 2\n"), ("Fan:", "\n  # KEPT 1\n\n# KEPT 2\nFan:"),
+        ('plate: "5.5 kW', "plate: '5.5 kW # no note', # KEPT 1\n  # \""),
+    ],
+)  # fmt: skip
+def test_a_file_that_a_person_has_edited_is_kept(old: str, new: str, tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    for label in ("First", "Pump", "Fan"):
+        kept.write(path, replace(ABOUT, label=label), FULL)
+    text = path.read_text(encoding="utf-8").replace(old, new)
+    if "plate" in old:
+        text = text.replace(", # KEPT", " # KEPT")
+    path.write_bytes(text.encode())
+    assert set(kept.read(path)) == {"First", "Pump", "Fan"}
+    for _ in range(2):
+        kept.write(path, ABOUT, replace(FULL, unit=4))
+        assert {label: one.line.unit for label, one in kept.read(path).items()} == {"First": 3, "Pump": 4, "Fan": 3}
+        now = path.read_bytes().decode()
+        assert (now.count("# KEPT 1"), now.count("# KEPT 2")) == (text.count("# KEPT 1"), text.count("# KEPT 2"))
+        assert now.count("\r\n") in (0, now.count("\n"))
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        ("  Pump: {entry}", "2:3: `Pump` does not begin its line"),
+        ("{{Pump: {entry}}}", "2:2: `Pump` does not begin its line"),
+        ("Pump: {entry}\nPUMP: {entry}", "3:1: `PUMP` and `Pump` are one name in a PLC"),
+    ],
+)
+def test_a_file_that_could_not_be_kept_is_refused_before(text: str, wrong: str, tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    line = "{rate: 9600, form: 8N1, mode: rtu, unit: 3}"
+    entry = f"{{map: jscc, revision: '1', date: today, family: fits, line: {line}}}"
+    path.write_text("# head\n" + text.format(entry=entry), encoding="utf-8")
+    with pytest.raises(MapError) as error:
+        kept.read(path)
+    assert wrong in str(error.value)
 
 
 def test_what_is_kept_is_read_again(tmp_path: Path) -> None:
@@ -404,6 +477,57 @@ def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
+def test_what_was_found_before_is_not_replaced_unasked(tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    before = path.read_bytes()
+    words = ["commission", "jscc", "--tcp", "127.0.0.1:1", "--file", str(path)]
+    for label, wrong in (
+        ("Pump", "Pump is kept there, of 2026-11-23 10:30; name another --label, or add --replace"),
+        ("PUMP", "PUMP and Pump are one name in a PLC; name another --label"),
+    ):
+        got = CliRunner().invoke(app, [*words, "--label", label])
+        assert (got.exit_code, got.stderr) == (2, f"{path}: {wrong}\n")
+    got = CliRunner().invoke(app, [*words, "--label", "Pump", "--replace"])
+    assert "127.0.0.1:1" in got.stderr
+    assert path.read_bytes() == before
+
+
+def test_a_folder_that_is_not_there_is_named_before_anything_is_sent(tmp_path: Path) -> None:
+    path = tmp_path / "no" / "site.yaml"
+    got = CliRunner().invoke(app, ["commission", "jscc", "--tcp", "127.0.0.1:1", "--file", str(path)])
+    assert (got.exit_code, got.stderr) == (2, f"{path}: No such file or directory\n")
+
+
+def test_what_cannot_be_written_is_shown_at_the_end(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(kept, "write", full)
+    words = hour.Words(map="jscc", label="Pump", file=tmp_path / "site.yaml")
+    shelf = hour.Shelf(words.file, ABOUT)
+    found = replace(FULL)
+    shelf.keep(found)
+    hour.told(adapter.Person(lambda _: ""), words, MAPS["jscc"], found, shelf)
+    said = capsys.readouterr().out
+    assert f"{words.file} could not be written: No space left on device" in " ".join(said.split())
+    assert kept.text(ABOUT, found) in said
+
+
+def test_the_page_of_a_map_of_ones_own(tmp_path: Path) -> None:
+    own, path, page = tmp_path / "mine.yaml", tmp_path / "site.yaml", tmp_path / "site.html"
+    own.write_bytes(next(each.path for each in maps() if each.path.stem == "jscc").read_bytes())
+    kept.write(path, replace(ABOUT, map="mine"), FULL)
+    got = CliRunner().invoke(app, ["site", str(path), "--html", str(page)])
+    assert (got.exit_code, page.exists()) == (2, False)
+    assert "mine" in got.stderr
+    got = CliRunner().invoke(app, ["site", str(path), "--html", str(page), "--map", str(own)])
+    assert (got.exit_code, got.stderr) == (0, "")
+    assert "mine, revision 12345678" in page.read_text(encoding="utf-8")
+
+
 PAGE = Path(__file__).parents[2] / "docs" / "first-hour.md"
 TYPED = ["alone", "4 kW, V2.31", "F0.04", "yes", "", "", "", ""]
 
@@ -421,7 +545,8 @@ def test_the_session_of_the_page_is_what_a_person_sees(
 
     line, person = Line([drive("jscc", 5)], Way(9600, "8E1")), adapter.Person(read)
     found = commission(PortLine(line.opened, line.clock), person, Wish(MAPS["jscc"], others), lambda _: None)
-    hour.told(person, hour.Words(map="jscc", label="Pump"), MAPS["jscc"], found)
+    words = hour.Words(map="jscc", label="Pump")
+    hour.told(person, words, MAPS["jscc"], found, hour.Shelf(words.file, ABOUT))
     assert found.ended == ""
     said = "\n".join(each.rstrip() for each in capsys.readouterr().out.splitlines())
     shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]

@@ -21,6 +21,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--who", default="", metavar="NAME", help="Who is there, for FILE and its report.")
 @click.option("--skip", multiple=True, metavar="STEP", help="Skip plate, keypad, measure or gaps; may be repeated.")
 @click.option("--file", type=FILE, default=Path("site.yaml"), metavar="FILE", help="Where what was found is kept.")
+@click.option("--replace", is_flag=True, help="Replace what FILE has of this label.")
 def run(**words: Any) -> None:
     """Spend the first hour with a drive: find it, check its keypad, measure it; it reads, and never writes to it.
 

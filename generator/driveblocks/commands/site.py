@@ -16,7 +16,8 @@ TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
 @click.option("--target", type=click.Choice(TARGETS), default="plcopen", help="The platform of the PLC.")
 @click.option("--html", type=FILE, metavar="FILE.html", help="Write a page to be printed and signed.")
 @click.option("--report", metavar="LABEL", help="Print what was found of one drive, to be sent as an issue.")
-def run(file: Path, target: str, html: Path | None, report: str | None) -> None:
+@click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that a drive is of, for --html.")
+def run(file: Path, target: str, html: Path | None, report: str | None, maps: tuple[str, ...]) -> None:
     """Print one initialised VFD_Settings per drive of site.yaml, or a report.
 
     What was measured on one drive is for that drive alone: maps and blocks do not change. The exit status is 0, or 2
@@ -31,7 +32,9 @@ def run(file: Path, target: str, html: Path | None, report: str | None) -> None:
 
     try:
         entries = kept.read(file)
-        drives = {each.map: load(catalog.resolve(each.map)) for each in entries.values() if html}
+        own = {path.stem: path for path in map(catalog.resolve, maps)}
+        names = {each.map for each in entries.values() if html}
+        drives = {each: load(own.get(each) or catalog.resolve(each)) for each in names}
     except (MapError, catalog.UnknownDrive) as error:
         refuse(str(error))
     if report is not None and report not in entries:

@@ -1,7 +1,8 @@
 """`driveblocks commission` and `driveblocks site`: from the words of the command line to what is kept and shown."""
 
 import datetime
-from collections.abc import Callable, Collection, Iterator
+import sys
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,6 +36,7 @@ class Words:
     who: str = ""
     skip: Collection[str] = ()
     file: Path = Path("site.yaml")
+    replace: bool = False
 
     def wrong(self) -> Iterator[str]:
         """What does not go together."""
@@ -57,6 +59,23 @@ class Words:
                 yield f"--skip {each} cannot be; write one of {', '.join(SKIPPABLE)}"
 
 
+@dataclass
+class Shelf:
+    """The file that findings are kept in; `wrong`: why the last of them could not be."""
+
+    file: Path
+    about: kept.About
+    wrong: str = ""
+
+    def keep(self, found: Found) -> None:
+        """Write them; where that is impossible, the hour goes on."""
+        try:
+            kept.write(self.file, self.about, found)
+            self.wrong = ""
+        except (OSError, MapError) as error:
+            self.wrong = reason(error)
+
+
 def run(words: Words, read: Callable[[str], str]) -> Found:
     """Go through the steps at a real port. Raises Refused."""
     wrong, stem, drive = list(words.wrong()), "", None
@@ -67,15 +86,16 @@ def run(words: Words, read: Callable[[str], str]) -> Found:
         wrong.append(str(error))
     try:
         before = kept.read(words.file) if words.file.exists() else {}
+        kept.try_out(words.file)
     except MapError as error:
         wrong, before = [*wrong, str(error)], {}
-    if words.label in before and before[words.label].map != stem:
-        wrong.append(f"{words.label} is of {before[words.label].map} in {words.file}; name another --label")
+    except OSError as error:
+        wrong, before = [*wrong, f"{words.file}: {reason(error)}"], {}
+    wrong += [f"{words.file}: {each}" for each in _taken(before, words)]
     if wrong or drive is None:
         raise Refused("\n".join(wrong))
-    about = kept.About(
-        words.label, stem, f"{revision(drive):08X}", f"{datetime.datetime.now():%Y-%m-%d %H:%M}", words.who
-    )
+    date = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
+    shelf = Shelf(words.file, kept.About(words.label, stem, f"{revision(drive):08X}", date, words.who))
     form = words.form.upper() if words.form else None
     # a server in between has a rate and a format of its own
     fixed = (words.rate or 9600, form or "8N1") if words.tcp else (words.rate, form)
@@ -92,14 +112,23 @@ def run(words: Words, read: Callable[[str], str]) -> Found:
         except OSError as error:
             raise Refused(f"{words.port or words.tcp}: {reason(error)}") from None
         del able  # another way may be the port's
-        found = commission(line, person, wish, lambda some: kept.write(words.file, about, some))
+        found = commission(line, person, wish, shelf.keep)
     finally:
         line.close()
-    told(person, words, drive, found)
+    told(person, words, drive, found, shelf)
     return found
 
 
-def told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
+def _taken(before: Mapping[str, kept.Kept], words: Words) -> Iterator[str]:
+    """Why a label cannot be that of these findings."""
+    for label, one in before.items():
+        if label == words.label and not words.replace:
+            yield f"{label} is kept there, of {one.date}; name another --label, or add --replace"
+        if label != words.label and label.lower() == words.label.lower():
+            yield f"{words.label} and {label} are one name in a PLC; name another --label"
+
+
+def told(person: Asker, words: Words, drive: Drive, found: Found, shelf: Shelf) -> None:
     """The end: what was wrong, what was kept, and what is next."""
     for fault in found.faults:
         person.say(f"{fault.kind.upper()}: {fault.text}\n  look at: {fault.look}")
@@ -119,5 +148,9 @@ def told(person: Asker, words: Words, drive: Drive, found: Found) -> None:
         person.say("")
     if found.skipped:
         person.say(f"Skipped: {', '.join(found.skipped)}")
-    where = f"{words.file}, label {words.label}" if found.family else "nothing was kept"
+    where = f"{words.file}, label {words.label}" if found.family and not shelf.wrong else "nothing was kept"
+    if shelf.wrong:
+        found.ended = found.ended or f"{words.file} could not be written: {shelf.wrong}"
+        person.say("This would be in the file:")
+        sys.stdout.write(kept.text(shelf.about, found))  # YAML is not wrapped
     person.say(f"{'Ended early: ' + found.ended if found.ended else 'Finished'}; {where}")

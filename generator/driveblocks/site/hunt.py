@@ -35,7 +35,7 @@ SAID: dict[Trouble, str] = {
 
 def quiet(line: Line, ways: list[Way], asker: Asker) -> Fault | None:
     """Listen for 60 s, at each rate in its turn; what was heard."""
-    kinds = [each for at, each in enumerate(ways) if each.rate not in {before.rate for before in ways[:at]}]
+    kinds = _kinds(ways)
     begun, share = line.now_us(), QUIET_US // len(kinds)
     heard, here = b"", kinds[0]
     for at, way in enumerate(kinds, 1):
@@ -50,6 +50,17 @@ def quiet(line: Line, ways: list[Way], asker: Asker) -> Fault | None:
     if not heard and line.now_us() < begun + QUIET_US:
         heard = line.exchange(b"", begun + QUIET_US - line.now_us()).data
     return _named(line, ways, here, heard) if heard else None
+
+
+def while_typed(line: Line, ways: list[Way]) -> Fault | None:
+    """What came since the quiet minute, while a person read and typed; the port is as `quiet` has left it."""
+    heard = line.exchange(b"", 0).data
+    return _named(line, ways, _kinds(ways)[-1], heard) if heard else None
+
+
+def _kinds(ways: list[Way]) -> list[Way]:
+    """The first way of each rate."""
+    return list({each.rate: each for each in reversed(ways)}.values())[::-1]
 
 
 def _named(line: Line, ways: list[Way], here: Way, heard: bytes) -> Fault:

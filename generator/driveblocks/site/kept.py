@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+import yaml
+
 from driveblocks.maps import nodes, source
 from driveblocks.maps.decode import build
 from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact
@@ -110,6 +112,11 @@ def read(path: Path) -> dict[str, Kept]:
         report.add(root.at, "this is no file of `driveblocks commission`", "write an entry per drive: `PUMP:`")
     elif root is not None:
         for label, (key, node) in root.entries.items():
+            first = next(each for each in root.entries if each.lower() == label.lower())
+            if first != label:
+                report.add(key.at, f"`{label}` and `{first}` are one name in a PLC", "rename one of them")
+            if key.at[1] != 1:
+                report.add(key.at, f"`{label}` does not begin its line", "begin a line with each label")
             if not LABEL.fullmatch(label):
                 report.add(key.at, f"`{label}` is no label", "write up to 24 letters and digits, a letter first")
             made = build(EntryOf(Kept), node, report, label)
@@ -120,31 +127,56 @@ def read(path: Path) -> dict[str, Kept]:
 
 
 def write(path: Path, about: About, found: Found) -> None:
-    """Put an entry into the file, in the place of the label's old one, in one step. Raises OSError."""
-    old = path.read_text(encoding="utf-8-sig") if path.exists() else HEAD
-    part = path.with_name(f".{path.name}.part")
+    """Put an entry into the file, in the place of the label's old one, in one step.
+
+    Raises OSError, and MapError where the file was made unreadable meanwhile; it is then as it was.
+    """
+    report, old = Report(file_name(path)), source.read(path) if path.exists() else HEAD
+    new = replaced(old, about.label, text(about, found))
+    nodes.parse(new, report)
+    report.raise_if_any()
+    part = _part(path)
     try:
-        part.write_text(replaced(old, about.label, text(about, found)), encoding="utf-8")
+        part.write_bytes(new.encode())
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
 
 
+def try_out(path: Path) -> None:
+    """Raise OSError where a file could not be written."""
+    _part(path).touch()
+    _part(path).unlink()
+
+
+def _part(path: Path) -> Path:
+    return path.with_name(f".{path.name}.part")
+
+
 def replaced(old: str, label: str, entry: str) -> str:
     """A file's text with an entry in the place of the label's old one, or after all; its comments are kept."""
-    lines = old.splitlines(keepends=True)
-    if lines and not lines[-1].endswith("\n"):
-        lines[-1] += "\n"
-    begins = [at for at, line in enumerate(lines) if re.match(rf"{label}[ ]*:", line)]
-    if not begins:
-        return "".join((*lines, "\n" if lines else "", entry))
-    first = begins[0]
-    last = next((at for at in range(first + 1, len(lines)) if lines[at][:1] not in " \r\n"), len(lines))
-    while last > first + 1 and not lines[last - 1].strip():
-        last -= 1
-    notes = [line for line in lines[first:last] if line.lstrip().startswith("#")]
-    head, _, rest = entry.partition("\n")
-    return "".join((*lines[:first], f"{head}\n", *notes, rest, *lines[last:]))
+    end = "\r\n" if "\r\n" in old else "\n"
+    lines = old.replace("\r\n", "\n").splitlines()
+    root = nodes.parse("\n".join((*lines, "")), Report(""))
+    begins = {key: at.at[0] - 1 for key, (at, _) in root.entries.items()} if isinstance(root, nodes.Entries) else {}
+    first, made = begins.get(label), entry.splitlines()
+    if first is None:
+        return end.join((*lines, *[""] * bool(lines), *made, ""))
+    after = min((each for each in begins.values() if each > first), default=len(lines))
+    last, notes = _taken(lines[first:after])
+    return end.join((*lines[:first], made[0], *notes, *made[1:], *lines[first + last :], ""))
+
+
+def _taken(lines: list[str]) -> tuple[int, list[str]]:
+    """How many lines an entry takes, and the comments in them."""
+    ends: dict[int, int] = {}
+    for token in yaml.scan("\n".join((*lines, ""))):
+        start, end = token.start_mark, token.end_mark
+        if start.index < end.index and not isinstance(token, yaml.DocumentEndToken):
+            ends |= {at: len(lines[at]) for at in range(start.line, end.line)} | {end.line: end.column}
+    last = max(at for at, column in ends.items() if column) + 1
+    rests = (line[ends.get(at, 0) :].strip() for at, line in enumerate(lines[:last]))
+    return last, [f"  {each}" for each in rests if each.startswith("#")]
 
 
 def text(about: About, found: Found) -> str:

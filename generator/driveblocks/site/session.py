@@ -69,6 +69,8 @@ def _found(line: Line, asker: Asker, wish: Wish, found: Found) -> Talk:
     asker.say("No byte came. A master may be silent for longer.")
     if asker.ask("alone", f"PLC disconnected, and this drive alone on the line? Type {WORD}:").lower() != WORD:
         raise EndedError(Fault("bound", f"`{WORD}` was not typed; nothing was sent", "start again when it is so"))
+    if fault := hunt.while_typed(line, every):
+        raise EndedError(fault)
     found.done.append("quiet")
     asker.say("Step 2: looking for the drive, by reads alone.")
     return hunt.find(Talk(line, wish.drive, every[0]), every, hunt.units(wish.drive, wish.unit), asker, found)

@@ -1,6 +1,7 @@
 """What is read from a drive that was found: its settings, its times, and what a person says of its gaps."""
 
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from decimal import Decimal, InvalidOperation
 
@@ -21,6 +22,8 @@ LOST = 5
 """Reads in a row without an answer."""
 LEAST_COUNTS = 50
 """A word below it does not show its scale: a person's reading is too coarse."""
+ASKED = 3
+"""How often a question is put whose answer is not understood."""
 
 # ------------------------------------------------------------ 3: keypad
 
@@ -45,25 +48,36 @@ def keypad(talk: Talk, asker: Asker, found: Found) -> None:
         asker.say(f"{one.id} is {one.read} and must be {one.must}: set it at the keypad")
     if not any(each.read is None for each in found.settings):
         return
-    answer = asker.ask("keypad", "Compare the keypad with each `?`. Is all as it must be? yes, or the ids that differ:")
-    if not answer:
+    differing = _differing(asker, {each.id for each in found.settings})
+    if differing is None:
         found.skipped.append("keypad")
         return
-    found.settings = [replace(one, told=_told(one, answer)) for one in found.settings]
+    told = {True: "no", False: "yes"}
+    found.settings = [
+        one if one.read is not None else replace(one, told=told[one.id.lower() in differing]) for one in found.settings
+    ]
+
+
+def _differing(asker: Asker, ids: Collection[str]) -> set[str] | None:
+    """Ids in lower case that differ at the keypad; None where a person does not say."""
+    for _ in range(ASKED):
+        said = "Compare the keypad with each `?`. Is all as it must be? yes, or the ids that differ:"
+        answer = asker.ask("keypad", said).lower()
+        words = set(re.split("[,; ]+", answer.strip(",;. ")))
+        if words <= {each.lower() for each in ids}:
+            return words
+        if words == {"yes"}:
+            return set()
+        if not answer:
+            break
+        asker.say("That was not understood. Type yes, ids of the table, or nothing.")
+    return None
 
 
 def named(setting: Setting, number: int | None) -> str:
     """A value as the keypad has it, with its name."""
     name = next((each.name for each in setting.values if each.value == number), "")
     return "" if number is None else f"{number} {name}".strip()
-
-
-def _told(one: Set, answer: str) -> str:
-    if one.read is not None:
-        return ""
-    if one.id.lower() in answer.lower().replace(",", " ").split():
-        return "no"
-    return "yes" if answer.lower() != "no" else "no"
 
 
 def _words(talk: Talk, span: Span) -> tuple[int, ...]:
