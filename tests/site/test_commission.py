@@ -452,6 +452,26 @@ def test_each_label_gets_settings_of_its_own(target: str, line: str, tmp_path: P
     assert not [each for each in lines if each.lstrip("#").startswith("FanSettings.")]
 
 
+@pytest.mark.parametrize("target", ["plcopen", "codesys", "twincat", "openplc"])
+def test_settings_compile_as_they_are_printed(target: str, tmp_path: Path) -> None:
+    path, source = tmp_path / "site.yaml", tmp_path / "machine.st"
+    answers = [
+        Answer(f"gap {at}", "20", 20, f"{name}Scale", value)
+        for at, (name, value) in enumerate(
+            {"Frequency": "1", "Current": "0.1", "Voltage": "0.0001", "DcVoltage": "0.01", "Power": "0.001"}.items()
+        )
+    ]
+    slow = replace(FULL.measured or Measured(1, 1, 1, 1, ""), longest_ms=2200)
+    kept.write(path, ABOUT, replace(FULL, answers=answers, measured=slow))
+    kept.write(path, replace(ABOUT, label="If"), FULL)
+    said = CliRunner().invoke(app, ["site", str(path), "--target", target]).stdout
+    declared, _, assigned = said.partition("\n\n")
+    source.write_text(f"PROGRAM Machine\nVAR\n{declared}\nEND_VAR\n{assigned}END_PROGRAM\n", encoding="utf-8")
+    got = CliRunner().invoke(app, ["lint", "--for", target, str(source)])
+    assert (got.exit_code, got.stdout) == (0, "")
+    assert assigned.count(":=") == 10
+
+
 def test_the_page_and_the_report_say_what_was_found_and_escape_it(tmp_path: Path) -> None:
     path, page = tmp_path / "site.yaml", tmp_path / "site.html"
     kept.write(path, replace(ABOUT, who="Anna"), FULL)

@@ -218,7 +218,8 @@ def recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
     refused = [each for each in every if not _reads(talk, each)]
     spans = ", ".join(f"{each.words} words from {address_text(each.address)}" for each in refused)
     rivals = [other for other, drive in others.items() if _is_rival(talk, drive)]
-    if rivals and (refused or _refuses_some(talk)):
+    open_ = not refused and not _refuses_some(talk)
+    if rivals and not open_:
         raise ended("family", f"unit {talk.unit} answers as {rivals[0]} does, and not as {name}")
     if len(refused) == len(every):
         raise ended("family", f"unit {talk.unit} gives nothing that {name} has: {spans}")
@@ -226,7 +227,7 @@ def recognise(talk: Talk, found: Found, others: Mapping[str, Drive]) -> None:
         raise ended("family", f"what unit {talk.unit} gives is no {name}: {'; '.join(strange)}")
     if refused:
         found.faults.append(Fault("refused", f"unit {talk.unit} refuses what the map lists: {spans}", LOOK["refused"]))
-    found.family = "unknown" if rivals else "fits"
+    found.family = "unknown" if open_ else "fits"
 
 
 def _is_rival(talk: Talk, drive: Drive) -> bool:

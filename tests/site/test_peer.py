@@ -1,0 +1,126 @@
+"""pymodbus's server as the drive that is commissioned, over TCP and a pseudo-terminal: it is found by reads alone."""
+
+import asyncio
+import os
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pymodbus import FramerType
+from pymodbus.pdu import ModbusPDU
+from pymodbus.server import ModbusSerialServer, ModbusTcpServer
+from pymodbus.simulator import DataType, SimData, SimDevice
+from tests.site.test_commission import MAPS, typed
+
+from driveblocks.maps.plan import plan
+from driveblocks.site import hunt, kept, steps
+
+UNIT = 5
+FUNCTIONS: list[int] = []
+"""Of the requests that the server has understood."""
+
+
+def words(stem: str, *, everything: bool) -> list[SimData]:
+    """The registers that a map lists as readable, or each that there is; those with listed values have one of them."""
+    spans = plan(MAPS[stem]).readable
+    known = {row.address.first: row.values[0].value for _, row in MAPS[stem].registers() if row.values}
+    found = [[known.get(each, 0) for each in span] for span in spans]
+    if not everything:
+        return [
+            SimData(span.first, values=list[Any](some), datatype=DataType.REGISTERS)
+            for span, some in zip(spans, found, strict=True)
+        ]
+    return [SimData(0, values=[known.get(each, 0) for each in range(0x10000)], datatype=DataType.REGISTERS)]
+
+
+def noted(sending: bool, pdu: ModbusPDU) -> ModbusPDU:
+    """Keep the function of a request."""
+    if not sending:
+        FUNCTIONS.append(pdu.function_code)
+    return pdu
+
+
+@contextmanager
+def peer(where: str, device: SimDevice) -> Iterator[str]:
+    """A server in a thread of its own; its place."""
+    begun, place = threading.Event(), [""]
+    loop, over = asyncio.new_event_loop(), asyncio.Event()
+
+    async def serve() -> None:
+        if where == "tcp":
+            server: Any = ModbusTcpServer(
+                device, framer=FramerType.RTU, address=("127.0.0.1", 0), trace_pdu=noted, ignore_missing_devices=True
+            )
+            await server.serve_forever(background=True)
+            place[0] = f"127.0.0.1:{server.transport.sockets[0].getsockname()[1]}"
+        else:
+            place[0], other = _cable(loop)
+            server = ModbusSerialServer(device, port=other, baudrate=9600, trace_pdu=noted, ignore_missing_devices=True)
+            await server.serve_forever(background=True)
+        begun.set()
+        await over.wait()
+        await server.shutdown()
+
+    thread = threading.Thread(target=loop.run_until_complete, args=(serve(),))
+    thread.start()
+    assert begun.wait(30)
+    try:
+        yield place[0]
+    finally:
+        loop.call_soon_threadsafe(over.set)
+        thread.join()
+        loop.close()
+
+
+def _cable(loop: asyncio.AbstractEventLoop) -> tuple[str, str]:
+    """Two terminals, each of which gives what is said at the other."""
+    import tty
+
+    (one, here), (two, there) = (os.openpty() for _ in range(2))
+    for each in (here, there):
+        tty.setraw(each)
+    for said, heard in ((one, two), (two, one)):
+        loop.add_reader(said, _carry, said, heard)
+    return os.ttyname(here), os.ttyname(there)
+
+
+def _carry(said: int, heard: int) -> None:
+    os.write(heard, os.read(said, 4096))
+
+
+@pytest.fixture(autouse=True)
+def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hunt, "QUIET_US", 100_000)
+    monkeypatch.setattr(steps, "READS", 20)
+    FUNCTIONS.clear()
+
+
+@pytest.mark.parametrize(
+    "where",
+    ["tcp", pytest.param("pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals"))],
+)
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, where: str, tmp_path: Path) -> None:
+    option = "--tcp" if where == "tcp" else "--port"
+    with peer(where, SimDevice(UNIT, words(stem, everything=False))) as place:
+        got = typed(tmp_path, stem, option, place, "--unit", str(UNIT), "--mode", "rtu")
+    assert (got.exit_code, got.stderr) == (0, ""), got.stdout
+    one = kept.read(tmp_path / "site.yaml")["Pump"]
+    assert (one.family, one.ended, one.line.unit, one.faults) == ("fits", None, UNIT, ())
+    assert one.measured is not None
+    assert one.measured.unlisted.endswith(": refused")
+    assert set(FUNCTIONS) == {3}
+
+
+@pytest.mark.parametrize("stem", MAPS)
+def test_a_server_that_answers_every_address_is_of_no_family(stem: str, tmp_path: Path) -> None:
+    with peer("tcp", SimDevice(UNIT, words(stem, everything=True))) as place:
+        got = typed(tmp_path, stem, "--tcp", place, "--unit", str(UNIT), "--mode", "rtu", "--skip", "measure")
+    assert got.exit_code == 0, got.stdout
+    assert "could not be found out" in " ".join(got.stdout.split())
+    assert kept.read(tmp_path / "site.yaml")["Pump"].family == "unknown"
+    assert set(FUNCTIONS) == {3}
