@@ -148,9 +148,11 @@ VAR i : UINT; END_VAR
 END_FUNCTION_BLOCK
 """
 
-    def test_up_to_the_limit(self) -> None:
-        """Exactly this many are allowed, and each scan has a new budget."""
-        made = build(self.TEXT, loop_limit=101).instance("Test")
+    @pytest.mark.parametrize("kind", ["FUNCTION_BLOCK", "PROGRAM"])
+    def test_up_to_the_limit(self, kind: str) -> None:
+        """Exactly this many are allowed, and each scan has a new budget, that of a program, too."""
+        text = self.TEXT.replace("FUNCTION_BLOCK", kind).replace("VAR_INPUT n", "VAR n")
+        made = build(text, loop_limit=101).instance("Test")
         made["n"] = 50
         for _ in range(3):
             made.scan()
