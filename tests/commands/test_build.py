@@ -19,7 +19,7 @@ EXAMPLE = (ROOT / "tests/maps/example.yaml").read_text(encoding="utf-8")
 FILES = {"README.md", "iec61131/order.txt", "tests/page.md"}
 
 
-def few(sources: list[collection.Source], languages: list[Language], _: object = ()) -> dict[str, str]:
+def few(sources: list[collection.Source], languages: list[Language], *_: object) -> dict[str, str]:
     """An output that is quick to make: a page of all drives, and a block of each."""
     names = ", ".join(source.drive.prefix for source in sources)
     blocks = {f"iec61131/{source.path.stem}/{source.drive.prefix}.st": f"{len(languages)}\n" for source in sources}

@@ -17,7 +17,8 @@ import pytest
 from tests.maps.bad import cases
 
 from driveblocks.maps.load import load
-from driveblocks.site import saved
+from driveblocks.site import kept, saved
+from driveblocks.site.found import Found, Way
 
 ROOT = Path(__file__).parents[2]
 TESTING = ROOT / "docs/testing.md"
@@ -33,7 +34,7 @@ ELSEWHERE = {
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
     r"driveblocks test my_drive.yaml --junit": "tests/commands/test_ci_jobs.py runs the job in a clone",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
-    r"driveblocks (commission|site) .": "a real port, and its file; tests/site/test_commission.py has them",
+    r"driveblocks commission .": "a real port; tests/site/test_commission.py has it",
     r"driveblocks parameters .*--port": "a real port; tests/site/test_parameters.py has them at simulated drives",
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
@@ -116,6 +117,7 @@ def own(tmp_path: Path) -> Path:
         saved.write(
             tmp_path / f"{name}.csv", "jscc", load(ROOT / "vendor_maps/jscc.yaml"), 2, dict.fromkeys(range(256), 1)
         )
+    kept.write(tmp_path / "site.yaml", kept.About("Pump", "jscc", "1", "2026-11-23", ""), Found(Way(9600), 1, "fits"))
     return tmp_path
 
 

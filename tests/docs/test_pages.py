@@ -14,7 +14,7 @@ from tests.shapes import shapes
 from tests.shipped import drives
 
 from driveblocks.docs import timing
-from driveblocks.docs.page import documents
+from driveblocks.docs.page import Own, documents
 from driveblocks.maps.model import Drive
 from driveblocks.render.library import PLATFORMS, first_motor, generic
 from driveblocks.render.library import drive as library_of
@@ -125,7 +125,7 @@ def test_the_page_of_a_second_hand_map_prints_the_number_that_lets_it_run() -> N
 def test_the_page_of_a_users_map_names_it_in_commands_by_its_file() -> None:
     drive = drives()["JSCC"]
     files = [*generic(LANGUAGES), *library_of("mine", drive, LANGUAGES)]
-    text = documents(files, [drive], {"JSCC": "mine.yaml"})["docs/JSCC_Drive.md"]
+    text = documents(files, [drive], {"JSCC": Own("mine.yaml")})["docs/JSCC_Drive.md"]
     assert "`driveblocks show mine.yaml absent`" in text
     assert "`driveblocks show jscc absent`" in page("JSCC")
 

@@ -616,3 +616,36 @@ def test_a_port_that_is_not_there_is_named(tmp_path: Path) -> None:
     got = typed(tmp_path, "chf", "--port", "/dev/nowhere")
     assert (got.exit_code, got.stderr) == (2, "/dev/nowhere: there is no such port\n")
     assert [*tmp_path.iterdir()] == []
+
+
+def test_pages_say_what_one_drive_has_shown_only_where_they_are_built_with_it(tmp_path: Path) -> None:
+    path, out = tmp_path / "site.yaml", tmp_path / "out"
+    kept.write(path, replace(ABOUT, who="Anna"), replace(FULL, plate="4 <kW> | V2"))
+    kept.write(path, replace(ABOUT, label="Lift", map="other"), FULL)
+    words = ["build", "jscc", "-o", str(out), "--lang", "en", "--target", "iec61131"]
+    pages = {}
+    for site in ([], ["--site", str(path)]):
+        got = CliRunner().invoke(app, [*words, *site])
+        assert (got.exit_code, got.stderr) == (0, "")
+        assert ("other is not built here" in got.stdout) == bool(site)
+        assert CliRunner().invoke(app, [*words, *site, "--check"]).exit_code == 0
+        pages[bool(site)] = {
+            each.relative_to(out): each.read_text("utf-8") for each in out.rglob("*") if each.is_file()
+        }
+    differs = {each.name for each in pages[True] if pages[True][each] != pages[False][each]}
+    assert differs == {"JSCC_Drive.md", ".driveblocks.json"}
+    shown = pages[True][Path("docs/JSCC_Drive.md")]
+    for line in (
+        "## Measured on one drive",
+        "### Pump",
+        "| plate | 4 &lt;kW> \\| V2 |",
+        "| longest reply | 12 ms",
+    ):
+        assert line in shown
+    assert "Anna" not in shown
+    assert "Lift" not in shown
+    assert "Measured on one drive" not in pages[False][Path("docs/JSCC_Drive.md")]
+    path.write_text("Pump: {map: 3}\n", encoding="utf-8")
+    got = CliRunner().invoke(app, [*words, "--site", str(path)])
+    assert got.exit_code == 2
+    assert f"{path}:1:" in got.stderr

@@ -2,18 +2,18 @@
 
 import contextlib
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from driveblocks.commands import MAPS, refuse
+from driveblocks.commands import FILE, MAPS, refuse
 from driveblocks.export import TARGETS
 
 if TYPE_CHECKING:
-    from driveblocks.output.build import Plan
+    from driveblocks.docs.page import Measured
+    from driveblocks.output.build import Plan, Wanted
     from driveblocks.render.text import Language
 
 
@@ -25,65 +25,66 @@ if TYPE_CHECKING:
 @click.option("--target", metavar="LIST", default="all", help=f"Forms to write: {', '.join(TARGETS)} or all.")
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the folder is not current.")
 @click.option("--only", is_flag=True, help="Remove the blocks of drives and targets that are not named.")
+@click.option("--site", type=FILE, metavar="FILE", help="Show on the pages what `commission` found of single drives.")
 @click.option("--force", is_flag=True, help="Also replace files of an earlier build that you have edited.")
 def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command line
-    maps: tuple[str, ...], output: str, lang: str, encoding: str, target: str, check: bool, only: bool, force: bool
+    maps: tuple[str, ...],
+    output: str,
+    lang: str,
+    encoding: str,
+    target: str,
+    site: Path | None,
+    check: bool,
+    only: bool,
+    force: bool,
 ) -> None:
     """Write the function blocks of the drives. The old output stays whole when anything is wrong.
 
     Drives and targets that are built one after another into one folder join: each build brings all of them up to date,
     in the languages asked for. What was written is listed in .driveblocks.json there. Only files of that list are
-    replaced or removed, and none that you have edited since, unless with --force.
+    replaced or removed, and none that you have edited since, unless with --force. --site changes pages, and no block.
 
     Example: driveblocks build my_drive.yaml -o my_blocks
     """
-    from driveblocks.output import transaction
+    from driveblocks.output import build, transaction
     from driveblocks.output.manifest import NAME
     from driveblocks.render.text import missing
 
     folder = _folder(output)
-    wanted = _Wanted(maps, _languages(lang, encoding), _targets(target), only)
-    plan = _planned(folder, wanted) if check else _carried_out(folder, wanted, force)
+    asked = build.Wanted(_languages(lang, encoding), _targets(target), only, _measured(site))
+    plan = _planned(folder, maps, asked) if check else _carried_out(folder, maps, asked, force)
     wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
     if check and transaction.interrupted(folder):
         wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
     if check and wrong:
-        again = _again({"-o": output, "--lang": lang, "--encoding": encoding, "--target": target}, maps, only)
+        options = {"-o": output, "--lang": lang, "--encoding": encoding, "--target": target, "--site": site}
+        again = _again(options, maps, only)
         click.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
         sys.exit(1)
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
     click.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
-    for note in filter(None, (missing(source.drive, wanted.languages) for source in plan.sources)):
+    for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources)):
         click.echo(note)
+    for stem in sorted(asked.measured.keys() - {source.path.stem for source in plan.sources}):
+        click.echo(f"{site}: {stem} is not built here, and no page shows its drives")
 
 
-@dataclass(frozen=True)
-class _Wanted:
-    """What the command line asks for."""
-
-    maps: tuple[str, ...]
-    languages: "list[Language]"
-    targets: list[str]
-    only: bool
-
-
-def _planned(folder: Path, wanted: _Wanted) -> "Plan":
+def _planned(folder: Path, maps: tuple[str, ...], asked: "Wanted") -> "Plan":
     from driveblocks.maps import catalog
     from driveblocks.output import build
 
     with _told(folder):
-        named = catalog.chosen(wanted.maps)
-        return build.plan(folder, named, wanted.languages, wanted.targets, only=wanted.only)
+        return build.plan(folder, catalog.chosen(maps), asked)
 
 
-def _carried_out(folder: Path, wanted: _Wanted, force: bool) -> "Plan":
+def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bool) -> "Plan":
     from driveblocks.output import build, transaction
 
     with _told(folder), transaction.locked(folder):
         if transaction.recover(folder):
             click.echo(f"{folder}: took back a build that was interrupted", err=True)
-        plan = _planned(folder, wanted)
+        plan = _planned(folder, maps, asked)
         build.write(folder, plan, force=force)
         return plan
 
@@ -112,9 +113,22 @@ def _folder(output: str) -> Path:
     return Path(output)
 
 
-def _again(options: dict[str, str], maps: tuple[str, ...], only: bool) -> str:
+def _measured(site: Path | None) -> Mapping[str, "Sequence[Measured]"]:
+    """What was found of single drives, by the name of their map. Ends with status 2 for a bad file."""
+    if site is None:
+        return {}
+    from driveblocks.maps.problem import MapError
+    from driveblocks.site import kept, sheet
+
+    try:
+        return sheet.measured(kept.read(site))
+    except MapError as error:
+        refuse(str(error))
+
+
+def _again(options: "Mapping[str, str | Path | None]", maps: tuple[str, ...], only: bool) -> str:
     """The words of the command line that are not the usual ones."""
-    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--target": "all"}
+    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--target": "all", "--site": None}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
     return "".join(f" {word}" for word in [*maps, *given, *(["--only"] if only else ())])
 

@@ -1,6 +1,7 @@
 """The page of a drive block: values for its template, and the pictures beside it."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
@@ -51,29 +52,40 @@ DRAWN = {
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
+Measured = tuple[str, Sequence[tuple[str, str]]]
+"""What was found of one drive: its label, and what each fact is called and says."""
+
+
+@dataclass(frozen=True)
+class Own:
+    """What a page says of a family that its map does not."""
+
+    word: str = ""
+    """What the map is called in a command, where that is not its prefix."""
+    measured: Sequence[Measured] = ()
 
 
 def documents(
     files: list[File],
     drives: list[Drive],
-    named: Mapping[str, str] | None = None,
+    own: Mapping[str, Own] | None = None,
     *,
     linked: bool = True,
     targets: Collection[str] = (),
 ) -> dict[str, str]:
     """The overview, every page and every picture, path below the output folder -> text.
 
-    `named`: prefix -> what a map is called in a command, where that is not its prefix; `linked` see `overview`;
-    `targets` are those that are built, whose pages a drive's leads to.
+    `own`: prefix -> what is special about a family here; `linked` see `overview`; `targets` are those that are built,
+    whose pages a drive's leads to.
     """
     checked = check([parse("\n".join(file.text for file in files), "library")])
     return {
         "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
-        **pages(drives, checked, named or {}, [one for one in PLATFORMS if one in targets]),
+        **pages(drives, checked, own or {}, [one for one in PLATFORMS if one in targets]),
     }
 
 
-def pages(drives: list[Drive], checked: Checked, named: Mapping[str, str], platforms: list[str]) -> dict[str, str]:
+def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platforms: list[str]) -> dict[str, str]:
     """Every page and picture, path below the output folder -> text."""
     found = _shared(drives, checked.blocks) if drives else {}
     for drive in drives:
@@ -81,7 +93,7 @@ def pages(drives: list[Drive], checked: Checked, named: Mapping[str, str], platf
         block = checked.blocks[name.upper()]
         inputs, in_outs, outputs = _pins(drive, block)
         values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
-        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, named.get(drive.prefix), platforms)
+        found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
         found[f"{FOLDER}/{name}_ladder.svg"] = _network(BYTES, drive, checked.blocks)
@@ -156,14 +168,15 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], named: str | None, platforms: list[str]) -> str:
+def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own, platforms: list[str]) -> str:
     block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     open_ = [each for each in drive.absent if _open(drive, each)]
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
-        word=named or drive.prefix.lower(),
+        word=own.word or drive.prefix.lower(),
+        measured=own.measured,
         edition=drive.manual.edition,
         platforms=[(one, PLATFORMS[one], DRAWN.get(one)) for one in platforms],
         first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],

@@ -1,11 +1,11 @@
 """Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
 import os
-from collections.abc import Collection
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from driveblocks.docs.page import documents
+from driveblocks.docs.page import Measured, Own, documents
 from driveblocks.export import CANONICAL, TARGETS, target
 from driveblocks.export.part import shelf
 from driveblocks.maps import catalog
@@ -21,24 +21,35 @@ SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
 
-def files(sources: list[Source], languages: list[Language], targets: Collection[str] = (CANONICAL,)) -> dict[str, str]:
+def files(
+    sources: list[Source],
+    languages: list[Language],
+    targets: Collection[str] = (CANONICAL,),
+    measured: Mapping[str, Sequence[Measured]] | None = None,
+) -> dict[str, str]:
     """Every file of the output, path below the output folder -> text. The same input gives the same text.
 
+    `measured`: name of a map -> what was found of one drive each, for the page of its block.
     Raises ExportError with everything that a target cannot say.
     """
     made = [*library.generic(languages)]
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
-    own = {source.drive.prefix: source.path.name for source in sources if not catalog.is_shipped(source.path)}
+    own = {
+        source.drive.prefix: Own(
+            "" if catalog.is_shipped(source.path) else source.path.name, (measured or {}).get(source.path.stem, ())
+        )
+        for source in sources
+    }
     linked = CANONICAL in targets
-    texts = documents(made, [source.drive for source in sources], own, linked=linked, targets=targets)
+    drives = {source.path.stem: source.drive for source in sources}
+    texts = documents(made, [*drives.values()], own, linked=linked, targets=targets)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
         texts |= {file.path: file.text for file in library.adapter("linux", languages)}
         texts |= programs(sources, languages)
-    drives = {source.path.stem: source.drive for source in sources}
     return texts | target.files(lambda: shelf(made, drives, languages), targets)
 
 
@@ -52,22 +63,26 @@ class Plan:
     states: dict[str, State]
 
 
-def plan(
-    folder: Path,
-    named: list[Path],
-    languages: list[Language],
-    targets: Collection[str] = (CANONICAL,),
-    *,
-    only: bool = False,
-) -> Plan:
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked for; `only`: not also what the folder was built from and for."""
+
+    languages: list[Language]
+    targets: Collection[str] = (CANONICAL,)
+    only: bool = False
+    measured: Mapping[str, Sequence[Measured]] = field(default_factory=dict)
+    """By the name of a map."""
+
+
+def plan(folder: Path, named: list[Path], asked: Wanted) -> Plan:
     """The output of the named maps for the named targets.
 
     Unless only those are wanted, also of the maps and for the targets that the folder was built from and for.
     Raises MapError, ExportError, Refused and OSError.
     """
     old = manifest.read(folder)
-    wanted = [name for name in TARGETS if name in targets or (name in old.targets and not only)]
-    others = [] if only else _others(folder, old, named)
+    targets = [name for name in TARGETS if name in asked.targets or (name in old.targets and not asked.only)]
+    others = [] if asked.only else _others(folder, old, named)
     try:
         sources = read(sorted([*named, *others], key=lambda path: (path.stem, str(path))))
     except MapError as error:
@@ -75,9 +90,9 @@ def plan(
             there = ", ".join(map(str, others))
             error.add_note(f"{folder} was built from {there} as well; --only builds without")
         raise
-    texts = files(sources, languages, wanted)
+    texts = files(sources, asked.languages, targets, asked.measured)
     words = [_word(source.path, folder) for source in sources]
-    texts[manifest.NAME] = manifest.made(words, wanted, texts, folder, old).text
+    texts[manifest.NAME] = manifest.made(words, targets, texts, folder, old).text
     return Plan(sources, old, texts, manifest.compare(folder, old, texts))
 
 

@@ -51,6 +51,16 @@ def page(entries: Mapping[str, Kept], drives: Mapping[str, Drive]) -> str:
     return f"<!doctype html><html lang='en'><head>{head}</head><body><h1>Commissioning</h1>{body}</body></html>\n"
 
 
+def measured(entries: Mapping[str, Kept]) -> dict[str, list[tuple[str, list[tuple[str, str]]]]]:
+    """Name of a map -> label and facts of each drive of it, without who was there."""
+    found: dict[str, list[tuple[str, list[tuple[str, str]]]]] = {}
+    for label, one in entries.items():
+        rows = [(name, value) for name, value in _facts(one) if name != "who"]
+        rows += [(f"gap: {each.gap}", f"{each.answer}{_given(each.gives, each.value, '; ')}") for each in one.answers]
+        found.setdefault(one.map, []).append((label, rows))
+    return found
+
+
 def _sheet(label: str, one: Kept, drive: Drive | None) -> str:
     parts = [f"<h2>{html.escape(label)}</h2>", _table(("", ""), _facts(one))]
     settings = [(each.id, _text(each.read), _text(each.must) or "as the PLC", each.told or "") for each in one.settings]
