@@ -80,11 +80,11 @@ def _read(text: str) -> Paste:
 
 
 def _lines(text: str) -> list[tuple[int, str]]:
-    """Every line that is not blank, without a logger's label, with the place where it starts."""
+    """Every line that is neither blank nor a remark, without a logger's label, with the place where it starts."""
     found, place = [], 0
     for whole in text.splitlines(keepends=True):
         start = _unlabelled(whole)
-        if whole[start:].strip():
+        if whole[start:].strip() and not whole.startswith("#"):
             found.append((place + start, whole[start:]))
         place += len(whole)
     return found

@@ -1,6 +1,6 @@
 """A line at a port of this machine, and a person at its terminal."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from rich.console import RenderableType
@@ -9,8 +9,10 @@ from rich.progress import BarColumn, Progress, TextColumn
 from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.port import Port
+from driveblocks.desk.port import Port, Tap
+from driveblocks.plc.options import LOOPBACK, NO_PORT, is_port
 from driveblocks.site.found import Heard, Way
+from driveblocks.site.line import CHARACTER_BITS
 from driveblocks.site.reader import Reads
 
 LOOK_US = 500
@@ -123,7 +125,30 @@ def at(name: str | None, address: str | None, clock: Clock) -> Callable[[Way], P
     def opened(way: Way) -> Port:
         if name is not None:
             return port.serial_port(name, way.rate, way.form, clock)
-        host, _, number = (address or "").rpartition(":")
-        return port.tcp(host or "127.0.0.1", int(number), clock)
+        return port.tcp(*_parts(address), clock)
 
     return opened
+
+
+def tap(name: str | None, address: str | None, way: Way) -> Tap:
+    """A port that is only heard. Raises ImportError, OSError, ValueError."""
+    return port.serial_tap(name, way.rate, way.form) if name is not None else port.tcp_tap(*_parts(address))
+
+
+def _parts(address: str | None) -> tuple[str, int]:
+    host, _, number = (address or "").rpartition(":")
+    return host or LOOPBACK[1], int(number)
+
+
+def wrong(name: str | None, address: str | None, rate: int | None, form: str | None, *, who: str) -> Iterator[str]:
+    """What is wrong with the words that say where `who` is, and how it speaks."""
+    if (name is None) == (address is None):
+        yield f"name the port of {who}, by --port or by --tcp"
+    if name == "":
+        yield NO_PORT
+    if address is not None and not is_port(address.rpartition(":")[2]):
+        yield f"--tcp {address} is no address; write HOST:PORT, with a port of 1 to 65535"
+    if rate is not None and not 300 <= rate <= 1_000_000:
+        yield f"--rate {rate} is out of range; write 300 to 1000000 bit/s"
+    if form is not None and form.upper() not in CHARACTER_BITS:
+        yield f"--format {form} is no format; write one of {', '.join(CHARACTER_BITS)}"

@@ -20,8 +20,10 @@ from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
 from driveblocks.plc.ask import Speech
 from driveblocks.plc.drives import named, words
-from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, is_port, time
+from driveblocks.plc.options import Refused, time
 from driveblocks.show.layout import table
+from driveblocks.site import adapter
+from driveblocks.site.found import Way
 from driveblocks.site.line import CHARACTER_BITS
 from driveblocks.site.reader import LostError, One, Reader, heard
 from driveblocks.site.register import Row, rows, unread, value
@@ -44,16 +46,7 @@ class Place:
 
     def wrong(self) -> Iterator[str]:
         """What does not go together."""
-        if (self.port is None) == (self.tcp is None):
-            yield "name the port of the drive, by --port or by --tcp"
-        if self.port == "":
-            yield NO_PORT
-        if self.tcp is not None and not is_port(self.tcp.rpartition(":")[2]):
-            yield f"--tcp {self.tcp} is no address; write HOST:PORT, with a port of 1 to 65535"
-        if not 300 <= self.rate <= 1_000_000:
-            yield f"--rate {self.rate} is out of range; write 300 to 1000000 bit/s"
-        if self.form.upper() not in CHARACTER_BITS:
-            yield f"--format {self.form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+        yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the drive")
         try:
             time("--patience", self.patience, 0, HIGHEST_PATIENCE_US)
         except Refused as refused:
@@ -63,11 +56,7 @@ class Place:
     def _opened(self, clock: RealClock) -> Iterator[Port]:
         """The port, on which nobody speaks. Raises Refused."""
         try:
-            if self.port is not None:
-                made = port.serial_port(self.port, self.rate, self.form.upper(), clock)
-            else:
-                host, _, number = (self.tcp or "").rpartition(":")
-                made = port.tcp(host or LOOPBACK[1], int(number), clock)
+            made = adapter.at(self.port, self.tcp, clock)(Way(self.rate, self.form.upper()))
         except ImportError as error:
             raise Refused(f"--port needs pyserial, which does not run here: {error}") from None
         except (OSError, ValueError, OverflowError) as error:

@@ -130,7 +130,10 @@ class Findings:
         """Requests that were answered or given up since the last damage, the newest last."""
 
     def drive(self, unit: int) -> Drive | None:
-        """The map of a unit; None without one."""
+        """The map of a unit, or of a broadcast to one family; None without one."""
+        every = [*self._drives.values(), *([self._other] if self._other else [])]
+        if unit == 0 and every and all(each is every[0] or each.prefix == every[0].prefix for each in every):
+            return every[0]  # a broadcast is for all of them
         return self._drives.get(unit, self._other)
 
     def unit(self, number: int) -> Unit:
@@ -179,7 +182,7 @@ class Findings:
         now = self._open
         past = [each for each in reversed(self._past) if each.answered_by(spoken, body)]
         if now is not None and now.answered_by(spoken, body):
-            if alike and one.at_us - now.end_us > ALIKE_US:
+            if alike and one.at_us - now.end_us > self._patience(body[0]):
                 return False
             clear = not any(each.left for each in past)
             self._answer(now, one, take(body, "reply", spoken), alike=alike, clear=clear)
@@ -197,6 +200,15 @@ class Findings:
         else:
             return False
         return True
+
+    def _sure(self, unit: int) -> bool:
+        """Whether a unit is known to answer, and how fast."""
+        return self.unit(unit).sure > 0
+
+    def _patience(self, unit: int) -> int:
+        """Within this time a frame that may be a reply is taken for one."""
+        known = self.unit(unit).reply_us
+        return max(ALIKE_US, known[1] + LATE_US if known else 0)
 
     def _answer(self, now: _Open, one: Caught, reply: Layout, *, alike: bool, clear: bool) -> None:
         """A reply in its turn; `clear`: it cannot be that to an earlier request."""
@@ -234,7 +246,9 @@ class Findings:
         key = asked.function, asked.address, asked.quantity
         asks = self.unit(body[0]).asks if body[0] else self.broadcasts
         ask = asks.setdefault(key, Ask(*key, writes=writes))
-        unsure = unsure or (now is not None and now.body == body and asked.function in ALIKE)
+        unsure = unsure or (
+            now is not None and now.body == body and asked.function in ALIKE and not self._sure(body[0])
+        )
         if not unsure:
             _count(ask, one.at_us)
         if writes:
@@ -301,7 +315,12 @@ def _of_unit(number: int, unit: Unit, *, interrupted: bool) -> Iterator[Said]:
     if unit.asked + unit.alike >= SOME and unit.answered + unit.alike and not (unit.sure or unit.strays):
         yield Said("unclear", number, "may answer, or be asked again: request and reply look alike")
     if unit.late and not (interrupted and unit.interrupted):
-        yield Said("late", number, f"{unit.late} replies came after the next request", "the master waits too short")
+        yield Said(
+            "late",
+            number,
+            f"{unit.late} replies came after the next request",
+            "the master waits too short; two masters",
+        )
     if unit.twice:
         yield Said("twice", number, f"{unit.twice} replies came twice", "two units at this address; a repeater")
     if unit.late_or_twice:

@@ -14,10 +14,10 @@ from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
-from driveblocks.plc.options import NO_PORT, Refused, is_port
+from driveblocks.plc.options import Refused
 from driveblocks.site import adapter, asked, kept, report, steps
 from driveblocks.site.found import Asker, Found
-from driveblocks.site.line import CHARACTER_BITS, figures
+from driveblocks.site.line import figures
 from driveblocks.site.session import SKIPPABLE, Wish, commission
 
 
@@ -40,16 +40,7 @@ class Words:
 
     def wrong(self) -> Iterator[str]:
         """What does not go together."""
-        if (self.port is None) == (self.tcp is None):
-            yield "name the port of the drive, by --port or by --tcp"
-        if self.port == "":
-            yield NO_PORT
-        if self.tcp is not None and not is_port(self.tcp.rpartition(":")[2]):
-            yield f"--tcp {self.tcp} is no address; write HOST:PORT, with a port of 1 to 65535"
-        if self.rate is not None and not 300 <= self.rate <= 1_000_000:
-            yield f"--rate {self.rate} is out of range; write 300 to 1000000 bit/s"
-        if self.form is not None and self.form.upper() not in CHARACTER_BITS:
-            yield f"--format {self.form} is no format; write one of {', '.join(CHARACTER_BITS)}"
+        yield from adapter.wrong(self.port, self.tcp, self.rate, self.form, who="the drive")
         if self.unit is not None and not 1 <= self.unit <= 255:
             yield f"--unit {self.unit} is out of range; write 1 to 255"
         if not kept.LABEL.fullmatch(self.label):

@@ -10,11 +10,11 @@ from rich.console import RenderableType
 from rich.text import Text
 
 from driveblocks.explain import page
-from driveblocks.modbus.envelope import open_
 from driveblocks.explain.guess import guesses
 from driveblocks.explain.meaning import Held, held
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.view import plain as number
+from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.layout import Dialect
 from driveblocks.show.layout import facts, table
 from driveblocks.site.findings import Ask, Findings, said
@@ -41,7 +41,7 @@ def tables(found: Findings, way: Way, *, brief: bool = False) -> Iterator[Render
         yield Text(f"{who}: {one.text}" + (f" ({one.perhaps})" if one.perhaps else ""), style="bold")
     if brief:
         return
-    for guess in _guessed(found):
+    for guess in dict.fromkeys(_guessed(found)):
         yield Text(f"a damaged one: {guess}")
     if any(row[1].word is not None for row in _words(found)):
         yield Text()
@@ -102,8 +102,7 @@ def _registers_of(found: Findings, unit: int, ask: Ask) -> str:
 
 
 def _held(found: Findings, unit: int, ask: Ask, place: int, word: int | None) -> Held:
-    drive = found.drive(unit) if unit else None
-    return held(drive, ask.address + place, word, writing=ask.writes)
+    return held(found.drive(unit), ask.address + place, word, writing=ask.writes)
 
 
 def _words(found: Findings) -> Iterator[tuple[int, Held, Ask]]:
