@@ -105,6 +105,8 @@ class _Open:
     unsure: bool = False
     """Whether it may be a reply instead."""
     spoilt: bool = False
+    blurred: bool = False
+    """Whether another request may have come since."""
     left: bool = False
     """Whether another request came before its reply."""
 
@@ -148,12 +150,15 @@ class Findings:
             self.first_us = one.at_us
         self.last_us = one.end_us
         if one.body is None:
-            self._damage(one)
+            if self.good:  # before the first good frame: the end of one that had begun earlier
+                self._damage(one)
             return ""
         self.good += 1
         drive = self.drive(one.body[0])
         spoken = dialect(drive) if drive is not None else Dialect()
         kinds = {each.direction: each for each in readings(one.body, spoken) if each.fits}
+        if one.body[1] not in KNOWN:
+            kinds.pop("request", None)
         if one.body[1] & 0x7F not in KNOWN or not kinds:
             self.unit(one.body[0]).others[one.body[1]] += 1
             self._give_up(None)
@@ -162,7 +167,7 @@ class Findings:
             return "<"
         if "request" in kinds:
             return self._request(one, one.body, kinds["request"])
-        self.unit(one.body[0]).strays += 1
+        self.unit(one.body[0]).strays += self.good > 1  # the request of the first may have come too early to be heard
         return "<"
 
     def finish(self) -> None:
@@ -184,7 +189,7 @@ class Findings:
         if now is not None and now.answered_by(spoken, body):
             if alike and one.at_us - now.end_us > self._patience(body[0]):
                 return False
-            clear = not any(each.left for each in past)
+            clear = not now.blurred and not any(each.left for each in past)
             self._answer(now, one, take(body, "reply", spoken), alike=alike, clear=clear)
             return True
         if alike or not past:
@@ -240,6 +245,7 @@ class Findings:
         )
         if unsure and now is not None and now.body != body and not now.spoilt:
             self.unit(body[0]).alike += 1  # perhaps its late reply: somebody else's is still awaited
+            now.blurred = True
             return ""
         self._give_up(one)
         writes = asked.function in (5, 6, 15, 16)
@@ -262,16 +268,16 @@ class Findings:
         if now is None:
             return
         unit = self.unit(now.body[0])
+        now.left = True
+        self._past.append(now)
         if now.unsure:
             unit.alike += 1
             return
-        now.left = True
-        self._past.append(now)
         if now.spoilt:
             now.ask.spoilt += 1
             return
         now.ask.unanswered += 1
-        if one is not None and one.body != now.body:
+        if one is not None and one.body != now.body and not now.blurred:
             unit.hasty[min(10_000, (one.at_us - now.end_us) // 1000)] += 1
 
 

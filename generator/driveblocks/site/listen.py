@@ -179,7 +179,7 @@ class Desk:
                     self._keep(found)
                 self.clock.sleep_until(now + LOOK_US)
         finally:
-            self._take(found, ear.end())
+            self._take(found, (one for one in ear.end() if one.body is not None))  # the rest is only not whole yet
             found.finish()
 
     def _take(self, found: Findings, caught: Iterator[Caught]) -> None:

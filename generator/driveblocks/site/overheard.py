@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from driveblocks.modbus import scan
 from driveblocks.modbus.frame import ASCII_CHARS, RTU_BYTES, Mode, opened
-from driveblocks.modbus.layout import Dialect
+from driveblocks.modbus.layout import Dialect, expected_sizes
 
 GAP_US = 20_000
 """After so much silence a frame has ended; an adapter may hand it over in pieces."""
@@ -54,13 +54,18 @@ class Ear:
         for piece in self._pieces():
             end = piece.start + len(piece.data)
             closed = self.mode == "ascii" and end < len(self._data)
-            if not (piece.good or closed or piece.start < over):
+            whole = piece.good and not (end == len(self._data) and self._may_go_on(piece.data))
+            if not (whole or closed or piece.start < over):
                 break
             body = opened(self.mode, piece.data)
             yield Caught(self._at(piece.start), self._at(end - 1), piece.data, body)
             done = end
         self._data = self._data[done:]
         self._came = [(count - done, at) for count, at in self._came if count > done]
+
+    def _may_go_on(self, frame: bytes) -> bool:
+        """Whether a good frame may be the beginning of a longer one, of which the rest is still to come."""
+        return self.mode == "rtu" and max(expected_sizes(frame, Dialect()), default=0) + 2 > len(frame)
 
     def _pieces(self) -> Iterator[scan.Piece]:
         """Frames and what is between them; a colon begins a frame only where the line speaks ASCII."""

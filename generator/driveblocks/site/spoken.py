@@ -28,7 +28,7 @@ UNKNOWN = (
     "adapter's, which may be 16 ms late; which side a frame came from where request and reply look alike."
 )
 """What nobody can know who only listens."""
-FORMAT = "Even and odd parity, one stop bit and two may sound the same to an adapter."
+FORMAT = "Even and odd parity, one stop bit and two, and 8N1 and 7E1 in ASCII may sound the same to an adapter."
 
 
 def tables(found: Findings, way: Way, *, brief: bool = False) -> Iterator[RenderableType]:

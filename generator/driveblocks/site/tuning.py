@@ -19,6 +19,8 @@ SLICE_US, PATIENT_US = 3_000_000, 12_000_000
 """How long a rate is listened at after its first byte: where nothing decodes, and where something does."""
 ENOUGH_BYTES, PAUSE_US = 96, 20_000
 """So many without a good frame, and silence after them, are enough to try another rate."""
+BETTER = 0.1
+"""By so much a later format has to decode more, since several may decode the same."""
 FEW, SURE, SHARE = 2, 4, 0.75
 """Good frames at the least, and so many that nothing more is waited for; their share of the bytes."""
 LIKELY = (9600, 19200)
@@ -78,10 +80,11 @@ class Search:
                     continue
                 self.say(f"listening at {way.rate} bit/s {way.form}, {self.bytes} bytes so far")
                 chunks, tried, share = self._slice(way, mode, until)
-                if tried.frames >= FEW and share >= SHARE:
+                if tried.frames < FEW or (best is not None and share <= best[0] + BETTER):
+                    continue
+                if share >= SHARE:
                     return tried.way, chunks
-                if tried.frames >= FEW and (best is None or share > best[0]):
-                    best = share, tried.way
+                best = share, tried.way
         if best is None or self.over() or not self.tap.tune(best[1].rate, best[1].form):
             return None, []
         return best[1], []
