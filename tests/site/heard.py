@@ -27,9 +27,11 @@ KINDS = (
     "quiet",
 )  # fmt: skip
 ALLOWED: dict[str, set[str]] = {
-    "plain": set(), "silent": {"silent"}, "late": {"late", "late or twice"}, "twice": {"twice", "late or twice"},
+    "plain": set(), "silent": {"silent"}, "late": {"late", "late or twice", "stray"},
+    "twice": {"twice", "late or twice", "stray"},
     "echo": {"echo"}, "broadcast": set(), "refused": {"refused"}, "noise": {"damaged", "stray", "spoilt"},
-    "damaged": {"damaged", "stray", "spoilt"}, "masters": {"masters", "damaged", "late", "stray", "late or twice", "spoilt"},
+    "damaged": {"damaged", "stray", "spoilt"},
+    "masters": {"masters", "damaged", "late", "stray", "late or twice", "spoilt"},
     "no modbus": set(), "quiet": set(),
 }  # fmt: skip
 """What may be said of each kind."""
@@ -45,6 +47,8 @@ class Piece:
     at_us: float
     data: bytes
     spoilt: bool = False
+    to: "Piece | None" = None
+    """The request that a reply answers."""
 
 
 @dataclass
@@ -77,6 +81,15 @@ class Poll:
     quantity: int = 1
 
 
+@dataclass(frozen=True)
+class Manner:
+    """How a unit answers and how long its master waits, in us; and whether it is the one with the trouble."""
+
+    turn: float
+    timeout: float
+    bad: bool
+
+
 def body(poll: Poll) -> bytes:
     """A request."""
     head = bytes([poll.unit, poll.function]) + poll.address.to_bytes(2, "big")
@@ -89,10 +102,11 @@ def body(poll: Poll) -> bytes:
 
 def polls(chance: Random, unit: int) -> Iterator[Poll]:
     """What a unit is asked."""
-    for function in chance.sample((3, 3, 4, 6, 16), chance.randint(1, 3)):
+    places = chance.sample((0x1000, 0x2000, 0x2100, 0x3000, 0xF000), 3)
+    for function, place in zip(chance.sample((3, 3, 4, 6, 16), chance.randint(1, 3)), places, strict=False):
         quantity = 1 if function == 6 else chance.randint(1, 12)
         words = tuple(chance.randrange(0x10000) for _ in range(quantity)) if function in (6, 16) else ()
-        yield Poll(unit, function, chance.choice((0x1000, 0x2000, 0x2100, 0x3000, 0xF000)), words, quantity)
+        yield Poll(unit, function, place, words, quantity)
 
 
 def truth(seed: int, kind: str) -> Truth:
@@ -133,7 +147,7 @@ def _master(made: Truth, chance: Random, first: int) -> None:
         rounds += 1
         for number, poll in enumerate(plan):
             times.setdefault((poll.unit, poll.function, poll.address), []).append(at)
-            at = _exchange(made, chance, poll, at, turn=turns[poll.unit], timeout=timeout, bad=poll.unit == bad)
+            at = _exchange(made, chance, poll, at, Manner(turns[poll.unit], timeout, poll.unit == bad))
             at += pause
             if made.kind == "broadcast" and number == 0:
                 at = _send(made, at, b"\0\x06\x20\0\0\x05") + pause
@@ -144,10 +158,12 @@ def _master(made: Truth, chance: Random, first: int) -> None:
         made.every_us[key] = (some[-1] - some[0]) / max(1, len(some) - 1)
 
 
-def _exchange(made: Truth, chance: Random, poll: Poll, at: float, turn: float, timeout: float, bad: bool) -> float:
+def _exchange(made: Truth, chance: Random, poll: Poll, at: float, manner: "Manner") -> float:
     """A request and what becomes of it; when the master goes on."""
+    turn, timeout, bad = manner.turn, manner.timeout, manner.bad
     request, kind = body(poll), made.kind
     end = _send(made, at, request)
+    sent = made.pieces[-1]
     for place, word in enumerate(poll.words):
         made.words.setdefault((poll.unit, poll.address + place), set()).add(word)
     if kind == "echo":
@@ -162,6 +178,7 @@ def _exchange(made: Truth, chance: Random, poll: Poll, at: float, turn: float, t
         made.owed = reply
         return end + timeout
     end = _send(made, end + turn, reply)
+    made.pieces[-1].to = sent
     if bad and kind == "twice" and chance.random() < 0.5:
         end = _send(made, end + chance.uniform(1e3, 4e3), reply)
     return end
@@ -191,21 +208,19 @@ def _collide(made: Truth) -> None:
     for one, other in pairwise(made.pieces):
         if other.at_us < one.at_us + len(one.data) * made.way.character_us:
             one.spoilt = other.spoilt = True
+    made.pieces = [one for one in made.pieces if one.to is None or not one.to.spoilt]
 
 
 def _disturb(made: Truth, chance: Random) -> None:
     """Noise between frames, or frames with a wrong bit; a drive does not answer those."""
-    kept, skip = list[Piece](), False
+    kept: list[Piece] = []
     for one, after in pairwise(made.pieces):
-        if skip:
-            skip = False
+        if one.to is not None and one.to.spoilt:
             continue
         kept.append(one)
         if made.kind == "damaged" and chance.random() < 0.05:
-            place = chance.randrange(len(one.data))
+            place, one.spoilt = chance.randrange(len(one.data)), True
             one.data = one.data[:place] + bytes([one.data[place] ^ 1 << chance.randrange(7)]) + one.data[place + 1 :]
-            is_request = after.data[:2] == one.data[:2] and after.at_us - one.at_us < 100e3
-            skip = is_request and chance.random() < 0.5
         elif made.kind == "noise" and chance.random() < 0.1:
             end = one.at_us + len(one.data) * made.way.character_us
             room = (after.at_us - end) / made.way.character_us
@@ -281,7 +296,8 @@ class Verdict:
 
 def listened(seed: int, kind: str, log: Path | None = None) -> tuple[Truth, Heard]:
     """A line, and what was found out of it."""
-    listen.LOOK_US = tuning.LOOK_US = LOOK_US
+    setattr(listen, "LOOK_US", LOOK_US)  # noqa: B010  (mypy: it is not exported)
+    tuning.LOOK_US = LOOK_US
     chance, made, clock = Random(seed), truth(seed, kind), VirtualClock()
     wire = Wire(made, clock, chance.choice((1000, 1000, 4000, 16_000)), chance)
     tap = Tap(wire.receive, wire.tune, lambda: None)

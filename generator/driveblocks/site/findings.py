@@ -66,7 +66,7 @@ class Unit:
     twice: int = 0
     late_or_twice: int = 0
     strays: int = 0
-    """Replies to nothing that was heard."""
+    """Replies that fit no open request."""
     alike: int = 0
     """Frames that may be another request, or the reply once more."""
     echoed: int = 0
@@ -157,13 +157,13 @@ class Findings:
         drive = self.drive(one.body[0])
         spoken = dialect(drive) if drive is not None else Dialect()
         kinds = {each.direction: each for each in readings(one.body, spoken) if each.fits}
-        if one.body[1] not in KNOWN:
+        if one.body[1] not in KNOWN or ("reply" in kinds and kinds["reply"].refusal):
             kinds.pop("request", None)
         if one.body[1] & 0x7F not in KNOWN or not kinds:
             self.unit(one.body[0]).others[one.body[1]] += 1
             self._give_up(None)
             return ""
-        if "reply" in kinds and self._reply(one, one.body, spoken, alike="request" in kinds):
+        if "reply" in kinds and self._reply(one, one.body, spoken):
             return "<"
         if "request" in kinds:
             return self._request(one, one.body, kinds["request"])
@@ -182,17 +182,18 @@ class Findings:
         if self._open is not None:
             self._open.spoilt = True
 
-    def _reply(self, one: Caught, body: bytes, spoken: Dialect, *, alike: bool) -> bool:
+    def _reply(self, one: Caught, body: bytes, spoken: Dialect) -> bool:
         """Whether a frame is a reply to something that was heard."""
         now = self._open
         past = [each for each in reversed(self._past) if each.answered_by(spoken, body)]
         if now is not None and now.answered_by(spoken, body):
+            alike = now.body == body
             if alike and one.at_us - now.end_us > self._patience(body[0]):
                 return False
             clear = not now.blurred and not any(each.left for each in past)
             self._answer(now, one, take(body, "reply", spoken), alike=alike, clear=clear)
             return True
-        if alike or not past:
+        if not past or past[0].body == body:
             return False
         unit = self.unit(body[0])
         if past[0].left:
@@ -332,7 +333,7 @@ def _of_unit(number: int, unit: Unit, *, interrupted: bool) -> Iterator[Said]:
     if unit.late_or_twice:
         yield Said("late or twice", number, f"{unit.late_or_twice} replies came late or twice")
     if unit.strays:
-        yield Said("stray", number, f"{unit.strays} replies to nothing that was heard", "their requests were damaged")
+        yield Said("stray", number, f"{unit.strays} replies fit no open request", "damaged requests; late or twice")
     if unit.echoed >= SOME:
         what = f"{unit.echoed} requests came twice at once"
         yield Said("echo", number, what, "an echo; a master that waits less than 20 ms")

@@ -1,5 +1,6 @@
 """Bytes of a line that others speak on, with their times, cut into frames."""
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -11,6 +12,7 @@ GAP_US = 20_000
 """After so much silence a frame has ended; an adapter may hand it over in pieces."""
 ASCII_GAP_US = 1_000_000
 """The same between two characters, by MODBUS over Serial Line V1.02, 2.5.2."""
+_LINE = re.compile(rb":[^:\n]*\n?|[^:]+")
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,15 @@ class Ear:
         return self.mode == "rtu" and max(expected_sizes(frame, Dialect()), default=0) + 2 > len(frame)
 
     def _pieces(self) -> Iterator[scan.Piece]:
-        """Frames and what is between them; a colon begins a frame only where the line speaks ASCII."""
-        start = self._data.find(b":") if self.mode == "ascii" else 0
-        if start:
-            yield scan.Piece(0, self._data[: start if start > 0 else len(self._data)], good=False)
-        for piece in scan.pieces(self._data[start:], Dialect()) if start >= 0 else ():
-            yield scan.Piece(start + piece.start, piece.data, piece.good)
+        """Frames and what is between them; where the line speaks ASCII, from a colon to the end of its line."""
+        if self.mode == "rtu":
+            yield from scan.pieces(self._data, Dialect())
+            return
+        for found in _LINE.finditer(self._data):
+            colon = found[0][:1] == b":"
+            within = scan.pieces(found[0], Dialect()) if colon else [scan.Piece(0, found[0], good=False)]
+            for piece in within:
+                yield scan.Piece(found.start() + piece.start, piece.data, piece.good)
 
     def _at(self, place: int) -> int:
         return next(at for count, at in self._came if count > place)

@@ -17,15 +17,16 @@ BOUND_US = 300_000_000
 """The search for rate and format ends after this time."""
 SLICE_US, PATIENT_US = 3_000_000, 12_000_000
 """How long a rate is listened at after its first byte: where nothing decodes, and where something does."""
-ENOUGH_BYTES, PAUSE_US = 96, 20_000
+ENOUGH_BYTES, PAUSE_US = 48, 20_000
 """So many without a good frame, and silence after them, are enough to try another rate."""
 BETTER = 0.1
 """By so much a later format has to decode more, since several may decode the same."""
 FEW, SURE, SHARE = 2, 4, 0.75
 """Good frames at the least, and so many that nothing more is waited for; their share of the bytes."""
 LIKELY = (9600, 19200)
-FORMS = ("8N1", "8E1", "8O1", "7E1", "7O1")
-"""8N2 and 7N2 sound as 8N1 and 7E1 do."""
+FORMS = ("8N1", "8E1", "8O1")
+"""8N2 sounds as 8N1 does, and seven bits show there with their parity as the eighth."""
+
 
 Chunk = tuple[int, bytes]
 """When bytes came, and which."""
@@ -51,7 +52,7 @@ class Try:
 
     def take(self, at_us: int, data: bytes) -> None:
         """Bytes, or only time."""
-        for one in self.ear.take(at_us, data):
+        for one in self.ear.take(at_us, seven(data) if self.way.form[0] == "7" else data):
             if one.body is not None:
                 self.frames, self.good = self.frames + 1, self.good + len(one.data)
 
@@ -82,8 +83,9 @@ class Search:
                 chunks, tried, share = self._slice(way, mode, until)
                 if tried.frames < FEW or (best is not None and share <= best[0] + BETTER):
                     continue
-                if share >= SHARE:
-                    return tried.way, chunks
+                if share >= SHARE and self.tap.tune(tried.way.rate, tried.way.form):
+                    seven_bits = tried.way.form[0] == "7"
+                    return tried.way, [(at, seven(data) if seven_bits else data) for at, data in chunks]
                 best = share, tried.way
         if best is None or self.over() or not self.tap.tune(best[1].rate, best[1].form):
             return None, []
@@ -109,9 +111,17 @@ class Search:
 
 
 def framings(way: Way, mode: str | None) -> list[Way]:
-    """RTU and ASCII, unless one is chosen; seven bits carry ASCII alone."""
+    """RTU and ASCII, unless one is chosen; seven bits carry ASCII alone, and may be heard as eight."""
     found = [Way(way.rate, way.form, "rtu")] if mode != "ascii" and way.form[0] == "8" else []
-    return found + ([Way(way.rate, way.form, "ascii")] if mode != "rtu" or not found else [])
+    if mode == "rtu" and found:
+        return found
+    found.append(Way(way.rate, way.form, "ascii"))
+    return [*found, Way(way.rate, "7E1", "ascii")] if way.form == "8N1" else found
+
+
+def seven(data: bytes) -> bytes:
+    """Characters without what is in their eighth bit."""
+    return bytes(byte & 0x7F for byte in data)
 
 
 def _enough(best: Try, many: int, heard_us: int, silent_us: int) -> bool:
