@@ -10,7 +10,7 @@ from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
-from driveblocks.maps import conduct
+from driveblocks.maps import conduct, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
@@ -175,6 +175,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
+        heard=trust.heard(drive),
         word=own.word or drive.prefix.lower(),
         measured=own.measured,
         edition=drive.manual.edition,

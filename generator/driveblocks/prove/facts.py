@@ -10,6 +10,7 @@ from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
+from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
@@ -213,7 +214,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "pins": _every(pins),
         "told": _every(told),
         "at_speed": "TRUE" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
-        "unchecked": f"(ManualChecked <> {checked(drive)})" if drive.manual.second_hand else "FALSE",
+        "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
         "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
         "valid": _every(_valid(drive, one) for one in drive.operation.measures),
     }
