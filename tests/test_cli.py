@@ -39,3 +39,11 @@ def test_ctrl_c_ends_quietly_what_is_still_loading(
         runpy.run_module("driveblocks", run_name="__main__")
     assert end.value.code == 130
     assert not capsys.readouterr().err
+
+
+def test_a_process_that_one_file_has_started_for_itself_does_its_share_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "frozen", True, raising=False)
+    monkeypatch.setattr("multiprocessing.freeze_support", lambda: sys.exit(7))
+    with pytest.raises(SystemExit) as end:
+        runpy.run_module("driveblocks", run_name="__main__")
+    assert end.value.code == 7

@@ -5,6 +5,10 @@ import sys
 
 def main() -> None:
     """Run the command line; ends with its exit status, or 130 as shells do for Ctrl-C."""
+    if getattr(sys, "frozen", False):  # packed into one file, which Windows starts again for each process of `test`
+        import multiprocessing
+
+        multiprocessing.freeze_support()
     try:
         from driveblocks import cli
 
