@@ -189,6 +189,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
         stay=[each for each in drive.settings if _stays(each)],
         named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
         hazards=[each for each in drive.notices if _matters(each)],
+        nevers=list(conduct.nevers(drive)),
         open=open_,
         reasons=REASONS,
         reads=list(_reads(drive)),

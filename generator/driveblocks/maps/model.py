@@ -7,7 +7,8 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import or_
 from typing import Annotated, Any, Literal
 
 from driveblocks.maps import form
@@ -468,6 +469,24 @@ class Bit(Worded, Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Never(Entry):
+    """Bits of a command register that must never have a value, whatever else is in the word."""
+
+    bit: Bits = fact("the bit or bits; `0-F` for the whole word", "4-5")
+    equals: Number = fact("the value", "3")
+    why: English = fact("what the drive would do", "the direction changes, or not, by edition")
+
+    @property
+    def mask(self) -> int:
+        """The bits in their places."""
+        return sum(1 << number for number in self.bit)
+
+    def holds(self, word: int) -> bool:
+        """Whether a word has the value."""
+        return word & self.mask == self.equals << self.bit.first
+
+
+@dataclass(frozen=True, kw_only=True)
 class PrintedRow(Entry):
     """How the manual prints a register's row, where that is wrong."""
 
@@ -502,6 +521,12 @@ class Register(Worded, Entry):
         "the values are single bits; the manual does not say whether they combine", "true", optional=True, default=False
     )
     bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
+    never: tuple[Never, ...] = fact(
+        "what is never written to a command register: no command writes it, and `KeepWord` reaches none of its bits",
+        "[{bit: 4-5, equals: 3, why: ...}]",
+        optional=True,
+        default=(),
+    )
     printed: PrintedRow | None = fact(
         "what the manual prints instead (needs an erratum)", "{address: 0210H}", optional=True
     )
@@ -516,6 +541,11 @@ class Register(Worded, Entry):
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
     )
+
+    @property
+    def barred(self) -> int:
+        """The bits of `never`, as a mask."""
+        return reduce(or_, (one.mask for one in self.never), 0)
 
 
 @dataclass(frozen=True, kw_only=True)

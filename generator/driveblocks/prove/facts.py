@@ -95,12 +95,13 @@ def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str
 
 
 def _kept(drive: Drive, write: Command | Step) -> int:
-    """The bits of a command register that the manual gives a use and that no command touches."""
+    """The bits of a command register that the manual gives a use, that no command touches and that may be sent."""
     row = drive.register_at(write.register)
     used = {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
     writes = [each for one in drive.operation.commands for each in one.writes if each.register == write.register]
     touched = {bit for each in writes for span in (*each.set, *each.clear) for bit in span}
-    return 0 if write.value is not None else sum(1 << bit for bit in used - touched)
+    barred = {bit for each in (row.never if row else ()) for bit in each.bit}
+    return 0 if write.value is not None else sum(1 << bit for bit in used - touched - barred)
 
 
 def _mask(spans: Iterable[Bits]) -> int:

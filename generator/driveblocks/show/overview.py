@@ -105,6 +105,7 @@ def _conduct(drive: Drive) -> Iterator[RenderableType]:
         ("bus commands", _from(conduct.in_command(drive), run.commanded_by)),
         ("own maximum", _from(conduct.own_maximum(drive), run.own_maximum)),
         ("identity", _from(conduct.recognised(drive), drive.identity)),
+        ("never sent", "\n".join(conduct.nevers(drive))),
     )
 
 
