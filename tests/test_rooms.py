@@ -25,7 +25,8 @@ MOST = {
     # diff: what differs between two versions of a map or of the blocks
     # commission and site: theirs; docs, output: pages with what was measured on one drive, where they are built with it
     "commands": 1690, "diff": 335, "desk": 1490, "docs": 1130, "explain": 1967, "export": 2060,
-    # maps: `on_site`, which marks the gaps for commissioning, and its rule; trust by document, `never`, and their rules; explain, show, reference: `never`
+    # maps: `on_site`, which marks the gaps for commissioning, and its rule; trust by document, `never`, and their rules
+    # explain, show, reference: `never`
     "maps": 7065, "output": 845,
     # the framing of what came over a wire, which `explain` and `stand` read alike, came from explain
     # a program after its first scan, and a request with its reply, are modules of their own: `site` has them, too
