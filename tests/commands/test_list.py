@@ -61,7 +61,7 @@ def test_json_has_each_drive_whole_with_file_and_counts(shelf: Path) -> None:
     assert result.exit_code == 0
     (drive,) = json.loads(result.stdout)
     shown = json.loads(CliRunner().invoke(app, ["show", "example", "--json"]).stdout)
-    assert {key: value for key, value in drive.items() if key not in ("file", "counts")} == shown
+    assert {key: value for key, value in drive.items() if key not in ("file", "counts", "trust")} == shown
     assert drive["file"] == str(shelf / "example.yaml")
     assert drive["counts"]["registers"] == 27 == sum(not one["unused"] for one in drive["registers"])
 

@@ -78,7 +78,7 @@ def test_the_front_table_has_a_line_for_each_drive_with_what_it_can_do(drive: Dr
     lines = inventory.front({CHECKOUT / "vendor_maps" / "example.yaml": drive}, CHECKOUT).splitlines()
     assert lines[2:] == [
         "| [`EX100_Drive`](blocks/docs/EX100_Drive.md) | Example Drives EX100 series "
-        "| run, run in reverse, stop, coast, reset a fault | 8 | 2 |"
+        "| run, run in reverse, stop, coast, reset a fault | read, read, read | 8 | 2 |"
     ]  # fmt: skip
 
 

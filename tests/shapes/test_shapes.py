@@ -18,6 +18,7 @@ from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
 from driveblocks.maps.problem import Report
 from driveblocks.output import units as tested
+from driveblocks.render.context import kept
 from driveblocks.render.drive import Masked, drive_block
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
@@ -26,7 +27,7 @@ from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 
-NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low")
+NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low", "packed")
 CONCERNED = re.compile(r"_Test(Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
 """Programs that depend on the shape; requests and replies do not."""
 every = pytest.mark.parametrize("name", NAMES)
@@ -80,7 +81,7 @@ def test_the_command_block_is_left_out_where_a_command_takes_several_writes(name
     unit, prefix = units()[name], shapes()[name].prefix
     paths = [*(each.path for each in unit.blocks), *(each.path for each in unit.suite.programs)]
     for block in (f"{prefix}_Command.st", f"{prefix}_TestCommand.st"):
-        assert any(path.endswith(block) for path in paths) == (name == "active_low")
+        assert any(path.endswith(block) for path in paths) == (name in ("active_low", "packed"))
 
 
 @every
@@ -128,6 +129,40 @@ def test_a_start_pulse_is_cleared_by_the_stop() -> None:
     drive = shapes()["pulse"]
     assert "`stop` does not change bit 1, which `run_reverse` sets" in judged(
         drive, replace(command(drive, "stop"), clear=(command(drive, "stop").set[0],), set=())
+    )
+
+
+def test_what_must_never_be_sent_is_refused_in_a_command() -> None:
+    drive = shapes()["packed"]
+    wrong = judged(drive, replace(command(drive, "stop"), set=(Span(0, 0), Span(6, 6))))
+    said = "`stop` writes 0041H to 1000H, whose bits 6 must never be 1: the drive no longer obeys the bus"
+    assert said in wrong
+    passing = replace(command(drive, "run_forward"), first=(Step(register=0x1000, value=0x0031),))
+    assert any(
+        "`run_forward` writes 0031H to 1000H, whose bits 4-5 must never be 3" in each for each in judged(drive, passing)
+    )
+
+
+def test_what_must_never_be_sent_is_not_reached_by_the_word_of_experts() -> None:
+    """Local control, bit 6, has no command: without `never` it would pass with the relay, bit 7."""
+    drive = shapes()["packed"]
+    plain = tuple(
+        replace(section, registers=tuple(replace(row, never=()) for row in section.registers))
+        for section in drive.sections
+    )
+    assert kept(drive) == {0x1000: 0x0080}
+    assert kept(replace(drive, sections=plain)) == {0x1000: 0x00C0}
+    orders = next(each.text for each in units()["packed"].blocks if each.path.endswith("PCK_Orders.st"))
+    assert "KeepWord AND WORD#16#0080" in orders
+
+
+def test_what_must_never_be_sent_is_said_by_show_and_by_explain(tmp_path: Path) -> None:
+    said = "bits 4-5 = 3: it changes the direction"
+    for topic in ((), ("1000H",)):
+        assert said in " ".join(run("packed", tmp_path, "show", "MAP", *topic).split())
+    frame = "01 06 10 00 00 32 0C DF"
+    assert "must never be sent: it changes the direction" in " ".join(
+        run("packed", tmp_path, "explain", "--drive", "MAP", frame).split()
     )
 
 
@@ -203,6 +238,7 @@ def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:
     assert block.reading.verify_reads == [1]
     assert {name: drive_block(drive).own.feeds for name, drive in shapes().items()} == {
         "cia402": "any", "profidrive": "reference", "pulse": "read", "two_registers": "run", "active_low": None,
+        "packed": None,
     }  # fmt: skip
     bare = drive_block(shapes()["active_low"])
     assert (bare.reading.identity, bare.showing.commanded_by, bare.showing.own_maximum) == (None, None, None)

@@ -11,33 +11,34 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
-from pathlib import Path
 from random import Random
 
 from driveblocks.desk.clock import VirtualClock
-from driveblocks.desk.port import Tap
 from driveblocks.modbus.frame import seal
-from driveblocks.site import listen, tuning
-from driveblocks.site.findings import Findings, said
+from driveblocks.site import ear, listen, overheard
 from driveblocks.site.found import Way
-from driveblocks.site.listen import Desk, Heard, Log, Words
+from driveblocks.site.traffic import Traffic
 
 KINDS = (
     "plain", "silent", "late", "twice", "echo", "broadcast", "refused", "noise", "damaged", "masters", "no modbus",
     "quiet",
 )  # fmt: skip
+SAYS = {
+    "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
+    "to what was not heard": "stray", "a write without": "unclear", "two masters": "masters", "came twice": "echo",
+    "damaged bytes came": "damaged", "no good frame": "damaged", "refused": "refused", "or twice": "late or twice",
+}  # fmt: skip
+"""What sentences of the page mean."""
+ANY = {"unclear"}
+BROKEN = {"damaged", "stray", "left", *ANY}
 ALLOWED: dict[str, set[str]] = {
-    "plain": set(), "silent": {"silent"}, "late": {"late", "late or twice", "stray"},
-    "twice": {"twice", "late or twice", "stray"},
-    "echo": {"echo"}, "broadcast": set(), "refused": {"refused"}, "noise": {"damaged", "stray", "spoilt"},
-    "damaged": {"damaged", "stray", "spoilt"},
-    "masters": {"masters", "damaged", "late", "stray", "late or twice", "spoilt"},
-    "no modbus": set(), "quiet": set(),
+    "plain": ANY, "silent": {"silent", "left", *ANY}, "late": {"late", "late or twice", "stray", "left", *ANY},
+    "twice": {"twice", "late or twice", "stray", *ANY}, "echo": {"echo", *ANY}, "broadcast": ANY,
+    "refused": {"refused", *ANY}, "noise": BROKEN, "damaged": BROKEN,
+    "masters": {"masters", "late", "late or twice", *BROKEN}, "no modbus": set(), "quiet": set(),
 }  # fmt: skip
 """What may be said of each kind."""
-ALIKE = "unclear"
-"""May be said of a unit that is asked by writes of one register alone."""
-LOOK_US = 2000
+LOOK_US, LISTENED_US = 2000, 10_000_000
 
 
 @dataclass
@@ -256,11 +257,14 @@ class Wire:
         self.bytes_.sort(key=lambda one: one[0])
         self.bytes_.reverse()
 
-    def tune(self, rate: int, form: str) -> bool:
+    def tune(self, way: Way) -> bool:
         """Bytes that waited are lost."""
         self.receive()
-        self.tuned = rate, form
+        self.tuned = way.rate, way.form
         return True
+
+    def close(self) -> None:
+        """Nothing to give back."""
 
     def receive(self) -> bytes:
         """What has come by the last time that the adapter looked."""
@@ -294,20 +298,16 @@ class Verdict:
     why: str
 
 
-def listened(seed: int, kind: str, log: Path | None = None) -> tuple[Truth, Heard]:
+def listened(seed: int, kind: str) -> tuple[Truth, listen.Session]:
     """A line, and what was found out of it."""
-    setattr(listen, "LOOK_US", LOOK_US)  # noqa: B010  (mypy: it is not exported)
-    tuning.LOOK_US = LOOK_US
     chance, made, clock = Random(seed), truth(seed, kind), VirtualClock()
     wire = Wire(made, clock, chance.choice((1000, 1000, 4000, 16_000)), chance)
-    tap = Tap(wire.receive, wire.tune, lambda: None)
-
-    def over() -> str:
-        return "Ctrl-C" if clock.now_us() > 130_000_000 else ""
-
-    kept = Log(log, "a wire") if log is not None else None
-    words = Words(port="x", length="10s")
-    return made, Desk(words, tap, clock, {}, None, over, lambda _found, _way: None, kept).hear()
+    ear.LOOK_US = LOOK_US
+    heard = listen.Session(wire, clock, Traffic({}), listen.Files())
+    heard.find(ear.ways(None, None))
+    heard.listen(LISTENED_US)
+    heard.end()
+    return made, heard
 
 
 def line(seed: int, kind: str | None = None) -> Verdict:
@@ -315,14 +315,15 @@ def line(seed: int, kind: str | None = None) -> Verdict:
     kind = kind or KINDS[Random(seed).randrange(len(KINDS))]
     made, heard = listened(seed, kind)
     why = f"seed {seed}, {made.way}: "
-    if heard.way is None or heard.findings is None:
-        return Verdict(kind, "named" if kind in ("quiet", "no modbus") else "open", why + "; ".join(heard.failed))
+    if heard.way is None:
+        return Verdict(kind, "named" if kind in ("quiet", "no modbus") else "open", why + "nothing decodes")
     if kind in ("quiet", "no modbus") or not _sounds(heard.way, made.way):
         return Verdict(kind, "wrong", f"{why}heard at {heard.way}")
-    wrong = [*_wrong_units(made, heard.findings), *_wrong_words(made, heard.findings)]
-    kinds = {each.kind for each in said(heard.findings)}
-    wrong += [f"it says {each}" for each in kinds - ALLOWED[kind] - {ALIKE}]
-    state = "wrong" if wrong else "named" if _is_named(made, heard.findings, kinds) else "open"
+    said = list(overheard.odd(heard.traffic))
+    kinds = {next(word for text, word in SAYS.items() if text in each) for each in said}
+    wrong = [*_wrong_units(made, heard.traffic), *_wrong_words(made, heard.traffic)]
+    wrong += [f"it says {each}" for each in kinds - ALLOWED[kind]]
+    state = "wrong" if wrong else "named" if _is_named(made, heard.traffic, kinds) else "open"
     return Verdict(kind, state, why + "; ".join([*wrong, *sorted(kinds)]))
 
 
@@ -336,42 +337,38 @@ def _sounds(heard: Way, true: Way) -> bool:
     return (heard.rate, heard.mode) == (true.rate, true.mode) and heard.form in forms
 
 
-def _is_named(made: Truth, found: Findings, kinds: set[str]) -> bool:
+def _is_named(made: Truth, found: Traffic, kinds: set[str]) -> bool:
     if made.kind == "broadcast":
         return bool(found.broadcasts)
     return made.kind in kinds or made.kind == "plain" or (made.kind == "noise" and "damaged" in kinds)
 
 
-def _wrong_units(made: Truth, found: Findings) -> Iterator[str]:
+def _wrong_units(made: Truth, found: Traffic) -> Iterator[str]:
     """Requests that nobody has sent, or more than were sent; times between them that are none."""
-    quiet = made.kind not in ("noise", "damaged", "masters", "echo", "twice", "late")
+    quiet = made.kind in ("plain", "silent", "refused", "broadcast")
     for number, unit in found.units.items():
         if number not in made.units:
             yield f"unit {number}"
-        if (
-            unit.answered
-            and number not in made.answering
-            and any(each.function not in (6,) for each in unit.asks.values())
-        ):
-            yield f"unit {number} answers"
-        for (function, address, _), ask in unit.asks.items():
+        for (function, address, _), poll in unit.polls.items():
             key = number, function, address
-            if ask.times > made.asked[key]:
-                yield f"{key} was asked {ask.times} times, and not {made.asked[key]}"
+            if poll.count > made.asked[key]:
+                yield f"{key} was asked {poll.count} times, and not {made.asked[key]}"
+            if function != 6 and number not in made.answering and poll.replies:
+                yield f"unit {number} answers"
             every = made.every_us.get(key, 0)
-            if quiet and function != 6 and ask.every_us and ask.times > 9 and not 0.7 < ask.every_us / every < 1.4:
-                yield f"{key} every {ask.every_us} us, and not {every}"
-    for (function, address, _), ask in found.broadcasts.items():
-        if ask.times > made.asked[0, function, address]:
+            if quiet and function != 6 and poll.count > 9 and not 0.7 < poll.every_us / every < 1.4:
+                yield f"{key} every {poll.every_us} us, and not {every}"
+    for (function, address), count in found.broadcasts.items():
+        if count > made.asked[0, function, address]:
             yield "more broadcasts than were sent"
 
 
-def _wrong_words(made: Truth, found: Findings) -> Iterator[str]:
+def _wrong_words(made: Truth, found: Traffic) -> Iterator[str]:
     for number, unit in found.units.items():
-        for ask in unit.asks.values():
-            for place, word in enumerate(ask.words):
-                if word not in made.words.get((number, ask.address + place), ()):
-                    yield f"{word} at {ask.address + place:04X}H of unit {number}"
+        for (_, address, _), poll in unit.polls.items():
+            for place, word in enumerate(poll.words):
+                if word not in made.words.get((number, address + place), ()):
+                    yield f"{word} at {address + place:04X}H of unit {number}"
 
 
 def main() -> int:

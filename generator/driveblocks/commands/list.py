@@ -51,10 +51,15 @@ def _load(path: Path) -> "Drive | None":
 def _print_json(loaded: "dict[Path, Drive]") -> None:
     from json import dumps
 
-    from driveblocks.maps import counts, view
+    from driveblocks.maps import counts, trust, view
 
     drives = [
-        {**view.of_drive(drive, path.stem), "file": str(path), "counts": counts.plain(counts.of_drive(drive))}
+        {
+            **view.of_drive(drive, path.stem),
+            "file": str(path),
+            "counts": counts.plain(counts.of_drive(drive)),
+            "trust": trust.counted(drive),
+        }
         for path, drive in loaded.items()
     ]
     click.echo(dumps(drives, ensure_ascii=False, indent=2))
@@ -62,7 +67,7 @@ def _print_json(loaded: "dict[Path, Drive]") -> None:
 
 def _print_table(loaded: "dict[Path, Drive]") -> None:
     from driveblocks import console
-    from driveblocks.maps import counts, view
+    from driveblocks.maps import counts, trust, view
     from driveblocks.show.layout import both, table
 
     kinds = ("registers", "faults", "frames", "errata")
@@ -76,4 +81,6 @@ def _print_table(loaded: "dict[Path, Drive]") -> None:
     for path, drive in loaded.items():
         if not drive.frames:
             console.write(f"\n{path.stem}: {view.UNPROVED}")
+        for line in trust.heard(drive):
+            console.write(f"\n{path.stem}: {line}")
     console.write("\n`driveblocks show DRIVE` prints everything about one of them.")

@@ -1,4 +1,4 @@
-"""`driveblocks listen`: who speaks on a line, what is asked how often, and what is wrong; nothing is ever sent."""
+"""`driveblocks listen`: what others say on a line, without a byte of one's own."""
 
 import sys
 from typing import Any
@@ -9,39 +9,39 @@ from driveblocks.commands import FILE, refuse
 
 
 @click.command()
-@click.argument("maps", nargs=-1, metavar="MAP[@UNIT]...", help="Maps of units; one without UNIT is for all others.")
+@click.argument("maps", nargs=-1, metavar="[MAP[@UNIT]]...", help="Maps whose words name what is read and written.")
 @click.option("--port", metavar="DEVICE", help="A serial port, such as COM3 or /dev/ttyUSB0.")
-@click.option("--tcp", metavar="HOST:PORT", help="Serial bytes over TCP, as a serial device server gives them.")
-@click.option("--rate", type=int, metavar="RATE", help="Listen at this bit rate only; else it is found out.")
-@click.option("--format", "form", metavar="8N1", help="Listen with these data bits, parity, stop bits only.")
-@click.option("--mode", type=click.Choice(["rtu", "ascii"]), help="Listen for this framing only.")
-@click.option("--for", "length", metavar="TIME", help="End after this time, such as 60s; else with Ctrl-C.")
-@click.option("--log", type=FILE, metavar="FILE", help="Write every frame there, as `driveblocks explain` reads it.")
-@click.option("--csv", type=FILE, metavar="FILE", help="Write the registers there as a table.")
-@click.option("--json", is_flag=True, help="Print everything as JSON at the end.")
-def run(**options: Any) -> None:
-    """Listen to a line with a master at work: units, registers, times, damaged frames; nothing is ever sent.
+@click.option("--tcp", metavar="HOST:PORT", help="The bytes of the line over TCP.")
+@click.option("--rate", type=int, metavar="RATE", help="Bit rate; else it is found.")
+@click.option("--format", "form", metavar="8N1", help="Data bits, parity, stop bits; else they are found.")
+@click.option("--for", "length", metavar="TIME", help="How long, such as 60s; else until Ctrl-C.")
+@click.option("--log", type=FILE, metavar="FILE", help="Write each frame, as `driveblocks explain` reads it.")
+@click.option("--csv", type=FILE, metavar="FILE.csv", help="Write each frame as a row.")
+@click.option("--json", is_flag=True, help="Print what was heard as JSON.")
+def run(json: bool, **words: Any) -> None:
+    """Listen to a line that others speak on: units, functions, registers, times, and what is odd. It sends nothing.
 
-    Rate and format are found by what decodes. Open the port first, then clip the adapter on. The exit status is 0 if
-    frames were heard, 1 if not or if the port or a file failed, 2 for bad input.
+    Rate and format are found by what decodes, for eight minutes at most. Open the port first, then clip the adapter on.
+    The exit status is 0; 1 if nothing decodes or the port goes away; 2 for bad input.
 
-    Example: driveblocks listen chf@1 jscc@2 --port /dev/ttyUSB0 --for 60s --log line.log
+    Example: driveblocks listen chf@1 jscc@2 --port /dev/ttyUSB0 --log line.log
     """
     from json import dumps
 
     from driveblocks import console
     from driveblocks.plc.options import Refused
-    from driveblocks.site import listen, spoken
+    from driveblocks.site import listen, overheard
 
     try:
-        heard = listen.run(listen.Words(**options))
+        way, traffic, ended = listen.run(listen.Words(**words))
     except Refused as refused:
         refuse(str(refused))
-    if heard.findings is not None and heard.way is not None:
-        if options["json"]:
-            click.echo(dumps(spoken.plain(heard.findings, heard.way), ensure_ascii=False, indent=2))
-        else:
-            console.write(*spoken.tables(heard.findings, heard.way))
-    for each in heard.failed:
-        click.echo(each, err=True)
-    sys.exit(1 if heard.failed or heard.findings is None or not heard.findings.good else 0)
+    if json:
+        click.echo(dumps(overheard.plain(way, traffic) | {"ended": ended}, ensure_ascii=False, indent=2))
+    elif way is not None:
+        console.write(*overheard.tables(way, traffic))
+    else:
+        console.write("Nothing decoded.")
+    if ended:
+        click.echo(f"Ended early: {ended}", err=True)
+    sys.exit(1 if way is None or ended else 0)

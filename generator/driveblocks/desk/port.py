@@ -4,8 +4,7 @@ import errno
 import os
 import socket
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
@@ -158,8 +157,8 @@ class _Socket:
 
 
 @contextmanager
-def _explained(speech: str) -> Iterator[None]:
-    """What pyserial raises, in few words. Raises OSError, ValueError."""
+def refusals(bit_rate: int, form: str) -> Iterator[None]:
+    """Why a serial port cannot be opened or set, as OSError in plain words."""
     try:
         yield
     except ValueError:
@@ -169,7 +168,7 @@ def _explained(speech: str) -> Iterator[None]:
             raise OSError(errno.ENOTTY, "this is no serial port") from error
         raise OSError(error.errno, _WHY.get(error.errno or 0) or str(error)) from error
     except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
-        refuses = f"the port refuses {speech}; a pseudo-terminal takes 8N1 only"
+        refuses = f"the port refuses {bit_rate} bit/s {form}; a pseudo-terminal takes 8N1 only"
         raise OSError(errno.EINVAL, refuses) from error
 
 
@@ -179,7 +178,7 @@ class _Serial:
     def __init__(self, name: str, bit_rate: int, form: str) -> None:
         import serial
 
-        with _explained(f"{bit_rate} bit/s {form}"):
+        with refusals(bit_rate, form):
             self._port = serial.Serial(
                 name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
             )
@@ -202,50 +201,3 @@ def tcp(host: str, port: int, clock: Clock) -> DevicePort:
 def serial_port(name: str, bit_rate: int, form: str, clock: Clock) -> DevicePort:
     """A serial port by pyserial; a form is data bits, parity and stop bits. Raises ImportError, OSError, ValueError."""
     return DevicePort(lambda: _Serial(name, bit_rate, form), clock)
-
-
-@dataclass(frozen=True)
-class Tap:
-    """A port that can be heard and nothing else: it has no way to send. What has gone stays gone."""
-
-    receive: Callable[[], bytes]
-    """Bytes that have come, without waiting. Raises OSError."""
-    tune: Callable[[int, str], bool]
-    """Take another bit rate and format without opening it anew; whether it can."""
-    close: Callable[[], None]
-
-
-def tcp_tap(host: str, port: int) -> Tap:
-    """Serial bytes over TCP; rate and format are the server's. Raises OSError."""
-    device = _Socket(host, port)
-    return Tap(device.read, lambda _rate, _form: True, device.close)
-
-
-def serial_tap(name: str, bit_rate: int, form: str) -> Tap:
-    """A serial port with RTS and DTR off from the first moment on. Raises ImportError, OSError, ValueError."""
-    import serial
-
-    device = serial.Serial()
-    device.port, device.timeout, device.exclusive = name, 0, EXCLUSIVE
-    device.rts = device.dtr = False  # before it is open: an adapter that is directed by RTS must not drive the line
-
-    def tune(rate: int, shape: str) -> bool:
-        before = device.get_settings()
-        try:
-            with _explained(f"{rate} bit/s {shape}"):
-                device.apply_settings(_settings(rate, shape))
-        except (OSError, ValueError):
-            with suppress(Exception):  # it takes what it had before, or has gone, which the next read shows
-                device.apply_settings(before)
-            return False
-        return True
-
-    with _explained(f"{bit_rate} bit/s {form}"):
-        device.apply_settings(_settings(bit_rate, form))
-        device.open()
-    return Tap(lambda: bytes(device.read(MOST)), tune, device.close)
-
-
-def _settings(bit_rate: int, form: str) -> dict[str, Any]:
-    """As pyserial names them."""
-    return {"baudrate": bit_rate, "bytesize": int(form[0]), "parity": form[1], "stopbits": int(form[2])}

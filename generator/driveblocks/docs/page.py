@@ -10,7 +10,7 @@ from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
-from driveblocks.maps import conduct
+from driveblocks.maps import conduct, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
@@ -175,6 +175,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
     return render(
         "docs/Drive.md.j2",
         manual=context.title(drive),
+        heard=trust.heard(drive),
         word=own.word or drive.prefix.lower(),
         measured=own.measured,
         edition=drive.manual.edition,
@@ -188,6 +189,7 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
         stay=[each for each in drive.settings if _stays(each)],
         named={each.id: {value.value: value.name for value in each.values} for each in drive.settings},
         hazards=[each for each in drive.notices if _matters(each)],
+        nevers=list(conduct.nevers(drive)),
         open=open_,
         reasons=REASONS,
         reads=list(_reads(drive)),

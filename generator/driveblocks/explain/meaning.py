@@ -184,6 +184,9 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
             if turned
             else "no listed value"
         )
+    for never in row.never:
+        if writing and never.holds(word):
+            yield f"must never be sent: {never.why}"
     if row.masks:
         yield from _masks(row, word)
     if writing and drive.storage.register is not None and drive.storage.register in row.address:

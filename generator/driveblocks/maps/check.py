@@ -11,6 +11,7 @@ from driveblocks.maps.rules import (
     identity,
     line,
     name,
+    never,
     operation,
     parameter,
     reading,
@@ -24,7 +25,7 @@ from driveblocks.maps.rules import (
 
 _PARTS = (
     *(register, name, identifier, parameter, area, line, setting),
-    *(command, operation, standstill, condition, identity, watchdog, fault, vector, record, reading),
+    *(command, never, operation, standstill, condition, identity, watchdog, fault, vector, record, reading),
 )
 
 

@@ -82,6 +82,14 @@ def own_maximum(drive: Drive) -> str:
     return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {row.scale.factor} Hz"
 
 
+def nevers(drive: Drive) -> Iterator[str]:
+    """What must never be sent, and what the drive would do."""
+    for _, row in drive.registers():
+        for one in row.never:
+            bits = f"bit{'s' * (len(one.bit) > 1)} {bits_text(one.bit)}"
+            yield f"{address_text(row.address.first)} {bits} = {one.equals}: {one.why}"
+
+
 def condition(one: Condition | State) -> str:
     """A condition or state in words: `000FH bit 0 = 0`."""
     if one.mask is not None:

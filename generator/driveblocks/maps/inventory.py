@@ -4,14 +4,17 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from driveblocks.maps import counts, view
+from driveblocks.maps import counts, trust, view
 from driveblocks.maps.counts import Counts, Tally
 from driveblocks.maps.model import Drive
 
 BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
 FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
 
-_FRONT = ("drive block", "drives", "what the bus can do", "misprints found", "left open by the manual")
+_FRONT = (
+    "drive block", "drives", "what the bus can do", "commands, status, faults", "misprints found",
+    "left open by the manual",
+)  # fmt: skip
 _WORDS = {
     "run_forward": "run",
     "run_reverse": "run in reverse",
@@ -43,15 +46,18 @@ def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
 
 
 def front(maps: Mapping[Path, Drive], folder: Path) -> str:
-    """One line for each drive: its page, its name, what the bus can do with it, misprints and gaps of its manual."""
-    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 3 + ("---:",) * 2]
+    """One line for each drive: its page, its name, what the bus can do with it, misprints and gaps of its manual.
+
+    Beside what the bus can do: how far the weakest command, status and fault can be trusted.
+    """
+    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 4 + ("---:",) * 2]
     for path, drive in maps.items():
         page = Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs"
         link = f"[`{drive.prefix}_Drive`]({(page / f'{drive.prefix}_Drive.md').as_posix()})"
         told = {each.does for each in drive.operation.commands} if drive.operation else set()
         held = counts.of_drive(drive)
         can = ", ".join(word for name, word in _WORDS.items() if name in told)
-        rows.append((link, view.title(drive), can, str(held.errata), str(held.absent)))
+        rows.append((link, view.title(drive), can, trust.rung(drive), str(held.errata), str(held.absent)))
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 

@@ -7,7 +7,8 @@ from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import or_
 from typing import Annotated, Any, Literal
 
 from driveblocks.maps import form
@@ -43,6 +44,8 @@ Feed = Literal["read", "reference", "run", "any"]
 """What a drive's own watchdog takes for a sign of life of its master."""
 Reacts = Literal["stop", "quick_stop", "coast_stop", "runs_on", "other_speed"]
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
+Trust = Literal["read", "sister", "transcribed", "in_use"]
+"""How far facts of a document can be trusted, the best first."""
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
     "fault_reset",
@@ -56,6 +59,7 @@ def fact(doc: str, example: str, *, optional: bool = False, default: Any = None)
 
 
 _CHINESE = "the manual's Chinese, as printed, misprints included; a must where the manual is Chinese"
+_SAYS_SO = "id of the document that says so, where the manual does not"
 _WORDING = (
     "the manual's own words where it is neither English nor Chinese; of an English manual, what is printed where the "
     "English departs from it"
@@ -171,12 +175,18 @@ class Manual(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Document(Entry):
-    """Another public document that corroborates values."""
+    """Another public document that corroborates values, or says what the manual does not."""
 
     id: Word = fact("short name for references", "modbus_application")
     title: Str = fact("title as printed", "MODBUS Application Protocol Specification")
     publisher: Str = fact("who published it", "Modbus Organization")
     edition: Str | None = fact("edition, revision or date", "V1.1b3", optional=True)
+    trust: Trust | None = fact(
+        "how far it can be trusted, where facts are taken from it: `read` in the maker's document on this drive; "
+        "`sister`: the maker's on a sister model; `transcribed` by somebody else; `in_use`: software of machines",
+        "sister",
+        optional=True,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -226,6 +236,7 @@ class Setting(Named):
 
     id: Id = fact("the manual's id", "H5-02")
     source: English = fact("where the manual says so", "table of communication parameters")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     register: Address | None = fact("its register, where the manual lists one", "041DH", optional=True)
     range: Range | None = fact("allowed numbers", "{min: 0, max: 4}", optional=True)
     unit_step: Number | None = fact("smallest step", "1", optional=True)
@@ -458,6 +469,24 @@ class Bit(Worded, Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Never(Entry):
+    """Bits of a command register that must never have a value, whatever else is in the word."""
+
+    bit: Bits = fact("the bit or bits; `0-F` for the whole word", "4-5")
+    equals: Number = fact("the value", "3")
+    why: English = fact("what the drive would do", "the direction changes, or not, by edition")
+
+    @property
+    def mask(self) -> int:
+        """The bits in their places."""
+        return sum(1 << number for number in self.bit)
+
+    def holds(self, word: int) -> bool:
+        """Whether a word has the value."""
+        return word & self.mask == self.equals << self.bit.first
+
+
+@dataclass(frozen=True, kw_only=True)
 class PrintedRow(Entry):
     """How the manual prints a register's row, where that is wrong."""
 
@@ -492,6 +521,12 @@ class Register(Worded, Entry):
         "the values are single bits; the manual does not say whether they combine", "true", optional=True, default=False
     )
     bits: tuple[Bit, ...] = fact("bits of the word", "[{bit: 0, name: Running, zh: 运行中}]", optional=True, default=())
+    never: tuple[Never, ...] = fact(
+        "what is never written to a command register: no command writes it, and `KeepWord` reaches none of its bits",
+        "[{bit: 4-5, equals: 3, why: ...}]",
+        optional=True,
+        default=(),
+    )
     printed: PrintedRow | None = fact(
         "what the manual prints instead (needs an erratum)", "{address: 0210H}", optional=True
     )
@@ -502,9 +537,15 @@ class Register(Worded, Entry):
     )
     note: English | None = fact("what else a person must know", "write 0 to store", optional=True)
     source: English | None = fact("overrides the section's source", "page 9", optional=True)
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
     )
+
+    @property
+    def barred(self) -> int:
+        """The bits of `never`, as a mask."""
+        return reduce(or_, (one.mask for one in self.never), 0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -523,6 +564,7 @@ class Section(Entry):
     id: Word = fact("short name", "monitors_u1")
     title: Text = fact("heading of the table", "{en: U1 monitors, zh: U1-XX 监测具体内容寄存器}")
     source: English = fact("where it is in the manual", "section (II)")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     access: Access = fact("how its registers may be used: r, w or rw", "r")
     registers: tuple[Register, ...] = fact(
         "the rows, in the manual's order", "[{address: 0020H, id: U1-01, name: ..., zh: ...}]"
@@ -623,6 +665,7 @@ class Command(Entry):
         optional=True,
     )
     source: English = fact("where the manual says so", "section (I), 0000H")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
 
     @property
@@ -638,6 +681,7 @@ class Reference(Entry):
     register: Address = fact("reference register", "0001H")
     means: Literal["frequency", "percent_of_maximum"] = fact("what the word is", "frequency")
     source: English = fact("where the manual says so", "section (I), 0001H")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     maximum: Id | None = fact("parameter that holds the 100 % value", "P0.04", optional=True)
     negative_reverses: bool = fact(
         "a negative reference turns the motor the other way", "true", optional=True, default=False
@@ -656,6 +700,7 @@ class Standstill(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 0}]")
     source: English = fact("where the manual says so", "section (I), 0010H; U1-02")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     why: English = fact("why this proves it", "status and frequency both say so")
 
 
@@ -665,6 +710,7 @@ class InCommand(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0C81H, bit: 9, equals: 1}]")
     source: English = fact("where the manual says so", "table of the status word")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -673,6 +719,7 @@ class OwnMaximum(Entry):
 
     register: Address = fact("the register", "0303H")
     source: English = fact("where the manual says so", "table of parameters, E1-04")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -684,6 +731,7 @@ class State(Entry):
     mask: Number | None = fact("bits that count; left out for the whole word", "006FH", optional=True)
     equals: Number = fact("their value, in their place", "0023H")
     source: English = fact("where the manual says so", "section 5, table of states")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -693,6 +741,7 @@ class Status(Entry):
     shows: Shows = fact("the pin", "running")
     any: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, bit: 0, equals: 1}]")
     source: English = fact("where the manual says so", "section (I), 0010H")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -702,6 +751,7 @@ class Measured(Entry):
     shows: Measure = fact("the pin", "output_current")
     register: Address = fact("the register; without a scale the pin needs a setting", "0022H")
     source: English = fact("where the manual says so", "section (II), U1-03")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -710,6 +760,7 @@ class Identity(Entry):
 
     all: tuple[Condition, ...] = fact("the conditions", "[{register: 0010H, equals: 1205H}]")
     source: English = fact("where the manual says so", "table of device data, product code")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     why: English = fact("why no other drive answers so", "the maker gives each family a code of its own")
 
 
@@ -759,6 +810,7 @@ class Watchdog(Entry):
     )
     fault: Number | None = fact("code of the fault that it shows", "21H", optional=True)
     source: English = fact("where the manual says so", "table of communication parameters")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact(
         "what else a person must know", "the motor does not start again by itself", optional=True
     )
@@ -822,6 +874,7 @@ class Fault(Returned):
     code: Number = fact("the number that the drive reports", "1EH")
     id: Str | None = fact("the drive's short display", "OPR", optional=True)
     printed_code: Str | None = fact("the code as printed, where that is wrong (needs an erratum)", "OEF", optional=True)
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact("what else a person must know", "...", optional=True)
 
 
@@ -844,6 +897,7 @@ class Faults(Entry):
     """Fault codes and the registers that report them."""
 
     source: English = fact("where the table is", "section (IV), table of fault numbers")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     registers: tuple[Addresses, ...] = fact("registers that hold a fault code", "[0080H, 0090H-0093H]")
     present: Address | None = fact(
         "the one that holds the fault that is present, where `bits` do not show it", "3000H", optional=True
@@ -1054,7 +1108,7 @@ class Drive(Entry):
         "forms of the manual's parameter ids: A letter, 9 digit, X either", "[A9-99]"
     )
     documents: tuple[Document, ...] = fact(
-        "other public documents that corroborate values",
+        "other public documents that corroborate values, or that facts are taken from",
         "[{id: ..., title: ..., publisher: ...}]",
         optional=True,
         default=(),

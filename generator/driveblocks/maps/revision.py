@@ -1,5 +1,6 @@
 """What distinguishes one state of a map from another."""
 
+import re
 from dataclasses import fields, replace
 from functools import lru_cache
 from typing import Any
@@ -7,11 +8,14 @@ from typing import Any
 from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
+_LATER = re.compile(r", (?:(?:document|trust)=None|never=\(\))(?=[,)])")
+"""Keys that the format has learned since the first numbers were printed: left out, they change none."""
+
 
 @lru_cache
 def revision(drive: Drive) -> int:
     """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is."""
-    return int(fingerprint([repr(english(drive))]), 16)
+    return int(fingerprint([_facts(english(drive))]), 16)
 
 
 @lru_cache
@@ -23,7 +27,7 @@ def checked(drive: Drive) -> int:
     plain = english(drive)
     registers = [plain.operation.reference.register, *(one.register for one in plain.operation.measures)]
     scales = [row.scale if row else None for row in map(plain.register_at, registers)]
-    return int(fingerprint([repr(plain.operation), repr(scales)]), 16) % 65535 + 1
+    return int(fingerprint([_facts(plain.operation), _facts(scales)]), 16) % 65535 + 1
 
 
 @lru_cache
@@ -42,3 +46,7 @@ def _english(value: Any) -> Any:
     if isinstance(value, Worded):
         said.update(zh=None, zh_used=None, wording=None)
     return replace(value, **said)
+
+
+def _facts(value: Any) -> str:
+    return _LATER.sub("", repr(value))

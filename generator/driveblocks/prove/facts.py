@@ -10,6 +10,7 @@ from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
+from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
@@ -94,12 +95,13 @@ def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str
 
 
 def _kept(drive: Drive, write: Command | Step) -> int:
-    """The bits of a command register that the manual gives a use and that no command touches."""
+    """The bits of a command register that the manual gives a use, that no command touches and that may be sent."""
     row = drive.register_at(write.register)
     used = {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
     writes = [each for one in drive.operation.commands for each in one.writes if each.register == write.register]
     touched = {bit for each in writes for span in (*each.set, *each.clear) for bit in span}
-    return 0 if write.value is not None else sum(1 << bit for bit in used - touched)
+    barred = {bit for each in (row.never if row else ()) for bit in each.bit}
+    return 0 if write.value is not None else sum(1 << bit for bit in used - touched - barred)
 
 
 def _mask(spans: Iterable[Bits]) -> int:
@@ -213,7 +215,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "pins": _every(pins),
         "told": _every(told),
         "at_speed": "TRUE" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
-        "unchecked": f"(ManualChecked <> {checked(drive)})" if drive.manual.second_hand else "FALSE",
+        "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
         "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
         "valid": _every(_valid(drive, one) for one in drive.operation.measures),
     }

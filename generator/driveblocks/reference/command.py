@@ -169,4 +169,8 @@ def _kept(drive: Drive) -> Iterable[tuple[int, frozenset[int]]]:
 
 
 def _in_use(row: Register | None) -> set[int]:
-    return {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
+    """The bits of a register that the manual gives a use; not those that could make up what must never be sent."""
+    if row is None:
+        return set()
+    barred = {bit for each in row.never for bit in each.bit}
+    return {bit for entry in row.bits if not entry.unused for bit in entry.bit} - barred

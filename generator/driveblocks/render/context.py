@@ -410,7 +410,7 @@ def kept(drive: Drive) -> dict[int, int]:
     found = {}
     for register in {one.register for one in writes}:
         row = drive.register_at(register)
-        used = bits_of(bit.bit for bit in (row.bits if row else ()) if not bit.unused)
+        used = bits_of(bit.bit for bit in (row.bits if row else ()) if not bit.unused) & ~(row.barred if row else 0)
         mask = used & ~bits_of(span for one in writes if one.register == register for span in (*one.set, *one.clear))
         if mask:
             found[register] = mask

@@ -9,6 +9,7 @@ from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Unit
 from driveblocks.maps.plan import plan
 from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
+from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
@@ -318,7 +319,7 @@ def _own(drive: Drive) -> Own:
         two_byte_count=reply.two_byte_count,
         busy=next((error_number(one) or 0 for one in drive.errors.codes if one.busy), 0),
         silence=_silence(drive),
-        second_hand=drive.manual.second_hand,
+        second_hand=second_hand(drive),
         checked=checked(drive),
         feeds=drive.watchdog.feeds if drive.watchdog else None,
     )

@@ -21,6 +21,7 @@ from driveblocks.maps.model import (
     Watchdog,
 )
 from driveblocks.maps.revision import revision
+from driveblocks.maps.trust import counted, heard, second_hand, words
 from driveblocks.show.layout import both, facts, heading, listed, table
 from driveblocks.show.line import line, settings
 from driveblocks.show.register import value_text
@@ -58,11 +59,21 @@ def _identity(drive: Drive, file: str) -> Iterator[RenderableType]:
         ("publisher", _text(manual.publisher)),
         ("edition", manual.edition or "none printed"),
         ("covers", manual.covers),
-        ("second hand", "runs only when its user has checked the manual" if manual.second_hand else None),
+        ("trust", _trust(drive)),
+        ("second hand", "runs only when its user has checked the manual" if second_hand(drive) else None),
         ("proof", None if drive.frames else view.UNPROVED),
         ("safety rules", view.PROVABLE),
         ("documents", "\n".join(f"{both(one.title, one.edition)}, {one.publisher}" for one in drive.documents)),
     )
+
+
+def _trust(drive: Drive) -> str:
+    """How many facts were read where, and below it those that were not read in the maker's own words."""
+    numbers = {
+        group: listed(f"{many} {words(how)}" for how, many in each.items()) for group, each in counted(drive).items()
+    }
+    said = (f"{group}: {each}" for group, each in numbers.items() if each)
+    return "\n".join(("; ".join(said), *heard(drive)))
 
 
 def operation(drive: Drive) -> Iterator[RenderableType]:
@@ -94,6 +105,7 @@ def _conduct(drive: Drive) -> Iterator[RenderableType]:
         ("bus commands", _from(conduct.in_command(drive), run.commanded_by)),
         ("own maximum", _from(conduct.own_maximum(drive), run.own_maximum)),
         ("identity", _from(conduct.recognised(drive), drive.identity)),
+        ("never sent", "\n".join(conduct.nevers(drive))),
     )
 
 

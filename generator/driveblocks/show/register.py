@@ -33,6 +33,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("signed", "two's complement, -32768 to 32767" if row.signed else None),
         ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
         ("commands", "\n".join(_commands(drive, address))),
+        ("never", "\n".join(f"bits {bits_text(one.bit)} = {one.equals}: {one.why}" for one in row.never)),
         ("pins", "\n".join(_shows(drive, address))),
         ("note", row.note),
         ("also says", corroborated(drive, row.corroborated)),

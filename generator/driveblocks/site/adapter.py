@@ -9,7 +9,7 @@ from rich.progress import BarColumn, Progress, TextColumn
 from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.port import Port, Tap
+from driveblocks.desk.port import Port
 from driveblocks.plc.options import LOOPBACK, NO_PORT, is_port
 from driveblocks.site.found import Heard, Way
 from driveblocks.site.line import CHARACTER_BITS
@@ -125,17 +125,13 @@ def at(name: str | None, address: str | None, clock: Clock) -> Callable[[Way], P
     def opened(way: Way) -> Port:
         if name is not None:
             return port.serial_port(name, way.rate, way.form, clock)
-        return port.tcp(*_parts(address), clock)
+        return port.tcp(*host_and_port(address), clock)
 
     return opened
 
 
-def tap(name: str | None, address: str | None, way: Way) -> Tap:
-    """A port that is only heard. Raises ImportError, OSError, ValueError."""
-    return port.serial_tap(name, way.rate, way.form) if name is not None else port.tcp_tap(*_parts(address))
-
-
-def _parts(address: str | None) -> tuple[str, int]:
+def host_and_port(address: str | None) -> tuple[str, int]:
+    """The two sides of a TCP address; without a host, this machine."""
     host, _, number = (address or "").rpartition(":")
     return host or LOOPBACK[1], int(number)
 

@@ -50,7 +50,7 @@ def _passes(drive: Drive, command: Command, report: Report) -> None:
     told: set[tuple[int, str]] = set()
     for start in _starts(drive):
         now = dict(start)
-        for number, (one, word) in enumerate(_words(drive, command)):
+        for number, (one, word) in enumerate(words(drive, command)):
             now |= word
             for other in others:
                 if _holds(now, meaning.image(meaning.acting(other)), one) and (number, other.does) not in told:
@@ -61,7 +61,7 @@ def _passes(drive: Drive, command: Command, report: Report) -> None:
                     )
 
 
-def _words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:
+def words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:
     """What each write of a command puts into its register.
 
     Of a word written by bits, those of other commands are 0 unless an earlier write of this one has set them; a reset
@@ -87,7 +87,7 @@ def _starts(drive: Drive) -> list[Image]:
     stopped = [meaning.image([one]) for one in commands if one.does in _STOPS]
     reset: Image = {}
     for one in commands:
-        for _, word in _words(drive, one) if one.does == "fault_reset" else ():
+        for _, word in words(drive, one) if one.does == "fault_reset" else ():
             reset |= word
     return [*stopped, *(stop | reset for stop in stopped)]
 

@@ -19,6 +19,7 @@ from driveblocks.maps.plan import plan
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.reference import Known
 from driveblocks.maps.rules.unique import unique
+from driveblocks.maps.trust import TRUSTS, taken
 
 MOST_ON_SITE, MOST_ASKED = 10, 6
 """Gaps of a map that are for the first hour on site: in all, and those that a person is asked about."""
@@ -179,13 +180,21 @@ def _corroborations(drive: Drive) -> Iterator[Corroboration]:
 
 def _documents(drive: Drive, report: Report) -> None:
     documents = unique(drive.documents, "id", "document", report)
-    used = set()
-    for item in _corroborations(drive):
-        used.add(item.document)
+    sources = [one for one in taken(drive) if one.document is not None]
+    for item in (*_corroborations(drive), *sources):
         if item.document not in documents:
             wrong = f"there is no document `{item.document}`"
             report.miss(item.place("document"), wrong, "add it to `documents`")
+    said, confirmed = {one.document for one in sources}, {item.document for item in _corroborations(drive)}
     for id_, document in documents.items():
-        if id_ not in used:
-            right = "remove it, or add `corroborated:` where it confirms a fact"
+        if id_ not in said | confirmed:
+            right = (
+                "remove it, or add `corroborated:` where it confirms a fact, `document:` where a fact is taken from it"
+            )
             report.miss(document.at, f"nothing refers to document `{id_}`", right)
+        elif id_ in said and document.trust is None:
+            wrong = f"facts are taken from document `{id_}`, but nothing says how far it can be trusted"
+            report.miss(document.at, wrong, f"add `trust:` with one of {', '.join(TRUSTS)}")
+        elif id_ not in said and document.trust is not None:
+            wrong = f"no fact is taken from document `{id_}`"
+            report.add(document.place("trust"), wrong, "remove `trust`, or add `document:` to what it says")

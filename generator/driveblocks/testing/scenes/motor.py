@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.trust import second_hand
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -744,7 +745,7 @@ def modes(can: Ability) -> Iterator[Scene]:
     yield scene("a setting of 65535", POWER, *_spoilt())
     yield scene("another unit address", POWER, run(), *_address(can))
     yield scene("the drive's watchdog", POWER, run(), *_heartbeat(can))
-    if can.drive.manual.second_hand:
+    if second_hand(can.drive):
         yield scene("a map that nobody has checked", *_unchecked())
     if can.drive.operation.reference.verify:
         yield scene("a setting that gives the reference another meaning", POWER, run(), *_wrong_setting())

@@ -1,5 +1,6 @@
 """The numbers of the reasons, as published, by the names that scenes give them, and those that no scene reaches."""
 
+from driveblocks.maps.trust import second_hand
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.testing.scenes.ability import Ability
 
@@ -20,7 +21,7 @@ def unreached(can: Ability) -> dict[str, str]:
         "RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it",
         "UNREAD": "the settings are read before the stop after power-up is confirmed",
     }
-    if not can.drive.manual.second_hand:
+    if not second_hand(can.drive):
         found["UNCHECKED"] = "the map was read off the manual"
     if not can.drive.operation.reference.verify:
         found["SETTING"] = "no setting of the drive that can be read gives the reference another meaning"

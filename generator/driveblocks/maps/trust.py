@@ -1,0 +1,118 @@
+"""How far the facts of a map can be trusted, each by the document that it is taken from."""
+
+from collections import Counter
+from collections.abc import Iterator
+from typing import get_args
+
+from driveblocks.maps.model import (
+    Command,
+    Document,
+    Drive,
+    Fault,
+    Faults,
+    Identity,
+    InCommand,
+    Measured,
+    OwnMaximum,
+    Reference,
+    Register,
+    Section,
+    Setting,
+    Standstill,
+    State,
+    Status,
+    Trust,
+    Watchdog,
+)
+
+Moving = Command | Reference | Standstill | State | Status
+"""What can move the motor, or proves that it is at standstill."""
+Taken = Moving | Section | Register | Measured | InCommand | OwnMaximum | Identity | Watchdog | Faults | Fault | Setting
+"""What may name the document that it is taken from."""
+TRUSTS: tuple[Trust, ...] = get_args(Trust)
+
+
+def taken(drive: Drive) -> Iterator[Taken]:
+    """Every entry that may name a document."""
+    for section in drive.sections:
+        yield section
+        yield from section.registers
+    run, faults = drive.operation, drive.faults
+    yield from run.commands
+    yield from run.states
+    yield from run.status
+    yield from run.measures
+    yield from (run.reference, run.standstill, faults)
+    yield from (one for one in (run.commanded_by, run.own_maximum, drive.identity, drive.watchdog) if one is not None)
+    yield from faults.codes
+    yield from drive.settings
+
+
+def rungs(drive: Drive) -> dict[str, dict[str, Document | None]]:
+    """The document of each fact by its name, by group; None for the manual itself."""
+    run, faults = drive.operation, drive.faults
+    motions = {str(one.does): _weakest(drive, one, *(write.register for write in one.writes)) for one in run.commands}
+    shown = {str(one.shows): _weakest(drive, one, *(each.register for each in one.any)) for one in run.status}
+    states = {f"state {one.name}": _weakest(drive, one, one.register) for one in run.states}
+    still = _weakest(drive, run.standstill, *(each.register for each in run.standstill.all))
+    return {
+        "commands": {**motions, "reference": _weakest(drive, run.reference, run.reference.register)},
+        "status": {**shown, **states, "standstill": still},
+        "faults": {f"{one.code:02X}H": _named(drive, one.document or faults.document) for one in faults.codes},
+    }
+
+
+def counted(drive: Drive) -> dict[str, dict[Trust, int]]:
+    """How many facts of each group can be trusted how far."""
+    return {
+        group: dict(Counter(sorted((trust(drive, one) for one in facts.values()), key=TRUSTS.index)))
+        for group, facts in rungs(drive).items()
+    }
+
+
+def trust(drive: Drive, document: Document | None) -> Trust:
+    """How far a document can be trusted; None is the manual itself."""
+    if document is not None:
+        return document.trust or "transcribed"
+    return "transcribed" if drive.manual.second_hand else "read"
+
+
+def second_hand(drive: Drive) -> bool:
+    """Whether something that can move the motor, or proves its standstill, was not read in the maker's own words."""
+    groups = counted(drive)
+    return any(one != "read" for group in ("commands", "status") for one in groups[group])
+
+
+def rung(drive: Drive) -> str:
+    """How far the weakest command, status and fault can be trusted, in this order."""
+    return ", ".join(words(max(found, key=TRUSTS.index)) if found else "none" for found in counted(drive).values())
+
+
+def heard(drive: Drive) -> list[str]:
+    """One line for each group and document whose facts were not read in the maker's own words."""
+    lines = []
+    for group, facts in rungs(drive).items():
+        for document in dict.fromkeys(facts.values()):
+            how = trust(drive, document)
+            if how != "read":
+                names = ", ".join(name.replace("_", " ") for name, one in facts.items() if one == document)
+                title = f"{document.title}, {document.publisher}" if document else "the manual as others wrote it down"
+                lines.append(f"{group}, {words(how)} ({title}): {names}")
+    return lines
+
+
+def words(how: Trust) -> str:
+    """A trust as it is shown."""
+    return how.replace("_", " ")
+
+
+def _weakest(drive: Drive, one: Moving, *registers: int) -> Document | None:
+    """The document to trust least of those of a fact and of the rows of its registers."""
+    named = [one.document]
+    for pair in map(drive.row_at, registers):
+        named += [pair[1].document or pair[0].document] if pair else []
+    return max((_named(drive, each) for each in named), key=lambda each: TRUSTS.index(trust(drive, each)))
+
+
+def _named(drive: Drive, name: str | None) -> Document | None:
+    return next((one for one in drive.documents if one.id == name), None)
