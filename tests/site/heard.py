@@ -24,8 +24,8 @@ KINDS = (
     "quiet",
 )  # fmt: skip
 SAYS = {
-    "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
-    "to what was not heard": "stray", "a write without": "unclear", "two masters": "masters", "came twice": "echo",
+    "a write without": "unclear", "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
+    "to what was not heard": "stray", "two masters": "masters", "came twice": "echo",
     "damaged bytes came": "damaged", "no good frame": "damaged", "refused": "refused", "or twice": "late or twice",
 }  # fmt: skip
 """What sentences of the page mean."""

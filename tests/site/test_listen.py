@@ -21,6 +21,7 @@ from pymodbus import FramerType
 from pymodbus.client import ModbusTcpClient
 from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.windows import environment
+from tests.site.heard import KINDS, line
 from tests.site.test_commission import MAPS
 from tests.site.test_peer import peer
 
@@ -29,15 +30,17 @@ from driveblocks.cli import app
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import EXCLUSIVE
 from driveblocks.explain.paste import read
-from driveblocks.modbus.frame import seal
+from driveblocks.modbus.frame import opened, seal
 from driveblocks.modbus.layout import Dialect
 from driveblocks.site import ear, listen, overheard
 from driveblocks.site.found import Way
 from driveblocks.site.traffic import Cutter, Frame, Said, Traffic
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals, and other signals")
+SEEDS = {"masters": 2}
 KNOWN = ("--rate", "9600", "--format", "8N1")
 READ, WORDS = "01 03 10 00 00 02", "01 03 04 00 05 13 88"
+SEVERAL = b"".join(seal("rtu", bytes([1, 3, 0x10, each, 0, 2])) for each in range(3))
 WRITE, REFUSED = "01 06 20 00 00 05", "01 83 02"
 
 
@@ -84,10 +87,17 @@ def test_requests_replies_refusals_and_broadcasts_are_distinguished(mode: str) -
          ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
         ([READ, WORDS, "01 03 04 00 06 13 88"], ["request", "reply", "twice"],
          ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
-        ([WORDS, READ, WORDS], ["unasked", "request", "reply"],
-         ["unit 1 answered once to what was not heard: a request was damaged, or came before"]),
+        ([WORDS, READ, WORDS], ["unasked", "request", "reply"], []),  # its request came before the listener
+        ([READ, WORDS, READ, (1, READ), WORDS], ["request", "reply", "request", "request", "reply"],
+         ["requests to unit 1 came twice at once, once: an echo, or a master in a hurry"]),
+        ([WRITE, READ, WRITE, WORDS], ["request", "request", "late", "reply"],  # unit 1 is slow, or asked again
+         ["unit 1: 2 times a write without a reply, or a second reply: they look the same"]),
+        (["?01 03", READ, WORDS], ["damaged", "request", "reply"], []),  # the end of what came before the listener
+        ([READ, WORDS, "?01 03", WORDS], ["request", "reply", "damaged", "unasked"],
+         ["unit 1 answered once to what was not heard: late, twice, or its request was damaged",
+          "7.1 % of all bytes made no good frame, once"]),
         ([READ, WORDS, (4000, "01 03 06 00 06 13 88 00 01")], ["request", "reply", "unasked"],
-         ["unit 1 answered once to what was not heard: a request was damaged, or came before"]),
+         ["unit 1 answered once to what was not heard: late, twice, or its request was damaged"]),
         # the first frame may be the echo of a request before: nobody can say that it has no reply
         ([WRITE, READ, WORDS], ["request", "request", "reply"],
          ["unit 1: once a write without a reply, or a second reply: they look the same"]),
@@ -110,6 +120,17 @@ def test_what_is_odd_is_named(frames: Sequence[Any], right: list[str], odd: list
     traffic, said = heard(*frames)
     assert [each.role for each in said] == right
     assert list(overheard.odd(traffic)) == odd
+
+
+def test_words_are_not_those_of_a_late_reply_to_another_request() -> None:
+    traffic, _ = heard(READ, (300, "01 03 30 00 00 02"), WORDS)
+    assert traffic.units[1].polls[3, 0x3000, 2].words == ()
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_random_line_is_named(kind: str) -> None:
+    verdict = line(SEEDS.get(kind, 1), kind)
+    assert verdict.state == "named", verdict.why
 
 
 def test_polls_have_their_times_and_words() -> None:
@@ -149,6 +170,17 @@ def test_frames_are_cut_however_their_bytes_are_handed_over(mode: str) -> None:
         assert all(one.end_us <= two.begin_us for one, two in pairwise(found))
 
 
+def test_a_reply_that_begins_as_a_request_would_is_one_frame() -> None:
+    words = (each.to_bytes(2, "big") for each in range(0x10000))
+    frame = next(
+        whole for word in words if opened("rtu", (whole := seal("rtu", bytes.fromhex("03 03 04 12 34") + word))[:8])
+    )
+    for size in (8, 9):
+        cutter = Cutter([Dialect()], 1042)
+        found = [*cutter.take(0, frame[:size]), *cutter.take(9000, frame[size:]), *cutter.rest()]
+        assert [each.data for each in found] == [frame]
+
+
 def test_damaged_bytes_do_not_take_good_frames_with_them() -> None:
     good = [seal("rtu", bytes.fromhex(each)) for each in (READ, WORDS)]
     odd = bytes.fromhex("07 41 05 06")  # a function that is not known here, with a good CRC
@@ -165,7 +197,7 @@ def test_noise_without_an_end_is_cut_and_good_frames_are_heard_after_it() -> Non
     found = [each for at in range(100) for each in cutter.take(1000 * at, bytes([at] * 20))]
     assert found
     assert not any(each.good for each in found)
-    found = [*cutter.rest(), *cutter.take(200_000, frame)]
+    found = [*cutter.rest(), *cutter.take(200_000, frame), *cutter.take(220_000, b"")]
     assert found[-1].data == frame
     assert found[-1].good
 
@@ -226,7 +258,7 @@ class Fake:
 
     def __init__(self, **options: Any) -> None:
         self.options, self.is_open, self.rts, self.dtr, self.port = options, False, True, True, ""
-        self.said = seal("rtu", bytes.fromhex(READ)) * 3
+        self.said = SEVERAL
         Fake.made.append(self)
 
     def open(self) -> None:
@@ -271,11 +303,11 @@ def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.Monk
         return real(number, data)
 
     monkeypatch.setattr(os, "write", counted)
-    speaks = threading.Timer(0.2, real, (master, seal("rtu", bytes.fromhex(READ)) * 4))  # what came before is lost
+    speaks = threading.Timer(0.2, real, (master, SEVERAL))  # what came before is lost
     speaks.start()
     got = listened("--port", os.ttyname(side), "--for", "1s", *KNOWN, "--json", folder=tmp_path)
     speaks.join()
-    assert json.loads(got)["requests"] == 4
+    assert json.loads(got)["requests"] == 3
     assert written == []
     os.set_blocking(master, False)
     with pytest.raises(BlockingIOError):

@@ -19,6 +19,8 @@ SHARES_US = (2_000_000, 10_000_000)
 """How long each rate and format is listened to in the first round and in the second."""
 ENOUGH = 3
 """Good frames that prove a rate and a format; noise makes one now and then."""
+MOSTLY = 0.75
+"""Their share of the bytes at which no other way is tried: without its parity bit some frames decode, too."""
 
 
 class Ear(Protocol):
@@ -110,26 +112,31 @@ def find(
 
     `progress` gets each way and the bytes before it. Raises OSError.
     """
-    came = 0
+    came, best = 0, list[tuple[float, Way]]()
     for share in SHARES_US:
         for way in tried:
             progress(way, came)
             if not ear.tune(way):
                 continue
-            good, some = _heard(ear, clock, Cutter(dialects, way.character_us), share)
+            good, decoded, some = _heard(ear, clock, Cutter(dialects, way.character_us), share)
             came += some
-            if good >= ENOUGH:
+            if good >= ENOUGH and decoded >= MOSTLY:
                 return way, came
+            best += [(decoded, way)] if good >= ENOUGH else []
+        for _, way in sorted(best, key=lambda one: one[0], reverse=True)[:1]:
+            ear.tune(way)
+            return way, came
     return None, came
 
 
-def _heard(ear: Ear, clock: Clock, cutter: Cutter, share_us: int) -> tuple[int, int]:
-    """Good frames and bytes within a time; it ends as soon as there are enough good ones."""
+def _heard(ear: Ear, clock: Clock, cutter: Cutter, share_us: int) -> tuple[int, float, int]:
+    """Good frames, their share of the bytes, and all bytes within a time; it ends as soon as that is enough."""
     ear.receive()  # what came at another rate
-    end, good, came = clock.now_us() + share_us, 0, 0
-    while clock.now_us() < end and good < ENOUGH:
+    end, good, whole, came = clock.now_us() + share_us, 0, 0, 0
+    while clock.now_us() < end and (good < ENOUGH or whole < MOSTLY * came):
         clock.sleep_until(clock.now_us() + LOOK_US)
         data = ear.receive()
         came += len(data)
-        good += sum(each.good for each in cutter.take(clock.now_us(), data))
-    return good, came
+        for each in cutter.take(clock.now_us(), data):
+            good, whole = good + each.good, whole + each.good * len(each.data)
+    return good, whole / max(1, came), came

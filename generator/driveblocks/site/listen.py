@@ -239,7 +239,7 @@ class Session:
 
     def end(self) -> None:
         """The last bytes, and the last line of the log: without it the log is that of a listening that was cut off."""
-        self.hear(self._cutter.rest())
+        self.hear(each for each in self._cutter.rest() if each.good)  # anything else is only not whole yet
         self._files.write(f"# {self._now(self._clock.now_us())} ended{f': {self.ended}' if self.ended else ''}\n")
 
     def _now(self, us: int) -> str:

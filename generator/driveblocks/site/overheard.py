@@ -21,7 +21,7 @@ MANY = 2
 ODD: dict[Role, str] = {
     "late": "unit {} answered {} after the master had given up: its timeout is too short, or the drive slow",
     "twice": "two replies came to one request to unit {}, {}: two units with this address, or a repeater",
-    "unasked": "unit {} answered {} to what was not heard: a request was damaged, or came before",
+    "unasked": "unit {} answered {} to what was not heard: late, twice, or its request was damaged",
 }
 UNKNOWN = (
     "which of two frames of the same bytes is the request and which its echo, as of 06H: the first is taken for it; "
@@ -47,7 +47,7 @@ def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
 def odd(traffic: Traffic) -> Iterator[str]:
     """What does not happen as it should, a sentence each."""
     for number, unit in sorted(traffic.units.items()):
-        yield from _odd(number, unit)
+        yield from _odd(number, unit, traffic)
     if traffic.hasty >= MANY:
         yield (
             f"{traffic.hasty} requests were sent right after another that had no reply: two masters, or one that does "
@@ -58,19 +58,21 @@ def odd(traffic: Traffic) -> Iterator[str]:
         yield f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
 
 
-def _odd(number: int, unit: Unit) -> Iterator[str]:
+def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[str]:
     polls = unit.polls.values()
     asked, silent = sum(each.count for each in polls), sum(each.unanswered for each in polls)
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
         yield f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
-    if silent and not answers and not damaged:
+    if silent and not answers and not traffic.damaged:
         yield f"unit {number} never answers; it was asked {_times(asked)}"
     elif silent:
         yield f"unit {number} left {silent} of {asked} requests without a reply"
     for role, says in ODD.items():
         if count := unit.odd[role]:
             yield says.format(number, _times(count))
+    if unit.echoed:
+        yield f"requests to unit {number} came twice at once, {_times(unit.echoed)}: an echo, or a master in a hurry"
     if unit.unclear:
         yield f"unit {number}: {_times(unit.unclear)} a write without a reply, or a second reply: they look the same"
     for key, poll in unit.polls.items():

@@ -9,7 +9,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect
 from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.frame import opened
-from driveblocks.modbus.layout import Dialect, Layout, take
+from driveblocks.modbus.layout import Dialect, Layout, expected_sizes, take
 from driveblocks.modbus.request import Asked, asked_by
 from driveblocks.modbus.scan import pieces, size_of
 
@@ -24,8 +24,8 @@ HASTY_US = 5_000
 """A request so soon after another that has no reply: no master gives up that fast."""
 ECHOED = (5, 6, 8)
 """Functions whose reply is the request once more."""
-FORGOTTEN_US = 3_000_000
-"""A reply that comes later belongs to no request."""
+LATEST_US, FORGOTTEN_US = 1_000_000, 3_000_000
+"""Hardly a reply comes later than the first, and none than the second."""
 
 
 @dataclass(frozen=True)
@@ -62,11 +62,13 @@ class Cutter:
             yield self._cut(len(each.data), good=each.good or opened("rtu", each.data) is not None)
 
     def _front(self) -> int:
-        """The length of the good frame that comes first; 0 while there is none."""
+        """The length of the good frame that comes first; 0 while there is none, or while it may go on."""
         end = self._bytes.find(b"\r\n") + 2
         if self._bytes[:1] == b":" and end > 1 and opened("ascii", self._bytes[:end]):
             return end
-        return next((size for each in self._dialects if (size := size_of(self._bytes, each))), 0)
+        size = max(size_of(self._bytes, each) for each in self._dialects)
+        longest = max((most for each in self._dialects for most in expected_sizes(self._bytes, each)), default=0)
+        return 0 if size == len(self._bytes) < longest + 2 else size  # it may be the beginning of a longer one
 
     def _cut(self, size: int, *, good: bool) -> Frame:
         data, self._bytes = self._bytes[:size], self._bytes[size:]
@@ -110,6 +112,8 @@ class Unit:
     polls: dict[Key, Poll] = field(default_factory=dict)
     odd: Counter[Role] = field(default_factory=Counter)
     """Replies that are late, twice, unasked."""
+    echoed: int = 0
+    """Requests that came twice at once."""
     unclear: int = 0
     """Frames that are a reply sent twice, or a request that nobody has answered: they look the same."""
 
@@ -203,18 +207,26 @@ class Traffic:
         self.bytes += len(frame.data)
 
     def _broken(self, frame: Frame) -> Said:
-        """Damaged bytes after a request count as the reply to it."""
-        self.damaged += 1
-        self.damaged_bytes += len(frame.data)
-        self._unsure = True
+        """Damaged bytes after a request count as the reply to it; the end of a frame that began too early does not."""
+        if self.frames:
+            self.damaged += 1
+            self.damaged_bytes += len(frame.data)
+        self._unsure, self._last = True, None
+        self._given.clear()  # whatever is replied now may belong to a request that was damaged
         if self._open is not None:
             self._poll(self._open).damaged += 1
             self._open = None
         return Said(frame, "damaged")
 
     def _ask(self, frame: Frame, asking: Layout) -> Said:
+        asked, before = asked_by(asking), self._open
+        if before is not None and before.body == asking.body and frame.begin_us - before.end_us < QUIET_US:
+            self._unit(before).echoed += 1
+            return Said(frame, "request", asking, asked)
+        if before is not None and asked.function in ECHOED and self._is_given(asking.body, frame.begin_us):
+            self._unit(before).unclear += 1  # its late reply, more likely: a reply to somebody else is awaited
+            return Said(frame, "late", asking, asked)
         self._give_up(frame.begin_us)
-        asked = asked_by(asking)
         one = Open(asking.body, asked, frame.end_us, self._unsure and asked.function in ECHOED)
         self._unsure = False
         self.requests += 1
@@ -226,6 +238,10 @@ class Traffic:
         poll.count, poll.last_us = poll.count + 1, frame.begin_us
         poll.words = asking.words or poll.words
         return Said(frame, "request", asking, asked)
+
+    def _is_given(self, body: bytes, now_us: int) -> bool:
+        """Whether a request was left without a reply a short time ago."""
+        return any(each.body == body and now_us - each.end_us < LATEST_US for each in self._given)
 
     def _give_up(self, now_us: int) -> None:
         """The open request has no reply, and another one is sent."""
@@ -246,7 +262,8 @@ class Traffic:
         poll.longest_us = max(took, poll.longest_us)
         poll.refusals += reply.refusal
         poll.replies += not reply.refusal
-        poll.words = reply.words or poll.words
+        if not any(each.answered_by(reply) for each in self._given):  # else it may be the late reply to that one
+            poll.words = reply.words or poll.words
         self._open, self._last, self._unsure = None, (one, reply.body), False
         return Said(frame, "refusal" if reply.refusal else "reply", reply, one.asked)
 
@@ -257,12 +274,18 @@ class Traffic:
             self._given.remove(late)
             return self._odd(frame, reply, "late", late)
         last = self._last and self._last[0]
-        if last is not None and last.answered_by(reply) and frame.begin_us - last.end_us < FORGOTTEN_US:
+        if (
+            self._open is None
+            and last is not None
+            and last.answered_by(reply)
+            and frame.begin_us - last.end_us < FORGOTTEN_US
+        ):
             return self._odd(frame, reply, "twice", last)
         return self._odd(frame, reply, "unasked", None)
 
     def _odd(self, frame: Frame, reply: Layout, role: Role, one: Open | None) -> Said:
-        self.units.setdefault(reply.body[0], Unit()).odd[role] += 1
+        if self.frames > 1:  # the request of the first one came too early to be heard
+            self.units.setdefault(reply.body[0], Unit()).odd[role] += 1
         return Said(frame, role, reply, None if one is None else one.asked)
 
     def _unit(self, one: Open) -> Unit:
