@@ -78,6 +78,9 @@ mutants:              ## 300 single changes of the blocks that run a motor, SEED
 lines:                ## a thousand lines for commissioning, each with a second model that differs in one way
 	$(PY) -m tests.site.lines
 
+heard:                ## a thousand lines that `driveblocks listen` hears: what was named, and what was named wrongly
+	$(PY) -m tests.site.heard
+
 linux-line:           ## an hour of a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.softplc $(or $(SECONDS),3600)
 

@@ -24,7 +24,8 @@ KINDS = (
     "quiet",
 )  # fmt: skip
 SAYS = {
-    "a write without": "unclear", "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
+    "a write without": "unclear",
+    "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
     "to what was not heard": "stray", "two masters": "masters", "came twice": "echo",
     "damaged bytes came": "damaged", "no good frame": "damaged", "refused": "refused", "or twice": "late or twice",
 }  # fmt: skip
@@ -377,8 +378,9 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=1000)
     parser.add_argument("--first", type=int, default=0)
     options = parser.parse_args()
-    found = [line(seed) for seed in range(options.first, options.first + options.runs)]
-    for each in found:
+    found: list[Verdict] = []
+    for seed in range(options.first, options.first + options.runs):
+        found.append(each := line(seed))
         if each.state != "named":
             print(f"{each.state}: {each.kind}: {each.why}", flush=True)
     table = Counter((each.kind, each.state) for each in found)
