@@ -110,6 +110,7 @@ def commands(folder: Path, port: str) -> Iterator[tuple[Sequence[str], str]]:
     found = str(folder / "site.yaml")
     yield ("commission", "chf", "--tcp", port, "--unit", "1", "--file", found), "alone\n" + 12 * "\n"
     yield ("site", found, "--html", str(folder / "site.html"), "--report", "Drive1"), ""
+    yield ("listen", "chf@1", "--tcp", port, "--for", "100ms", "--log", str(folder / "line.log")), ""
     yield ("line", "chf@1", "jscc@2", "--picture", str(folder / "round.svg")), ""
     _, slave = pty.openpty()
     yield ("simulate", "chf@1", "--port", os.ttyname(slave), "--for", "4s"), ""

@@ -35,6 +35,7 @@ ELSEWHERE = {
     r"driveblocks test my_drive.yaml --junit": "tests/commands/test_ci_jobs.py runs the job in a clone",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
     r"driveblocks commission .": "a real port; tests/site/test_commission.py has it",
+    r"driveblocks listen .": "a real port; tests/site/test_listen.py has it",
     r"driveblocks parameters .*--port": "a real port; tests/site/test_parameters.py has them at simulated drives",
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
@@ -46,7 +47,7 @@ ELSEWHERE = {
 """How the command lines begin that do not run here, and why."""
 BARE = {
     f"driveblocks {name}"
-    for name in ("commission", "diff", "explain", "line", "lint", "parameters", "run", "show", "simulate")
+    for name in ("commission", "diff", "explain", "line", "lint", "listen", "parameters", "run", "show", "simulate")
 }
 """What pages call by its name alone: run so, it asks for more, with status 2."""
 MEANT = {

@@ -3,7 +3,8 @@
 import errno
 import os
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
@@ -155,25 +156,32 @@ class _Socket:
         self._socket.close()
 
 
+@contextmanager
+def refusals(bit_rate: int, form: str) -> Iterator[None]:
+    """Why a serial port cannot be opened or set, as OSError in plain words."""
+    try:
+        yield
+    except ValueError:
+        raise
+    except OSError as error:
+        if "Could not configure port" in str(error):
+            raise OSError(errno.ENOTTY, "this is no serial port") from error
+        raise OSError(error.errno, _WHY.get(error.errno or 0) or str(error)) from error
+    except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
+        refuses = f"the port refuses {bit_rate} bit/s {form}; a pseudo-terminal takes 8N1 only"
+        raise OSError(errno.EINVAL, refuses) from error
+
+
 class _Serial:
     """A serial port as a device."""
 
     def __init__(self, name: str, bit_rate: int, form: str) -> None:
         import serial
 
-        try:
+        with refusals(bit_rate, form):
             self._port = serial.Serial(
                 name, bit_rate, int(form[0]), form[1], int(form[2]), timeout=0, write_timeout=0, exclusive=EXCLUSIVE
             )
-        except ValueError:
-            raise
-        except OSError as error:
-            if "Could not configure port" in str(error):
-                raise OSError(errno.ENOTTY, "this is no serial port") from error
-            raise OSError(error.errno, _WHY.get(error.errno or 0) or str(error)) from error
-        except Exception as error:  # an error of its own on each platform, as of a pseudo-terminal that has no parity
-            refuses = f"the port refuses {bit_rate} bit/s {form}; a pseudo-terminal takes 8N1 only"
-            raise OSError(errno.EINVAL, refuses) from error
 
     def write(self, data: bytes) -> None:
         self._port.write(data)

@@ -43,7 +43,7 @@ def brief(made: Explanation) -> Iterator[str]:
             name = " ".join(filter(None, (register.id, register.name)))
             place = address_text(register.address) if register.address is not None else "word"
             if register.word is not None:
-                yield f"  {place}  {_word(register)}  {': '.join(filter(None, (name, _means(register))))}"
+                yield f"  {place}  {_word(register)}  {': '.join(filter(None, (name, means(register))))}"
 
 
 def written(wire: Wire) -> str:
@@ -135,7 +135,7 @@ def _registers(registers: tuple[Held, ...]) -> Table:
     for number, one in enumerate(registers, 1):
         place = address_text(one.address) if one.address is not None else f"word {number}"
         name = "  ".join(filter(None, (one.id, one.name))) or ("" if one.known else one.note)
-        cells = {"word": _word(one), "name": name, head: one.zh, "means": _means(one)}
+        cells = {"word": _word(one), "name": name, head: one.zh, "means": means(one)}
         made.add_row(place, *(cells[column] for column in columns))
         for line in one.lines:
             cells = {**_line(line), head: line.zh}
@@ -147,7 +147,7 @@ def _word(one: Held) -> str:
     return "" if one.word is None else f"{one.word:04X}H"
 
 
-def _means(one: Held) -> str:
+def means(one: Held) -> str:
     """The number, its engineering value, and what is to be known of it."""
     if one.word is None:
         return ""

@@ -27,7 +27,7 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
     found: list[Piece] = []
     at = between = 0
     while at < len(data):
-        size = _size(data[at : at + RTU_BYTES], dialect)
+        size = size_of(data[at : at + RTU_BYTES], dialect)
         if size == 0:
             at += 1
             continue
@@ -40,8 +40,8 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
     return tuple(found)
 
 
-def _size(data: bytes, dialect: Dialect) -> int:
-    """The length of the good frame that bytes begin with; 0 if they begin with none."""
+def size_of(data: bytes, dialect: Dialect) -> int:
+    """The length of the good RTU frame that bytes begin with; 0 if they begin with none."""
     for size in layout.expected_sizes(data, dialect):
         body, check = data[:size], data[size : size + 2]
         if len(body) >= 3 and len(check) == 2 and crc_bytes(body) == check:

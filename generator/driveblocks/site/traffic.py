@@ -1,0 +1,273 @@
+"""What is heard on a line: frames cut from bytes as they come, who asks whom, and what does not happen as it should."""
+
+from collections import Counter, deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import dialect
+from driveblocks.modbus.envelope import open_
+from driveblocks.modbus.frame import opened
+from driveblocks.modbus.layout import Dialect, Layout, take
+from driveblocks.modbus.request import Asked, asked_by
+from driveblocks.modbus.scan import pieces, size_of
+
+Role = Literal["request", "broadcast", "reply", "refusal", "late", "twice", "unasked", "damaged"]
+"""`late`: another request was sent since; `twice`: a second reply to one request; `unasked`: no request was heard."""
+
+QUIET_US = 20_000
+"""Bytes that begin no frame wait so long for their rest; an adapter may hand over a frame in pieces."""
+LONGEST = 520
+"""Bytes after which they wait no more."""
+HASTY_US = 5_000
+"""A request so soon after another that has no reply: no master gives up that fast."""
+ECHOED = (5, 6, 8)
+"""Functions whose reply is the request once more."""
+FORGOTTEN_US = 3_000_000
+"""A reply that comes later belongs to no request."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Bytes that came together: a good frame, or what is none; times in us, as the adapter handed it over."""
+
+    begin_us: int
+    end_us: int
+    data: bytes
+    good: bool
+
+
+class Cutter:
+    """Cuts what comes into frames."""
+
+    def __init__(self, dialects: Sequence[Dialect], character_us: float) -> None:
+        """How units refuse, by their maps, and the time of a character on the wire."""
+        self._dialects, self._character_us = dialects or (Dialect(),), character_us
+        self._bytes = b""
+        self._came_us = self._ended_us = 0
+
+    def take(self, now_us: int, data: bytes) -> Iterator[Frame]:
+        """Bytes that have come, or none; the frames that are whole."""
+        if data:
+            self._bytes, self._came_us = self._bytes + data, now_us
+        while size := self._front():
+            yield self._cut(size, good=True)
+        if now_us - self._came_us >= max(QUIET_US, 4 * self._character_us) or len(self._bytes) > LONGEST:
+            yield from self.rest()
+
+    def rest(self) -> Iterator[Frame]:
+        """What is left; nothing will follow it. A frame of a function that is not known here is known by its CRC."""
+        for each in pieces(self._bytes, self._dialects[0]):
+            yield self._cut(len(each.data), good=each.good or opened("rtu", each.data) is not None)
+
+    def _front(self) -> int:
+        """The length of the good frame that comes first; 0 while there is none."""
+        end = self._bytes.find(b"\r\n") + 2
+        if self._bytes[:1] == b":" and end > 1 and opened("ascii", self._bytes[:end]):
+            return end
+        return next((size for each in self._dialects if (size := size_of(self._bytes, each))), 0)
+
+    def _cut(self, size: int, *, good: bool) -> Frame:
+        data, self._bytes = self._bytes[:size], self._bytes[size:]
+        end = self._came_us - int(len(self._bytes) * self._character_us)
+        begin = max(end - int(size * self._character_us), self._ended_us)
+        self._ended_us = max(begin, end)
+        return Frame(begin, self._ended_us, data, good)
+
+
+@dataclass
+class Poll:
+    """What is asked of a unit again and again: a function with an address and a quantity."""
+
+    count: int = 0
+    first_us: int = 0
+    last_us: int = 0
+    replies: int = 0
+    refusals: int = 0
+    unanswered: int = 0
+    damaged: int = 0
+    """Requests after which bytes came that made no frame."""
+    shortest_us: int = 0
+    longest_us: int = 0
+    words: tuple[int, ...] = ()
+    """The last ones, read or written."""
+
+    @property
+    def every_us(self) -> int:
+        """The mean time between two requests; 0 for one alone."""
+        return (self.last_us - self.first_us) // (self.count - 1) if self.count > 1 else 0
+
+
+Key = tuple[int, int, int]
+"""Function, address, quantity."""
+
+
+@dataclass
+class Unit:
+    """What one address was asked and has said."""
+
+    polls: dict[Key, Poll] = field(default_factory=dict)
+    odd: Counter[Role] = field(default_factory=Counter)
+    """Replies that are late, twice, unasked."""
+    unclear: int = 0
+    """Frames that are a reply sent twice, or a request that nobody has answered: they look the same."""
+
+
+@dataclass(frozen=True)
+class Open:
+    """A request."""
+
+    body: bytes
+    asked: Asked
+    end_us: int
+    unsure: bool = False
+    """It may be the reply to what was not heard."""
+
+    def answered_by(self, reply: Layout) -> bool:
+        """Whether a layout is the reply to it."""
+        if not reply.fits or reply.body[0] != self.asked.unit or reply.function != self.asked.function:
+            return False
+        if reply.refusal:
+            return True
+        if self.asked.function in (3, 4):
+            return len(reply.words) == self.asked.quantity
+        if self.asked.function in (1, 2):
+            return reply.number("byte count") == -(-self.asked.quantity // 8)
+        if self.asked.function in (15, 16):
+            return reply.body == self.body[:6]
+        return self.asked.function not in ECHOED or reply.body == self.body
+
+
+@dataclass(frozen=True)
+class Said:
+    """A frame, and what it is on this line; `asked`: the request that it is or answers."""
+
+    frame: Frame
+    role: Role
+    layout: Layout | None = None
+    asked: Asked | None = None
+
+
+class Traffic:
+    """Everything that was said on a line."""
+
+    def __init__(self, drives: Mapping[int, Drive], anyone: Drive | None = None) -> None:
+        """Drives by their units, and the one that every other unit is taken for."""
+        self._drives, self._anyone = drives, anyone
+        self.units: dict[int, Unit] = {}
+        self.broadcasts = Counter[tuple[int, int]]()
+        """By function and address."""
+        self.frames = self.bytes = self.damaged = self.damaged_bytes = self.requests = self.hasty = 0
+        self.begin_us = self.end_us = self.silence_us = 0
+        self._open: Open | None = None
+        self._unsure = True
+        """At the beginning, and after damaged bytes: what was asked before is not known."""
+        self._given = deque[Open](maxlen=8)
+        """Requests without a reply."""
+        self._last: tuple[Open, bytes] | None = None
+        """The last request that was answered, and its reply."""
+
+    @property
+    def dialects(self) -> list[Dialect]:
+        """How units refuse, by their maps; at least the standard's."""
+        drives = [*self._drives.values(), *([self._anyone] if self._anyone else [])]
+        return list(dict.fromkeys([*map(dialect, drives), Dialect()]))
+
+    def drive(self, unit: int) -> Drive | None:
+        """The map of a unit, as far as a person has named it."""
+        return self._drives.get(unit, self._anyone)
+
+    def hear(self, frame: Frame) -> Said:
+        """The next frame of the line."""
+        self._count(frame)
+        if not frame.good:
+            return self._broken(frame)
+        body = open_(frame.data).body
+        drive = self.drive(body[0])
+        style = Dialect() if drive is None else dialect(drive)
+        reply = take(body, "reply", style)
+        if self._open is not None and self._open.answered_by(reply):
+            return self._answer(frame, self._open, reply)
+        asking = take(body, "request", style)
+        if asking.fits and not reply.refusal:
+            return self._ask(frame, asking)
+        return self._stray(frame, reply)
+
+    def _count(self, frame: Frame) -> None:
+        self.begin_us = self.begin_us or frame.begin_us
+        if self.end_us:
+            self.silence_us = max(self.silence_us, frame.begin_us - self.end_us)
+        self.end_us = frame.end_us
+        self.frames += frame.good
+        self.bytes += len(frame.data)
+
+    def _broken(self, frame: Frame) -> Said:
+        """Damaged bytes after a request count as the reply to it."""
+        self.damaged += 1
+        self.damaged_bytes += len(frame.data)
+        self._unsure = True
+        if self._open is not None:
+            self._poll(self._open).damaged += 1
+            self._open = None
+        return Said(frame, "damaged")
+
+    def _ask(self, frame: Frame, asking: Layout) -> Said:
+        self._give_up(frame.begin_us)
+        asked = asked_by(asking)
+        one = Open(asking.body, asked, frame.end_us, self._unsure and asked.function in ECHOED)
+        self._unsure = False
+        self.requests += 1
+        if asked.unit == 0:
+            self.broadcasts[asked.function, asked.address] += 1
+            return Said(frame, "broadcast", asking, asked)
+        poll, self._open = self._poll(one), one
+        poll.first_us = poll.first_us if poll.count else frame.begin_us
+        poll.count, poll.last_us = poll.count + 1, frame.begin_us
+        poll.words = asking.words or poll.words
+        return Said(frame, "request", asking, asked)
+
+    def _give_up(self, now_us: int) -> None:
+        """The open request has no reply, and another one is sent."""
+        given, self._open = self._open, None
+        if given is None:
+            return
+        self._given.append(given)
+        if given.unsure or (self._last is not None and given.body == self._last[0].body == self._last[1]):
+            self._unit(given).unclear += 1
+            self._poll(given).count -= 1
+            return
+        self._poll(given).unanswered += 1
+        self.hasty += now_us - given.end_us < HASTY_US
+
+    def _answer(self, frame: Frame, one: Open, reply: Layout) -> Said:
+        poll, took = self._poll(one), frame.begin_us - one.end_us
+        poll.shortest_us = took if not poll.replies + poll.refusals else min(took, poll.shortest_us)
+        poll.longest_us = max(took, poll.longest_us)
+        poll.refusals += reply.refusal
+        poll.replies += not reply.refusal
+        poll.words = reply.words or poll.words
+        self._open, self._last, self._unsure = None, (one, reply.body), False
+        return Said(frame, "refusal" if reply.refusal else "reply", reply, one.asked)
+
+    def _stray(self, frame: Frame, reply: Layout) -> Said:
+        """A reply that answers no open request."""
+        late = next((one for one in self._given if one.answered_by(reply)), None)
+        if late is not None and frame.begin_us - late.end_us < FORGOTTEN_US:
+            self._given.remove(late)
+            return self._odd(frame, reply, "late", late)
+        last = self._last and self._last[0]
+        if last is not None and last.answered_by(reply) and frame.begin_us - last.end_us < FORGOTTEN_US:
+            return self._odd(frame, reply, "twice", last)
+        return self._odd(frame, reply, "unasked", None)
+
+    def _odd(self, frame: Frame, reply: Layout, role: Role, one: Open | None) -> Said:
+        self.units.setdefault(reply.body[0], Unit()).odd[role] += 1
+        return Said(frame, role, reply, None if one is None else one.asked)
+
+    def _unit(self, one: Open) -> Unit:
+        return self.units.setdefault(one.asked.unit, Unit())
+
+    def _poll(self, one: Open) -> Poll:
+        key = one.asked.function, one.asked.address, one.asked.quantity
+        return self._unit(one).polls.setdefault(key, Poll())

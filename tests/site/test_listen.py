@@ -1,0 +1,506 @@
+"""`driveblocks listen`: made traces, a master and a server on a cable, and that nothing is ever sent."""
+
+import asyncio
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, ClassVar
+
+import pytest
+import serial
+from click.testing import CliRunner
+from pymodbus import FramerType
+from pymodbus.client import ModbusTcpClient
+from pymodbus.simulator import DataType, SimData, SimDevice
+from tests.plc.windows import environment
+from tests.site.test_commission import MAPS
+from tests.site.test_peer import peer
+
+from driveblocks import console
+from driveblocks.cli import app
+from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.port import EXCLUSIVE
+from driveblocks.explain.paste import read
+from driveblocks.modbus.frame import seal
+from driveblocks.modbus.layout import Dialect
+from driveblocks.site import ear, listen, overheard
+from driveblocks.site.found import Way
+from driveblocks.site.traffic import Cutter, Frame, Said, Traffic
+
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals, and other signals")
+KNOWN = ("--rate", "9600", "--format", "8N1")
+READ, WORDS = "01 03 10 00 00 02", "01 03 04 00 05 13 88"
+WRITE, REFUSED = "01 06 20 00 00 05", "01 83 02"
+
+
+def heard(
+    *frames: tuple[int, str] | str, mode: str = "rtu", traffic: Traffic | None = None
+) -> tuple[Traffic, list[Said]]:
+    """A trace: frames in hexadecimal without checksum, each 30 ms after the one before or as told; `?`: damaged."""
+    made, now, said = traffic or Traffic({}), 0, []
+    for each in frames:
+        gap_ms, text = each if isinstance(each, tuple) else (30, each)
+        now += 1000 * gap_ms
+        data = bytes.fromhex(text.removeprefix("?")) if text[0] == "?" else seal(mode, bytes.fromhex(text))
+        said.append(made.hear(Frame(now, now + 1000, data, text[0] != "?")))
+        now += 1000
+    return made, said
+
+
+def roles(*frames: tuple[int, str] | str, mode: str = "rtu") -> list[str]:
+    return [each.role for each in heard(*frames, mode=mode)[1]]
+
+
+# ------------------------------------------------------------ who said what
+
+
+@pytest.mark.parametrize("mode", ["rtu", "ascii"])
+def test_requests_replies_refusals_and_broadcasts_are_distinguished(mode: str) -> None:
+    said = roles(READ, WORDS, READ, REFUSED, "00 06 20 00 00 05", WRITE, WRITE, "01 10 20 00 00 01 02 00 05",
+                 "01 10 20 00 00 01", "02 01 00 00 00 09", "02 01 02 FF 01", "01 08 00 00 12 34", "01 08 00 00 12 34",
+                 mode=mode)  # fmt: skip
+    pair = ["request", "reply"]
+    assert said == [*pair, "request", "refusal", "broadcast", *pair, *pair, *pair, *pair]
+
+
+@pytest.mark.parametrize(
+    ("frames", "right", "odd"),
+    [
+        ([READ, READ, WORDS, READ, WORDS], ["request", "request", "reply", "request", "reply"],
+         ["unit 1 left 1 of 3 requests without a reply"]),
+        ([READ, READ], ["request", "request"], ["unit 1 never answers; it was asked 2 times"]),
+        ([READ, "02 03 10 00 00 01", WORDS, "02 03 02 00 07"], ["request", "request", "late", "reply"],
+         ["unit 1 left 1 of 1 requests without a reply",
+          "unit 1 answered once after the master had given up: its timeout is too short, or the drive slow"]),
+        ([READ, WORDS, WORDS], ["request", "reply", "twice"],
+         ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
+        ([READ, WORDS, "01 03 04 00 06 13 88"], ["request", "reply", "twice"],
+         ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
+        ([WORDS, READ, WORDS], ["unasked", "request", "reply"],
+         ["unit 1 answered once to what was not heard: a request was damaged, or came before"]),
+        ([READ, WORDS, (4000, "01 03 06 00 06 13 88 00 01")], ["request", "reply", "unasked"],
+         ["unit 1 answered once to what was not heard: a request was damaged, or came before"]),
+        # the first frame may be the echo of a request before: nobody can say that it has no reply
+        ([WRITE, READ, WORDS], ["request", "request", "reply"],
+         ["unit 1: once a write without a reply, or a second reply: they look the same"]),
+        ([READ, "?12 34", WRITE, READ, WORDS], ["request", "damaged", "request", "request", "reply"],
+         ["damaged bytes came after 1 of 2 requests to unit 1",
+          "unit 1: once a write without a reply, or a second reply: they look the same",
+          "5.7 % of all bytes made no good frame, once"]),
+        ([READ, WORDS, WRITE, WRITE, WRITE, READ, WORDS],
+         ["request", "reply", "request", "reply", "request", "request", "reply"],
+         ["unit 1: once a write without a reply, or a second reply: they look the same"]),
+        ([READ, (1, "02 03 10 00 00 01"), WORDS, "02 03 02 00 07"] * 2, ["request", "request", "late", "reply"] * 2,
+         ["unit 1 left 2 of 2 requests without a reply",
+          "unit 1 answered 2 times after the master had given up: its timeout is too short, or the drive slow",
+          "2 requests were sent right after another that had no reply: two masters, or one that does not wait for "
+          "replies"]),
+        ([READ, REFUSED], ["request", "refusal"], ["unit 1 refused 03H at 1000H-1001H 1 of 1 times"]),
+    ],
+)  # fmt: skip
+def test_what_is_odd_is_named(frames: Sequence[Any], right: list[str], odd: list[str]) -> None:
+    traffic, said = heard(*frames)
+    assert [each.role for each in said] == right
+    assert list(overheard.odd(traffic)) == odd
+
+
+def test_polls_have_their_times_and_words() -> None:
+    traffic, _ = heard(*[(100, READ), (10, WORDS)] * 5, (100, WRITE), (20, WRITE))
+    read_, written = (traffic.units[1].polls[key] for key in ((3, 0x1000, 2), (6, 0x2000, 1)))
+    assert (read_.count, read_.replies, read_.every_us, read_.words) == (5, 5, 112_000, (5, 5000))
+    assert (read_.shortest_us, read_.longest_us) == (10_000, 10_000)
+    assert (written.count, written.words, written.every_us) == (1, (5,), 0)
+    assert traffic.silence_us == 100_000
+
+
+def test_a_map_says_its_refusals_and_its_words() -> None:
+    drive = MAPS["invt_chf"]
+    traffic, said = heard("01 03 30 00 00 01", "01 03 02 13 88", traffic=Traffic({1: drive}))
+    assert [each.role for each in said] == ["request", "reply"]
+    shown = json.dumps(overheard.plain(Way(9600), traffic))
+    assert '"words": [5000]' in shown
+    lines = list(overheard._words(1, (3, 0x3000, 1), traffic.units[1].polls[3, 0x3000, 1], traffic))
+    assert lines == ["Running frequency: 5000; no standstill"]
+
+
+# ------------------------------------------------------------ frames from bytes
+
+
+@pytest.mark.parametrize("mode", ["rtu", "ascii"])
+def test_frames_are_cut_however_their_bytes_are_handed_over(mode: str) -> None:
+    bodies = [bytes.fromhex(each) for each in (READ, WORDS, WRITE, WRITE, "3A 03 02 00 01", REFUSED)]
+    whole = [seal(mode, each) for each in bodies]
+    for size in (*range(1, 40), 1000):
+        cutter, found = Cutter([Dialect()], 1042), list[Frame]()
+        data = b"".join(whole)
+        for at in range(0, len(data), size):
+            found += cutter.take(1000 * (at + size), data[at : at + size])
+        found += cutter.take(10_000_000, b"")
+        assert [(each.data, each.good) for each in found] == [(each, True) for each in whole]
+        assert all(each.begin_us <= each.end_us for each in found)
+        assert all(one.end_us <= two.begin_us for one, two in pairwise(found))
+
+
+def test_damaged_bytes_do_not_take_good_frames_with_them() -> None:
+    good = [seal("rtu", bytes.fromhex(each)) for each in (READ, WORDS)]
+    odd = bytes.fromhex("07 41 05 06")  # a function that is not known here, with a good CRC
+    cutter = Cutter([Dialect()], 1042)
+    found = [*cutter.take(0, b"\x00\xff" + good[0]), *cutter.take(50_000, good[1]), *cutter.take(100_000, b"\x01\x03")]
+    found += [*cutter.take(130_000, b""), *cutter.take(140_000, seal("rtu", odd)), *cutter.rest()]
+    assert [(each.data, each.good) for each in found] == [
+        (b"\x00\xff", False), (good[0], True), (good[1], True), (b"\x01\x03", False), (seal("rtu", odd), True)
+    ]  # fmt: skip
+
+
+def test_noise_without_an_end_is_cut_and_good_frames_are_heard_after_it() -> None:
+    cutter, frame = Cutter([Dialect()], 100), seal("rtu", bytes.fromhex(READ))
+    found = [each for at in range(100) for each in cutter.take(1000 * at, bytes([at] * 20))]
+    assert found
+    assert not any(each.good for each in found)
+    found = [*cutter.rest(), *cutter.take(200_000, frame)]
+    assert found[-1].data == frame
+    assert found[-1].good
+
+
+# ------------------------------------------------------------ rate and format
+
+
+class Tape:
+    """A line that says a frame every 100 ms, and gibberish to those who hear it at another rate or format."""
+
+    def __init__(self, clock: VirtualClock, way: Way | None, mode: str = "rtu", refused: str = "") -> None:
+        self.clock, self.way, self.mode, self.refused = clock, way, mode, refused
+        self.tuned, self.said = Way(9600), 0
+
+    def tune(self, way: Way) -> bool:
+        self.tuned = way
+        return way.form != self.refused
+
+    def receive(self) -> bytes:
+        turn = self.clock.now_us() // 100_000
+        if self.way is None or turn == self.said:
+            return b""
+        self.said = turn
+        right = (self.tuned.rate, self.tuned.form) == (self.way.rate, self.way.form)
+        return seal(self.mode, bytes.fromhex(READ)) if right else bytes([turn & 255, 0xFF, 0x00])
+
+    def close(self) -> None: ...
+
+
+@pytest.mark.parametrize("mode", ["rtu", "ascii"])
+@pytest.mark.parametrize("way", ear.ways(None, None), ids=str)
+def test_rate_and_format_are_those_at_which_frames_decode(way: Way, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ear, "LOOK_US", 20_000)
+    clock = VirtualClock()
+    found, came = ear.find(Tape(clock, way, mode), clock, ear.ways(None, None), [Dialect()], lambda *_: None)
+    assert found == way
+    assert came > 0
+
+
+@pytest.mark.parametrize("way", [None, Way(14400)])
+def test_a_line_that_does_not_decode_is_given_up_within_eight_minutes(
+    way: Way | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ear, "LOOK_US", 20_000)
+    clock = VirtualClock()
+    found, came = ear.find(Tape(clock, way, refused="7E1"), clock, ear.ways(None, None), [Dialect()], lambda *_: None)
+    assert (found, came > 0) == (None, way is not None)
+    assert clock.now_us() <= 8 * 60_000_000
+
+
+# ------------------------------------------------------------ nothing is ever sent
+
+
+class Fake:
+    """What pyserial is, as far as a listener may use it."""
+
+    made: ClassVar[list[Any]] = []
+
+    def __init__(self, **options: Any) -> None:
+        self.options, self.is_open, self.rts, self.dtr, self.port = options, False, True, True, ""
+        self.said = seal("rtu", bytes.fromhex(READ)) * 3
+        Fake.made.append(self)
+
+    def open(self) -> None:
+        assert (self.rts, self.dtr, self.port) == (False, False, "COM3")
+        self.is_open = True
+
+    def read(self, _: int) -> bytes:
+        said, self.said = self.said, b""
+        return said
+
+    def close(self) -> None:
+        self.is_open = False
+
+
+def test_a_port_is_opened_once_with_both_signals_low_and_nothing_to_send_with(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(serial, "Serial", Fake)
+    Fake.made.clear()
+    way, traffic, ended = listen.run(listen.Words(port="COM3", rate=19200, form="8e1", length="5ms"), VirtualClock())
+    (port,) = Fake.made
+    assert (way, traffic.requests, ended) == (Way(19200, "8E1"), 3, "")
+    assert port.options == {"timeout": 0, "exclusive": EXCLUSIVE}
+    assert (vars(port)["baudrate"], vars(port)["bytesize"], vars(port)["parity"], port.is_open) == (
+        19200,
+        8,
+        "E",
+        False,
+    )
+    for each in (ear.SerialEar, ear.TcpEar):
+        assert not {name for name in vars(each) if re.search("write|send", name)}
+
+
+@POSIX
+def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    import tty
+
+    master, side = os.openpty()
+    tty.setraw(side)
+    written, real = list[int](), os.write
+
+    def counted(number: int, data: bytes) -> int:
+        written.append(number)
+        return real(number, data)
+
+    monkeypatch.setattr(os, "write", counted)
+    speaks = threading.Timer(0.2, real, (master, seal("rtu", bytes.fromhex(READ)) * 4))  # what came before is lost
+    speaks.start()
+    got = listened("--port", os.ttyname(side), "--for", "1s", *KNOWN, "--json", folder=tmp_path)
+    speaks.join()
+    assert json.loads(got)["requests"] == 4
+    assert written == []
+    os.set_blocking(master, False)
+    with pytest.raises(BlockingIOError):
+        os.read(master, 1)
+
+
+# ------------------------------------------------------------ at a port, from beginning to end
+
+
+def listened(*words: str, folder: Path, status: int = 0) -> str:
+    got = CliRunner().invoke(app, ["listen", *words], env={"COLUMNS": "110"})
+    assert (got.exit_code, got.stderr) == (status, ""), (got.stdout, got.stderr)
+    assert not list(folder.glob("*.tmp"))
+    return got.stdout
+
+
+class Tee:
+    """A cable between a client and a server, with a third end at which both are heard."""
+
+    def __init__(self, server: str) -> None:
+        self._server = server.split(":")
+        self._begun = threading.Event()
+        self._loop = asyncio.new_event_loop()
+        self._ears: list[asyncio.StreamWriter] = []
+        self.client = self.third = ""
+        self._thread = threading.Thread(target=self._loop.run_until_complete, args=(self._serve(),))
+
+    def __enter__(self) -> "Tee":
+        self._thread.start()
+        assert self._begun.wait(30)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._loop.call_soon_threadsafe(self._over.set)
+        self._thread.join()
+        self._loop.close()
+
+    async def _serve(self) -> None:
+        self._over = asyncio.Event()
+        client = await asyncio.start_server(self._joined, "127.0.0.1", 0)
+        third = await asyncio.start_server(self._heard, "127.0.0.1", 0)
+        self.client, self.third = (f"127.0.0.1:{each.sockets[0].getsockname()[1]}" for each in (client, third))
+        self._begun.set()
+        await self._over.wait()
+        for one in self._ears:
+            one.close()
+        client.close()
+        third.close()
+
+    async def _heard(self, _: asyncio.StreamReader, out: asyncio.StreamWriter) -> None:
+        self._ears.append(out)
+
+    async def _joined(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        there, back = await asyncio.open_connection(*self._server)
+        await asyncio.gather(self._carry(reader, back), self._carry(there, writer))
+
+    async def _carry(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        while data := await reader.read(4096):
+            for each in (writer, *self._ears):
+                each.write(data)
+        writer.close()
+
+
+def client(place: str, rounds: int) -> None:
+    """A master that reads, writes, and asks for what is refused or is not there."""
+    host, _, port = place.rpartition(":")
+    made: Any = ModbusTcpClient(host, port=int(port), framer=FramerType.RTU, timeout=0.3, retries=0)
+    made.connect()
+    for turn in range(rounds):
+        made.read_holding_registers(0x3000, count=2, device_id=5)
+        made.write_register(0x2000, turn, device_id=5)
+        made.read_holding_registers(0x7777, count=1, device_id=5)
+        time.sleep(0.03)
+    made.read_holding_registers(0, count=1, device_id=9)
+    made.close()
+
+
+def test_pymodbus_is_heard_from_a_third_end_of_its_cable(tmp_path: Path) -> None:
+    device = SimDevice(5, [SimData(each, values=[0] * 16, datatype=DataType.REGISTERS) for each in (0x2000, 0x3000)])
+    log, table = tmp_path / "line.log", tmp_path / "line.csv"
+    with peer("tcp", device) as server, Tee(server) as tee:
+        talk = threading.Timer(0.3, client, (tee.client, 5))
+        talk.start()
+        words = ["chf@5", "--tcp", tee.third, "--for", "2s", "--log", str(log), "--csv", str(table), "--json"]
+        found = json.loads(listened(*words, folder=tmp_path))
+        talk.join()
+    (five, nine) = found["units"]
+    assert (found["requests"], found["damaged"], five["unit"], nine["unit"]) == (16, 0, 5, 9)
+    counts = {(each["function"], each["address"]): (each["replies"], each["refusals"]) for each in five["polls"]}
+    assert counts == {(3, 0x3000): (5, 0), (6, 0x2000): (5, 0), (3, 0x7777): (0, 5)}
+    assert found["odd"] == [
+        f"unit {unit} refused 03H at {at}H {count} of {count} times"
+        for unit, at, count in ((5, 7777, 5), (9, "0000", 1))
+    ]
+    first, *frames, last = log.read_text(encoding="utf-8").splitlines()
+    assert (first[0], last[0], len(frames)) == ("#", "#", 32)
+    assert all(len(read(each).data) >= 5 for each in frames)
+    rows = table.read_text(encoding="utf-8").splitlines()
+    assert rows[0] == ",".join(overheard.COLUMNS)
+    assert len(rows) == 33
+
+
+def test_what_a_person_sees(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(serial, "Serial", Fake)
+    out = listened("chf@1", "--port", "COM3", *KNOWN, "--for", "50ms", folder=tmp_path)
+    assert "9600 bit/s, 8N1 or 8N2, RTU" in out
+    assert "Unit 1, taken for CHF" in out
+    assert "- unit 1 never answers; it was asked 3 times" in out
+    assert "Cannot be known" in out
+    assert max(map(len, out.splitlines())) <= 110
+
+
+@POSIX
+@pytest.mark.parametrize(
+    ("number", "status", "last"), [("SIGINT", 0, " ended"), ("SIGHUP", 1, " ended: the terminal was closed")]
+)
+def test_a_log_says_how_far_it_came(number: str, status: int, last: str, tmp_path: Path) -> None:
+    import tty
+
+    master, side = os.openpty()
+    tty.setraw(side)
+    log = tmp_path / "line.log"
+    words = [
+        sys.executable,
+        "-m",
+        "driveblocks",
+        "listen",
+        "--port",
+        os.ttyname(side),
+        "--rate",
+        "9600",
+        "--format",
+        "8N1",
+    ]
+    with subprocess.Popen([*words, "--log", str(log)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as done:
+        while not (log.exists() and " > " in log.read_text(encoding="utf-8")):
+            os.write(master, seal("rtu", bytes.fromhex(READ)))
+            time.sleep(0.01)
+            assert done.poll() is None
+        done.send_signal(getattr(signal, number))
+        done.communicate()
+    assert done.returncode == status
+    text = log.read_text(encoding="utf-8")
+    assert text.splitlines()[-1].endswith(last)
+    assert text.endswith("\n")
+
+
+def test_a_line_that_goes_away_ends_it_with_what_was_heard(tmp_path: Path) -> None:
+    import socket
+
+    log = tmp_path / "line.log"
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def say() -> None:
+            link, _ = server.accept()
+            link.sendall(seal("rtu", bytes.fromhex(READ)))
+            link.close()
+
+        thread = threading.Thread(target=say)
+        thread.start()
+        words = ["listen", "--tcp", f"127.0.0.1:{server.getsockname()[1]}", "--log", str(log)]
+        got = CliRunner().invoke(app, words)
+        thread.join()
+    assert (got.exit_code, got.stderr) == (1, "Ended early: the other side has closed the connection\n")
+    assert "1 frames, 1 of them requests" in got.stdout
+    assert log.read_text(encoding="utf-8").splitlines()[-1].endswith("ended: the other side has closed the connection")
+
+
+COM3 = """
+import sys, types
+from driveblocks.cli import main
+FRAME = bytes.fromhex("01 03 10 00 00 02 C0 CB")
+
+class Serial:
+    is_open = False
+    def __init__(self, **_):
+        self.said = [FRAME] * 4
+    def open(self):
+        assert self.port == "COM3"
+        self.is_open = True
+    def read(self, most):
+        return self.said.pop() if self.said else b""
+    def close(self):
+        self.is_open = False
+
+sys.modules["serial"] = types.SimpleNamespace(Serial=Serial)
+main()
+"""
+
+
+def test_a_port_of_windows_is_listened_to(tmp_path: Path) -> None:
+    words = ["listen", "--port", "COM3", "--for", "300ms", "--log", str(tmp_path / "line.log")]
+    done = subprocess.run(
+        [sys.executable, "-c", COM3, *words], env=environment(tmp_path), capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "9600 bit/s" in done.stdout
+
+
+def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.log"
+    mine.write_text("mine", encoding="utf-8")
+    words = ["nothing", "chf@0", "chf", "jscc", "--tcp", "x", "--rate", "1", "--format", "9N1", "--for", "soon"]
+    got = CliRunner().invoke(app, ["listen", *words, "--log", str(mine), "--csv", str(mine)])
+    assert got.exit_code == 2
+    for wrong in ("--tcp x is no address", "--rate 1 is out of range", "--format 9N1", "mine.log is there already",
+                  "--log and --csv name one file", "--for", "nothing", "chf@0: write MAP@UNIT",
+                  "jscc: only one map may be without a unit"):  # fmt: skip
+        assert wrong in got.stderr, wrong
+    assert mine.read_text(encoding="utf-8") == "mine"
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "listen.md"
+SESSION = [
+    *[(40, "01 03 30 00 00 02"), (8, "01 03 04 13 88 13 88"), (40, "02 03 20 00 00 01"), (12, "02 03 02 00 01"),
+      (40, "01 06 20 00 0F A0"), (9, "01 06 20 00 0F A0"), (40, "07 03 00 00 00 01")] * 20,
+    (200, "?00 FF 13"), (40, "01 03 30 00 00 02"), (8, "01 03 04 13 88 13 88"), (1, "01 03 04 13 88 13 89"),
+]  # fmt: skip
+
+
+def test_the_session_of_the_page_is_what_a_person_sees(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "100")
+    traffic, _ = heard(*SESSION, traffic=Traffic({1: MAPS["invt_chf"], 2: MAPS["jscc"]}))
+    console.write(*overheard.tables(Way(19200), traffic))
+    shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]
+    assert capsys.readouterr().out == shown.partition("```\n<!-- session:end -->")[0]
