@@ -428,6 +428,9 @@ class Condition(Entry):
         "bits that count, where they are not side by side; the value is in their place", "006FH", optional=True
     )
     equals: Number = fact("the value", "0")
+    differs: bool | None = fact(
+        "in a status: it holds while the value is any other, such as a fault code that is not 0", "true", optional=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
