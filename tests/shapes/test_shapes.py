@@ -132,6 +132,12 @@ def test_a_start_pulse_is_cleared_by_the_stop() -> None:
     )
 
 
+def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
+    said = drive_block(shapes()["packed"]).showing.says["fault"]
+    assert said == ["(Reads.PresentFaultWord <> WORD#16#0000)"]
+    assert "fault 2002H <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+
+
 def test_what_must_never_be_sent_is_refused_in_a_command() -> None:
     drive = shapes()["packed"]
     wrong = judged(drive, replace(command(drive, "stop"), set=(Span(0, 0), Span(6, 6))))

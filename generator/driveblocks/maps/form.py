@@ -65,9 +65,9 @@ def bits_text(span: Span) -> str:
     return f"{span.first:X}" if len(span) == 1 else f"{span.first:X}-{span.last:X}"
 
 
-def masked_text(register: int, mask: int, value: int) -> str:
-    """Print what the bits of a mask must be: 2100H AND 006FH = 0023H."""
-    return f"{address_text(register)} AND {mask:04X}H = {value:04X}H"
+def masked_text(register: int, mask: int, value: int, is_: str = "=") -> str:
+    """Print what the bits of a mask must be, or with `<>` must not be: 2100H AND 006FH = 0023H."""
+    return f"{address_text(register)} AND {mask:04X}H {is_} {value:04X}H"
 
 
 def _number(text: str) -> int:

@@ -282,6 +282,7 @@ class Choice(Entry):
     """Base of a serial property: the setting that chooses it and the factory's choice."""
 
     source: English = fact("where the manual says so", "table of communication parameters")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     setting: Id | None = fact("id of the keypad setting", "H5-02", optional=True)
     default: Number | None = fact("factory setting, as a code of the list", "3", optional=True)
 
@@ -317,6 +318,7 @@ class UnitAddress(Entry):
     min: Number = fact("smallest", "1")
     max: Number = fact("greatest", "247")
     source: English = fact("where the manual says so", "bus structure (3)")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     above_247: English | None = fact(
         "where the manual says that 248 to 255 are addresses too, which the standard reserves",
         "table 3, `1 to 250`",
@@ -331,6 +333,7 @@ class Silence(Entry):
     """Silence on the line around a frame."""
 
     source: English = fact("where the manual says so", "RTU frame structure")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     characters: Factor | None = fact("silence before and after a frame, in character times", "3.5", optional=True)
     milliseconds: Factor | None = fact("silence before and after a frame, in ms at any bit rate", "10", optional=True)
     gap_characters: Factor | None = fact("longest pause inside a frame, in character times", "1.5", optional=True)
@@ -343,6 +346,7 @@ class Broadcast(Entry):
     address: Number = fact("the broadcast address", "0")
     replies: bool = fact("whether drives answer it", "false")
     source: English = fact("where the manual says so", "bus structure (3)")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     start_addresses: tuple[Address, ...] = fact(
         "the only start addresses that a broadcast may use", "[0000H, 0001H]", optional=True, default=()
     )
@@ -371,6 +375,7 @@ class Limit(Entry):
 
     value: Count = fact("the number", "16")
     source: English = fact("where the manual says so", "command 03H")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -404,6 +409,7 @@ class Function(Named):
 
     code: Number = fact("function code", "03H")
     source: English = fact("where the manual says so", "RTU frame structure")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     sub_functions: tuple[SubFunction, ...] = fact(
         "sub-functions of 08H", "[{code: 0000H, name: ..., zh: ...}]", optional=True, default=()
     )
@@ -422,6 +428,9 @@ class Condition(Entry):
         "bits that count, where they are not side by side; the value is in their place", "006FH", optional=True
     )
     equals: Number = fact("the value", "0")
+    differs: bool | None = fact(
+        "in a status: it holds while the value is any other, such as a fault code that is not 0", "true", optional=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -430,6 +439,7 @@ class Scale(Entry):
 
     factor: Factor = fact("engineering units per count", "0.01")
     source: English = fact("where the manual states or proves it", "000FH bit 0")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     when: Condition | None = fact(
         "holds only while this is true", "{register: 000FH, bit: 0, equals: 0}", optional=True
     )
@@ -603,6 +613,7 @@ class Area(Named):
     numbered_by: Literal["sequence_number", "parameter_number"] = fact("what the number is", "sequence_number")
     access: Access = fact("r, w or rw", "rw")
     source: English = fact("where it is in the manual", "11.6.4 (1)")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     examples: tuple[AreaExample, ...] = fact("the manual's examples", "[{id: P5.05, number: 58, address: 003AH}]")
     excluded: tuple[Excluded, ...] = fact(
         "parameters that must not be read or written", "[{ids: PE, name: ..., zh: ...}]", optional=True, default=()
@@ -620,6 +631,7 @@ class Storage(Entry):
         "enter_register",
     )
     source: English = fact("where the manual says so", "section (VI)")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English = fact("the rule in one or two sentences", "ENTER stores all parameters")
     register: Address | None = fact("enter_register: the register to write", "FFFDH", optional=True)
     value: Number | None = fact("enter_register: the value to write", "0", optional=True)
@@ -749,7 +761,10 @@ class Measured(Entry):
     """A register whose value a pin of the drive block shows."""
 
     shows: Measure = fact("the pin", "output_current")
-    register: Address = fact("the register; without a scale the pin needs a setting", "0022H")
+    register: Address = fact(
+        "the register; without a scale the pin needs a setting; a signed output frequency is shown without its sign",
+        "0022H",
+    )
     source: English = fact("where the manual says so", "section (II), U1-03")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
@@ -772,6 +787,7 @@ class SilenceTime(Entry):
     register: Address | None = fact("the register that holds it, where it is no keypad setting", "0000H", optional=True)
     milliseconds: Factor = fact("how long one count is, ms", "100")
     source: English = fact("where the manual says so", "table of communication parameters")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -887,6 +903,7 @@ class TripOutput(Entry):
         "coasts",
     )
     source: English = fact("where the manual says so", "table of faults, column of the response")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact(
         "what else a person must know; a must with `differs`", "a fault of the fan ramps down", optional=True
     )
@@ -955,6 +972,7 @@ class Errors(Entry):
         "what a refusal looks like", "{kind: exception, add: 80H, source: ...}", optional=True
     )
     source: English = fact("where the table is", "meaning of error codes")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     codes: tuple[ErrorCode, ...] = fact("the reasons, in the manual's order", "[{code: 01H, name: ..., zh: ...}]")
 
 
@@ -1019,6 +1037,7 @@ class Frame(Entry):
     direction: Literal["request", "reply"] = fact("who sends it", "request")
     mode: Literal["rtu", "ascii"] = fact("framing", "rtu")
     source: English = fact("where it is", "command 03H, RTU request")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     printed: Adu = fact("as printed", "01 03 00 26 00 02 25 C0")
     checksum: Literal["right", "wrong"] = fact("verdict on the printed checksum", "right")
     printed_checksum_of: Octets | None = fact(
@@ -1092,6 +1111,7 @@ class Tolerance(Entry):
         "`two_byte_count`: the byte count of a read reply may be a word instead of a byte", "two_byte_count"
     )
     source: English = fact("what the manual shows", "11.6.1, CRC of the RTU reply")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     why: English = fact("why it is allowed", "the printed CRC is that of such a reply")
 
 

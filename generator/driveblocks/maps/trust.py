@@ -2,50 +2,39 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from typing import get_args
+from dataclasses import fields
+from typing import Any, get_args
 
 from driveblocks.maps.model import (
     Command,
+    Corroboration,
     Document,
     Drive,
-    Fault,
-    Faults,
-    Identity,
-    InCommand,
-    Measured,
-    OwnMaximum,
+    Entry,
     Reference,
-    Register,
-    Section,
-    Setting,
     Standstill,
     State,
     Status,
     Trust,
-    Watchdog,
 )
+from driveblocks.maps.problem import Place
 
 Moving = Command | Reference | Standstill | State | Status
 """What can move the motor, or proves that it is at standstill."""
-Taken = Moving | Section | Register | Measured | InCommand | OwnMaximum | Identity | Watchdog | Faults | Fault | Setting
-"""What may name the document that it is taken from."""
 TRUSTS: tuple[Trust, ...] = get_args(Trust)
 
 
-def taken(drive: Drive) -> Iterator[Taken]:
-    """Every entry that may name a document."""
-    for section in drive.sections:
-        yield section
-        yield from section.registers
-    run, faults = drive.operation, drive.faults
-    yield from run.commands
-    yield from run.states
-    yield from run.status
-    yield from run.measures
-    yield from (run.reference, run.standstill, faults)
-    yield from (one for one in (run.commanded_by, run.own_maximum, drive.identity, drive.watchdog) if one is not None)
-    yield from faults.codes
-    yield from drive.settings
+def taken(value: Any) -> Iterator[tuple[str, Place]]:
+    """Every document that a fact is taken from, in a map or a part of it, and where that is said."""
+    if isinstance(value, tuple):
+        for each in value:
+            yield from taken(each)
+    elif isinstance(value, Entry) and not isinstance(value, Corroboration):
+        if name := getattr(value, "document", None):
+            yield name, value.place("document")
+        for one in fields(value):
+            if one.metadata:
+                yield from taken(getattr(value, one.name))
 
 
 def rungs(drive: Drive) -> dict[str, dict[str, Document | None]]:

@@ -43,7 +43,7 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
 def size_of(data: bytes, dialect: Dialect) -> int:
     """The length of the longest good RTU frame that bytes begin with; 0 if they begin with none.
 
-    Of 65536 replies one begins with what would be a request with its checksum.
+    One reply in 65536 begins with what would be a request with its checksum.
     """
     sizes = set(layout.expected_sizes(data, dialect))
     return max((size + 2 for size in sizes if size >= 3 and _sealed(data[: size + 2], size)), default=0)

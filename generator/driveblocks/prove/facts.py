@@ -110,13 +110,13 @@ def _mask(spans: Iterable[Bits]) -> int:
 
 def _holds(drive: Drive, one: Condition) -> str:
     """A condition of the map on the word that the drive block has read."""
-    name = f"Reads.{word_input(drive, one.register).name}"
+    name, is_ = f"Reads.{word_input(drive, one.register).name}", "<>" if one.differs else "="
     if one.mask is not None:
-        return f"({name} AND {word(one.mask)}) = {word(one.equals & one.mask)}"
+        return f"({name} AND {word(one.mask)}) {is_} {word(one.equals & one.mask)}"
     if one.bit is None:
-        return f"{name} = {word(one.equals)}"
+        return f"{name} {is_} {word(one.equals)}"
     bits = list(one.bit)
-    return f"({name} AND {word(_mask([one.bit]))}) = {word(one.equals << min(bits))}"
+    return f"({name} AND {word(_mask([one.bit]))}) {is_} {word(one.equals << min(bits))}"
 
 
 def _read(drive: Drive) -> dict[str, str]:

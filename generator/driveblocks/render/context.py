@@ -509,9 +509,11 @@ def word_input(drive: Drive, address: int) -> Word:
 
 def tested(pin: str, condition: Condition | State) -> Test:
     """A condition, or a state, as a test of the word at a pin; the value of a bit or field is moved to its place."""
-    if isinstance(condition, State) or condition.bit is None:
+    if isinstance(condition, State):
         return Test(pin, condition.mask or 0, condition.equals)
-    return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first)
+    if condition.bit is None:
+        return Test(pin, condition.mask or 0, condition.equals, bool(condition.differs))
+    return Test(pin, bits_of([condition.bit]), condition.equals << condition.bit.first, bool(condition.differs))
 
 
 @dataclass(frozen=True)

@@ -143,6 +143,8 @@ class Measured:
     function: str
     when: str | None
     signed: bool
+    magnitude: bool
+    """It is shown without its sign, which is the direction: the pins are the same for every family."""
 
 
 @dataclass(frozen=True)
@@ -449,6 +451,7 @@ def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
         function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
         when=told.holds(scale.when) if scale and scale.when else None,
         signed=row.signed,
+        magnitude=row.signed and one.shows == "output_frequency",
     )
 
 

@@ -18,16 +18,18 @@ _REAL_BITS = 24
 
 
 class Test(NamedTuple):
-    """What the bits of a mask in a word must be, in their place; without a mask the whole word."""
+    """What the bits of a mask in a word must be, in their place, or must not be; without a mask the whole word."""
 
     pin: str
     mask: int
     value: int
+    differs: bool = False
 
 
 def holds(test: Test) -> str:
     """An expression that is TRUE when a word passes its test."""
-    return f"{f'({test.pin} AND {word(test.mask)})' if test.mask else test.pin} = {word(test.value)}"
+    counted = f"({test.pin} AND {word(test.mask)})" if test.mask else test.pin
+    return f"{counted} {'<>' if test.differs else '='} {word(test.value)}"
 
 
 def within(span: Span, pin: str) -> str:

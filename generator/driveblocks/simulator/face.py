@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from itertools import product
 
 from driveblocks.maps.model import Drive
@@ -123,12 +123,13 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
 def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
     """Ways to help a fact: nothing; an alternative as it is; or one bit of one that 0 would fulfil, turned."""
     if fact.wanted:
-        return [(), *fact.any]
-    turned = [
+        return [(), *(tuple(each.other() if each.differs else each for each in all_) for all_ in fact.any)]
+    turned = [(replace(each, differs=False),) for all_ in fact.any for each in all_ if each.differs and each.value]
+    turned += [
         (Pattern(each.register, 1 << bit, 1 << bit),)
         for all_ in fact.any
         for each in all_
-        if each.value == 0
+        if each.value == 0 and not each.differs
         for bit in range(16)
         if each.mask >> bit & 1
     ]

@@ -16,6 +16,10 @@ def check(drive: Drive, report: Report) -> None:
     conditions = [*operation.standstill.all, *operation.reference.verify]
     conditions += [each for one in (drive.identity, operation.commanded_by) if one for each in one.all]
     conditions += [row.scale.when for _, row in drive.registers() if row.scale and row.scale.when]
+    for condition in conditions:
+        if condition.differs:
+            wrong = f"{address_text(condition.register)} may have any other value here"
+            report.add(condition.place("differs"), wrong, "only a status may be shown by that; ask for one value")
     conditions += [condition for status in operation.status for condition in status.any]
     for condition in conditions:
         _condition(drive, condition, condition.bit, report)
@@ -36,7 +40,9 @@ def counted(condition: Condition | State) -> tuple[int, int]:
 
 
 def called(row: Register, condition: Condition) -> Bit | Value | None:
-    """The one bit or value that a condition asks for; None where it asks for several bits at once, or for a 0."""
+    """The one bit or value that a condition asks for; None where it asks for several bits, a 0, or any other value."""
+    if condition.differs:
+        return None
     mask, value = counted(condition)
     for bit in row.bits:
         if mask == sum(1 << number for number in bit.bit):
@@ -47,8 +53,13 @@ def called(row: Register, condition: Condition) -> Bit | Value | None:
 
 
 def exclude(one: Condition | State, other: Condition | State) -> bool:
-    """Whether two conditions never hold at once: a bit of the same register that both ask for, and not alike."""
+    """Whether two conditions never hold at once: a bit of the same register that both ask for, and not alike.
+
+    One that differs is excluded by its value alone.
+    """
     (mask, value), (mask_2, value_2) = counted(one), counted(other)
+    if isinstance(one, Condition) and one.differs:
+        return one.register == other.register and mask & mask_2 == mask and value_2 & mask == value
     return one.register == other.register and bool(mask & mask_2 & (value ^ value_2))
 
 

@@ -180,12 +180,11 @@ def _corroborations(drive: Drive) -> Iterator[Corroboration]:
 
 def _documents(drive: Drive, report: Report) -> None:
     documents = unique(drive.documents, "id", "document", report)
-    sources = [one for one in taken(drive) if one.document is not None]
-    for item in (*_corroborations(drive), *sources):
-        if item.document not in documents:
-            wrong = f"there is no document `{item.document}`"
-            report.miss(item.place("document"), wrong, "add it to `documents`")
-    said, confirmed = {one.document for one in sources}, {item.document for item in _corroborations(drive)}
+    sources = list(taken(drive))
+    for name, place in (*((each.document, each.place("document")) for each in _corroborations(drive)), *sources):
+        if name not in documents:
+            report.miss(place, f"there is no document `{name}`", "add it to `documents`")
+    said, confirmed = {name for name, _ in sources}, {item.document for item in _corroborations(drive)}
     for id_, document in documents.items():
         if id_ not in said | confirmed:
             right = (
