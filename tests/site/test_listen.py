@@ -164,6 +164,12 @@ def test_a_reply_that_begins_as_a_request_would_is_one_frame() -> None:
         assert [each.data for each in found] == [frame]
 
 
+def test_a_broadcast_after_a_reply_begins_a_frame_of_its_own() -> None:
+    frames = [seal("rtu", bytes.fromhex(each)) for each in ("01 03 02 EC DD", "00 06 20 00 00 05")]
+    cutter = Cutter([Dialect()], 1042)
+    assert [each.data for each in (*cutter.take(0, b"".join(frames)), *cutter.rest())] == frames
+
+
 def test_damaged_bytes_do_not_take_good_frames_with_them() -> None:
     good = [seal("rtu", bytes.fromhex(each)) for each in (READ, WORDS)]
     odd = bytes.fromhex("07 41 05 06")  # a function that is not known here, with a good CRC
