@@ -202,7 +202,7 @@ def _surplus(data: bytes) -> Iterator[Part]:
 
 def expected_sizes(data: bytes, dialect: Dialect) -> Iterator[int]:
     """How long a body that begins like this may be; nothing for functions that are not known here."""
-    if len(data) < 2:
+    if len(data) < 2 or not {data[1], data[1] - dialect.added} & KNOWN:
         return
     for direction in DIRECTIONS:
         layout = take(data, direction, dialect)

@@ -41,12 +41,16 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
 
 
 def size_of(data: bytes, dialect: Dialect) -> int:
-    """The length of the good RTU frame that bytes begin with; 0 if they begin with none."""
-    for size in layout.expected_sizes(data, dialect):
-        body, check = data[:size], data[size : size + 2]
-        if len(body) >= 3 and len(check) == 2 and crc_bytes(body) == check:
-            return size + 2
-    return 0
+    """The length of the longest good RTU frame that bytes begin with; 0 if they begin with none.
+
+    One reply in 65536 begins with what would be a request with its checksum.
+    """
+    sizes = set(layout.expected_sizes(data, dialect))
+    return max((size + 2 for size in sizes if size >= 3 and _sealed(data[: size + 2], size)), default=0)
+
+
+def _sealed(data: bytes, size: int) -> bool:
+    return len(data) == size + 2 and crc_bytes(data[:size]) == data[size:]
 
 
 def _ascii(data: bytes) -> tuple[Piece, ...]:

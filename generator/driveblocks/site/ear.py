@@ -2,10 +2,13 @@
 
 import socket
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import CONNECT_S, EXCLUSIVE, MOST, refusals
+from driveblocks.modbus.envelope import mode_of
+from driveblocks.modbus.frame import Mode
 from driveblocks.modbus.layout import Dialect
 from driveblocks.site.found import Way
 from driveblocks.site.line import RATES
@@ -19,6 +22,8 @@ SHARES_US = (2_000_000, 10_000_000)
 """How long each rate and format is listened to in the first round and in the second."""
 ENOUGH = 3
 """Good frames that prove a rate and a format; noise makes one now and then."""
+PART = 0.6
+"""Of all bytes, in good frames; else the other ways are tried first."""
 
 
 class Ear(Protocol):
@@ -111,25 +116,56 @@ def find(
     `progress` gets each way and the bytes before it. Raises OSError.
     """
     came = 0
+    best: tuple[float, Way] | None = None
     for share in SHARES_US:
-        for way in tried:
-            progress(way, came)
-            if not ear.tune(way):
+        for one in tried:
+            progress(one, came)
+            if not ear.tune(one):
                 continue
-            good, some = _heard(ear, clock, Cutter(dialects, way.character_us), share)
-            came += some
-            if good >= ENOUGH:
+            tally = _heard(ear, clock, Cutter(dialects, one.character_us), share)
+            came += tally.came
+            way = replace(one, mode=tally.mode)
+            if tally.sure:
                 return way, came
+            if tally.frames >= ENOUGH:
+                best = max(best or (0, way), (tally.part, way), key=lambda each: each[0])
+        if best is not None:
+            return best[1], came
     return None, came
 
 
-def _heard(ear: Ear, clock: Clock, cutter: Cutter, share_us: int) -> tuple[int, int]:
-    """Good frames and bytes within a time; it ends as soon as there are enough good ones."""
+@dataclass
+class _Tally:
+    """What came in one way."""
+
+    frames: int = 0
+    good: int = 0
+    """Bytes of good frames."""
+    came: int = 0
+    mode: Mode = "rtu"
+    """Of the last good frame."""
+
+    @property
+    def part(self) -> float:
+        """How much of it is good; at a wrong format some frames decode, too."""
+        return self.good / max(1, self.came)
+
+    @property
+    def sure(self) -> bool:
+        """Whether nothing else need be tried."""
+        return self.frames >= ENOUGH and self.part > PART
+
+
+def _heard(ear: Ear, clock: Clock, cutter: Cutter, share_us: int) -> _Tally:
+    """What comes within a time; it ends as soon as that is enough."""
     ear.receive()  # what came at another rate
-    end, good, came = clock.now_us() + share_us, 0, 0
-    while clock.now_us() < end and good < ENOUGH:
+    end, tally = clock.now_us() + share_us, _Tally()
+    while clock.now_us() < end and not tally.sure:
         clock.sleep_until(clock.now_us() + LOOK_US)
         data = ear.receive()
-        came += len(data)
-        good += sum(each.good for each in cutter.take(clock.now_us(), data))
-    return good, came
+        tally.came += len(data)
+        for each in cutter.take(clock.now_us(), data):
+            tally.frames += each.good
+            tally.good += len(each.data) * each.good
+            tally.mode = mode_of(each.data) if each.good else tally.mode
+    return tally

@@ -21,8 +21,9 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.envelope import mode_of
 from driveblocks.plc.options import NO_PORT, Refused, is_port, time
+from driveblocks.site import ear as ears
 from driveblocks.site import overheard
-from driveblocks.site.ear import LOOK_US, Ear, SerialEar, TcpEar, find, ways
+from driveblocks.site.ear import Ear, SerialEar, TcpEar, find, ways
 from driveblocks.site.found import Way
 from driveblocks.site.line import CHARACTER_BITS
 from driveblocks.site.traffic import Cutter, Frame, Traffic
@@ -232,7 +233,7 @@ class Session:
             return
         with Live(console=self._screen, transient=True, auto_refresh=False, vertical_overflow="crop") as live:
             while length_us is None or self._clock.now_us() < begun + length_us:
-                self._clock.sleep_until(self._clock.now_us() + LOOK_US)
+                self._clock.sleep_until(self._clock.now_us() + ears.LOOK_US)
                 data = self._ear.receive()
                 self.hear(self._cutter.take(self._clock.now_us(), data))
                 if self._screen.is_terminal and self._clock.now_us() >= shown + SHOWN_US:
@@ -249,8 +250,7 @@ class Session:
             self._files.row(overheard.row(said, self.traffic.begin_us))
 
     def end(self) -> None:
-        """The last bytes, and the last line of the log: without it the log is that of a listening that was cut off."""
-        self.hear(self._cutter.rest())
+        """The last line of the log: without it the log is that of a listening that was cut off."""
         self._files.write(f"# {self._now(self._clock.now_us())} ended{f': {self.ended}' if self.ended else ''}\n")
 
     def _now(self, us: int) -> str:

@@ -21,8 +21,11 @@ MANY = 2
 ODD: dict[Role, str] = {
     "late": "unit {} answered {} after the master had given up: its timeout is too short, or the drive slow",
     "twice": "two replies came to one request to unit {}, {}: two units with this address, or a repeater",
+    "late or twice": "replies of unit {} came late or twice, {}: nobody can say which",
     "unasked": "unit {} answered {} to what was not heard: a request was damaged, or came before",
 }
+UNSURE = ("silent", "late", "twice", "late or twice", "unasked", "unclear")
+"""What nobody can say where two masters speak at once."""
 UNKNOWN = (
     "which of two frames of the same bytes is the request and which its echo, as of 06H: the first is taken for it; "
     "drives that nobody asks; times finer than the adapter hands bytes over, up to 16 ms; what was said while nothing "
@@ -38,44 +41,50 @@ def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
         drive = traffic.drive(number)
         yield Text(f"Unit {number}{f', taken for {drive.prefix}' if drive else ''}", style="bold")
         yield _unit(number, unit, traffic)
-    found = list(odd(traffic))
+    found = [each for _, each in odd(traffic)]
     yield Text()
     yield "\n".join(f"- {each}" for each in found) if found else "Nothing odd was heard."
     yield Text(f"Cannot be known: {UNKNOWN}.", style="dim")
 
 
-def odd(traffic: Traffic) -> Iterator[str]:
-    """What does not happen as it should, a sentence each."""
+def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
+    """What does not happen as it should: what it is called, and a sentence."""
     for number, unit in sorted(traffic.units.items()):
-        yield from _odd(number, unit)
+        found = _odd(number, unit, traffic.waiting(number))
+        yield from (each for each in found if traffic.hasty < MANY or each[0] not in UNSURE)
     if traffic.hasty >= MANY:
-        yield (
-            f"{traffic.hasty} requests were sent right after another that had no reply: two masters, or one that does "
-            "not wait for replies"
-        )
+        says = "requests were sent right after another that had no reply: two masters, or one that does not wait"
+        yield "masters", f"{traffic.hasty} {says} for replies"
+    if traffic.echoes:
+        says = "a repeater or an adapter that echoes, or a master that does not wait for replies"
+        yield "echo", f"a request was heard again at once, {_times(traffic.echoes)}: {says}"
     if traffic.damaged:
         share = 100 * traffic.damaged_bytes / traffic.bytes
-        yield f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
+        yield "damaged", f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
 
 
-def _odd(number: int, unit: Unit) -> Iterator[str]:
+def _odd(number: int, unit: Unit, waiting: int) -> Iterator[tuple[str, str]]:
     polls = unit.polls.values()
     asked, silent = sum(each.count for each in polls), sum(each.unanswered for each in polls)
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
-        yield f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
-    if silent and not answers and not damaged:
-        yield f"unit {number} never answers; it was asked {_times(asked)}"
-    elif silent:
-        yield f"unit {number} left {silent} of {asked} requests without a reply"
+        yield "damaged", f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
+    silent -= waiting if unit.odd["late"] or unit.unclear else 0
+    if silent > 0 and not answers and not damaged:
+        yield "silent", f"unit {number} never answers; it was asked {_times(asked)}"
+    elif silent > 0:
+        yield "silent", f"unit {number} left {silent} of {asked} requests without a reply"
     for role, says in ODD.items():
         if count := unit.odd[role]:
-            yield says.format(number, _times(count))
+            yield role, says.format(number, _times(count))
     if unit.unclear:
-        yield f"unit {number}: {_times(unit.unclear)} a write without a reply, or a second reply: they look the same"
+        yield (
+            "unclear",
+            f"unit {number}: {_times(unit.unclear)} a write without a reply, or a second reply: they look the same",
+        )
     for key, poll in unit.polls.items():
         if poll.refusals:
-            yield f"unit {number} refused {_what(key)} {poll.refusals} of {poll.count} times"
+            yield "refused", f"unit {number} refused {_what(key)} {poll.refusals} of {poll.count} times"
 
 
 def _line(way: Way, traffic: Traffic) -> Iterator[tuple[str, object]]:
@@ -150,7 +159,8 @@ def plain(way: Way | None, traffic: Traffic) -> dict[str, Any]:
     return {
         "rate": way and way.rate, "format": way and FORMS.get(way.form, way.form), "mode": way and way.mode,
         "frames": traffic.frames, "requests": traffic.requests, "damaged": traffic.damaged,
-        "longest_silence": traffic.silence_us // 1000, "odd": list(odd(traffic)),
+        "longest_silence": traffic.silence_us // 1000,
+        "odd": [{"what": what, "says": says} for what, says in odd(traffic)],
         "broadcasts": [
             {"function": function, "address": address, "count": count}
             for (function, address), count in sorted(traffic.broadcasts.items())

@@ -1,5 +1,6 @@
 """What is heard on a line: frames cut from bytes as they come, who asks whom, and what does not happen as it should."""
 
+import re
 from collections import Counter, deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,15 +14,20 @@ from driveblocks.modbus.layout import Dialect, Layout, take
 from driveblocks.modbus.request import Asked, asked_by
 from driveblocks.modbus.scan import pieces, size_of
 
-Role = Literal["request", "broadcast", "reply", "refusal", "late", "twice", "unasked", "damaged"]
-"""`late`: another request was sent since; `twice`: a second reply to one request; `unasked`: no request was heard."""
+Role = Literal[
+    "request", "broadcast", "reply", "refusal", "echo", "late", "twice", "late or twice", "unasked", "damaged",
+]  # fmt: skip
+"""`echo`: a request once more, too soon for its master; `late`: another request was sent since; `twice`: a second reply
+to one request; `unasked`: no request was heard."""
 
 QUIET_US = 20_000
 """Bytes that begin no frame wait so long for their rest; an adapter may hand over a frame in pieces."""
 LONGEST = 520
 """Bytes after which they wait no more."""
-HASTY_US = 5_000
-"""A request so soon after another that has no reply: no master gives up that fast."""
+HASTY_US = 20_000
+"""A request so soon after another that has no reply: hardly a master gives up that fast."""
+ECHO_US = 5_000
+"""The same request so soon again: no master sends it."""
 ECHOED = (5, 6, 8)
 """Functions whose reply is the request once more."""
 FORGOTTEN_US = 3_000_000
@@ -58,8 +64,18 @@ class Cutter:
 
     def rest(self) -> Iterator[Frame]:
         """What is left; nothing will follow it. A frame of a function that is not known here is known by its CRC."""
+        while (at := self._ascii()) >= 0:
+            if at:
+                yield self._cut(at, good=False)
+            yield self._cut(self._front(), good=True)
         for each in pieces(self._bytes, self._dialects[0]):
             yield self._cut(len(each.data), good=each.good or opened("rtu", each.data) is not None)
+
+    def _ascii(self) -> int:
+        """Where the first good ASCII frame begins; -1 if there is none."""
+        ends = (each.end() for each in re.finditer(rb"\r\n", self._bytes))
+        starts = ((self._bytes.rfind(b":", 0, end), end) for end in ends)
+        return next((at for at, end in starts if at >= 0 and opened("ascii", self._bytes[at:end])), -1)
 
     def _front(self) -> int:
         """The length of the good frame that comes first; 0 while there is none."""
@@ -158,7 +174,7 @@ class Traffic:
         self.units: dict[int, Unit] = {}
         self.broadcasts = Counter[tuple[int, int]]()
         """By function and address."""
-        self.frames = self.bytes = self.damaged = self.damaged_bytes = self.requests = self.hasty = 0
+        self.frames = self.bytes = self.damaged = self.damaged_bytes = self.requests = self.hasty = self.echoes = 0
         self.begin_us = self.end_us = self.silence_us = 0
         self._open: Open | None = None
         self._unsure = True
@@ -173,6 +189,10 @@ class Traffic:
         """How units refuse, by their maps; at least the standard's."""
         drives = [*self._drives.values(), *([self._anyone] if self._anyone else [])]
         return list(dict.fromkeys([*map(dialect, drives), Dialect()]))
+
+    def waiting(self, unit: int) -> int:
+        """Requests to a unit that were given up just now, and may still be answered."""
+        return sum(one.asked.unit == unit and self.end_us - one.end_us < FORGOTTEN_US for one in self._given)
 
     def drive(self, unit: int) -> Drive | None:
         """The map of a unit, as far as a person has named it."""
@@ -191,7 +211,7 @@ class Traffic:
             return self._answer(frame, self._open, reply)
         asking = take(body, "request", style)
         if asking.fits and not reply.refusal:
-            return self._ask(frame, asking)
+            return self._echo(frame, asking) or self._ask(frame, asking)
         return self._stray(frame, reply)
 
     def _count(self, frame: Frame) -> None:
@@ -203,14 +223,28 @@ class Traffic:
         self.bytes += len(frame.data)
 
     def _broken(self, frame: Frame) -> Said:
-        """Damaged bytes after a request count as the reply to it."""
-        self.damaged += 1
-        self.damaged_bytes += len(frame.data)
+        """Damaged bytes; what came before the first frame is the rest of one."""
+        if self.frames:
+            self.damaged += 1
+            self.damaged_bytes += len(frame.data)
         self._unsure = True
-        if self._open is not None:
-            self._poll(self._open).damaged += 1
-            self._open = None
+        self._given.clear()
         return Said(frame, "damaged")
+
+    def _echo(self, frame: Frame, asking: Layout) -> Said | None:
+        """A request that was sent just now, or the late reply to one that is its own reply; else nothing."""
+        given = self._open
+        if given is None:
+            return None
+        if given.body == asking.body and frame.begin_us - given.end_us < ECHO_US:
+            self.echoes += 1
+            return Said(frame, "echo", asking, given.asked)
+        late = next((one for one in self._given if one.body == asking.body), None)
+        if asking.function not in ECHOED or late is None or frame.begin_us - late.end_us >= FORGOTTEN_US:
+            return None
+        self._come(late)
+        self._unit(late).unclear += 1
+        return Said(frame, "late", asking, late.asked)
 
     def _ask(self, frame: Frame, asking: Layout) -> Said:
         self._give_up(frame.begin_us)
@@ -232,21 +266,27 @@ class Traffic:
         given, self._open = self._open, None
         if given is None:
             return
+        if self._unsure:
+            self._poll(given).damaged += 1
+            return
         self._given.append(given)
-        if given.unsure or (self._last is not None and given.body == self._last[0].body == self._last[1]):
+        soon = now_us - given.end_us < HASTY_US
+        again = self._last is not None and given.body == self._last[0].body == self._last[1]
+        if given.unsure or again or (soon and given.asked.function in ECHOED):
             self._unit(given).unclear += 1
             self._poll(given).count -= 1
             return
         self._poll(given).unanswered += 1
-        self.hasty += now_us - given.end_us < HASTY_US
+        self.hasty += soon
 
     def _answer(self, frame: Frame, one: Open, reply: Layout) -> Said:
         poll, took = self._poll(one), frame.begin_us - one.end_us
-        poll.shortest_us = took if not poll.replies + poll.refusals else min(took, poll.shortest_us)
-        poll.longest_us = max(took, poll.longest_us)
+        if not self._unsure:  # else it may be the reply to a request that was damaged
+            poll.shortest_us = min(took, poll.shortest_us) if poll.replies + poll.refusals else took
+            poll.longest_us = max(took, poll.longest_us)
+            poll.words = reply.words or poll.words
         poll.refusals += reply.refusal
         poll.replies += not reply.refusal
-        poll.words = reply.words or poll.words
         self._open, self._last, self._unsure = None, (one, reply.body), False
         return Said(frame, "refusal" if reply.refusal else "reply", reply, one.asked)
 
@@ -254,14 +294,26 @@ class Traffic:
         """A reply that answers no open request."""
         late = next((one for one in self._given if one.answered_by(reply)), None)
         if late is not None and frame.begin_us - late.end_us < FORGOTTEN_US:
-            self._given.remove(late)
+            self._come(late)
             return self._odd(frame, reply, "late", late)
-        last = self._last and self._last[0]
-        if last is not None and last.answered_by(reply) and frame.begin_us - last.end_us < FORGOTTEN_US:
+        last = None if self._last is None or self._unsure else self._last[0]
+        if last is None or not last.answered_by(reply) or frame.begin_us - last.end_us >= FORGOTTEN_US:
+            return self._odd(frame, reply, "unasked", None)
+        late = next((one for one in self._given if one.body == last.body), None)
+        if late is None or frame.begin_us - late.end_us >= FORGOTTEN_US:
             return self._odd(frame, reply, "twice", last)
-        return self._odd(frame, reply, "unasked", None)
+        self._come(late)
+        return self._odd(frame, reply, "late or twice", last)
+
+    def _come(self, late: Open) -> None:
+        """The reply to a request that was given up."""
+        self._given.remove(late)
+        self._poll(late).unanswered -= self._poll(late).unanswered > 0
 
     def _odd(self, frame: Frame, reply: Layout, role: Role, one: Open | None) -> Said:
+        """Note it, unless it may belong to what was asked before anybody listened."""
+        if role == "unasked" and frame.begin_us - self.begin_us < FORGOTTEN_US:
+            return Said(frame, role, reply)
         self.units.setdefault(reply.body[0], Unit()).odd[role] += 1
         return Said(frame, role, reply, None if one is None else one.asked)
 
