@@ -240,7 +240,8 @@ class Session:
 
     def end(self) -> None:
         """The last frame, and the last line of the log: without it the log is that of a listening that was cut off."""
-        self.hear(each for each in self._cutter.rest() if each.good)  # what is none may only not be whole
+        rest = list(self._cutter.rest())
+        self.hear(iter(rest if not rest or rest[-1].good else rest[:-1]))  # the last may only not be whole
         self._files.write(f"# {self._now(self._clock.now_us())} ended{f': {self.ended}' if self.ended else ''}\n")
 
     def _now(self, us: int) -> str:

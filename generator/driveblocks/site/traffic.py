@@ -26,8 +26,8 @@ LONGEST = 520
 """Bytes after which they wait no more."""
 HASTY_US = 20_000
 """A request so soon after another that has no reply: hardly a master gives up that fast."""
-ECHO_US = 5_000
-"""The same request so soon again: no master sends it."""
+ECHO_US = 25_000
+"""The same request so soon again: hardly a master sends it, and an adapter may be 16 ms late."""
 ECHOED = (5, 6, 8)
 """Functions whose reply is the request once more."""
 FORGOTTEN_US = 3_000_000
@@ -62,17 +62,24 @@ class Cutter:
             self._came.append((len(data), now_us))
         while size := self._front():
             yield self._cut(size, good=True)
-        if now_us - self._came_us >= max(QUIET_US, 4 * self._character_us) or len(self._bytes) > LONGEST:
+        if now_us - self._came_us >= max(QUIET_US, 4 * self._character_us):
             yield from self.rest()
+        elif len(self._bytes) > LONGEST:
+            yield from self.rest(LONGEST // 2)
 
-    def rest(self) -> Iterator[Frame]:
-        """What is left; nothing will follow it. A frame of a function that is not known here is known by its CRC."""
+    def rest(self, keep: int = 0) -> Iterator[Frame]:
+        """What is left, but for `keep` bytes that may begin a frame.
+
+        A frame of a function that is not known here is known by its CRC.
+        """
         while (at := self._ascii()) >= 0:
             if at:
                 yield self._cut(at, good=False)
             yield self._cut(self._front(), good=True)
         for each in pieces(self._bytes, self._dialects[0]):
-            yield self._cut(len(each.data), good=each.good or opened("rtu", each.data) is not None)
+            size = len(each.data) if each.good else min(len(each.data), len(self._bytes) - keep)
+            if size > 0:
+                yield self._cut(size, good=each.good or opened("rtu", each.data) is not None)
 
     def _ascii(self) -> int:
         """Where the first good ASCII frame begins; -1 if there is none."""
