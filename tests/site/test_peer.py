@@ -17,6 +17,7 @@ from pymodbus.server import ModbusSerialServer, ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.windows import environment
 from tests.site.test_commission import MAPS, typed
+from tests.site.test_parameters import parameters
 
 from driveblocks.maps.plan import plan
 from driveblocks.site import hunt, kept, steps
@@ -164,4 +165,14 @@ def test_a_drive_is_commissioned_at_a_port_of_windows(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     one = kept.read(path)["Pump"]
     assert (one.family, one.ended, one.line.unit, one.measured is not None) == ("fits", None, UNIT, True)
+    assert set(FUNCTIONS) == {3}
+
+
+def test_the_parameters_of_a_server_are_saved_and_compared(tmp_path: Path) -> None:
+    with peer("tcp", SimDevice(UNIT, words("jscc", everything=False))) as place:
+        ways = "--tcp", place
+        done = parameters("save", f"jscc@{UNIT}", str(tmp_path / "pump.csv"), *ways)
+        assert (done.exit_code, done.stderr) == (0, ""), done.stdout
+        same = parameters("compare", str(tmp_path / "pump.csv"), f"jscc@{UNIT}", *ways)
+    assert (same.exit_code, same.stderr) == (0, ""), same.stdout
     assert set(FUNCTIONS) == {3}

@@ -13,7 +13,8 @@ MEMBER = {"siemens": "#", "plcopen": "", "codesys": "", "twincat": "", "openplc"
 STYLE = (
     "body{font:14px sans-serif;margin:2em;max-width:50em}table{border-collapse:collapse;width:100%;margin:.5em 0}"
     "td,th{border:1px solid #888;padding:.25em .5em;text-align:left;vertical-align:top}h2{page-break-before:always}"
-    "h2:first-of-type{page-break-before:auto}.sign{margin-top:3em;display:flex;gap:3em}.sign div{flex:1;"
+    "h2:first-of-type{page-break-before:auto}td:last-child{min-width:8em}.sign{margin-top:3em;display:flex;gap:3em}"
+    ".sign div{flex:1;"
     "border-top:1px solid #000;padding-top:.3em}"
 )
 
