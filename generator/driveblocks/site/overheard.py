@@ -24,7 +24,7 @@ ODD: dict[Role, str] = {
     "late or twice": "replies of unit {} came late or twice, {}: nobody can say which",
     "unasked": "unit {} answered {} to what was not heard: a request was damaged, or came before",
 }
-UNSURE = ("silent", "late", "twice", "late or twice", "unasked", "unclear")
+UNSURE = ("silent", "unanswered", "late", "twice", "late or twice", "unasked", "unclear")
 """What nobody can say where two masters speak at once."""
 UNKNOWN = (
     "which of two frames of the same bytes is the request and which its echo, as of 06H: the first is taken for it; "
@@ -73,7 +73,7 @@ def _odd(number: int, unit: Unit, waiting: int) -> Iterator[tuple[str, str]]:
     if silent > 0 and not answers and not damaged:
         yield "silent", f"unit {number} never answers; it was asked {_times(asked)}"
     elif silent > 0:
-        yield "silent", f"unit {number} left {silent} of {asked} requests without a reply"
+        yield "unanswered", f"unit {number} left {silent} of {asked} requests without a reply"
     for role, says in ODD.items():
         if count := unit.odd[role]:
             yield role, says.format(number, _times(count))
