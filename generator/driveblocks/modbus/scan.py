@@ -43,10 +43,12 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
 def size_of(data: bytes, dialect: Dialect) -> int:
     """The length of the longest good RTU frame that bytes begin with; 0 if they begin with none.
 
-    One reply in 65536 begins with what would be a request with its checksum.
+    One reply in 65536 begins with what would be a request with its checksum. A frame with 00 after it has a right CRC,
+    too: the 00 is not taken for a part of it.
     """
     sizes = set(layout.expected_sizes(data, dialect))
-    return max((size + 2 for size in sizes if size >= 3 and _sealed(data[: size + 2], size)), default=0)
+    good = {size + 2 for size in sizes if size >= 3 and _sealed(data[: size + 2], size)}
+    return max((size for size in good if size - 1 not in good or data[size - 1]), default=0)
 
 
 def _sealed(data: bytes, size: int) -> bool:

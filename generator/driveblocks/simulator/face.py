@@ -121,7 +121,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
 
 
 def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
-    """Ways to help a fact: nothing; an alternative as it is; or one bit of one that 0 would fulfil, turned."""
+    """Ways to help a fact: nothing; an alternative as it is; or a bit that one wants to be 0, turned."""
     if fact.wanted:
         return [(), *(tuple(each.other() if each.differs else each for each in all_) for all_ in fact.any)]
     turned = [(replace(each, differs=False),) for all_ in fact.any for each in all_ if each.differs and each.value]
@@ -129,11 +129,16 @@ def _options(fact: Fact) -> list[tuple[Pattern, ...]]:
         (Pattern(each.register, 1 << bit, 1 << bit),)
         for all_ in fact.any
         for each in all_
-        if each.value == 0 and not each.differs
-        for bit in range(16)
-        if each.mask >> bit & 1
+        if not each.differs
+        for bit in _zeros(each)
     ]
     return [(), *turned]
+
+
+def _zeros(pattern: Pattern) -> list[int]:
+    """Bits that a pattern wants to be 0: of one that 0 fulfils all, of another that which is alone in it."""
+    found = [bit for bit in range(16) if (pattern.mask & ~pattern.value) >> bit & 1]
+    return found if pattern.value == 0 or len(found) == 1 else []
 
 
 def _together(chosen: Iterable[tuple[Pattern, ...]], registers: Iterable[int]) -> Words | None:

@@ -51,12 +51,15 @@ class Cutter:
         """How units refuse, by their maps, and the time of a character on the wire."""
         self._dialects, self._character_us = dialects or (Dialect(),), character_us
         self._bytes = b""
+        self._came = deque[tuple[int, int]]()
+        """How many bytes came when."""
         self._came_us = self._ended_us = 0
 
     def take(self, now_us: int, data: bytes) -> Iterator[Frame]:
         """Bytes that have come, or none; the frames that are whole."""
         if data:
             self._bytes, self._came_us = self._bytes + data, now_us
+            self._came.append((len(data), now_us))
         while size := self._front():
             yield self._cut(size, good=True)
         if now_us - self._came_us >= max(QUIET_US, 4 * self._character_us):
@@ -91,11 +94,17 @@ class Cutter:
             return end
         size = max(size_of(self._bytes, each) for each in self._dialects)
         longest = max((most for each in self._dialects for most in expected_sizes(self._bytes, each)), default=0)
-        return 0 if size == len(self._bytes) < longest + 2 else size
+        return 0 if size and len(self._bytes) < longest + 2 else size
 
     def _cut(self, size: int, *, good: bool) -> Frame:
         data, self._bytes = self._bytes[:size], self._bytes[size:]
-        end = self._came_us - int(len(self._bytes) * self._character_us)
+        last, after, wanted = self._came_us, 0, size
+        while wanted > 0:
+            count, last = self._came.popleft()
+            wanted, after = wanted - count, max(0, count - wanted)
+        if after:
+            self._came.appendleft((after, last))
+        end = last - int(after * self._character_us)
         begin = max(end - int(size * self._character_us), self._ended_us)
         self._ended_us = max(begin, end)
         return Frame(begin, self._ended_us, data, good)

@@ -1,0 +1,85 @@
+"""Real drives that are no shipped maps: what their makers say, what only others say, and that their motors turn."""
+
+import re
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from driveblocks.maps import trust
+from driveblocks.maps.collection import Source
+from driveblocks.maps.load import load
+from driveblocks.maps.model import Drive
+from driveblocks.output.units import units
+from driveblocks.render.context import kept
+from driveblocks.render.drive import drive_block
+from driveblocks.render.text import languages
+from driveblocks.testing import runner
+from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+
+ADDRESSES: dict[str, dict[str | None, list[int]]] = {
+    "atv12": {
+        "CMD": [8501], "LFR": [8502], "CMI": [8504], "ETA": [3201], "RFR": [3202], "FRH": [3203], "LCR": [3204],
+        "ULN": [3207], "LFT": [7121], "DP0": [7200], "SFR": [3102], "TFR": [3103], "HSP": [3104], "LSP": [3105],
+        "ADD": [6001], "TBR": [6003], "TFO": [6004], "TTO": [6005], "SLL": [7010], "CHCF": [8401], "FR1": [8413],
+    },
+    "powerflex4": {None: [8192, 8193, 8448, 8449, 8451], "P036": [36], "P038": [38]},
+}  # fmt: skip
+"""Typed by hand, decimal, as the makers print them; without an id in their order."""
+SHOWN = {
+    "atv12": "ABS(ATV12_EstimatedMotorFrequencyHz(Raw := Reads.",
+    "powerflex4": "PF4_FeedbackOutputFrequencyHz(Raw :=",
+}
+"""How the pin of the output frequency is made: RFR of an Altivar is negative in reverse, the pin of no family is."""
+
+
+def file(name: str) -> Path:
+    """Where a map is."""
+    return Path(__file__).with_name(f"{name}.yaml")
+
+
+@cache
+def drive(name: str) -> Drive:
+    """A map."""
+    return load(file(name))
+
+
+@pytest.mark.parametrize("name", ADDRESSES)
+def test_addresses_are_those_that_the_maker_prints(name: str) -> None:
+    found: dict[str | None, list[int]] = {}
+    for _, row in drive(name).registers():
+        found.setdefault(row.id, []).append(row.address.first)
+    assert found == ADDRESSES[name]
+    assert all([one.register] == found[one.id] for one in drive(name).settings)
+
+
+def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> None:
+    altivar = drive("atv12")
+    assert trust.counted(altivar) == {
+        "commands": {"read": 3, "in_use": 4}, "status": {"read": 4, "in_use": 3}, "faults": {"in_use": 34},
+    }  # fmt: skip
+    in_use = {name for facts in trust.rungs(altivar).values() for name, one in facts.items() if one}
+    assert in_use >= {"run_forward", "run_reverse", "stop", "quick_stop", "running", "state switched_on"}
+    assert drive_block(altivar).own.second_hand
+
+
+def test_what_was_read_whole_wants_none_and_a_toggled_direction_is_out_of_reach() -> None:
+    """Both bits of the direction turn it round in one edition, and are no command in another."""
+    powerflex = drive("powerflex4")
+    assert (trust.rung(powerflex), drive_block(powerflex).own.second_hand) == ("read, read, read", False)
+    assert kept(powerflex) == {0x2000: 0x7F00}
+
+
+@pytest.mark.parametrize("name", ADDRESSES)
+def test_a_motor_turns_both_ways(name: str) -> None:
+    found = units([Source(file(name), drive(name))], languages(["en"], "utf-8"))
+    blocks = {each.path: each for unit in found for each in unit.blocks}
+    block = next(text.text for path, text in blocks.items() if path.endswith(f"{drive(name).prefix}_Drive.st"))
+    assert f"OutputFrequencyHz := {SHOWN[name]}" in block
+    unit = next(each for each in found if each.suite.name == name)
+    made = tuple(each for each in unit.suite.programs if re.search("_Test(MotorStart|Scales|Standstill)", each.path))
+    assert len(made) == 3
+    some = replace(unit.suite, programs=made)
+    assert runner.run([Unit(some, tuple(blocks.values()))], [EmbeddedEngine()]).passed
