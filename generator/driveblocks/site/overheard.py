@@ -50,7 +50,7 @@ def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
 def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
     """What does not happen as it should: what it is called, and a sentence."""
     for number, unit in sorted(traffic.units.items()):
-        found = _odd(number, unit, traffic.waiting(number))
+        found = _odd(number, unit, traffic)
         yield from (each for each in found if traffic.hasty < MANY or each[0] not in UNSURE)
     if traffic.hasty >= MANY:
         says = "requests were sent right after another that had no reply: two masters, or one that does not wait"
@@ -63,14 +63,14 @@ def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
         yield "damaged", f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
 
 
-def _odd(number: int, unit: Unit, waiting: int) -> Iterator[tuple[str, str]]:
+def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]:
     polls = unit.polls.values()
     asked, silent = sum(each.count for each in polls), sum(each.unanswered for each in polls)
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
         yield "damaged", f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
-    silent -= waiting if unit.odd["late"] or unit.unclear else 0
-    if silent > 0 and not answers and not damaged:
+    silent -= traffic.waiting(number) if unit.odd["late"] or unit.unclear else 0
+    if silent > 0 and not answers and not traffic.damaged:
         yield "silent", f"unit {number} never answers; it was asked {_times(asked)}"
     elif silent > 0:
         yield "unanswered", f"unit {number} left {silent} of {asked} requests without a reply"
