@@ -26,10 +26,11 @@ KINDS = (
     "quiet",
 )  # fmt: skip
 ALLOWED: dict[str, set[str]] = {
-    "plain": set(), "silent": {"silent"}, "late": {"late", "late or twice"}, "twice": {"twice", "late or twice"},
+    "plain": set(), "silent": {"silent", "unanswered"}, "late": {"late", "late or twice"},
+    "twice": {"twice", "late or twice"},
     "echo": {"echo"}, "broadcast": set(), "refused": {"refused"}, "noise": {"damaged", "unasked"},
     "damaged": {"damaged", "unasked"},
-    "masters": {"masters", "damaged", "late", "unasked", "late or twice"},
+    "masters": {"masters", "unanswered", "damaged", "late", "unasked", "late or twice"},
     "no modbus": set(), "quiet": set(),
 }  # fmt: skip
 """What may be said of each kind."""

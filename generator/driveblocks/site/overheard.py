@@ -24,7 +24,7 @@ ODD: dict[Role, str] = {
     "late or twice": "replies of unit {} came late or twice, {}: nobody can say which",
     "unasked": "unit {} answered {} to what was not heard: a request was damaged, or came before",
 }
-UNSURE = ("silent", "late", "twice", "late or twice", "unasked", "unclear")
+UNSURE = ("silent", "unanswered", "late", "twice", "late or twice", "unasked", "unclear")
 """What nobody can say where two masters speak at once."""
 UNKNOWN = (
     "which of two frames of the same bytes is the request and which its echo, as of 06H: the first is taken for it; "
@@ -50,7 +50,7 @@ def tables(way: Way, traffic: Traffic) -> Iterator[RenderableType]:
 def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
     """What does not happen as it should: what it is called, and a sentence."""
     for number, unit in sorted(traffic.units.items()):
-        found = _odd(number, unit, traffic.waiting(number))
+        found = _odd(number, unit, traffic)
         yield from (each for each in found if traffic.hasty < MANY or each[0] not in UNSURE)
     if traffic.hasty >= MANY:
         says = "requests were sent right after another that had no reply: two masters, or one that does not wait"
@@ -63,17 +63,17 @@ def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
         yield "damaged", f"{share:.1f} % of all bytes made no good frame, {_times(traffic.damaged)}"
 
 
-def _odd(number: int, unit: Unit, waiting: int) -> Iterator[tuple[str, str]]:
+def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]:
     polls = unit.polls.values()
     asked, silent = sum(each.count for each in polls), sum(each.unanswered for each in polls)
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
         yield "damaged", f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
-    silent -= waiting if unit.odd["late"] or unit.unclear else 0
-    if silent > 0 and not answers and not damaged:
+    silent -= traffic.waiting(number) if unit.odd["late"] or unit.unclear else 0
+    if silent > 0 and not answers and not traffic.damaged:
         yield "silent", f"unit {number} never answers; it was asked {_times(asked)}"
     elif silent > 0:
-        yield "silent", f"unit {number} left {silent} of {asked} requests without a reply"
+        yield "unanswered", f"unit {number} left {silent} of {asked} requests without a reply"
     for role, says in ODD.items():
         if count := unit.odd[role]:
             yield role, says.format(number, _times(count))

@@ -265,8 +265,8 @@ class Traffic:
         return Said(frame, "late", asking, late.asked)
 
     def _ask(self, frame: Frame, asking: Layout) -> Said:
-        self._give_up(frame.begin_us)
         asked = asked_by(asking)
+        self._give_up(frame.begin_us, clear=asked.function not in ECHOED)
         one = Open(asking.body, asked, frame.end_us, self._unsure and asked.function in ECHOED)
         self._unsure = False
         self.requests += 1
@@ -279,8 +279,8 @@ class Traffic:
         poll.words = asking.words or poll.words
         return Said(frame, "request", asking, asked)
 
-    def _give_up(self, now_us: int) -> None:
-        """The open request has no reply, and another one is sent."""
+    def _give_up(self, now_us: int, *, clear: bool) -> None:
+        """The open request has no reply, and another one is sent; not `clear`: or somebody's late reply came."""
         given, self._open = self._open, None
         if given is None:
             return
@@ -295,7 +295,7 @@ class Traffic:
             self._poll(given).count -= 1
             return
         self._poll(given).unanswered += 1
-        self.hasty += soon
+        self.hasty += soon and clear
 
     def _answer(self, frame: Frame, one: Open, reply: Layout) -> Said:
         poll, took = self._poll(one), frame.begin_us - one.end_us
