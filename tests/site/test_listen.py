@@ -188,6 +188,16 @@ def test_noise_without_an_end_is_cut_and_good_frames_are_heard_after_it() -> Non
     assert found[-1].good
 
 
+def test_frames_among_noise_without_a_pause_stay_whole() -> None:
+    good = [seal("rtu", bytes.fromhex(each)) for each in (READ, WORDS)]
+    cutter, found = Cutter([Dialect()], 1042), list[Frame]()
+    for turn in range(60):
+        noise = bytes([0x45, turn, 0xE0 ^ turn][: 1 + turn % 3])
+        found += cutter.take(10_000 * turn, noise + good[turn % 2])
+    found += cutter.rest()
+    assert [each.data for each in found if each.good] == 30 * good
+
+
 # ------------------------------------------------------------ rate and format
 
 
@@ -253,6 +263,8 @@ class Fake:
 
     def read(self, _: int) -> bytes:
         said, self.said = self.said, b""
+        if not said:
+            raise KeyboardInterrupt  # nothing else will come
         return said
 
     def close(self) -> None:
@@ -262,7 +274,7 @@ class Fake:
 def test_a_port_is_opened_once_with_both_signals_low_and_nothing_to_send_with(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(serial, "Serial", Fake)
     Fake.made.clear()
-    way, traffic, ended = listen.run(listen.Words(port="COM3", rate=19200, form="8e1", length="5ms"), VirtualClock())
+    way, traffic, ended = listen.run(listen.Words(port="COM3", rate=19200, form="8e1"), VirtualClock())
     (port,) = Fake.made
     assert (way, traffic.requests, ended) == (Way(19200, "8E1"), 3, "")
     assert port.options == {"timeout": 0, "exclusive": EXCLUSIVE}
@@ -289,9 +301,24 @@ def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.Monk
         return real(number, data)
 
     monkeypatch.setattr(os, "write", counted)
-    speaks = threading.Timer(0.2, real, (master, DIFFERENT))  # what came before is lost
+    opened, came, receive = threading.Event(), bytearray(), ear.SerialEar.receive
+
+    def received(self: ear.SerialEar) -> bytes:
+        opened.set()
+        if len(came) == len(DIFFERENT):
+            raise KeyboardInterrupt
+        data = receive(self)
+        came.extend(data)
+        return data
+
+    def speak() -> None:
+        opened.wait()
+        real(master, DIFFERENT)
+
+    monkeypatch.setattr(ear.SerialEar, "receive", received)
+    speaks = threading.Thread(target=speak)
     speaks.start()
-    got = listened("--port", os.ttyname(side), "--for", "1s", *KNOWN, "--json", folder=tmp_path)
+    got = listened("--port", os.ttyname(side), *KNOWN, "--json", folder=tmp_path)
     speaks.join()
     assert json.loads(got)["requests"] == 3
     assert written == []
@@ -318,6 +345,7 @@ class Tee:
         self._begun = threading.Event()
         self._loop = asyncio.new_event_loop()
         self._ears: list[asyncio.StreamWriter] = []
+        self._heard_at = asyncio.Event()
         self.client = self.third = ""
         self._thread = threading.Thread(target=self._loop.run_until_complete, args=(self._serve(),))
 
@@ -345,10 +373,14 @@ class Tee:
 
     async def _heard(self, _: asyncio.StreamReader, out: asyncio.StreamWriter) -> None:
         self._ears.append(out)
+        self._heard_at.set()
 
     async def _joined(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await self._heard_at.wait()
         there, back = await asyncio.open_connection(*self._server)
         await asyncio.gather(self._carry(reader, back), self._carry(there, writer))
+        for one in self._ears:
+            one.close()
 
     async def _carry(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         while data := await reader.read(4096):
@@ -360,13 +392,12 @@ class Tee:
 def client(place: str, rounds: int) -> None:
     """A master that reads, writes, and asks for what is refused or is not there."""
     host, _, port = place.rpartition(":")
-    made: Any = ModbusTcpClient(host, port=int(port), framer=FramerType.RTU, timeout=0.3, retries=0)
+    made: Any = ModbusTcpClient(host, port=int(port), framer=FramerType.RTU, timeout=60, retries=0)
     made.connect()
     for turn in range(rounds):
         made.read_holding_registers(0x3000, count=2, device_id=5)
         made.write_register(0x2000, turn, device_id=5)
         made.read_holding_registers(0x7777, count=1, device_id=5)
-        time.sleep(0.03)
     made.read_holding_registers(0, count=1, device_id=9)
     made.close()
 
@@ -375,11 +406,13 @@ def test_pymodbus_is_heard_from_a_third_end_of_its_cable(tmp_path: Path) -> None
     device = SimDevice(5, [SimData(each, values=[0] * 16, datatype=DataType.REGISTERS) for each in (0x2000, 0x3000)])
     log, table = tmp_path / "line.log", tmp_path / "line.csv"
     with peer("tcp", device) as server, Tee(server) as tee:
-        talk = threading.Timer(0.3, client, (tee.client, 5))
+        talk = threading.Thread(target=client, args=(tee.client, 5))
         talk.start()
-        words = ["chf@5", "--tcp", tee.third, "--for", "2s", "--log", str(log), "--csv", str(table), "--json"]
-        found = json.loads(listened(*words, folder=tmp_path))
+        words = ["listen", "chf@5", "--tcp", tee.third, "--log", str(log), "--csv", str(table), "--json"]
+        got = CliRunner().invoke(app, words)
         talk.join()
+    assert (got.exit_code, got.stderr) == (1, "Ended early: the other side has closed the connection\n")
+    found = json.loads(got.stdout)
     (five, nine) = found["units"]
     assert (found["requests"], found["damaged"], five["unit"], nine["unit"]) == (16, 0, 5, 9)
     counts = {(each["function"], each["address"]): (each["replies"], each["refusals"]) for each in five["polls"]}
@@ -398,7 +431,7 @@ def test_pymodbus_is_heard_from_a_third_end_of_its_cable(tmp_path: Path) -> None
 
 def test_what_a_person_sees(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(serial, "Serial", Fake)
-    out = listened("chf@1", "--port", "COM3", *KNOWN, "--for", "50ms", folder=tmp_path)
+    out = listened("chf@1", "--port", "COM3", *KNOWN, folder=tmp_path)
     assert "9600 bit/s, 8N1 or 8N2, RTU" in out
     assert "Unit 1, taken for CHF" in out
     assert "- 2 requests were sent right after another that had no reply: two masters, or one that" in out
@@ -485,7 +518,7 @@ main()
 
 
 def test_a_port_of_windows_is_listened_to(tmp_path: Path) -> None:
-    words = ["listen", "--port", "COM3", "--for", "300ms", "--log", str(tmp_path / "line.log")]
+    words = ["listen", "--port", "COM3", *KNOWN, "--for", "300ms", "--log", str(tmp_path / "line.log")]
     done = subprocess.run(
         [sys.executable, "-c", COM3, *words], env=environment(tmp_path), capture_output=True, text=True, check=False
     )

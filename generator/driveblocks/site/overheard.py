@@ -69,7 +69,7 @@ def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
         yield "damaged", f"damaged bytes came after {damaged} of {asked} requests to unit {number}"
-    silent -= traffic.waiting(number) if unit.odd["late"] or unit.unclear else 0
+    silent -= unit.unclear + (traffic.waiting(number) if unit.odd["late"] or unit.unclear else 0)
     if silent > 0 and not answers and not traffic.damaged:
         yield "silent", f"unit {number} never answers; it was asked {_times(asked)}"
     elif silent > 0:

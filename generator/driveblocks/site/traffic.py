@@ -79,7 +79,10 @@ class Cutter:
         for each in pieces(self._bytes, self._dialects[0]):
             size = len(each.data) if each.good else min(len(each.data), len(self._bytes) - keep)
             if size > 0:
-                yield self._cut(size, good=each.good or opened("rtu", each.data) is not None)
+                sealed = each.data[:1] != b":" and opened("rtu", each.data) is not None
+                yield self._cut(size, good=each.good or sealed)
+            if size < len(each.data):
+                return
 
     def _ascii(self) -> int:
         """Where the first good ASCII frame begins; -1 if there is none."""
