@@ -6,6 +6,7 @@ from dataclasses import astuple, fields
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import EFFECTS, Move
+from driveblocks.simulator.pattern import Pattern
 from driveblocks.simulator.refusal import REASONS
 from driveblocks.simulator.table import MEASURES, Table
 
@@ -52,18 +53,24 @@ def _moves(table: Table) -> tuple[list[list[int]], list[list[int]]]:
     rows = []
     for move in table.moves:
         rows.append([*_move(table, move), len(needs), len(move.needs)])
-        needs += [[*astuple(need.pattern), need.before, need.for_ms] for need in move.needs]
+        needs += [[*_pattern(need.pattern), need.before, need.for_ms] for need in move.needs]
     return rows, needs
 
 
 def _move(table: Table, move: Move) -> list[int]:
     return [
         EFFECTS.index(move.effect),
-        *astuple(move.pattern),
+        *_pattern(move.pattern),
         _state(table, move.guard),
         _state(table, move.into),
         move.exact,
     ]
+
+
+def _pattern(pattern: Pattern) -> list[int]:
+    """What a write must be like; only a status may differ from a value."""
+    assert not pattern.differs
+    return [pattern.register, pattern.mask, pattern.value]
 
 
 def _state(table: Table, name: str | None) -> int:
@@ -89,7 +96,7 @@ def _table(name: str, drive: SimulatedDrive) -> str:
         "named": ("VNamed", named),
         "faces": ("VFace", faces),
         "gauges": ("VGauge", gauges),
-        "verify": ("VPattern", [astuple(each) for each in table.reference.verify]),
+        "verify": ("VPattern", [_pattern(each) for each in table.reference.verify]),
         "subs": ("VNumber", [[code] for code in table.sub_functions]),
         "broadcasts": ("VNumber", [[address] for address in table.broadcasts]),
     }

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -464,7 +463,7 @@ def test_a_log_says_how_far_it_came(number: str, status: int, last: str, tmp_pat
     with subprocess.Popen([*words, "--log", str(log)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as done:
         while not (log.exists() and " > " in log.read_text(encoding="utf-8")):
             os.write(master, seal("rtu", bytes.fromhex(READ)))
-            time.sleep(0.01)
+            threading.Event().wait(0.01)
             assert done.poll() is None
         done.send_signal(getattr(signal, number))
         done.communicate()
