@@ -164,6 +164,11 @@ def test_a_broadcast_after_a_reply_begins_a_frame_of_its_own() -> None:
     frames = [seal("rtu", bytes.fromhex(each)) for each in ("01 03 02 EC DD", "00 06 20 00 00 05")]
     cutter = Cutter([Dialect()], 1042)
     assert [each.data for each in (*cutter.take(0, b"".join(frames)), *cutter.rest())] == frames
+    reply = seal("rtu", bytes.fromhex("03 03 04 12 34 56") + seal("rtu", bytes.fromhex("03 03 04 12 34 56"))[6:7])
+    assert reply[-1] == 0
+    for size in (8, 9):
+        found = [*cutter.take(0, reply[:size]), *cutter.take(1000, reply[size:]), *cutter.take(30_000, b"")]
+        assert [each.data for each in found] == [reply]
 
 
 def test_damaged_bytes_do_not_take_good_frames_with_them() -> None:

@@ -43,12 +43,13 @@ def _rtu(data: bytes, dialect: Dialect) -> tuple[Piece, ...]:
 def size_of(data: bytes, dialect: Dialect) -> int:
     """The length of the longest good RTU frame that bytes begin with; 0 if they begin with none.
 
-    One reply in 65536 begins with what would be a request with its checksum. A frame with 00 after it has a right CRC,
-    too: the 00 is not taken for a part of it.
+    One reply in 65536 begins with what would be a request with its checksum. A good frame with 00 after it has a right
+    checksum, too: the 00 is a part of it unless a good broadcast begins there.
     """
     sizes = set(layout.expected_sizes(data, dialect))
     good = {size + 2 for size in sizes if size >= 3 and _sealed(data[: size + 2], size)}
-    return max((size for size in good if size - 1 not in good or data[size - 1]), default=0)
+    longest = max(good, default=0)
+    return longest - (longest - 1 in good and size_of(data[longest - 1 :], dialect) > 0)
 
 
 def _sealed(data: bytes, size: int) -> bool:

@@ -13,7 +13,7 @@ from driveblocks.modbus.envelope import mode_of
 from driveblocks.show.layout import facts, table
 from driveblocks.site.ear import FORMS
 from driveblocks.site.found import Way
-from driveblocks.site.traffic import Key, Poll, Role, Said, Traffic, Unit
+from driveblocks.site.traffic import ECHOED, Key, Poll, Role, Said, Traffic, Unit
 
 WRITES = (5, 6, 15, 16)
 MANY = 2
@@ -65,7 +65,10 @@ def odd(traffic: Traffic) -> Iterator[tuple[str, str]]:
 
 def _odd(number: int, unit: Unit, traffic: Traffic) -> Iterator[tuple[str, str]]:
     polls = unit.polls.values()
-    asked, silent = sum(each.count for each in polls), sum(each.unanswered for each in polls)
+    # a late reply to a write of one register looks like a request without a reply
+    blurred = ECHOED if unit.odd.total() or unit.unclear else ()
+    asked = sum(each.count for each in polls)
+    silent = sum(each.unanswered for (function, *_), each in unit.polls.items() if function not in blurred)
     answers = sum(each.replies + each.refusals for each in polls) + unit.odd.total()
     if damaged := sum(each.damaged for each in polls):
         yield "damaged", f"damaged bytes came after {damaged} of {asked} requests to unit {number}"

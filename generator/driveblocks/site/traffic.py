@@ -30,6 +30,8 @@ ECHO_US = 25_000
 """The same request so soon again: hardly a master sends it, and an adapter may be 16 ms late."""
 ECHOED = (5, 6, 8)
 """Functions whose reply is the request once more."""
+BROADCAST = 8
+"""Bytes of one that writes a register; a longer one is taken for damaged in this rare case."""
 FORGOTTEN_US = 3_000_000
 """A reply that comes later belongs to no request."""
 
@@ -97,6 +99,8 @@ class Cutter:
             return end
         size = max(size_of(self._bytes, each) for each in self._dialects)
         longest = max((most for each in self._dialects for most in expected_sizes(self._bytes, each)), default=0)
+        if size and opened("rtu", self._bytes[: size - 1]):  # see `size_of`: does a broadcast begin with the last byte?
+            longest = max(longest, size + BROADCAST)
         return 0 if size and len(self._bytes) < longest + 2 else size
 
     def _cut(self, size: int, *, good: bool) -> Frame:
