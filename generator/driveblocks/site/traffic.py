@@ -8,7 +8,6 @@ from typing import Literal
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import dialect
-from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.frame import opened
 from driveblocks.modbus.layout import Dialect, Layout, expected_sizes, take
 from driveblocks.modbus.request import Asked, asked_by
@@ -70,10 +69,7 @@ class Cutter:
             yield from self.rest(LONGEST // 2)
 
     def rest(self, keep: int = 0) -> Iterator[Frame]:
-        """What is left, but for `keep` bytes that may begin a frame.
-
-        A frame of a function that is not known here is known by its CRC.
-        """
+        """What is left, but for `keep` bytes that may begin a frame."""
         while (at := self._ascii()) >= 0:
             if at:
                 yield self._cut(at, good=False)
@@ -81,10 +77,14 @@ class Cutter:
         for each in pieces(self._bytes, self._dialects[0]):
             size = len(each.data) if each.good else min(len(each.data), len(self._bytes) - keep)
             if size > 0:
-                sealed = each.data[:1] != b":" and opened("rtu", each.data) is not None
-                yield self._cut(size, good=each.good or sealed)
+                yield self._cut(size, good=self._is_whole(each.data))
             if size < len(each.data):
                 return
+
+    def _is_whole(self, data: bytes) -> bool:
+        """Whether bytes are a good frame; one of a function that is not known here is known by its CRC alone."""
+        known = any(size_of(data, each) == len(data) for each in self._dialects)
+        return known or opened("ascii" if data[:1] == b":" else "rtu", data) is not None
 
     def _ascii(self) -> int:
         """Where the first good ASCII frame begins; -1 if there is none."""
@@ -228,7 +228,7 @@ class Traffic:
         self._count(frame)
         if not frame.good:
             return self._broken(frame)
-        body = open_(frame.data).body
+        body = opened("ascii", frame.data) or opened("rtu", frame.data) or b""
         drive = self.drive(body[0])
         style = Dialect() if drive is None else dialect(drive)
         reply = take(body, "reply", style)
