@@ -24,10 +24,11 @@ MOST = {
     # maps: a register table from a spreadsheet becomes rows of a map
     # diff: what differs between two versions of a map or of the blocks
     # commission and site: theirs; docs, output: pages with what was measured on one drive, where they are built with it
-    "commands": 1732, "diff": 335, "desk": 1500, "docs": 1130, "explain": 1967, "export": 2060,
+    "commands": 1732, "diff": 335, "desk": 1515, "docs": 1130, "explain": 1967, "export": 2060,
     # maps: `on_site`, which marks the gaps for commissioning, and its rule; trust by document, `never`, and their rules
     # explain, show, reference: `never`; render, simulator: `differs`
     "maps": 7065, "output": 845,
+    # desk: why a port refuses a rate or a format is said once, for what only listens, too
     # modbus: the longest good frame of several that bytes may begin with
     # the framing of what came over a wire, which `explain` and `stand` read alike, came from explain
     # a program after its first scan, and a request with its reply, are modules of their own: `site` has them, too

@@ -53,7 +53,6 @@ class SecondLine:
 
     drives: list[Drive]
     truth: Way
-    chance: Random
     echo: bool = False
     noise_us: int = 0
     """Between two bytes of noise."""
@@ -207,7 +206,7 @@ def line(seed: int, way: str | None = None) -> Verdict:
     drives = [one]
     if kind == "two units":
         drives.append(model(real, unit, truth, reply_us=(5_000, 30_000), seed=seed))
-    wire = SecondLine(drives, truth, chance, echo=kind == "echo")
+    wire = SecondLine(drives, truth, echo=kind == "echo")
     wire.noise_us = chance.choice((700_000, 5_000_000, 20_000_000)) if kind == "noise" else 0
     wire.master_us = chance.choice((100_000, 2_000_000, 25_000_000)) if kind == "foreign master" else 0
     wrong = _unset(one, family, kind)

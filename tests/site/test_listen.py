@@ -22,7 +22,10 @@ from pymodbus.client import ModbusTcpClient
 from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.windows import environment
 from tests.site.heard import KINDS, line
+from tests.site.lines import MAPS as SECOND
+from tests.site.lines import MODELS, SecondLine, model, spoken
 from tests.site.test_commission import MAPS
+from tests.site.test_parameters import simulated
 from tests.site.test_peer import peer
 
 from driveblocks import console
@@ -30,13 +33,14 @@ from driveblocks.cli import app
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import EXCLUSIVE
 from driveblocks.explain.paste import read
+from driveblocks.maps.polls import polls
 from driveblocks.modbus.frame import seal
 from driveblocks.modbus.layout import Dialect
-from driveblocks.site import ear, listen, overheard
+from driveblocks.site import ear, listen, overheard, saved
 from driveblocks.site.found import Way
 from driveblocks.site.traffic import Cutter, Frame, Said, Traffic
 
-POSIX = pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals, and other signals")
+POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals and no SIGHUP")
 DIFFERENT = b"".join(seal("rtu", bytes([1, 3, 0x10, at, 0, 2])) for at in range(3))
 KNOWN = ("--rate", "9600", "--format", "8N1")
 READ, WORDS = "01 03 10 00 00 02", "01 03 04 00 05 13 88"
@@ -322,7 +326,7 @@ def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.Monk
     monkeypatch.setattr(ear.SerialEar, "receive", received)
     speaks = threading.Thread(target=speak)
     speaks.start()
-    got = listened("--port", os.ttyname(side), *KNOWN, "--json", folder=tmp_path)
+    got = listened("--port", os.ttyname(side), *KNOWN, "--json")
     speaks.join()
     assert json.loads(got)["requests"] == 3
     assert written == []
@@ -334,10 +338,9 @@ def test_the_system_is_never_asked_to_write_to_the_port(monkeypatch: pytest.Monk
 # ------------------------------------------------------------ at a port, from beginning to end
 
 
-def listened(*words: str, folder: Path, status: int = 0) -> str:
+def listened(*words: str) -> str:
     got = CliRunner().invoke(app, ["listen", *words], env={"COLUMNS": "110"})
-    assert (got.exit_code, got.stderr) == (status, ""), (got.stdout, got.stderr)
-    assert not list(folder.glob("*.tmp"))
+    assert (got.exit_code, got.stderr) == (0, ""), (got.stdout, got.stderr)
     return got.stdout
 
 
@@ -433,9 +436,45 @@ def test_pymodbus_is_heard_from_a_third_end_of_its_cable(tmp_path: Path) -> None
     assert len(rows) == 33
 
 
+def test_a_simulated_drive_is_heard_while_its_parameters_are_saved(tmp_path: Path) -> None:
+    path = tmp_path / "drive.csv"
+    with simulated("jscc@2", "--tcp", ":0") as server, Tee(server) as tee:
+        words = ["parameters", "save", "jscc@2", str(path), "--tcp", tee.client]
+        with subprocess.Popen([sys.executable, "-m", "driveblocks", *words], stdout=subprocess.DEVNULL) as saves:
+            got = CliRunner().invoke(app, ["listen", "jscc@2", "--tcp", tee.third, "--json"])
+        assert saves.returncode == 0
+    assert got.stderr == "Ended early: the other side has closed the connection\n"
+    (unit,) = json.loads(got.stdout)["units"]
+    heard_words = {each["address"] + at: word for each in unit["polls"] for at, word in enumerate(each["words"])}
+    kept_words = saved.read(path).words
+    assert kept_words
+    assert {each: heard_words[each] for each in kept_words} == kept_words
+
+
+@pytest.mark.parametrize("family", MODELS)
+def test_a_second_model_is_heard_without_anything_odd(family: str) -> None:
+    way, drive = spoken(family)[0], SECOND[family]
+    wire = SecondLine([model(family, 3, way, reply_us=(5_000, 9_000))], way)
+    wire.tune(way)
+    traffic = Traffic({3: drive})
+    cutter = Cutter(traffic.dialects, way.character_us)
+    for poll in 5 * polls(drive):
+        body = bytes([3, poll.function, *poll.address.to_bytes(2, "big"), *poll.words.to_bytes(2, "big")])
+        request = seal(way.mode, body)
+        sent = wire.now + int(len(request) * way.character_us)
+        reply = wire.exchange(request, 500_000)
+        came = sent + reply.after_us + int(len(reply.data) * way.character_us)
+        for at, data in ((sent, request), (came, reply.data), (wire.now, b"")):
+            for frame in cutter.take(at, data):
+                traffic.hear(frame)
+    assert list(overheard.odd(traffic)) == []
+    assert {(each.count, each.replies) for each in traffic.units[3].polls.values()} == {(5, 5)}
+    assert all(4_000 < each.shortest_us <= each.longest_us < 10_000 for each in traffic.units[3].polls.values())
+
+
 def test_what_a_person_sees(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(serial, "Serial", Fake)
-    out = listened("chf@1", "--port", "COM3", *KNOWN, folder=tmp_path)
+    out = listened("chf@1", "--port", "COM3", *KNOWN)
     assert "9600 bit/s, 8N1 or 8N2, RTU" in out
     assert "Unit 1, taken for CHF" in out
     assert "- 2 requests were sent right after another that had no reply: two masters, or one that" in out

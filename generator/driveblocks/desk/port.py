@@ -172,6 +172,19 @@ def refusals(bit_rate: int, form: str) -> Iterator[None]:
         raise OSError(errno.EINVAL, refuses) from error
 
 
+def takes(tuned: Callable[[], object]) -> bool:
+    """Whether a port takes a rate and a format. Raises OSError for one that is not there at all."""
+    try:
+        tuned()
+    except ValueError:
+        return False
+    except OSError as error:
+        if "refuses" not in str(error):
+            raise
+        return False
+    return True
+
+
 class _Serial:
     """A serial port as a device."""
 

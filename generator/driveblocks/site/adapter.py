@@ -40,15 +40,10 @@ class PortLine:
             self._way = way  # the same port carries both framings
             return True
         self.close()
-        try:
-            self._port, self._way = self._opened(way), way
-        except ValueError:
-            return False
-        except OSError as error:
-            if "refuses" not in str(error):
-                raise
-            return False
-        return True
+        return port.takes(lambda: self._open(way))
+
+    def _open(self, way: Way) -> None:
+        self._port, self._way = self._opened(way), way
 
     def close(self) -> None:
         """Give the port back."""

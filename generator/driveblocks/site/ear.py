@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
-from driveblocks.desk.port import CONNECT_S, EXCLUSIVE, MOST, refusals
+from driveblocks.desk.port import CONNECT_S, EXCLUSIVE, MOST, refusals, takes
 from driveblocks.modbus.envelope import mode_of
 from driveblocks.modbus.frame import Mode
 from driveblocks.modbus.layout import Dialect
@@ -51,20 +51,15 @@ class SerialEar:
 
     def tune(self, way: Way) -> bool:
         """As `Ear` says."""
+        return takes(lambda: self._set(way))
+
+    def _set(self, way: Way) -> None:
         port: Any = self._port
-        try:
-            with refusals(way.rate, way.form):
-                port.baudrate, port.bytesize, port.parity = way.rate, int(way.form[0]), way.form[1]
-                if not port.is_open:
-                    port.port = self._name
-                    port.open()
-        except ValueError:
-            return False
-        except OSError as error:
-            if "refuses" not in str(error):
-                raise
-            return False
-        return True
+        with refusals(way.rate, way.form):
+            port.baudrate, port.bytesize, port.parity = way.rate, int(way.form[0]), way.form[1]
+            if not port.is_open:
+                port.port = self._name
+                port.open()
 
     def receive(self) -> bytes:
         """As `Ear` says."""
