@@ -22,7 +22,6 @@ from tests.prove.evaluate import Program, signed
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
-from driveblocks.prove.replay import known_paths
 from structured_text.engines.discovery import survey
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Instance, Library, ScanError, Source
@@ -81,7 +80,7 @@ def drawn(random: Random, kind: Elementary) -> Any:
 
 def compared(model: Model, library: Library, calls: int) -> Score:
     """Run calls of a block both ways; every second finds what the one before has left. A function remembers nothing."""
-    kinds = {path: kind for path, (_, kind) in known_paths(model).items()}
+    kinds = {path: kind for path, (_, kind) in model.scalars.items()}
     function = isinstance(model.pou, Function)
     shown = {"RESULT": kinds[model.pou.name.upper()]} if function else kinds
     bounds = [each.term for each in model.obligations if each.words.startswith("the index")]

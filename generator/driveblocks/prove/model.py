@@ -16,6 +16,7 @@ from structured_text.engines.engine import Source
 from structured_text.language.checker import check
 from structured_text.language.parser import parse
 from structured_text.language.tree import Checked, Function, Pou, VarKind
+from structured_text.language.types import Elementary
 
 BEFORE = "Was."
 """What the name of a term begins with that is not an input of the call."""
@@ -54,6 +55,16 @@ class Model:
         if isinstance(self.pou, Function):
             start["RESULT"] = start[self.pou.name.upper()]
         return tuple(term == start[path] for path, term in self._memory())
+
+    @cached_property
+    def scalars(self) -> dict[str, tuple[str, Elementary]]:
+        """Every scalar of the block: path -> name as declared, and type."""
+        kept = observer.kept(self.pou)
+        return {
+            each.name.upper() + leaf.path: (each.name + leaf.name, leaf.type)
+            for each in kept
+            for leaf in leaves(each.type)
+        }
 
     @cached_property
     def zero(self) -> tuple[z3.ExprRef, ...]:

@@ -13,7 +13,6 @@ from driveblocks.prove import observer
 from driveblocks.prove.example import Values
 from driveblocks.prove.model import BEFORE, Model, in_outs
 from driveblocks.prove.question import Question
-from driveblocks.prove.sorts import leaves
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
 from structured_text.engines.engine import ScanError, Source, Value
@@ -62,7 +61,7 @@ class Replay:
         if not isinstance(model.pou, FunctionBlock) or question.condition == "Restarts":
             return None
         known = _known(model, values)
-        before = {path: known[BEFORE + path] for path in known_paths(model)}
+        before = {path: known[BEFORE + path] for path in model.scalars}
         inputs = {name: value for name, value in known.items() if not name.startswith(BEFORE)}
         if not question.condition:
             return self._strict(model, before, inputs)
@@ -110,19 +109,10 @@ def _below(store: Mapping[str, Value], prefix: str, shared: set[str]) -> dict[st
     return kept | {path[len(prefix) :]: value for path, value in store.items() if path.startswith(prefix)}
 
 
-def known_paths(model: Model) -> dict[str, tuple[str, Elementary]]:
-    """Every scalar of a block: path -> name as declared, and type."""
-    found: dict[str, tuple[str, Elementary]] = {}
-    for each in observer.kept(model.pou):
-        for leaf in leaves(each.type):
-            found[each.name.upper() + leaf.path] = (each.name + leaf.name, leaf.type)
-    return found
-
-
 def _known(model: Model, values: Values) -> dict[str, Value]:
     """Every scalar before the call, and every input of it; 0 where nothing depends on it."""
     found: dict[str, Value] = {}
-    for path, (_, kind) in known_paths(model).items():
+    for path, (_, kind) in model.scalars.items():
         zero: Value = False if kind.kind is Kind.BOOL else 0.0 if kind.kind is Kind.REAL else 0
         for name in (BEFORE + path, path):
             if name in values:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from driveblocks.prove.model import BEFORE
 from driveblocks.prove.prover import Proof, Proved
 from driveblocks.prove.question import CALLS, Verdict
-from driveblocks.prove.replay import Call, known_paths
+from driveblocks.prove.replay import Call
 from driveblocks.testing.outcome import ERROR, FAILED, PASSED, Outcome, Result, Run
 from structured_text.engines.engine import Value
 from structured_text.language.tree import VarKind
@@ -45,7 +45,7 @@ def table(proved: Proved, proof: Proof) -> list[str]:
     if call is None:
         return []
     rows = [("", "before", "after")]
-    for path, (name, _) in known_paths(proved.model).items():
+    for path, (name, _) in proved.model.scalars.items():
         if path in call.inputs:
             rows += [(f"{name} (input)", "", _shown(call.inputs[path]))] if call.inputs[path] else []
         elif _matters(proved, proof, path, call):

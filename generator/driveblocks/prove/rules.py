@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from importlib.resources import files
 from string import Template
 from typing import Any
@@ -65,6 +66,7 @@ def family(facts: Mapping[str, str]) -> list[Subject]:
     return [_subject(Template(name).substitute(facts), found, facts) for name, found in named]
 
 
+@cache
 def _read() -> dict[str, Any]:
     found: dict[str, Any] = yaml.safe_load(files(__package__).joinpath(FILE).read_text("utf-8"))
     return found

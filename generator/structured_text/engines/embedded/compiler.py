@@ -206,9 +206,13 @@ class Compiler:
         return self._makers[block]
 
 
+KEPT = frozenset(VarKind) - {VarKind.TEMP, VarKind.EXTERNAL}
+"""What an instance keeps between its calls."""
+
+
 def kept(pou: tree.Pou) -> list[tree.VarDecl]:
     """The variables that an instance keeps between its calls."""
-    return [each for each in pou.symbols.values() if each.kind not in (VarKind.TEMP, VarKind.EXTERNAL)]
+    return [each for each in pou.symbols.values() if each.kind in KEPT]
 
 
 def _always(value: Any) -> Maker:

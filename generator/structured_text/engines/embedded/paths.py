@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from structured_text.engines.embedded.shapes import is_scalar
-from structured_text.engines.embedded.values import members, read, written
+from structured_text.engines.embedded.values import member, members, read, written
 from structured_text.engines.engine import Value
-from structured_text.language.tree import Array, Block, Struct
+from structured_text.language.tree import Array, Block
 from structured_text.language.types import Elementary, Kind, Type, plain
 
 _STEP = re.compile(r"\.?(?P<name>[A-Za-z_]\w*)|\[(?P<indices>\s*-?\d+\s*(?:,\s*-?\d+\s*)*)\]")
@@ -199,7 +199,7 @@ def _is_constant(kind: Type, name: str | None) -> bool:
 def _enter(path: str, kind: Type, match: re.Match[str]) -> tuple[list[Step], Type]:
     """The steps of one part of a path, and the type that they lead to. KeyError."""
     if name := match["name"]:
-        inner = members(kind).get(name.upper()) if isinstance(kind, Struct | Block) else None
+        inner = member(kind, name.upper())
         if inner is None:
             raise KeyError(f"{path}: there is no {name}")
         return [name.upper()], inner

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from structured_text.engines.embedded.certainty import known
-from structured_text.engines.embedded.compiler import kept
+from structured_text.engines.embedded.compiler import KEPT, kept
 from structured_text.engines.embedded.reals import single
 from structured_text.engines.embedded.shapes import is_scalar
 from structured_text.engines.engine import Value
@@ -25,6 +25,19 @@ def members(kind: Type) -> dict[str, Type]:
             return {name: each.type for name, each in kind.parameters.items()}
         return {each.name.upper(): each.type for each in kept(kind.declaration)}
     return {}
+
+
+def member(kind: Type, name: str) -> Type | None:
+    """The type of one of these by its upper-case name, without a look at the others; None: there is none."""
+    if isinstance(kind, Struct):
+        field = kind.fields.get(name)
+        return field.type if field else None
+    if not isinstance(kind, Block):
+        return None
+    if kind.declaration is None:
+        return kind.parameters[name].type if name in kind.parameters else None
+    variable = kind.declaration.symbols.get(name)
+    return variable.type if variable and variable.kind in KEPT else None
 
 
 def read(kind: Type, value: Any) -> Value:
