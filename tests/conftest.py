@@ -10,6 +10,7 @@ for others with the profile `search`; what it finds becomes an example of the su
 
 import functools
 import os
+import signal
 from collections.abc import Generator
 from contextlib import nullcontext
 
@@ -54,6 +55,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """Refuse to run where a required engine is missing: a green run would claim what was not tested."""
     if not hasattr(config, "workerinput") and (complaints := missing(os.environ.get(REQUIRE, ""))):
         raise pytest.UsageError("\n".join(complaints))
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background of a script; its children inherit that
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.hookimpl(trylast=True)

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import driveblocks
@@ -35,16 +36,21 @@ def room(module: str) -> str:
 
 
 MODULES = modules()
-GRAPH = {name: set(imports(path, MODULES)) for name, path in MODULES.items()}
+
+
+@cache
+def graph() -> dict[str, set[str]]:
+    """Every module, with what it imports."""
+    return {name: set(imports(path, MODULES)) for name, path in MODULES.items()}
 
 
 def reached(start: str) -> set[str]:
     """Modules that a room imports, and those that they import."""
     found: set[str] = set()
-    waiting = [name for name in GRAPH if room(name) == start]
+    waiting = [name for name in graph() if room(name) == start]
     while waiting:
         name = waiting.pop()
         if name not in found:
             found.add(name)
-            waiting += GRAPH.get(name, ())
+            waiting += graph().get(name, ())
     return found

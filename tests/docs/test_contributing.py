@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from tests.rooms import GRAPH, MODULES
+from tests.rooms import MODULES, graph
 
 REPOSITORY = next(iter(MODULES.values())).parents[2]
 PAGE = (REPOSITORY / "CONTRIBUTING.md").read_text("utf-8")
@@ -20,7 +20,7 @@ def used(file: str) -> set[str]:
         return set(TYPE.findall(text))
     waiting, found = [name(file)], set[str]()
     while waiting:
-        for each in GRAPH.get(waiting.pop(), ()):
+        for each in graph().get(waiting.pop(), ()):
             if each not in found:
                 found.add(each)
                 waiting.append(each)

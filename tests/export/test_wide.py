@@ -1,30 +1,37 @@
 """Chinese texts as WSTRING: the same words as the STRING functions have in bytes, for each text."""
 
 import re
+from functools import cache
 
 from tests.export.stock import canon, made
 
+from driveblocks.export.part import Part
 from driveblocks.export.wide import wide
 from driveblocks.render.reasons import REASONS, STATES
 from structured_text.language.fingerprint import fingerprint, stream
 from structured_text.language.writing import string
 
-PARTS = {part.name: part for part in wide(made())}
 GIVEN = re.compile(r':= "((?:\$.|[^"$])*)";')
+
+
+@cache
+def parts() -> dict[str, Part]:
+    """The functions of WSTRING of what ships, by name."""
+    return {part.name: part for part in wide(made())}
 
 
 def said(name: str) -> list[str]:
     """The texts of a function of WSTRING, without escapes."""
-    return [re.sub(r"\$(.)", r"\1", text) for text in GIVEN.findall(PARTS[name].body)]
+    return [re.sub(r"\$(.)", r"\1", text) for text in GIVEN.findall(parts()[name].body)]
 
 
 def test_each_function_of_chinese_bytes_has_one_of_characters() -> None:
-    assert set(PARTS) == {f"{name}W" for name in canon() if name.endswith("Zh")}
-    assert "VFD_ReasonTextZhW" in PARTS
+    assert set(parts()) == {f"{name}W" for name in canon() if name.endswith("Zh")}
+    assert "VFD_ReasonTextZhW" in parts()
 
 
 def test_each_text_is_the_one_of_its_bytes() -> None:
-    for name, part in PARTS.items():
+    for name, part in parts().items():
         bytes_ = [string(text.encode()) for text in said(name)]
         given = re.findall(r":= ('(?:\$.|[^'$])*');", canon()[name.removesuffix("W")].body)
         assert bytes_ == given, name
@@ -38,5 +45,5 @@ def test_the_words_are_those_of_the_reasons_and_states() -> None:
 
 
 def test_the_hash_in_the_head_is_that_of_the_body() -> None:
-    for part in PARTS.values():
+    for part in parts().values():
         assert f" {fingerprint(stream(part.body))}, a hash" in part.head, part.name

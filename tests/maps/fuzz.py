@@ -13,6 +13,7 @@ import traceback
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -37,11 +38,20 @@ class Tally:
     failures: list[str] = field(default_factory=list)
 
 
+EXAMPLE = ROOT / "tests/maps/example.yaml"
+
+
+def text(path: Path) -> mutate.Text:
+    """A map with the places of its facts."""
+    return mutate.Text(path.name, path.read_text(encoding="utf-8"))
+
+
+@cache
 def maps() -> list[mutate.Text]:
     """The good maps: the example, and those vendor maps and other drives of the tests that load."""
     folders = (ROOT / "vendor_maps", ROOT / "tests/blocks/fourth_drive")
-    paths = [ROOT / "tests/maps/example.yaml", *(path for folder in folders for path in sorted(folder.glob("*.yaml")))]
-    return [mutate.Text(path.name, path.read_text(encoding="utf-8")) for path in paths if _loads(path)]
+    paths = [EXAMPLE, *(path for folder in folders for path in sorted(folder.glob("*.yaml")))]
+    return [text(path) for path in paths if _loads(path)]
 
 
 def _loads(path: Path) -> bool:

@@ -10,12 +10,13 @@ from tests.blocks.compare.comparison import Libraries, beside, build, compare, s
 from tests.blocks.compare.pou import shipped
 from tests.blocks.compare.stimulus import enough, stimuli
 from tests.blocks.compare.subject import EmbeddedSubject
+from tests.blocks.library import alone
 
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine
 
 SEED = 7
-FOLDERS = sorted({pou.folder for pou in shipped().pous.values()})
+FOLDERS = sorted({each.path.partition("/")[0] for each in alone()} - {"types"})
 
 UNREACHED = {
     ("invt_chf/CHF_Reference.st", "IF Count > 10000.0 THEN"),
