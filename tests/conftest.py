@@ -16,7 +16,7 @@ from contextlib import nullcontext
 
 import pytest
 from hypothesis import HealthCheck, settings
-from tests.counting import NOT_COUNTED, uncounted
+from tests import counting
 
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
@@ -57,6 +57,8 @@ def pytest_configure(config: pytest.Config) -> None:
         raise pytest.UsageError("\n".join(complaints))
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background of a script; its children inherit that
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    if config.getoption("cov_source", None):
+        counting.without_engine()
 
 
 @pytest.hookimpl(trylast=True)
@@ -72,7 +74,8 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
     """Leave tests out of the coverage that say nothing of it."""
-    with uncounted() if item.nodeid.removeprefix("tests/").startswith(NOT_COUNTED) else nullcontext():
+    counting.at[0] = item.nodeid.removeprefix("tests/")
+    with counting.uncounted() if counting.at[0].startswith(counting.NOT_COUNTED) else nullcontext():
         return (yield)
 
 
