@@ -7,13 +7,13 @@ from pathlib import Path
 from tests.simulator.talk import MAPS
 
 from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import WirePort
 from driveblocks.desk.wire import Wire
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.plc import source, wiring
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.ending import Ending
 from driveblocks.plc.session import Session
 from driveblocks.plc.watchdog import Watchdog
 from driveblocks.simulator.drive import SimulatedDrive

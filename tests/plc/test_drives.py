@@ -6,12 +6,12 @@ import pytest
 from tests.plc.desk import EXAMPLE, ONE, Desk, loaded, maps, wired
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
 from driveblocks.plc import drives as called
 from driveblocks.plc import simulated
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.drives import Named
-from driveblocks.plc.options import Refused
 
 FILES = {each.path.stem: (each.path, each.drive) for each in maps()}
 

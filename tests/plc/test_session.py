@@ -8,12 +8,12 @@ import pytest
 from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.desk import ending
 from driveblocks.desk.clock import VirtualClock
+from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import AGAIN_US, DevicePort
 from driveblocks.desk.script import Setting
-from driveblocks.plc import live
 from driveblocks.plc.ask import CHATTER_US, REPLY_US
-from driveblocks.plc.ending import Ending
 from driveblocks.plc.pace import Pace
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
@@ -136,19 +136,19 @@ def sent(desk: Desk, number: int, *, hurry: bool = False) -> None:
         continue
 
 
-@pytest.mark.parametrize("number", sorted(live.caught()))
+@pytest.mark.parametrize("number", sorted(ending.caught()))
 def test_a_signal_stops_every_drive(number: int) -> None:
     desk = Desk()
     before = signal.getsignal(number)
-    with live.listening(desk.ending):
+    with ending.listening(desk.ending):
         ended(desk, lambda desk: sent(desk, number))
     assert signal.getsignal(number) == before
     assert desk.drives[0].mode == "standstill"
     result = desk.session.result
     assert result is not None
     assert (result.crashed, result.stopped) == (False, ("Motor",))
-    name = live.caught()[number]
-    assert result.reason == live.REASONS.get(name, name)
+    name = ending.caught()[number]
+    assert result.reason == ending.REASONS.get(name, name)
 
 
 def test_every_signal_that_would_end_the_process_is_caught() -> None:
@@ -164,9 +164,9 @@ def test_every_signal_that_would_end_the_process_is_caught() -> None:
         "SIGABRT",
         "SIGBREAK",
     }
-    assert set(live.caught().values()) >= known & {each.name for each in signal.Signals}
+    assert set(ending.caught().values()) >= known & {each.name for each in signal.Signals}
     left = {"SIGKILL", "SIGSTOP", "SIGSEGV", "SIGCHLD", "SIGPIPE", "SIGTSTP", "SIGVTALRM"}
-    assert not left & set(live.caught().values())
+    assert not left & set(ending.caught().values())
 
 
 # ------------------------------------------------------------ a suspension
@@ -176,14 +176,14 @@ def test_every_signal_that_would_end_the_process_is_caught() -> None:
 def test_a_real_port_asks_before_it_is_suspended_and_no_terminal_suspends_it() -> None:
     desk = Desk()
     asked: list[bool] = []
-    before = [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS]
-    with live.listening(desk.ending, lambda: asked.append(True)):
+    before = [signal.getsignal(getattr(signal, name)) for name in ending.SUSPENDS]
+    with ending.listening(desk.ending, lambda: asked.append(True)):
         signal.raise_signal(signal.SIGTSTP)
         assert [signal.getsignal(each) for each in (signal.SIGTTIN, signal.SIGTTOU)] == [signal.SIG_IGN] * 2
     assert asked == [True]
-    with live.listening(desk.ending):
-        assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
-    assert [signal.getsignal(getattr(signal, name)) for name in live.SUSPENDS] == before
+    with ending.listening(desk.ending):
+        assert [signal.getsignal(getattr(signal, name)) for name in ending.SUSPENDS] == before
+    assert [signal.getsignal(getattr(signal, name)) for name in ending.SUSPENDS] == before
 
 
 def test_no_process_is_suspended_while_a_motor_may_run() -> None:
@@ -252,7 +252,7 @@ def test_who_asks_again_does_not_wait() -> None:
         sent(desk, signal.SIGINT, hurry=True)
 
     desk = Desk()
-    with live.listening(desk.ending):
+    with ending.listening(desk.ending):
         ended(desk, twice)
     assert desk.clock.now_us() < 6 * SECOND
     assert desk.line.sent[-1][:6] == bytes.fromhex("07 06 10 00 00 03")

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 from tests.plc.desk import ONE, Desk
 
+from driveblocks.desk.ending import Bell, Ending
 from driveblocks.desk.script import Setting
 from driveblocks.plc import gate, live
-from driveblocks.plc.ending import Bell, Ending
 from driveblocks.plc.gate import Gate, GivenUp
 from driveblocks.plc.session import STUCK
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, PATIENCE_US, Watchdog

@@ -20,10 +20,10 @@ from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.port import WirePort
+from driveblocks.desk.words import Refused
 from driveblocks.maps.load import load
 from driveblocks.modbus.frame import seal
 from driveblocks.plc.ask import Speech
-from driveblocks.plc.options import Refused
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.site import saved
 from driveblocks.site.reader import LostError, One, Reader, Reads

@@ -19,7 +19,7 @@ from tests.simulator.talk import MAPS
 
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
-from driveblocks.plc.ending import Ending
+from driveblocks.desk.ending import Ending
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from driveblocks.stand.link import PtyLink

@@ -13,7 +13,7 @@ from tests.simulator.talk import body, pairs, prepared
 
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import RealClock
-from driveblocks.plc.ending import Ending
+from driveblocks.desk.ending import Ending
 from driveblocks.stand.link import Link, PtyLink, TcpLink
 from driveblocks.stand.stand import Stand
 

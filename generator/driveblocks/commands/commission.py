@@ -30,7 +30,7 @@ def run(**words: Any) -> None:
 
     Example: driveblocks commission chf --port /dev/ttyUSB0 --label Pump
     """
-    from driveblocks.plc.options import Refused
+    from driveblocks.desk.words import Refused
     from driveblocks.site import hour
 
     try:

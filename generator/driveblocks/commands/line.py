@@ -48,7 +48,7 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     from json import dumps
 
     from driveblocks import console
-    from driveblocks.plc.options import Refused
+    from driveblocks.desk.words import Refused
     from driveblocks.site import asked, report
     from driveblocks.site import picture as pictures
     from driveblocks.site.line import figures

@@ -29,7 +29,7 @@ def run(json: bool, **words: Any) -> None:
     from json import dumps
 
     from driveblocks import console
-    from driveblocks.plc.options import Refused
+    from driveblocks.desk.words import Refused
     from driveblocks.site import listen, overheard
 
     try:

@@ -46,7 +46,7 @@ def save(drive: str, file: Path, **words: Any) -> None:
 
     Example: driveblocks parameters save chf@1 pump.csv --port /dev/ttyUSB0
     """
-    from driveblocks.plc.options import Refused
+    from driveblocks.desk.words import Refused
     from driveblocks.site import drives
     from driveblocks.site.reader import LostError
 
@@ -74,7 +74,7 @@ def compare(left: str, right: str, everything: bool, own: str | None, **words: A
     Example: driveblocks parameters compare pump.csv chf@2 --port /dev/ttyUSB0
     """
     from driveblocks import console
-    from driveblocks.plc.options import Refused
+    from driveblocks.desk.words import Refused
     from driveblocks.site import drives
     from driveblocks.site.reader import LostError
 

@@ -120,7 +120,7 @@ class _Step:
     """One line of a scenario."""
 
     def __init__(self, report: Report, drives: Mapping[int, Drive], key: Scalar) -> None:
-        self._report, self._drives, self._key = report, drives, key
+        self._report, self._drives = report, drives
         found = _AT.fullmatch(key.text)
         self._at_us = duration_us(found["time"]) if found else 0
         if not found and not key.refused:

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 
+from driveblocks.desk.words import Refused
 from driveblocks.maps.model import Drive
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.options import Refused
 from driveblocks.render.drive import MEASURES
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits

@@ -1,16 +1,13 @@
 """A run in real time: scans and their watchdog in threads of their own, screen, keyboard and signals beside them."""
 
 import gc
-import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from types import FrameType
 
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.screen import Screen
-from driveblocks.plc.ending import Ending
 from driveblocks.plc.session import Result, Session
 
 HELP = (
@@ -21,18 +18,6 @@ HELP = (
     "trip OC 1         whatever a scenario may say; docs/simulate.md lists it",
 )
 """What a person may type; the last two lines are for simulated drives."""
-REASONS = {"SIGINT": "Ctrl-C", "SIGHUP": "SIGHUP: the terminal is gone", "SIGBREAK": "Ctrl-Break"}
-"""Why a run ends, where the name of the signal does not say it."""
-INSISTS = ("SIGINT", "SIGBREAK")
-"""What a person does who does not want to wait."""
-PASSED_ON = frozenset({
-    "SIGKILL", "SIGSTOP",  # nobody can catch these
-    "SIGSEGV", "SIGBUS", "SIGFPE", "SIGILL",  # nothing can go on after these
-    "SIGCHLD", "SIGCONT", "SIGINFO", "SIGURG", "SIGWINCH", "SIGPIPE", "SIGXFSZ",  # these end nothing
-    "SIGVTALRM",  # the clock by which an engine sees that a scan does not end; Python would not give it back
-})  # fmt: skip
-SUSPENDS = ("SIGTSTP", "SIGTTIN", "SIGTTOU")
-_NAMES = {int(each): each.name for each in signal.Signals}
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
@@ -74,37 +59,6 @@ def _undisturbed() -> Iterator[None]:
     finally:
         sys.setswitchinterval(switch)
         gc.unfreeze()
-
-
-def caught() -> dict[int, str]:
-    """The signals that end a run, by their numbers; real-time signals have no names."""
-    numbers = map(int, signal.valid_signals())
-    names = {each: _NAMES.get(each, f"signal {each}") for each in numbers}
-    return {number: name for number, name in names.items() if name not in PASSED_ON and name not in SUSPENDS}
-
-
-@contextmanager
-def listening(ending: Ending, suspend: Callable[[], None] | None = None) -> Iterator[None]:
-    """Let signals end the run; `suspend` is asked for a suspension, which else is the system's."""
-
-    def ask(number: int, _: FrameType | None) -> None:
-        name = names[number]
-        ending.ask(REASONS.get(name, name), insists=name in INSISTS)
-
-    names = caught()
-    handlers: dict[int, Callable[[int, FrameType | None], None] | signal.Handlers] = dict.fromkeys(names, ask)
-    if suspend is not None:
-        found = [getattr(signal, name, None) for name in SUSPENDS]
-        # From the background, reading the terminal then fails, which is the end of the input, and writing does not.
-        handlers |= {number: signal.SIG_IGN for number in found if number is not None}
-        if found[0] is not None:
-            handlers[found[0]] = lambda _number, _frame: suspend()
-    before = [(number, signal.signal(number, handler)) for number, handler in handlers.items()]
-    try:
-        yield
-    finally:
-        for number, handler in before:
-            signal.signal(number, signal.SIG_DFL if handler is None else handler)
 
 
 def _listen_to(keyboard: Keyboard, session: Session, *, end_of_input: bool) -> None:

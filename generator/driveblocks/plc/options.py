@@ -1,18 +1,10 @@
 """The words of the command line: what they are, and what does not go together."""
 
-import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from driveblocks.desk import script
-
-NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
-LOOPBACK = ("", "127.0.0.1", "localhost")
-
-
-class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
-    """What is wrong with the words of the command line, or with what they name."""
+from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,11 +40,6 @@ class Options:
     def real(self) -> bool:
         """Whether real drives may hear it: nobody can know what is behind an address, so its user has to say."""
         return self.port is not None or (self.tcp is not None and not self.simulated)
-
-
-def is_port(number: str) -> bool:
-    """Whether digits are the number of a TCP port that one can connect to."""
-    return bool(re.fullmatch("[0-9]{1,5}", number)) and 0 < int(number) <= 0xFFFF
 
 
 def wrong(options: Options) -> Iterator[str]:
@@ -91,14 +78,3 @@ def _wrong_files(options: Options) -> Iterator[str]:
         yield f"--trace and --picture both name {options.trace}; name two files"
     if options.scenario is not None and (options.tcp or options.port or options.demo):
         yield "--scenario is for drives that this run simulates; driveblocks simulate has its own, and so has --demo"
-
-
-def time(word: str, text: str, least: int, most: int) -> int:
-    """A time of the command line in microseconds. Raises Refused."""
-    try:
-        us = script.duration_us(text)
-    except ValueError as error:
-        raise Refused(f"{word}: {error}") from None
-    if not least <= us <= most:
-        raise Refused(f"{word} {text} is out of range; write {least / 1e6:g}s to {most / 1e6:g}s")
-    return us

@@ -4,10 +4,10 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
+from driveblocks.desk.words import Refused
 from driveblocks.maps.collection import Source as Map
 from driveblocks.plc import source, wiring
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.options import Refused
 from structured_text.engines.engine import BuildError, ScanError
 
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.ending import Ending
 from driveblocks.desk.keyboard import is_variable, typed
 from driveblocks.desk.port import Port
 from driveblocks.desk.recorder import Recorder
@@ -16,11 +17,11 @@ from driveblocks.desk.seen import View
 from driveblocks.maps.model import Drive
 from driveblocks.plc.ask import Speech
 from driveblocks.plc.controller import Controller
-from driveblocks.plc.ending import LEAST_US, WITHIN_US, Ending, Stopper
 from driveblocks.plc.gate import Gate, GivenUp
 from driveblocks.plc.look import look
 from driveblocks.plc.pace import Pace
 from driveblocks.plc.play import Play
+from driveblocks.plc.stopper import LEAST_US, WITHIN_US, Stopper
 from driveblocks.plc.watchdog import Watchdog
 from structured_text.engines.engine import ScanError
 
@@ -96,6 +97,8 @@ class Session:
         self.watchdog.watch(self.ending, lambda: self._over)
         if not self._over:
             self._give_up(scans)
+        if not self.watchdog.scanning:  # what was typed last, where no scan is left to take it
+            self._take(self._clock.now_us() - self._begun_us)
         self.result = self._end()
         self.settled(self.result)
         return self.result
@@ -144,7 +147,6 @@ class Session:
             due += scan_us
             due += scan_us * self.pace.add(done - start, done - due)
             self._clock.sleep_until(due)
-        self._take(self._clock.now_us() - self._begun_us)
 
     def _scan(self, now_us: int) -> None:
         since = now_us - self._begun_us

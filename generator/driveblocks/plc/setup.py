@@ -11,9 +11,11 @@ from driveblocks import console
 from driveblocks.desk import port, recorder, scenario, script
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock, RealClock, VirtualClock
+from driveblocks.desk.ending import Ending, listening
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.port import Port, WirePort
 from driveblocks.desk.screen import Desk, Heading, Lines, LiveTable, Screen
+from driveblocks.desk.words import LOOPBACK, Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.problem import MapError
@@ -21,8 +23,7 @@ from driveblocks.plc import demo, live, probe, source
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.departure import Departure
 from driveblocks.plc.drives import Named, named, of_program, words
-from driveblocks.plc.ending import Ending
-from driveblocks.plc.options import LOOPBACK, Options, Refused, time, wrong
+from driveblocks.plc.options import Options, wrong
 from driveblocks.plc.play import Play
 from driveblocks.plc.session import Result, Session
 from driveblocks.plc.simulated import Simulation
@@ -237,7 +238,7 @@ class Setup:
 
     def _run(self, free: frozenset[tuple[int, str]]) -> int:
         suspend = self._session.ask_to_suspend if self._options.real else None
-        with self._stack, live.listening(self._session.ending, suspend):
+        with self._stack, listening(self._session.ending, suspend):
             opened = self._port()
             self._stack.callback(opened.close)
             self._session.connect(opened, free if self._options.real else None)

@@ -4,7 +4,7 @@ import queue
 from collections.abc import Callable
 
 from driveblocks.desk.clock import RealClock
-from driveblocks.plc.ending import Bell, Ending
+from driveblocks.desk.ending import Bell, Ending
 
 LIMIT_US = 500_000
 FIRST_US = 3_000_000

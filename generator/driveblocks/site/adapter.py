@@ -10,7 +10,7 @@ from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import Port
-from driveblocks.plc.options import LOOPBACK, NO_PORT, is_port
+from driveblocks.desk.words import LOOPBACK, NO_PORT, is_port
 from driveblocks.site.found import Heard, Way
 from driveblocks.site.line import CHARACTER_BITS
 from driveblocks.site.reader import Reads

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
@@ -14,7 +15,6 @@ from driveblocks.plc.controller import Controller
 from driveblocks.plc.drives import Named
 from driveblocks.plc.drives import named as drives_of
 from driveblocks.plc.drives import words as words_of
-from driveblocks.plc.options import Refused, time
 from driveblocks.plc.watchdog import FIRST_US
 from driveblocks.site.line import CHARACTER_BITS, LEARNED_AFTER, PINS, SLOT, Line, Unit, number
 from structured_text.engines.embedded.library import EmbeddedInstance

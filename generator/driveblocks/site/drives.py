@@ -12,6 +12,7 @@ from driveblocks import console
 from driveblocks.desk import port
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.port import Port
+from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.form import address_text
 from driveblocks.maps.load import load
@@ -20,7 +21,6 @@ from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
 from driveblocks.plc.ask import Speech
 from driveblocks.plc.drives import named, words
-from driveblocks.plc.options import Refused, time
 from driveblocks.show.layout import table
 from driveblocks.site import adapter
 from driveblocks.site.found import Way

@@ -8,13 +8,13 @@ from pathlib import Path
 
 from driveblocks.desk.clock import RealClock
 from driveblocks.desk.port import reason
+from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import read as maps_of
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
-from driveblocks.plc.options import Refused
 from driveblocks.site import adapter, asked, kept, report, steps
 from driveblocks.site.found import Asker, Found
 from driveblocks.site.line import figures

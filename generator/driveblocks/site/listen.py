@@ -15,12 +15,12 @@ from rich.live import Live
 from driveblocks import console
 from driveblocks.desk.clock import Clock, RealClock
 from driveblocks.desk.port import reason
+from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.envelope import mode_of
-from driveblocks.plc.options import Refused, time
 from driveblocks.site import adapter, overheard
 from driveblocks.site import ear as ears
 from driveblocks.site.ear import Ear, SerialEar, TcpEar, find, ways

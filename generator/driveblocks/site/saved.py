@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from driveblocks.desk.words import Refused
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import revision
-from driveblocks.plc.options import Refused
 from driveblocks.site.register import rows, unread, value
 from structured_text.visible import file_name
 

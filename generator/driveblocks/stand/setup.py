@@ -10,16 +10,15 @@ from driveblocks import console
 from driveblocks.desk import port, scenario
 from driveblocks.desk.bus import Bus, Frame
 from driveblocks.desk.clock import RealClock
+from driveblocks.desk.ending import Ending, listening
 from driveblocks.desk.screen import Heading, Lines, LiveTable, Screen
+from driveblocks.desk.words import LOOPBACK, NO_PORT, Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.plc import live
 from driveblocks.plc.drives import named
 from driveblocks.plc.drives import words as drives_of
-from driveblocks.plc.ending import Ending
-from driveblocks.plc.options import LOOPBACK, NO_PORT, Refused, time
 from driveblocks.stand.link import HOST, Link, PtyLink, TcpLink, UnavailableError, WithoutEcho
 from driveblocks.stand.neighbour import Neighbours
 from driveblocks.stand.stand import Stand, view
@@ -91,7 +90,7 @@ class Setup:
 
     def run(self) -> None:
         """Serve until the end. Raises Refused if the line cannot be had."""
-        with ExitStack() as stack, live.listening(self._ending):
+        with ExitStack() as stack, listening(self._ending):
             link, place = self._link()
             stack.callback(link.close)
             if self._words.port is not None:

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.ending import Ending
 from driveblocks.desk.scenario import Happening
 from driveblocks.desk.seen import Seen, View
 from driveblocks.maps.model import Drive
-from driveblocks.plc.ending import Ending
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import Link
 

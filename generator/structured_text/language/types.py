@@ -53,6 +53,16 @@ class Type:
         return self.name
 
 
+def least(width: int, *, signed: bool) -> int:
+    """The least whole number of a width in bits."""
+    return -(1 << (width - 1)) if signed else 0
+
+
+def greatest(width: int, *, signed: bool) -> int:
+    """The greatest."""
+    return (1 << (width - signed)) - 1
+
+
 @dataclass(slots=True, eq=False)
 class Elementary(Type):
     """A type of table 10. `width` in bits; `signed` for SINT INT DINT LINT and the reals."""
@@ -68,12 +78,12 @@ class Elementary(Type):
     @property
     def low(self) -> int:
         """The least value of a bit string or integer."""
-        return -(1 << (self.width - 1)) if self.signed else 0
+        return least(self.width, signed=self.signed)
 
     @property
     def high(self) -> int:
         """The greatest value of a bit string or integer."""
-        return (1 << (self.width - 1)) - 1 if self.signed else (1 << self.width) - 1
+        return greatest(self.width, signed=self.signed)
 
 
 @dataclass(slots=True, eq=False)

@@ -36,8 +36,6 @@ COUNTS = {
 FROM_HERE: Shows = {
     ".Marks[0]": "Seen.Stops", ".Marks[1]": "Seen.Reads", ".Marks[2]": "Seen.Writes", ".Marks[3]": "OtherSeen.Reads",
 }  # fmt: skip
-LATE = 4 * SCAN_MS
-"""How much later than said something may be seen."""
 SLOW: Shows = {"Pins.ElapsedMs": 5 * SCAN_MS, "Pins.MaxScanMs": 5 * SCAN_MS}
 """Long scans, so that a long time takes few of them; steps then last five times as long."""
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from structured_text.engines.embedded.certainty import known
-from structured_text.language.types import Elementary, Kind, Type, plain
+from structured_text.language.types import Elementary, Kind, Type, greatest, least, plain
 
 
 class CInteger(NamedTuple):
@@ -24,12 +24,12 @@ class CInteger(NamedTuple):
     @property
     def low(self) -> int:
         """The least value."""
-        return -(1 << (self.width - 1)) if self.signed else 0
+        return least(self.width, signed=self.signed)
 
     @property
     def high(self) -> int:
         """The greatest value."""
-        return (1 << (self.width - 1)) - 1 if self.signed else (1 << self.width) - 1
+        return greatest(self.width, signed=self.signed)
 
 
 C_INT = CInteger(32, True)

@@ -12,6 +12,7 @@ from math import prod
 from typing import Any, Protocol
 
 from structured_text.engines.engine import Value
+from structured_text.language.types import greatest, least
 
 Memory = ctypes.Array[ctypes.c_char]
 NANOSECONDS = 1_000_000_000
@@ -83,8 +84,8 @@ def integer(name: str, code: str, last: int | None = None) -> Scalar:
     """A bit string, an integer or an enumeration; `last` is the greatest value if it is not that of the width."""
     width = struct.calcsize("=" + code) * 8
     signed = code.islower()
-    low = -(1 << (width - 1)) if signed else 0
-    high = last if last is not None else (1 << (width - signed)) - 1
+    low = least(width, signed=signed)
+    high = last if last is not None else greatest(width, signed=signed)
 
     def split(value: Value) -> Fields:
         if not isinstance(value, int) or not low <= value <= high:

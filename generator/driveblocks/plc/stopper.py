@@ -1,9 +1,7 @@
 """The end of a run: every drive is stopped past the program, for a bounded time, and read for its standstill."""
 
-import queue
-from dataclasses import dataclass, field
-
 from driveblocks.desk.clock import Clock
+from driveblocks.desk.ending import Ending
 from driveblocks.maps.model import Drive
 from driveblocks.maps.plan import plan
 from driveblocks.modbus.layout import granted
@@ -17,30 +15,6 @@ WITHIN_US = 10_000_000
 LEAST_US = 2_000_000
 """How long it is tried at least: eight drives are not stopped and read in less."""
 SILENT = "no reply to the stop"
-
-Bell = queue.SimpleQueue[None]
-"""What wakes the watchdog; signals may ring it, since its `put` may interrupt itself."""
-
-
-@dataclass
-class Ending:
-    """Why a run ends; set by signals and by whatever else ends it, read by the scan loop."""
-
-    reason: str = ""
-    hurry: bool = False
-    """Asked a second time: do not wait for the motors."""
-    bell: Bell = field(default_factory=Bell)
-    """Rings when the end is asked for, and when the scans are over."""
-
-    def ask(self, reason: str, *, insists: bool = False) -> None:
-        """End the run; who insists while it ends does not wait any longer.
-
-        A terminal that closes brings a signal, the end of the input and a failing screen at once: these do not insist.
-        """
-        if self.reason and insists:
-            self.hurry = True
-        self.reason = self.reason or reason
-        self.bell.put(None)
 
 
 class Stopper:
