@@ -36,7 +36,7 @@ TEST = (
     ("lint", "ruff", "check", "."),
     ("format", "ruff", "format", "--check", "."),
     ("types", "mypy"),
-    ("tests", "pytest", "-n", "auto", "--dist", "worksteal", "--cov", "--cov-report=term", "--cov-fail-under=90"),
+    ("tests", "pytest", "-n", "auto", "--dist", "loadfile", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
 QUICK = (
     "docs", "examples", "explain", "maps", "modbus", "reference", "render", "simulator", "structured_text/language",
@@ -84,7 +84,7 @@ def quick() -> int:
     if not set_up("[test]"):
         return 2
     chosen = [f"tests/{name}" for name in QUICK]
-    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "worksteal", *chosen)))
+    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "loadfile", *chosen)))
     others = {path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("tests/**/test_*.py")}
     left = sorted(each for each in others if not any(f"{each}/".startswith(f"{one}/") for one in chosen))
     print(f"left out: {', '.join(left)}; `python3 generator/bootstrap.py test` runs them, too")
@@ -188,12 +188,18 @@ def step(*command: str) -> int:
     """Run a command of the virtual environment; returns its exit status."""
     words = [str(BIN / command[0]), *command[1:]]
     if command != LAST_LINE:
-        return subprocess.run(words, cwd=ROOT, check=False).returncode
-    done = subprocess.run(words, cwd=ROOT, stdout=subprocess.PIPE, check=False)
+        return subprocess.run(words, cwd=ROOT, env=kept(), check=False).returncode
+    done = subprocess.run(words, cwd=ROOT, env=kept(), stdout=subprocess.PIPE, check=False)
     lines = done.stdout.splitlines(keepends=True)
     sys.stdout.buffer.write(b"".join(lines if done.returncode else lines[-1:]))
     sys.stdout.flush()
     return done.returncode
+
+
+def kept() -> dict[str, str]:
+    """The environment, in which compiled Python is kept below `.venv`: the tests start Python hundreds of times."""
+    others = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    return others | {"PYTHONPYCACHEPREFIX": str(VENV / "pycache")}
 
 
 def say(title: str) -> None:
