@@ -35,7 +35,8 @@ NOT_COUNTED = (
     "structured_text/engines/embedded/test_ranges.py", "structured_text/language/test_hostile.py",
     "structured_text/language/test_programs.py::test_random",
     "testing/test_mutants.py", "testing/test_programs.py", "testing/test_runner.py",
-    "testing/test_scenes.py::test_a_mistake", "testing/test_scenes.py::test_scenes_pass", "testing/test_scenes.py::test_a_wrong_token",
+    "testing/test_scenes.py::test_a_mistake", "testing/test_scenes.py::test_a_wrong_token",
+    "testing/test_scenes.py::test_scenes_pass",
 )  # fmt: skip
 """Where the names begin of tests that are left out as a whole.
 
