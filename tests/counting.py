@@ -8,8 +8,6 @@ from typing import Any, ParamSpec, TypeVar
 
 from coverage.tracer import CTracer
 
-from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
-
 P = ParamSpec("P")
 T = TypeVar("T")
 
@@ -52,6 +50,8 @@ at: list[str] = [""]
 
 def without_engine() -> None:
     """From now on leave out what the embedded engine compiles and runs, but in its own tests."""
+    from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary  # which a test takes away
+
     EmbeddedEngine.build = _aside(EmbeddedEngine.build)  # type: ignore[method-assign]
     scanner = EmbeddedLibrary._scanner
     EmbeddedLibrary._scanner = lambda *made: _aside(scanner(*made))  # type: ignore[method-assign]
