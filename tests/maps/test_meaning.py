@@ -26,6 +26,7 @@ RIGHT = {
         ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
     },
     "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
+    "PF4": {("stop", "Stop"), ("fault_reset", "Clear faults")},
     "SN300G5": {("run_forward", "Run forward"), ("run_reverse", "Run reverse")},
     "NW7": {
         ("run_forward", "Turn"), ("jog_forward", "Creep"), ("stop", "Ramp down"), ("coast_stop", "Let go"),

@@ -55,8 +55,8 @@ BOX = (
 def maps() -> tuple[Source, ...]:
     """The shipped maps, read once."""
     return tuple(
-        Source(path, next(d for d in MAPS.values() if path.stem.endswith(d.prefix.lower())))
-        for path in catalog.shipped()
+        Source(path, drive)
+        for path, drive in zip(catalog.shipped(), MAPS.values(), strict=True)
     )
 
 
