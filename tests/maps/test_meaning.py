@@ -27,8 +27,8 @@ RIGHT = {
     },
     "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
     "PF4": {
-        ("run_forward", "Start"), ("run_forward", "Forward command"), ("run_reverse", "Reverse command"), ("stop", "Stop"),
-        ("fault_reset", "Clear faults"),
+        ("run_forward", "Start"), ("run_forward", "Forward command"), ("run_reverse", "Reverse command"),
+        ("stop", "Stop"), ("fault_reset", "Clear faults"),
     },
     "SN300G5": {("run_forward", "Run forward"), ("run_reverse", "Run reverse")},
     "NW7": {

@@ -104,7 +104,7 @@ class Pf4(Drive):
     def _command(self, word: int, now_us: int) -> None:
         """8192; it says nothing of several at once, so a stop goes first."""
         old, before = self.word, self.way
-        self.way = self._way(word >> 4 & 3)
+        self.word, self.way = word, self._way(word >> 4 & 3)
         begun = word & ~old
         if begun & CLEAR:
             self._bus("reset", now_us)
@@ -118,7 +118,8 @@ class Pf4(Drive):
             self._bus(f"jog_{self.way}", now_us)
         elif self.jogging and not word & JOG:
             self._bus("jog_stop", now_us)
-        self.word = word
+        if self.output:
+            self._aim(now_us)  # with the source of bits 14 to 12
 
     def _way(self, field: int) -> str:
         other = "reverse" if self.way == "forward" else "forward"

@@ -9,7 +9,7 @@ from driveblocks.simulator.habits import Habits
 STATUS = {"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "PF4": 0x2100}
 FREQUENCY = {"SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "PF4": 0x2103}
 COUNTS_PER_HZ = {"SN300G5": 100, "JSCC": 10, "CHF": 100, "PF4": 10}
-"""0.01 Hz by 000FH bit 0; 0.1 Hz by the manual's example, and by PowerFlex's words; CHF's manual has none, so that of `Habits`."""
+"""0.01 Hz by 000FH bit 0; 0.1 Hz by JSCC's example and PF4's words; CHF's manual has none, so that of `Habits`."""
 WORDS = {
     # bit 0 running, 1 zero speed, 2 reverse, 4 speed agree, 5 ready, 6 minor fault, 7 major fault
     "SN300G5": {"stands": 0x22, "ramps": 0x21, "runs": 0x31, "reverse": 0x35, "fault": 0x82, "warning": 0x62},

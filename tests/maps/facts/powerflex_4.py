@@ -1,4 +1,4 @@
-"""What appendix C of the PowerFlex 4 manual says, typed by hand; settings of the line as extracts of sisters have them."""
+"""What appendix C of the PowerFlex 4 manual says, typed by hand; its line as extracts of sisters have it."""
 
 FAULTS = """
 2 Auxiliary Input|3 Power Loss|4 Undervoltage|5 Overvoltage|6 Motor Stalled|7 Motor Overload|8 Heatsink Overtemperature|
@@ -8,11 +8,14 @@ FAULTS = """
 100 Parameter Checksum Error|122 I/O Board Fail
 """
 
-COMMAND = "0 Stop|1 Start|2 Jog|3 Clear Faults|5,4 Direction|7,6 -|9,8 Accel Rate|11,10 Decel Rate|14,13,12 Frequency source|15 -"
+COMMAND = (
+    "0 Stop|1 Start|2 Jog|3 Clear Faults|5,4 Direction|7,6 -|9,8 Accel Rate|11,10 Decel Rate"
+    "|14,13,12 Frequency source|15 -"
+)
 DIRECTION = ["No direction", "Forward command", "Reverse command", "Change direction (toggle)"]
 STATUS = (
-    "0 Ready|1 Active (Running)|2 Cmd Forward|3 Rotating Forward|4 Accelerating|5 Decelerating|6 Alarm|7 Faulted|8 At Reference"
-    "|9 Reference by comm|10 Operation Cmd by comm|11 Parameters locked|12 Digital Input 1|13 Digital Input 2|15,14 -"
+    "0 Ready|1 Active (Running)|2 Cmd Forward|3 Rotating Forward|4 Accelerating|5 Decelerating|6 Alarm|7 Faulted"
+    "|8 At Reference|9 Reference by comm|10 Operation Cmd by comm|11 Parameters locked|12 Digital Input 1|13 Digital Input 2|15,14 -"
 )
 """Bits of 8192 and 8448, the highest first where there are more."""
 
