@@ -11,6 +11,7 @@ for others with the profile `search`; what it finds becomes an example of the su
 import functools
 import os
 import signal
+import sys
 from collections.abc import Generator
 from contextlib import nullcontext
 
@@ -75,7 +76,10 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
     """Leave tests out of the coverage that say nothing of it."""
     counting.at[0] = item.nodeid.removeprefix("tests/")
-    with counting.uncounted() if counting.at[0].startswith(counting.NOT_COUNTED) else nullcontext():
+    left_out = counting.at[0].startswith(counting.NOT_COUNTED)
+    if left_out and sys.gettrace() is not None:
+        counting.imported()
+    with counting.uncounted() if left_out else nullcontext():
         return (yield)
 
 

@@ -1,14 +1,14 @@
 """Leaves work out of the coverage of Python, which makes it take four times as long."""
 
 import functools
+import importlib
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any, ParamSpec, TypeVar
 
 from coverage.tracer import CTracer
-
-from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
+from tests.rooms import modules
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -35,7 +35,8 @@ NOT_COUNTED = (
     "structured_text/engines/embedded/test_ranges.py", "structured_text/language/test_hostile.py",
     "structured_text/language/test_programs.py::test_random",
     "testing/test_mutants.py", "testing/test_programs.py", "testing/test_runner.py",
-    "testing/test_scenes.py::test_a_mistake", "testing/test_scenes.py::test_scenes_pass", "testing/test_scenes.py::test_a_wrong_token",
+    "testing/test_scenes.py::test_a_mistake", "testing/test_scenes.py::test_a_wrong_token",
+    "testing/test_scenes.py::test_scenes_pass",
 )  # fmt: skip
 """Where the names begin of tests that are left out as a whole.
 
@@ -51,6 +52,8 @@ at: list[str] = [""]
 
 def without_engine() -> None:
     """From now on leave out what the embedded engine compiles and runs, but in its own tests."""
+    from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary  # which a test takes away
+
     EmbeddedEngine.build = _aside(EmbeddedEngine.build)  # type: ignore[method-assign]
     scanner = EmbeddedLibrary._scanner
     EmbeddedLibrary._scanner = lambda *made: _aside(scanner(*made))  # type: ignore[method-assign]
@@ -71,6 +74,14 @@ def _aside(run: Callable[P, T]) -> Callable[P, T]:
             tracer.start()
 
     return rested
+
+
+@functools.cache
+def imported() -> None:
+    """Import every module once: its first lines would be missing if the first test to need it were not counted."""
+    for name in modules():
+        if not name.endswith("__main__"):
+            importlib.import_module(name)
 
 
 @contextmanager

@@ -3,7 +3,6 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
-from typing import Any
 
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import Member, members
@@ -19,7 +18,7 @@ from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
 from driveblocks.render.library import BYTES, DRIVE_TYPES, File, adapter, first_motor
 from driveblocks.render.motor import SCAN_MS, motor
-from driveblocks.render.overview import overview
+from driveblocks.render.overview import Abilities, overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.render.text import ENGLISH
@@ -223,7 +222,7 @@ def can(drive: Drive, does: str) -> bool:
     return any(one.does == does for one in drive.operation.commands)
 
 
-def abilities(drives: list[Drive]) -> dict[str, Any]:
+def abilities(drives: list[Drive]) -> Abilities:
     """The table of what each family can over the bus: what it does, then what it shows."""
     rows = {words: [_yes(can(drive, does)) for drive in drives] for does, words in ABILITIES.items()}
     for shows in ("at_speed", "ready", "warning"):
@@ -234,7 +233,7 @@ def abilities(drives: list[Drive]) -> dict[str, Any]:
     rows["report its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
     for shows in MEASURES:
         rows[f"show `{pin_of(shows).pin}`"] = [_shows(drive, shows) for drive in drives]
-    return {"families": [drive.prefix for drive in drives], "rows": rows}
+    return Abilities([drive.prefix for drive in drives], rows)
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
@@ -305,7 +304,18 @@ def _bears(drive: Drive, one: Erratum) -> bool:
 # ---------------------------------------------------------------- what is read
 
 
-def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
+@dataclass(frozen=True)
+class Read:
+    """A read with its registers: how often it is sent, and how long it takes at each rate, in ms."""
+
+    poll: Poll
+    often: str
+    first: str
+    titles: list[str]
+    ms: list[str]
+
+
+def _reads(drive: Drive) -> Iterator[Read]:
     """Each read with its registers and what it takes on the wire, turn-round and silences included."""
     found = drive_block(drive).reading.reads
     fast = [one for one in found if one.read.fast]
@@ -313,13 +323,13 @@ def _reads(drive: Drive) -> Iterator[dict[str, Any]]:
     often = "twice a round" if len(fast) == 1 < len(found) else "once a round"
     for one in found:
         poll = one.read
-        yield {
-            "poll": poll,
-            "often": often if poll.fast else "one slow read a round",
-            "first": address_text(poll.address),
-            "titles": [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
-            "ms": [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
-        }
+        yield Read(
+            poll,
+            often if poll.fast else "one slow read a round",
+            address_text(poll.address),
+            [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
+            [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
+        )
 
 
 def _silence(drive: Drive) -> float | None:
@@ -329,14 +339,23 @@ def _silence(drive: Drive) -> float | None:
     return float((drive.serial.silence and drive.serial.silence.milliseconds) or 0)
 
 
-def _refresh(drive: Drive) -> Iterator[dict[str, Any]]:
+@dataclass(frozen=True)
+class Refresh:
+    """How long it takes, in ms by the number of drives, at a rate, with a port that keeps the silence or not."""
+
+    rate: int
+    keeps: bool
+    ms: list[int]
+
+
+def _refresh(drive: Drive) -> Iterator[Refresh]:
     """By the formula of the line: the time in which every word of every drive is read once."""
     found = polls(drive)
     turns = [found[index] for index in schedule(found)]
     for rate in RATES:
         for keeps in (True, False):
             scans = sum(_scans(drive, poll, rate, keeps=keeps) for poll in turns)
-            yield {"rate": rate, "keeps": keeps, "ms": [count * scans * SCAN_MS for count in DRIVES]}
+            yield Refresh(rate, keeps, [count * scans * SCAN_MS for count in DRIVES])
 
 
 def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:

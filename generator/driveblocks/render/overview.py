@@ -1,6 +1,7 @@
 """`blocks/README.md`: every block with its purpose, pins, memory and loops, and an example of use per drive."""
 
 import re
+from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import UNPROVED
@@ -17,9 +18,15 @@ PAGES = ("_Drive", "_HardStop")
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 
-def overview(
-    files: list[File], drives: list[Drive], checked: Checked, can: dict[str, object], *, linked: bool = True
-) -> str:
+@dataclass(frozen=True)
+class Abilities:
+    """What each family can: words -> its cell for each."""
+
+    families: list[str]
+    rows: dict[str, list[str]]
+
+
+def overview(files: list[File], drives: list[Drive], checked: Checked, can: Abilities, *, linked: bool = True) -> str:
     """The page's text; reads names, pins and sizes from the blocks themselves. `can` is what each family can.
 
     `linked`: the canonical files are there, so that a name leads to its file.
