@@ -50,7 +50,15 @@ def library() -> Library:
 
 
 def test_the_pages_have_programs() -> None:
-    assert {"Plant", "Parameters", "HardStops", "CHF_Motor", "JSCC_Motor", "SN300G5_Motor"} <= PROGRAMS.keys()
+    assert {
+        "Plant",
+        "Parameters",
+        "HardStops",
+        "CHF_Motor",
+        "JSCC_Motor",
+        "PF4_Motor",
+        "SN300G5_Motor",
+    } <= PROGRAMS.keys()
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

@@ -14,7 +14,9 @@ from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
-FAMILIES = ("CHF", "JSCC", "SN300G5")
+FAMILIES = ("CHF", "JSCC", "PF4", "SN300G5")
+RTU_ONLY = ("PF4", "SN300G5")
+"""Drives without MODBUS ASCII."""
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")
 PINS = ("CommOk", "Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed", "StopOverdue", "Fault")
 """Outputs that `Seen` holds of each drive, the first one lowest."""

@@ -99,6 +99,7 @@ def _table(name: str, drive: SimulatedDrive) -> str:
         "verify": ("VPattern", [_pattern(each) for each in table.reference.verify]),
         "subs": ("VNumber", [[code] for code in table.sub_functions]),
         "broadcasts": ("VNumber", [[address] for address in table.broadcasts]),
+        "plate": ("VNamed", sorted(drive.memory.plate.items())),
     }
     text = [_rows(f"{name}_{key}", kind, rows) for key, (kind, rows) in arrays.items()]
     text.append(_rows(f"{name}_habits", "VHabits", [_habits(drive.habits)]))

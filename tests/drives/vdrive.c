@@ -153,6 +153,7 @@ static void vd_set(VDrive *d, int address, int word) {
   d->words[vd_home(d, address)] = word;
   if (vd_parameter(d, address)) d->stored[vd_home(d, address)] = word;
 }
+static void vd_plate(VDrive *d) { for (int i = 0; i < d->t->plate_count; i++) d->words[d->t->plate[i].reg] = d->t->plate[i].bits; }
 static void vd_power(VDrive *d, int on) {
   if (on == d->powered) return;
   d->powered = on;
@@ -169,6 +170,7 @@ static void vd_power(VDrive *d, int on) {
     for (int m = 0; m < d->t->moves_count; m++) kept |= keeps && d->t->moves[m].reg == i;
     if (vd_inside(d->t->parameters, d->t->parameters_count, i) || !kept) d->words[i] = d->stored[i];
   }
+  vd_plate(d);
   memset(d->changed, 0, sizeof d->changed);
   vd_let_go(d); d->busy_until = d->now; d->state = -1; d->waits = 0;
 }
@@ -291,5 +293,5 @@ static int vd_reply(VDrive *d, const unsigned char *ask, int length, unsigned ch
 }
 static void vd_begin(VDrive *d, const VTable *t) {
   memset(d, 0, sizeof *d);
-  d->t = t; d->unit = t->unit; d->powered = d->follows = 1; d->load = 50; d->state = d->after = -1;
+  d->t = t; d->unit = t->unit; d->powered = d->follows = 1; d->load = 50; d->state = d->after = -1; vd_plate(d);
 }

@@ -12,7 +12,7 @@ typedef struct { int number; } VNumber;
 typedef struct {
   LIST(VSpan, readable); LIST(VSpan, writable); LIST(VSpan, parameters); LIST(VLimit, limits); LIST(VMove, moves);
   LIST(VNeed, needs); LIST(VNamed, named); LIST(VFace, faces); LIST(VGauge, gauges); LIST(VPattern, verify);
-  LIST(VNumber, subs); LIST(VNumber, broadcasts);
+  LIST(VNumber, subs); LIST(VNumber, broadcasts); LIST(VNamed, plate);
   const VHabits *habits; unsigned functions; int codes[7];
   int most_read, most_write, broadcast, error_function, error_address, error_add, reference, times, per, reference_signed,
     reverses, method, add, enter, enter_value, present, fault_first, fault_last, unit;

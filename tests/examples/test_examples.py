@@ -17,7 +17,17 @@ from structured_text.language.lint import lint_sources
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "examples"
 NAMES = ("one_motor", "three_makes", "hand_off_auto", "meter_and_sensor")
-PARTS = ("types/", "modbus/MB_Hex", "line/", "vfd/VFD_", "device/", "invt_chf/", "jscc/", "shuen_sn300g5/")
+PARTS = (
+    "types/",
+    "modbus/MB_Hex",
+    "line/",
+    "vfd/VFD_",
+    "device/",
+    "invt_chf/",
+    "jscc/",
+    "rockwell_powerflex_4/",
+    "shuen_sn300g5/",
+)
 SPARE = re.compile(r"Text|_Request\.|_Reply\.|_Command\.|32")
 """Blocks that the examples do not use."""
 TEXTS = {name: (FOLDER / f"{name}.st").read_text(encoding="utf-8") for name in NAMES}

@@ -404,7 +404,9 @@ def _said(words: Callable[[str], list[str]]) -> Pin:
         code = document.at(path[:-1])
         values = _choice(document, path)[1].get("values", [])
         texts = [
-            value["zh"] + " " + value["name"] for value in values if number(value["value"]) == number(code["code"])
+            value.get("zh", "") + " " + value["name"]
+            for value in values
+            if number(value["value"]) == number(code["code"])
         ]
         return any(word in text for text in texts for word in words(document.at(path)))
 

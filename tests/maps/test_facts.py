@@ -9,19 +9,20 @@ from decimal import Decimal
 from pathlib import Path
 
 import pytest
-from tests.maps.facts import chf, glossary, jscc, sn300g5
+from tests.maps.facts import chf, glossary, jscc, powerflex_4, sn300g5
 from tests.shipped import drives
 
 from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
 
 MAPS = Path(__file__).parents[2] / "vendor_maps"
 
-SN, JS, CH = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF"))
-DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH}
+SN, JS, CH, PF = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF", "PF4"))
+DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH, "powerflex_4": PF}
+TOLD = {"sn300g5": ["watchdog"], "jscc": [], "chf": [], "powerflex_4": ["watchdog", "commanded_by"]}
 
-ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA}
-ABSENT = {"sn300g5": sn300g5.ABSENT, "jscc": jscc.ABSENT, "chf": chf.ABSENT}
-NOTICES = {"sn300g5": sn300g5.NOTICES, "jscc": jscc.NOTICES, "chf": chf.NOTICES}
+ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA, "powerflex_4": powerflex_4.ERRATA}
+ABSENT = {"sn300g5": sn300g5.ABSENT, "jscc": jscc.ABSENT, "chf": chf.ABSENT, "powerflex_4": powerflex_4.ABSENT}
+NOTICES = {"sn300g5": sn300g5.NOTICES, "jscc": jscc.NOTICES, "chf": chf.NOTICES, "powerflex_4": powerflex_4.NOTICES}
 
 
 def bare(text: str | None) -> str:
@@ -109,7 +110,6 @@ def test_what_the_manual_asks_for_is_a_notice(drive: str, about: str, chinese: s
 
 @pytest.mark.parametrize("drive", DRIVES)
 def test_what_a_drive_does_by_itself_and_says_of_itself_is_there_or_listed_as_absent(drive: str) -> None:
-    """None of the three manuals says any of it, but for what SN300G5 does when its line is silent."""
     known = DRIVES[drive]
     told = {
         "identity": known.identity,
@@ -118,12 +118,12 @@ def test_what_a_drive_does_by_itself_and_says_of_itself_is_there_or_listed_as_ab
         "own_maximum": known.operation.own_maximum,
         "trip_output": known.faults.trip_output,
     }
-    assert [key for key, one in told.items() if one] == (["watchdog"] if drive == "sn300g5" else [])
-    for key in told:
+    assert [key for key, one in told.items() if one] == TOLD[drive]
+    for key in told.keys() - {"commanded_by"} if drive == "powerflex_4" else told:
         assert any(key in one.about and one.find_out for one in known.absent), key
 
 
-SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS}
+SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS, "powerflex_4": powerflex_4.SHOWS}
 
 
 @pytest.mark.parametrize("drive", DRIVES)
@@ -772,3 +772,58 @@ def test_chf_frames_and_the_one_wrong_crc() -> None:
 def test_chf_alone_tolerates_a_byte_count_of_two_bytes() -> None:
     assert [one.kind for one in CH.tolerances] == ["two_byte_count"]
     assert SN.tolerances == JS.tolerances == ()
+
+
+# ---------------------------------------------------------------- PowerFlex 4
+
+
+def places(bit: Bit) -> str:
+    """Bit numbers as the manual prints them: decimal, the highest first."""
+    return ",".join(map(str, sorted(bit.bit, reverse=True)))
+
+
+def plainly(text: str) -> str:
+    """A name without the manual's short forms and capitals."""
+    for short, long in (("HW ", "Hardware "), ("Cmd", "Command"), ("(300%)", "(300 %)")):
+        text = text.replace(short, long)
+    return text.lower()
+
+
+def test_powerflex_4_bits_and_faults() -> None:
+    found = rows(PF)
+    for address, table in ((8192, powerflex_4.COMMAND), (8448, powerflex_4.STATUS)):
+        bits = [f"{places(bit)} {'-' if bit.unused else bit.name}" for bit in found[address].bits]
+        assert [plainly(each) for each in bits] == [plainly(each) for each in table.split("|")]
+    assert [one.name for one in found[8192].bits[4].values] == powerflex_4.DIRECTION
+    printed = [each.strip().split(" ", 1) for each in powerflex_4.FAULTS.strip().split("|")]
+    assert [[str(one.code), plainly(one.name)] for one in PF.faults.codes] == [
+        [code, plainly(name)] for code, name in printed
+    ]
+
+
+def test_powerflex_4_commands_are_words_of_the_table_and_no_stop_runs() -> None:
+    words = {}
+    for one in PF.operation.commands:
+        set_, cleared = ({place for span in spans for place in span} for spans in (one.set, one.clear))
+        words[one.does] = sum(1 << place for place in set_)
+        assert one.register == 8192
+        assert sum(1 << place for place in set_ | cleared) == powerflex_4.TOUCHED
+        assert not set_ & cleared
+    assert words == powerflex_4.WORDS
+    assert {address for address, row in rows(PF).items() if row.scale and str(row.scale.factor) == "0.1"} == (
+        powerflex_4.TENTHS
+    )
+
+
+def test_powerflex_4_settings_and_what_it_does_without_its_line() -> None:
+    held = {one.id: (one.register, one.default, one.needed.value if one.needed else None) for one in PF.settings}
+    assert held == powerflex_4.SETTINGS
+    assert all(one.register == int(one.id[1:]) for one in PF.settings)
+    assert PF.serial.baud is not None
+    assert PF.serial.format is not None
+    assert PF.watchdog is not None
+    assert {one.code: one.baud for one in PF.serial.baud.codes} == powerflex_4.BAUD
+    assert {
+        one.code: f"{one.data_bits}{one.parity[0].upper()}{one.stop_bits}" for one in PF.serial.format.codes
+    } == powerflex_4.FORMAT
+    assert {one.value: one.does for one in PF.watchdog.reactions} == powerflex_4.SILENT

@@ -28,7 +28,7 @@ def wrong(text: str) -> list[str]:
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: path.stem)
 def test_a_good_map_loads(path: Path) -> None:
     drive = load.load(path)
-    assert drive.frames
+    assert bool(drive.frames) != (drive.prefix == "PF4"), "its manual prints none"
     assert drive == load.loads(path.read_text(encoding="utf-8"), "another name")
 
 

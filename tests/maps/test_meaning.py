@@ -26,6 +26,10 @@ RIGHT = {
         ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
     },
     "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
+    "PF4": {
+        ("run_forward", "Start"), ("run_forward", "Forward command"), ("run_reverse", "Reverse command"),
+        ("stop", "Stop"), ("fault_reset", "Clear faults"),
+    },
     "SN300G5": {("run_forward", "Run forward"), ("run_reverse", "Run reverse")},
     "NW7": {
         ("run_forward", "Turn"), ("jog_forward", "Creep"), ("stop", "Ramp down"), ("coast_stop", "Let go"),
@@ -61,10 +65,10 @@ def _field(row: Register) -> Register:
     return replace(row, values=(), bits=(field, Bit(bit=Span(0, 0), name="Lamp", zh="指示灯")))
 
 
-def _bitwise(one: Command) -> Command:
-    """A value as bits set and cleared in the field 4-B."""
-    places = [(place, (one.value or 0) >> place & 1) for place in range(8)]
-    ones, zeros = (tuple(Span(4 + place, 4 + place) for place, bit in places if bit == on) for on in (1, 0))
+def _bitwise(one: Command, field: Span = Span(4, 11)) -> Command:  # noqa: B008 - a frozen span
+    """A value as bits set and cleared in a field."""
+    places = [(place, (one.value or 0) >> place - field.first & 1) for place in field]
+    ones, zeros = (tuple(Span(place, place) for place, bit in places if bit == on) for on in (1, 0))
     return replace(one, value=None, set=ones, clear=zeros)
 
 
@@ -116,7 +120,7 @@ def _everything(drive: Drive, command: Command) -> Iterator[tuple[str, Command]]
             yield value.name, replace(plain, value=value.value)
         for bit in row.bits:
             for value in bit.values:
-                yield value.name, _bitwise(replace(plain, value=value.value))
+                yield value.name, _bitwise(replace(plain, value=value.value), bit.bit)
             if not bit.values and not bit.unused:
                 rest = tuple(one.bit for one in row.bits if one is not bit and not one.unused and not one.values)
                 yield bit.name or "", replace(plain, set=(bit.bit,), clear=rest)

@@ -54,10 +54,7 @@ BOX = (
 @cache
 def maps() -> tuple[Source, ...]:
     """The shipped maps, read once."""
-    return tuple(
-        Source(path, next(d for d in MAPS.values() if path.stem.endswith(d.prefix.lower())))
-        for path in catalog.shipped()
-    )
+    return tuple(Source(path, drive) for path, drive in zip(catalog.shipped(), MAPS.values(), strict=True))
 
 
 @cache

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tests.drives.bench import RUNS, Bench
-from tests.second import chf, jscc, sn300g5
+from tests.second import chf, jscc, pf4, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
@@ -15,8 +15,8 @@ from tests.second.station import IN_SEEN, library, name_of
 
 from structured_text.engines.engine import Library, Value
 
-KIND = {"CHF": "chf", "JSCC": "jscc", "SN300G5": "sn"}
-STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "SN300G5": sn300g5.stores}
+KIND = {"CHF": "chf", "JSCC": "jscc", "PF4": "pf", "SN300G5": "sn"}
+STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "PF4": pf4.stores, "SN300G5": sn300g5.stores}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
 STRANGER = bytes((77, 3, 0, 1, 0, 1))

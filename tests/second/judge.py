@@ -43,13 +43,14 @@ SHAFT = 700
 SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
     "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
     "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
+    "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
     "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
 }
 FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
-STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "SN300G5": 0x0010}
-RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "SN300G5": 0}
+STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010}
+RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0}
 """The bit of an address that leaves EEPROM alone."""
 NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 

@@ -13,7 +13,7 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from tests.drives.station import FAMILIES
+from tests.drives.station import FAMILIES, RTU_ONLY
 from tests.second import pairs
 from tests.second.bench import Second
 from tests.second.drive import Drive
@@ -24,8 +24,8 @@ from structured_text.engines.engine import Library
 
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
-BY_TERMINALS = {"CHF": {"run": 1}, "JSCC": {"F0_04": 1}, "SN300G5": {"b1_02": 1}}
-OWN_SPEED = {"CHF": {"speed": 0}, "JSCC": {"F0_08": 1}, "SN300G5": {"b1_01": 0}}
+BY_TERMINALS = {"CHF": {"run": 1}, "JSCC": {"F0_04": 1}, "PF4": {"P036": 1}, "SN300G5": {"b1_02": 1}}
+OWN_SPEED = {"CHF": {"speed": 0}, "JSCC": {"F0_08": 1}, "PF4": {"P038": 0}, "SN300G5": {"b1_01": 0}}
 JOGS = ("CHF",)
 START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
@@ -53,6 +53,7 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
+    "PF4.start_acts": ("once", "always"), "PF4.stop_resets": BOTH, "PF4.commands_readable": BOTH,
     "SN300G5.key_cuts_line": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
 }  # fmt: skip
@@ -124,7 +125,7 @@ class Run:
         second = self.chance.choice([each for each in EVENTS if each not in (*LONG, cell.event)])
         self.second = second if seed % 2 else ""
         self.events = [each for each in (cell.event, self.second) if each]
-        ascii_ = row["ascii"] and cell.family != "SN300G5"
+        ascii_ = row["ascii"] and cell.family not in RTU_ONLY
         types = types_of(cell.family, row["size"], ascii_=ascii_)
         self.by_bus = cell.mode in MODES[:2]
         settings = {} if self.by_bus else dict(BY_TERMINALS[cell.family])

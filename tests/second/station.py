@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 from tests.drives import station as first
-from tests.drives.station import FAMILIES, PINS
+from tests.drives.station import FAMILIES, PINS, RTU_ONLY
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
@@ -20,14 +20,14 @@ SIZES = (1, 3, 8)
 
 
 def types_of(family: str, number: int, *, ascii_: bool) -> tuple[str, ...]:
-    """A line of mixed drives; SN300G5 has no MODBUS ASCII."""
-    others = [each for each in FAMILIES if not ascii_ or each != "SN300G5"]
+    """A line of mixed drives; some have no MODBUS ASCII."""
+    others = [each for each in FAMILIES if not ascii_ or each not in RTU_ONLY]
     at = others.index(family)
     return tuple((others[at:] + others[:at])[i % len(others)] for i in range(number))
 
 
 STATIONS = sorted(
-    {types_of(f, n, ascii_=a) for f in FAMILIES for n in SIZES for a in (False, True) if not a or f != "SN300G5"}
+    {types_of(f, n, ascii_=a) for f in FAMILIES for n in SIZES for a in (False, True) if not a or f not in RTU_ONLY}
 )
 
 

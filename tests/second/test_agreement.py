@@ -16,12 +16,13 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
-PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF"}
+PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "pf": "PF4"}
 SETTINGS: dict[str, dict[str, Any]] = {
     "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},
+    "pf": {"comm_us": None},
 }  # fmt: skip
 """The maps' drives have no watchdog unless asked, and 0.01 Hz where the manual gives no scale."""
-CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5)}
+CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5), "pf": (12, 12)}
 
 
 class Pair:
@@ -75,10 +76,17 @@ def w(kind: str, address: str, word: int) -> str:
     return f"0106{address}{word:04x}" if kind != "sn" else f"0110{address}000102{word:04x}"
 
 
-RUN = {"sn": ("0001", 2500, "0000"), "jscc": ("1001", 2500, "1000"), "chf": ("2000", 5000, "1000")}
-STOP = {"sn": 0, "jscc": 3, "chf": 5}
+RUN = {
+    "sn": ("0001", 2500, "0000"),
+    "jscc": ("1001", 2500, "1000"),
+    "chf": ("2000", 5000, "1000"),
+    "pf": ("2001", 250, "2000"),
+}
+WAYS = {"pf": (0x12, 0x22)}
+"""Words that run forward and in reverse; 1 and 2 of the others."""
+STOP = {"sn": 0, "jscc": 3, "chf": 5, "pf": 1}
 LOOK = {"sn": (r("0010"), r("0021"), r("0014", 5)), "jscc": (r("2000", 2), r("3000")),
-        "chf": (r("1001"), r("3000"), r("5000"))}  # fmt: skip
+        "chf": (r("1001"), r("3000"), r("5000")), "pf": (r("2103"), r("2101"))}  # fmt: skip
 AGREED = [
     "", "go 1000 look 3000 look halt 1000 look 3000 look", "back 4000 look go 1000 look 1500 look 5000 look",
     "go 4000 slower 500 look 4000 look", "go 4000 trip look 1000 look halt 9000 cure look",
@@ -95,14 +103,17 @@ ALONE = {
             w("chf", "3000", 1), w("chf", "4000", 1), "010400000001", "010300000000", "010300000011",
             w("chf", "2000", 10001), w("chf", "2000", 0xD8EF), w("chf", "2000", 0xD8F0), r("1000"), r("5001"),
             r("3000", 3)],
+    "pf": [r("2102"), r("4000"), w("pf", "2100", 1), w("pf", "4000", 1), "010400000001", "010300000000", r("2001"),
+           w("pf", "0069", 1), r("0069"), r("2100", 2)],
 }  # fmt: skip
 
 
 def steps(kind: str, text: str) -> list[str]:
     """The words of AGREED as steps."""
     speed, full, command = RUN[kind]
+    ahead, back = WAYS.get(kind, (1, 2))
     short = {
-        "go": [w(kind, speed, full), w(kind, command, 1)], "back": [w(kind, speed, full), w(kind, command, 2)],
+        "go": [w(kind, speed, full), w(kind, command, ahead)], "back": [w(kind, speed, full), w(kind, command, back)],
         "halt": [w(kind, command, STOP[kind])], "slower": [w(kind, speed, full // 5)], "look": list(LOOK[kind]),
     }  # fmt: skip
     return [step for word in text.split() for step in short.get(word, [word])]
@@ -140,6 +151,7 @@ DIFFER = [
     ("sn", "", w("sn", "0002", 1), "011000020001", "a row that says unused is not called read-only"),
     ("jscc", "go 4000", w("jscc", "0005", 1), "0186 07", "open: whether parameters are written while it runs"),
     ("jscc", "", w("jscc", "1001", 5001), "0186 03", "above the drive's own maximum"),
+    ("pf", "", r("0068"), "010302 0001", "A104 is the unit address, which the map's drive has elsewhere"),
     ("chf", "go 4000", w("chf", "0005", 1), "010650010006", "some are not changed while it runs: line 312"),
     ("chf", "go 4000 010610000003 4000", r("3000"), "010302 09c4", "open: whether a jog ends a run"),
     ("chf", "go 4000 trip cure 010610000007", r("1001"), "010302 0003", "open: whether it is reset while it coasts"),

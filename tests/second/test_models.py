@@ -60,6 +60,13 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("chf", {},
      "where go 1s hz where state 2s where w2000=FC18 9s hz back 9s hz where halt 1s hz where 9s where state",
      "3 0 10.1 1 42b starting 1 9c4 -5 -25 2 9c4 -14.9 2 598 3 0 standstill"),
+    ("pf", {"comm_us": None},
+     "where state go 1s hz where state 2s where w2001=C8 9s hz back 9s hz where halt 1s hz where state 9s where state",
+     "60d 0 standstill 10.1 61f 6a starting 70f fa 20 -25 703 fa -14.9 623 8f ramping down 601 0 standstill"),
+    # a 0 stops nothing, nor does a direction; a jog lasts as long as its bit; the frequency of another source
+    ("pf", {"comm_us": None}, "w2000=0 go 9s w2000=0 9s hz w2000=10 9s hz w2000=1 9s hz w2000=2 9s hz", "25 25 0 25"),
+    ("pf", {"comm_us": None},
+     "w2001=FA w2000=14 2s hz w2000=10 2s hz w2000=3012 9s hz w2000=2012 9s hz", "5 0 25 20"),
     # both words at once
     ("sn", {}, "w0=1,9C4 poll4s hz r0+2", "25 1 9c4"),
     ("jscc", {}, "w1000=1,FA 4s hz", "25"),
@@ -83,6 +90,10 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
      "go 9s trip:5 where r5000 1s state w1000=1 1s where w1000=7 9s where hz go 1s hz trip!:5 w1000=7 where cure "
      "w1000=7 where",
      "4 0 5 tripped 4 0 3 0 0 10.1 4 0 3 0"),
+    ("pf", {"comm_us": None},
+     "go 9s trip:12 where r2101 1s state w2000=12 1s where w2000=1 w2000=8 9s where hz go 1s hz",
+     "68c 0 c tripped 68c 0 60d 0 0 10.1"),
+    ("pf", {}, "go 1s trip!:12 w2000=8 r2101 cure w2000=8 r2101 w2000=0 w2000=8 r2101", "c c 0"),
     # keypad, LOCAL, terminals
     ("chf", {}, "go 9s stop 1s hz state 9s hz where w1000=1 1s hz by", "15 ramping down 0 3 0 10.1 bus"),
     ("sn", {}, "go poll1s stop 9s hz r10 off 1s on r10", "0 - 22"),
@@ -118,6 +129,9 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("sn", {"settings": {"H5_04": 2}}, "go poll3s 2500ms hz r10", "22.5 82"),
     ("sn", {"settings": {"H5_04": 3}}, "go poll3s 9s hz r10 r1A r10 r1A", "25 71 0 31 0"),
     ("sn", {"settings": {"H5_05": 0}}, "go 9s 9s hz r10", "25 31"),
+    ("pf", {}, "go 4900ms by 200ms by where r2101", "bus nobody 68c 0 51"),
+    ("pf", {"settings": {"A105": 2}}, "go 4900ms 600ms by hz where r2101", "bus 19.9 66f c1 0"),
+    ("pf", {"settings": {"A105": 3}}, "go 4900ms by 200ms by where r2101", "bus bus 74f fa 0"),
     ("chf", {}, "go 9s 9s hz", "25"),
     ("jscc", {"comm_us": 1000000}, "go 3s where r3000", "8 0 9"),
     # refusals
@@ -125,6 +139,9 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
      "w1=1389 w7=2D7 w7=FD2A w9=3 r9 w10=1 w2F0=1 r2F0 r12+3 w180=5 w200=64 stores r200 wFFFD=0 stores wFFFD=1 1s "
      "go w200=1 wFFFD=0 halt 9s busy w200=1 r200 x0106000000 x010600000001 x010300000011 x010800010000",
      "!21 !21 3 !22 !2 !2 0 0 0 !21 0 64 1 !24 !22 !22 !24 64 018601 018601 018303 018801"),
+    ("pf", {"comm_us": None},
+     "r1 go 9s r1 r2103 r2102 r2100+2 r26 w27=5 r27 stores x011000010001020001 w2100=1 w2001=1F5",
+     "0 fa fa !2 !3 5 5 1 019001 !2 !3"),
     ("sn", {"settings": {"H5_05": 0}}, "trip:UV1 w200=1 9s off on trip:CPF03 w200=1 r200 w100=1 r100", "!23 !22 0 1"),
     ("jscc", {},
      "w1000=4 w1001=1F5 w2000=1 r4000 r1000 r2000+3 w5=7 stores r5 w6=1 1s w1000=1 w6=1 x0103000000 x010400000001 "
@@ -221,6 +238,9 @@ FACES: dict[str, tuple[str, str, dict[str, Any], str]] = {
     "codes": ("jscc", "r4000", {"=": ((1, 2, 3, 4, 5, 6, 7, 8), (17, 18, 19, 20, 21, 22, 23, 24))}, "!2 | !12"),
     "error_form": ("jscc", "r4000", {}, "!2 | -"),
     "most_words": ("jscc", "r0+13", {"=": (12, 125)}, "!3 | 0 0 0 0 0 0 0 0 0 0 0 0 0"),
+    "start_acts": ("pf", "go trip:12 9s w2000=8 w2000=1A 1s hz trip:12 9s w2000=12 w2000=1A w2000=12 1s hz", {},
+        "10.1 0 | 10.1 10.4"),
+    "both_directions": ("pf", "w2001=FA w2000=32 3s hz", {}, "-25 | 25"),
     "two_byte_count": ("chf", "x010310010001", {}, "0103020003 | 010300020003"),
     "stop_ends_jog": ("chf", "w1000=3 2s w1000=5 2s hz w1000=8 2s hz", {}, "5 0 | 0 0"),
     "jog_stop_ends_run": ("chf", "go 9s w1000=8 9s hz", {}, "25 | 0"),
@@ -269,7 +289,7 @@ def test_each_option_has_its_row() -> None:
 def test_a_frame_needs_its_silence() -> None:
     # 8 characters of 573 us; JSCC asks for 10 ms, the others for 3.5 characters
     frame = rtu(bytes.fromhex("02 03 20 01 00 01"))  # to another unit
-    for kind, quiet in (("sn", 2005), ("chf", 2005), ("jscc", 10_000)):
+    for kind, quiet in (("sn", 2005), ("chf", 2005), ("pf", 2005), ("jscc", 10_000)):
         for wait, heard in ((quiet - 1, False), (quiet, True)):
             one = drive(kind, reply_us=(1000, 1000))
             one.receive(frame, 0)
@@ -351,10 +371,11 @@ def test_every_fault_of_the_manuals_shows() -> None:
 @pytest.mark.parametrize(
     ("kind", "spans"),
     [
-        # SN300G5 tables (I) to (VI), JSCC section 5, CHF 11.6.4
+        # SN300G5 tables (I) to (VI), JSCC section 5, PowerFlex 4 pages C-3 to C-5, CHF 11.6.4
         ("sn", "0-9 e-1a 20-36 39-3b 80-8d 90-97 100-125 180-1a5 200-242 280-296 300-30c 30e-324 380-397 400-420 "
                "480-4b1 500-50d fffd-fffd"),
         ("jscc", "0-ff 1000-1002 2000-2001 3000-3000"),
+        ("pf", "1-1 24-24 26-27 67-6b 2000-2001 2100-2101 2103-2103"),
         ("chf", "0-1ff 1000-1001 2000-2000 3000-3014 5000-5001"),
     ],
 )  # fmt: skip

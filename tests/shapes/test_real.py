@@ -12,7 +12,6 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
 from driveblocks.output.units import units
-from driveblocks.render.context import kept
 from driveblocks.render.drive import drive_block
 from driveblocks.render.text import languages
 from driveblocks.testing import runner
@@ -25,12 +24,10 @@ ADDRESSES: dict[str, dict[str | None, list[int]]] = {
         "ULN": [3207], "LFT": [7121], "DP0": [7200], "SFR": [3102], "TFR": [3103], "HSP": [3104], "LSP": [3105],
         "ADD": [6001], "TBR": [6003], "TFO": [6004], "TTO": [6005], "SLL": [7010], "CHCF": [8401], "FR1": [8413],
     },
-    "powerflex4": {None: [8192, 8193, 8448, 8449, 8451], "P036": [36], "P038": [38]},
 }  # fmt: skip
 """Typed by hand, decimal, as the makers print them; without an id in their order."""
 SHOWN = {
     "atv12": "ABS(ATV12_EstimatedMotorFrequencyHz(Raw := Reads.",
-    "powerflex4": "PF4_FeedbackOutputFrequencyHz(Raw :=",
 }
 """How the pin of the output frequency is made: RFR of an Altivar is negative in reverse, the pin of no family is."""
 
@@ -63,13 +60,6 @@ def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> Non
     in_use = {name for facts in trust.rungs(altivar).values() for name, one in facts.items() if one}
     assert in_use >= {"run_forward", "run_reverse", "stop", "quick_stop", "running", "state switched_on"}
     assert drive_block(altivar).own.second_hand
-
-
-def test_what_was_read_whole_wants_none_and_a_toggled_direction_is_out_of_reach() -> None:
-    """Both bits of the direction turn it round in one edition, and are no command in another."""
-    powerflex = drive("powerflex4")
-    assert (trust.rung(powerflex), drive_block(powerflex).own.second_hand) == ("read, read, read", False)
-    assert kept(powerflex) == {0x2000: 0x7F00}
 
 
 @pytest.mark.parametrize("name", ADDRESSES)

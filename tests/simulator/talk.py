@@ -71,9 +71,14 @@ class Talk:
         self.put(next(each for each in self.map.operation.commands if each.does == does))
 
     def hertz(self, hz: float) -> None:
-        """The speed reference, of a drive whose scale is 0.01 Hz or 0.01 % of 50 Hz."""
-        percent = self.map.operation.reference.means == "percent_of_maximum"
-        self.write(self.map.operation.reference.register, round(hz * (200 if percent else 100)))
+        """The speed reference, on the map's scale, or of a drive whose scale is 0.01 Hz or 0.01 % of 50 Hz."""
+        reference = self.map.operation.reference
+        row = self.map.register_at(reference.register)
+        if reference.means == "percent_of_maximum":
+            hz *= 2
+        elif row and row.scale:
+            hz *= 0.01 / float(row.scale.factor)
+        self.write(reference.register, round(hz * 100))
 
     def at(self, hz: float, does: str = "run_forward") -> "Talk":
         """Give a reference, run, and wait until it is reached."""

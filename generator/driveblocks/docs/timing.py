@@ -65,6 +65,10 @@ def fault_and_reset(drive: Drive) -> tuple[Column, ...]:
     if not any(one.does == "fault_reset" for one in drive.operation.commands):
         return (*begin, replace(STOPPED, event="reset by other means"))
     asked = Column(0, ("stop", "reset"), fault=True, reset=True, event="reset")
+    if proved:  # so the reset waits for that
+        told = replace(STOPPED, sends=("reset",), fault=True, reset=True)
+        begin = (*begin, replace(asked, sends=("stop",)), told)
+        asked = Column(1, fault=True, reset=True)
     return (*begin, asked, Column(0, ("stop",), reset=True), replace(STOPPED, reset=True))
 
 

@@ -8,7 +8,7 @@ from driveblocks.maps.model import Condition, Drive, Reaction, Setting, State, W
 UNKNOWN = "the manual does not say"
 _DOES = {
     "stop": "the motor ramps down", "quick_stop": "the motor stops quickly", "coast_stop": "the motor coasts",
-    "runs_on": "the motor runs on", "other_speed": "the motor changes to another speed",
+    "trips": "the drive trips", "runs_on": "the motor runs on", "other_speed": "the motor changes to another speed",
 }  # fmt: skip
 _FEEDS = {
     "read": "a read", "reference": "a written reference", "run": "a written run command", "any": "any good frame",

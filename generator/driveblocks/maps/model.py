@@ -42,7 +42,7 @@ OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltage
 """A scale of a measure in `VFD_Settings`."""
 Feed = Literal["read", "reference", "run", "any"]
 """What a drive's own watchdog takes for a sign of life of its master."""
-Reacts = Literal["stop", "quick_stop", "coast_stop", "runs_on", "other_speed"]
+Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_speed"]
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
 Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""

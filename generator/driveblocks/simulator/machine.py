@@ -30,7 +30,7 @@ class Machine:
         self.habits = habits or Habits()
         self.unit = unit
         self.table = table(drive, self.habits, ascii_mode=ascii_mode)
-        self.memory = Memory(self.table.storage, {**plate(drive, self.habits), **(words or {})})
+        self.memory = Memory(self.table.storage, plate(drive, self.habits), words or {})
         self.motor = Motor()
         self.now = 0
         self.heard_at = 0

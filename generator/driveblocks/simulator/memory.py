@@ -13,10 +13,10 @@ class Memory:
     `unexplained`, which counts as EEPROM), or with ENTER, all of them in one store.
     """
 
-    def __init__(self, storage: Storage, words: Mapping[int, int]) -> None:
-        """Begin with these words, stored."""
-        self.storage = storage
-        self.words = dict(words)
+    def __init__(self, storage: Storage, plate: Mapping[int, int], words: Mapping[int, int]) -> None:
+        """Begin with what the drive says of itself, whatever its power does, and with these words, stored."""
+        self.storage, self.plate = storage, plate
+        self.words = {**plate, **words}
         self.stored = {address: word for address, word in words.items() if self.parameter(address)}
         self.stores = 0
         self.changed: dict[int, int] = {}
@@ -51,7 +51,7 @@ class Memory:
 
     def lose(self, kept: Iterable[int] = ()) -> None:
         """What a loss of power keeps: what is stored, and some registers."""
-        self.words = {**{address: self[address] for address in kept}, **self.stored}
+        self.words = {**self.plate, **{address: self[address] for address in kept}, **self.stored}
         self.changed = {}
 
 
