@@ -110,6 +110,7 @@ def test_required_pins_are_those_without_which_nothing_starts() -> None:
     assert bold == {
         "CHF": always | {"FullScaleHz"},
         "JSCC": always | {"ReferenceScale"},
+        "GD200A": always,
         "PF4": always,
         "SN300G5": always,
     }
@@ -426,7 +427,9 @@ def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> No
     else:
         story.drive.reset()
         story.run(2000)
-    assert story.columns == drawn(timing.fault_and_reset(drive))
+    # the frequency may come before the status: not at speed, and not yet in fault
+    slow = replace(story.columns[0], at_speed=False)
+    assert [each for each in story.columns if each != slow] == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
 
 

@@ -55,6 +55,7 @@ def test_the_pages_have_programs() -> None:
         "Parameters",
         "HardStops",
         "CHF_Motor",
+        "GD200A_Motor",
         "JSCC_Motor",
         "PF4_Motor",
         "SN300G5_Motor",

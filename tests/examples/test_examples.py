@@ -24,6 +24,7 @@ PARTS = (
     "vfd/VFD_",
     "device/",
     "invt_chf/",
+    "invt_gd200a/",
     "jscc/",
     "rockwell_powerflex_4/",
     "shuen_sn300g5/",

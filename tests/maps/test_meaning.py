@@ -26,6 +26,11 @@ RIGHT = {
         ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
     },
     "JSCC": {("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("stop", "Stop")},
+    "GD200A": {
+        ("run_forward", "Run forward"), ("run_reverse", "Run reverse"), ("jog_forward", "Jog forward"),
+        ("jog_reverse", "Jog reverse"), ("stop", "Stop"), ("coast_stop", "Coast to stop"),
+        ("fault_reset", "Fault reset"), ("jog_stop", "Jog stop"),
+    },
     "PF4": {
         ("run_forward", "Start"), ("run_forward", "Forward command"), ("run_reverse", "Reverse command"),
         ("stop", "Stop"), ("fault_reset", "Clear faults"),

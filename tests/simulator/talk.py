@@ -101,6 +101,8 @@ PREPARED = {
     "JSCC read_frequency_rtu_request": (Habits(), {}),
     "JSCC read_frequency_ascii_request": (Habits(), {}),
     "CHF read_ascii_request": (Habits(), {4: 2}),
+    "GD200A read_rtu_request": (Habits(), {4: 5000}),
+    "GD200A read_ascii_request": (Habits(), {4: 5000}),
 }
 """What the drives of the manuals' examples had in their registers."""
 
