@@ -12,7 +12,7 @@ from structured_text.engines.engine import Engine
 
 DRIVES = pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
 
-STOPS = {"SN300G5": (0x0000, 0x0000), "JSCC": (0x1000, 3), "CHF": (0x1000, 5)}
+STOPS = {"SN300G5": (0x0000, 0x0000), "JSCC": (0x1000, 3), "CHF": (0x1000, 5), "PF4": (0x2000, 1)}
 """Command register and stop word, typed from the manuals; SN300G5: bits 0 and 1 cleared."""
 
 

@@ -323,6 +323,7 @@ def test_capabilities_are_said() -> None:
     assert found == {
         "CHF": [True, True, False, True, True],
         "JSCC": [True, False, False, False, False],
+        "PF4": [True, False, False, False, True],
         "SN300G5": [True, False, False, False, False],
         "CIA": [False, False, True, True, True],
     }
@@ -381,12 +382,13 @@ def test_each_drive_shows_its_own_words() -> None:
 
 def test_stop_all_stops_each_and_starts_none() -> None:
     bench = watched(*FAMILIES)
-    for drive in range(3):
+    units = range(len(FAMILIES))
+    for drive in units:
         bench.running("RunForward", drive)
     bench.line(StopAll=True)
     frames = bench.run(4000)
-    assert {each.unit for each in frames if not each.read} == {1, 2, 3}
+    assert {each.unit for each in frames if not each.read} == {1 + unit for unit in units}
     assert all(drive.mode == "standstill" for drive in bench.drives)
     bench.line(StopAll=False).run(4000)
-    assert all(bench.reason(drive) == "HELD" for drive in range(3))
+    assert all(bench.reason(drive) == "HELD" for drive in units)
     assert all(drive.mode == "standstill" for drive in bench.drives)

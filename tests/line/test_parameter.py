@@ -77,7 +77,7 @@ END_VAR
   END_IF;
 END_FUNCTION_BLOCK
 """
-WRITABLE = {"JSCC": 0x0012, "CHF": 0x8007, "SN300G5": 0x0200}
+WRITABLE = {"JSCC": 0x0012, "CHF": 0x8007, "PF4": 0x0027, "SN300G5": 0x0200}
 """A register of each family that a ladder user may write."""
 ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 """One block of each kind, and a request that passes for SN300G5."""

@@ -1,4 +1,4 @@
-"""What the three drives share: power, motor, keypad, terminals, faults, the lost line, and how replies are given.
+"""What the drives share: power, motor, keypad, terminals, faults, the lost line, and how replies are given.
 
 Nothing of it comes from a vendor map. What a manual leaves open is an `Options` field; lines are those of the manuals'
 texts. Times are microseconds of the caller's; nothing happens by itself, and chance comes from `seed` alone.

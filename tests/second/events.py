@@ -11,7 +11,7 @@ from tests.second.drive import RUNS, STOPS, Fault
 Does = Callable[[Second, Random], None]
 FAULT: dict[str, Fault] = {"CHF": 3, "JSCC": 1, "PF4": 12, "SN300G5": "OC"}
 STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010}
-PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "PF4": 0x0069, "SN300G5": 0x0200}
+PARAMETER = {"CHF": 0x0007, "JSCC": 0x0012, "PF4": 0x0025, "SN300G5": 0x0200}
 WRITES = {"CHF": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0}
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""

@@ -17,7 +17,7 @@ TABLE = tuple(_entry(byte) for byte in range(256))
 
 @lru_cache(maxsize=1 << 16)
 def crc(data: bytes) -> bytes:
-    """CRC-16, low byte first, as all three manuals send it."""
+    """CRC-16, low byte first, as the manuals that print it send it."""
     value = 0xFFFF
     for byte in data:
         value = (value >> 8) ^ TABLE[(value ^ byte) & 0xFF]

@@ -19,6 +19,7 @@ from tests.second.chf import Chf
 from tests.second.drive import Drive
 from tests.second.frames import ascii_opened, opened, rtu
 from tests.second.jscc import Jscc
+from tests.second.pf4 import Pf4
 from tests.second.sn300g5 import Sn300g5
 
 from driveblocks.maps.model import Drive as Map
@@ -28,7 +29,7 @@ from driveblocks.site.hunt import ways
 from driveblocks.site.session import Wish, commission
 
 MAPS: dict[str, Map] = {each.drive.prefix: each.drive for each in maps()}
-MODELS = {"CHF": Chf, "JSCC": Jscc, "SN300G5": Sn300g5}
+MODELS = {"CHF": Chf, "JSCC": Jscc, "PF4": Pf4, "SN300G5": Sn300g5}
 NONE = "none"
 WAYS = (
     "rate", "parity", "unit", "echo", "setting", "scale", "slow", "refused span", "wrong family", "two units", "noise",

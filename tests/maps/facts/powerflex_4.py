@@ -15,7 +15,8 @@ COMMAND = (
 DIRECTION = ["No direction", "Forward command", "Reverse command", "Change direction (toggle)"]
 STATUS = (
     "0 Ready|1 Active (Running)|2 Cmd Forward|3 Rotating Forward|4 Accelerating|5 Decelerating|6 Alarm|7 Faulted"
-    "|8 At Reference|9 Reference by comm|10 Operation Cmd by comm|11 Parameters locked|12 Digital Input 1|13 Digital Input 2|15,14 -"
+    "|8 At Reference|9 Reference by comm|10 Operation Cmd by comm|11 Parameters locked|12 Digital Input 1"
+    "|13 Digital Input 2|15,14 -"
 )
 """Bits of 8192 and 8448, the highest first where there are more."""
 
