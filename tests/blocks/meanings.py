@@ -127,21 +127,26 @@ def assert_text(blocks: Blocks, function: str, pins: dict[str, int], found: text
     assert blocks.call(function, dict(pins)) == wanted, (function, pins)
 
 
+def spoken(drive: Drive) -> tuple[str, ...]:
+    """The languages of a drive's texts."""
+    return ("En", "Zh") if drive.manual.written_in == "zh" else ("En",)
+
+
 def assert_code_texts(blocks: Blocks, drive: Drive) -> None:
-    """Texts of faults and refusals, in both languages."""
+    """Texts of faults and refusals, in its languages."""
     faults = codes(one.code for one in drive.faults.codes)
     errors = codes(text.error_number(one) for one in drive.errors.codes)
-    for language in TEXTS:
+    for language in spoken(drive):
         for code in faults:
             assert_text(blocks, f"{drive.prefix}_FaultText{language}", {"Code": code}, text.fault(drive, code))
-        for code in errors:
+        for code in errors if drive.errors.codes else ():
             assert_text(blocks, f"{drive.prefix}_ErrorText{language}", {"Code": code}, text.error(drive, code))
 
 
 def assert_bit_texts(blocks: Blocks, drive: Drive) -> None:
-    """Texts of the bits of every register, in both languages; an address without bits has none."""
+    """Texts of the bits of every register, in its languages; an address without bits has none."""
     rows = [row.address.first for _, row in drive.registers() if any(bit.name for bit in row.bits)]
-    for language in TEXTS if rows else ():
+    for language in spoken(drive) if rows else ():
         for address in codes(rows):
             for bit in range(17):
                 pins = {"Address": address, "BitNumber": bit}
@@ -150,9 +155,9 @@ def assert_bit_texts(blocks: Blocks, drive: Drive) -> None:
 
 
 def assert_value_texts(blocks: Blocks, drive: Drive) -> None:
-    """Texts of the values of every register, in both languages."""
+    """Texts of the values of every register, in its languages."""
     rows = {row.address.first: row for _, row in drive.registers() if row.values}
-    for language in TEXTS if rows else ():
+    for language in spoken(drive) if rows else ():
         for address in codes(rows):
             listed = rows[address].values if address in rows else ()
             for value in codes(one.value for one in listed):

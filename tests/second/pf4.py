@@ -102,7 +102,7 @@ class Pf4(Drive):
         self._refer(hz, now_us)
 
     def _command(self, word: int, now_us: int) -> None:
-        """8192; it says nothing of several at once, so a stop goes first."""
+        """8192; it says nothing of several at once, so a stop comes first."""
         old, before = self.word, self.way
         self.word, self.way = word, self._way(word >> 4 & 3)
         begun = word & ~old

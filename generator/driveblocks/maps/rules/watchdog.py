@@ -32,6 +32,9 @@ def _watchdog(drive: Drive, watchdog: Watchdog, settings: dict[str, Setting], re
     if watchdog.fault is not None and watchdog.fault not in {fault.code for fault in drive.faults.codes}:
         wrong = f"there is no fault {watchdog.fault:02X}H"
         report.miss(watchdog.place("fault"), wrong, "name a code of `faults`")
+    for one in watchdog.reactions:
+        if one.does == "trips" and watchdog.fault is None:
+            report.miss(one.place("does"), "the drive trips, and no fault is named", "add `fault`, a code of `faults`")
     _reactions(watchdog, settings, report)
 
 
