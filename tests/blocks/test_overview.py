@@ -90,6 +90,7 @@ WORST: dict[str, dict[str, Value]] = {
     "CHF_Reply": OPEN,
     "JSCC_Reply": OPEN,
     "SN300G5_Reply": OPEN,
+    "GD200A_Reply": OPEN,
     "PF4_Reply": OPEN,
     "JSCC_Request": {**WRITE, "Address": 0x0000},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
