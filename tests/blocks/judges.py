@@ -20,7 +20,13 @@ from driveblocks.reference.request import BUILDABLE, Asked
 
 Judge = Callable[[Blocks, Drive], None]
 
-NAMES = {"SN300G5": ("sn300g5", "SN"), "JSCC": ("jscc", "JS"), "CHF": ("chf", "CH"), "PF4": ("powerflex_4", "PF")}
+NAMES = {
+    "SN300G5": ("sn300g5", "SN"),
+    "JSCC": ("jscc", "JS"),
+    "CHF": ("chf", "CH"),
+    "GD200A": ("gd200a", "GD"),
+    "PF4": ("powerflex_4", "PF"),
+}
 """What the module of facts calls each drive: in its table, and as a global."""
 
 EXCHANGE = ("CanRead", "CanWrite", "Request")

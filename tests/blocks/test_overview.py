@@ -92,6 +92,7 @@ WORST: dict[str, dict[str, Value]] = {
     "SN300G5_Reply": OPEN,
     "GD200A_Reply": OPEN,
     "PF4_Reply": OPEN,
+    "GD200A_Request": {**WRITE, "Address": 0x2000, "Quantity": 15},
     "JSCC_Request": {**WRITE, "Address": 0x0000},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
     "SN300G5_FaultNumber": dict.fromkeys(
@@ -101,8 +102,9 @@ WORST: dict[str, dict[str, Value]] = {
 }
 """Pins with which a block turns as often as it can."""
 
-SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 32}
-"""Turns that the stated bound has to spare: the LRC is not summed with itself; bits that no fault has are masked."""
+SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 32, "GD200A_Request": 1}
+"""Turns that the stated bound has to spare: the LRC is not summed with itself; bits that no fault has are masked;
+no 16 registers that can be written are side by side."""
 
 
 @functools.cache

@@ -157,7 +157,7 @@ class Scene(Bench):
 # ---------------------------------------------------------------- what passes
 
 
-@pytest.mark.parametrize("prefix", WRITABLE)
+@pytest.mark.parametrize("prefix", sorted(WRITABLE.keys() - {"PF4"}))  # which reads one
 def test_up_to_four_registers_are_read(prefix: str) -> None:
     scene = Scene(prefix)
     address = 0x0200 if prefix == "SN300G5" else 0x0012

@@ -9,20 +9,30 @@ from decimal import Decimal
 from pathlib import Path
 
 import pytest
-from tests.maps.facts import chf, glossary, jscc, powerflex_4, sn300g5
+from tests.maps.facts import chf, gd200a, glossary, jscc, powerflex_4, sn300g5
 from tests.shipped import drives
 
 from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
 
 MAPS = Path(__file__).parents[2] / "vendor_maps"
 
-SN, JS, CH, PF = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF", "PF4"))
-DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH, "powerflex_4": PF}
-TOLD = {"sn300g5": ["watchdog"], "jscc": [], "chf": [], "powerflex_4": ["watchdog", "commanded_by"]}
+SN, JS, CH, GD, PF = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF", "GD200A", "PF4"))
+DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH, "gd200a": GD, "powerflex_4": PF}
+TYPED = {"sn300g5": sn300g5, "jscc": jscc, "chf": chf, "gd200a": gd200a, "powerflex_4": powerflex_4}
+WHOLE = {"gd200a": {"commanded_by", "own_maximum"}, "powerflex_4": {"commanded_by"}}
+"""What a manual says in full of what a drive does by itself and says of itself."""
+TOLD = {
+    "sn300g5": ["watchdog"],
+    "jscc": [],
+    "chf": [],
+    "gd200a": ["watchdog", "commanded_by", "own_maximum"],
+    "powerflex_4": ["watchdog", "commanded_by"],
+}
+"""... and what it says at all."""
 
-ERRATA = {"sn300g5": sn300g5.ERRATA, "jscc": jscc.ERRATA, "chf": chf.ERRATA, "powerflex_4": powerflex_4.ERRATA}
-ABSENT = {"sn300g5": sn300g5.ABSENT, "jscc": jscc.ABSENT, "chf": chf.ABSENT, "powerflex_4": powerflex_4.ABSENT}
-NOTICES = {"sn300g5": sn300g5.NOTICES, "jscc": jscc.NOTICES, "chf": chf.NOTICES, "powerflex_4": powerflex_4.NOTICES}
+ERRATA = {name: each.ERRATA for name, each in TYPED.items()}
+ABSENT = {name: each.ABSENT for name, each in TYPED.items()}
+NOTICES = {name: each.NOTICES for name, each in TYPED.items()}
 
 
 def bare(text: str | None) -> str:
@@ -119,11 +129,17 @@ def test_what_a_drive_does_by_itself_and_says_of_itself_is_there_or_listed_as_ab
         "trip_output": known.faults.trip_output,
     }
     assert [key for key, one in told.items() if one] == TOLD[drive]
-    for key in told.keys() - {"commanded_by"} if drive == "powerflex_4" else told:
+    for key in told.keys() - WHOLE.get(drive, set()):
         assert any(key in one.about and one.find_out for one in known.absent), key
 
 
-SHOWS = {"sn300g5": sn300g5.SHOWS, "jscc": jscc.SHOWS, "chf": chf.SHOWS, "powerflex_4": powerflex_4.SHOWS}
+SHOWS = {
+    "sn300g5": sn300g5.SHOWS,
+    "jscc": jscc.SHOWS,
+    "chf": chf.SHOWS,
+    "gd200a": gd200a.SHOWS,
+    "powerflex_4": powerflex_4.SHOWS,
+}
 
 
 @pytest.mark.parametrize("drive", DRIVES)
@@ -827,3 +843,62 @@ def test_powerflex_4_settings_and_what_it_does_without_its_line() -> None:
         one.code: f"{one.data_bits}{one.parity[0].upper()}{one.stop_bits}" for one in PF.serial.format.codes
     } == powerflex_4.FORMAT
     assert {one.value: one.does for one in PF.watchdog.reactions} == powerflex_4.SILENT
+
+
+# ---------------------------------------------------------------- GD200A
+
+
+def count(row: Register) -> str:
+    """What one count is worth, as the tables of facts write it."""
+    scale = row.scale
+    return f"{scale.factor.normalize():f} {row.unit}" if scale else "-"
+
+
+def test_gd200a_registers_are_those_of_9_5_2_and_what_one_count_is_worth() -> None:
+    found, may = rows(GD), access(GD)
+    for table, given in ((gd200a.WRITTEN, "rw"), (gd200a.READ, "r")):
+        listed = dict(line.split(" ", 1) for line in table.strip().splitlines())
+        addresses = [address for address in found if address >= 0x2000 and may[address] == given]
+        assert {f"{address:04X}H": count(found[address]) for address in addresses} == listed
+
+
+def test_gd200a_settings_are_at_their_codes_and_must_be_what_the_bus_wants() -> None:
+    made = []
+    for one in GD.settings:
+        must = "-" if one.needed is None or one.needed.value is None else one.needed.value
+        made.append(f"{one.id} {one.register:04X}H {one.default} {must}")
+        assert one.register is not None
+        group, number = one.id.removeprefix("P").split(".")
+        assert one.register == int(group) << 8 | int(number)
+        assert rows(GD)[one.register].id == one.id
+    assert made == gd200a.SETTINGS.strip().splitlines()
+
+
+def test_gd200a_commands_its_faults_and_what_its_pins_show_are_the_manuals() -> None:
+    commands = GD.operation.commands
+    assert {one.does: one.value for one in commands} == gd200a.COMMANDS
+    assert {one.register for one in commands} == {0x2000}
+    assert ",".join(f"{one.code} {one.id}" for one in GD.faults.codes) == gd200a.FAULTS
+    assert list(shown(GD)) == gd200a.SHOWS.strip().splitlines()
+    assert [one.code for one in GD.errors.codes] == list(range(1, 10))
+
+
+def test_gd200a_line_speaks_as_p14_01_and_p14_02_say() -> None:
+    assert GD.serial.baud is not None
+    assert [(one.code, one.baud) for one in GD.serial.baud.codes] == list(enumerate(gd200a.RATES))
+    assert GD.serial.format is not None
+    made = [f"{one.data_bits}{one.parity[0].upper()}{one.stop_bits}" for one in GD.serial.format.codes]
+    assert [one.code for one in GD.serial.format.codes] == list(range(18))
+    assert made == gd200a.FORMATS.split()
+    modes = [one.mode for one in GD.serial.mode.codes]
+    assert modes == ["rtu"] * 6 + ["ascii"] * 12
+
+
+def test_gd200a_frames_have_the_checksums_of_their_bytes() -> None:
+    for frame in GD.frames:
+        if frame.mode == "rtu":
+            assert crc(frame.correct[:-2]) == frame.correct[-2:], frame.id
+        else:
+            assert sum(bytes.fromhex(frame.correct[1:-2].decode())) % 256 == 0, frame.id
+    wrong = [frame.id for frame in GD.frames if frame.checksum == "wrong"]
+    assert wrong == ["write_words_rtu_request", "write_words_rtu_reply"]

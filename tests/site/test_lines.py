@@ -6,7 +6,7 @@ from tests.site.lines import NONE, WAYS, line
 
 @pytest.mark.parametrize("way", [*WAYS, NONE])
 def test_what_a_line_differs_in_is_named(way: str) -> None:
-    verdict = line(5 if way == "setting" else 1, way)
+    verdict = line(1, way)
     assert verdict.kind == "named", verdict.why
 
 

@@ -49,7 +49,7 @@ READ = """
 3016H -
 5000H -
 """
-"""R of 9.5.2: by the digits behind the point of the printed ranges (9.5.3)."""
+"""R of 9.5.2: by the digits after the point of the printed ranges (9.5.3)."""
 
 SETTINGS = """
 P00.01 0001H 0 2
@@ -98,4 +98,43 @@ dc_bus_voltage | 3002H
 output_voltage | 3003H
 output_current | 3004H
 fault code | 2102H
+"""
+
+ERRATA = """
+serial | RTU mode | ASCII
+serial | communication address of the slave | broadcast
+function 10H | reading number is 16 | written
+frame write_words_rtu_request | C5H 6EH | F8H 63H
+frame write_words_rtu_reply | C5H 6EH | 00H 3AH
+register 2100H | 0002H: forward running | reverse
+register 2103H | 0x0107 | no identity
+register 3007H | 65535RPM | no scale
+error 4 | 04H in the example | both
+error 7 | exceeds the parameter range | both
+fault 24H | Undervoltage | underload
+setting P00.03 | 600.00Hz | 400.00
+register 5000H | Fault code | 2102H
+"""
+
+NOTICES = """
+serial |  | cannot be 0
+operation |  | P00.01 to communication
+storage |  | EEPROM
+storage |  | 8007H
+"""
+
+ABSENT = """
+identity | recognised | address
+watchdog | own address | CE
+trip_output | coasting | ramp
+register 2000H | ends a jog | 0008H
+register 2000H | in fault | 01H
+operation | quick stop | coast
+setting P01.21 | power cycle | unplug
+register 2100H | ramps down | coasts
+register 3000H | coasts | standstill
+serial | turn-round | time-out
+serial | terminals | 120 ohms
+silence | ASCII | pause
+storage | EEPROM | writes
 """
