@@ -29,7 +29,8 @@ MOST = {
     # maps: a watchdog that trips the drive names the fault
     # docs: a reset that waits until a tripped drive is proved to be at standstill
     # explain, show, reference: `never`; render, simulator: `differs`
-    "maps": 7067, "output": 845,
+    # maps: what gives the reference its meaning, for scenes, too
+    "maps": 7073, "output": 845,
     # desk: why a run ends and what ends it, and words of the command line that several commands share, came from plc
     # desk: why a port refuses a rate or a format is said once, for what only listens, too
     # modbus: the longest good frame of several that bytes may begin with
@@ -46,7 +47,8 @@ MOST = {
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
     # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
     # processes that compile and run a share of the programs each
-    "testing": 8195,
+    # whether the settings that give the reference its meaning are read late differs from drive to drive
+    "testing": 8199,
 }  # fmt: skip
 """Lines of each room at most. Lower it without a word; who raises it says why, in a line above it."""
 

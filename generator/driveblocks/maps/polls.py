@@ -57,16 +57,22 @@ def slow_words(drive: Drive) -> frozenset[int]:
     The drive's own maximum frequency is of that kind, too.
     """
     operation, faults = drive.operation, drive.faults
-    words = {each.register for each in operation.measures}
-    words |= {operation.own_maximum.register} if operation.own_maximum else set()
+    words = {each.register for each in operation.measures} | meaning_words(drive)
     rows = map(drive.register_at, words)
     meaning = [row.scale.when for row in rows if row and row.scale and row.scale.when]
-    words |= {each.register for each in (*operation.reference.verify, *meaning)}
+    words |= {each.register for each in meaning}
     if faults.present is not None:
         words.add(faults.present)
     elif faults.bits is not None:
         words.update(range(faults.bits.first, faults.bits.last + 1))
     return frozenset(words - fast_words(drive))
+
+
+def meaning_words(drive: Drive) -> frozenset[int]:
+    """What gives the reference its meaning: settings that the map asks for, and the drive's own maximum frequency."""
+    operation = drive.operation
+    own = (operation.own_maximum.register,) if operation.own_maximum else ()
+    return frozenset([*own, *(each.register for each in operation.reference.verify)])
 
 
 def polls(drive: Drive) -> tuple[Poll, ...]:

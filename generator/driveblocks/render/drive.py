@@ -7,7 +7,7 @@ from functools import lru_cache
 from driveblocks.maps import model, names
 from driveblocks.maps.model import Command, Condition, Drive, Scale, State, UnitAddress
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, meaning_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
@@ -264,7 +264,7 @@ def _reading(drive: Drive) -> Reading:
         fault_reads=_fault_reads(drive, number),
         fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
         state_reads=sorted({number[each.register] for each in operation.states}),
-        verify_reads=_verify_reads(drive, number),
+        verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
         identity=_identity(drive),
     )
@@ -411,14 +411,6 @@ def _fault(drive: Drive) -> Faulty:
         return Faulty(word_input(drive, drive.faults.present), [])
     numbers = context.fault_number(drive)
     return Faulty(None, numbers.words if numbers else [])
-
-
-def _verify_reads(drive: Drive, number: dict[int, int]) -> list[int]:
-    """The reads that show what the reference means."""
-    operation = drive.operation
-    registers = {each.register for each in operation.reference.verify}
-    registers |= {operation.own_maximum.register} if operation.own_maximum else set()
-    return sorted(number[each] for each in registers)
 
 
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.polls import meaning_words, polls
 from driveblocks.simulator.move import MOTIONS
 
 
@@ -50,6 +51,12 @@ class Ability:
         watchdog = self.drive.watchdog
         named = watchdog.feeds if watchdog else None
         return {None: "reference", "any": "read"}.get(named, named or "reference")
+
+    @property
+    def settings_come_first(self) -> bool:
+        """Whether what gives the reference its meaning is in the reads that prove standstill."""
+        proof = [range(each.address, each.address + each.words) for each in polls(self.drive) if each.fast]
+        return all(any(word in each for each in proof) for word in meaning_words(self.drive))
 
     @property
     def motions(self) -> tuple[str, ...]:

@@ -19,8 +19,9 @@ def unreached(can: Ability) -> dict[str, str]:
     """Reasons that no scene of a family shows, and why."""
     found = {
         "RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it",
-        "UNREAD": "the settings are read before the stop after power-up is confirmed",
     }
+    if can.settings_come_first:
+        found["UNREAD"] = "the settings are read before the stop after power-up is confirmed"
     if not second_hand(can.drive):
         found["UNCHECKED"] = "the map was read off the manual"
     if not can.drive.operation.reference.verify:
