@@ -21,7 +21,7 @@ from driveblocks.prove.prover import Proved
 from driveblocks.prove.question import Verdict
 from structured_text.engines.embedded.engine import EmbeddedEngine
 
-FAMILIES = ("invt_chf", "jscc", "shuen_sn300g5")
+FAMILIES = ("invt_chf", "invt_gd200a", "jscc", "rockwell_powerflex_4", "shuen_sn300g5")
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
 
 
@@ -148,7 +148,7 @@ def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
         "VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead [AND -> OR] NOT Reread;",
         "VFD_StopRound: Acknowledged := Acknowledged [OR -> AND] Closes;",
         "VFD_FaultReset: Failed := (Edge [AND -> OR] Refuses) OR Gone;",
-        "VFD_FaultReset: IF (State [> -> >=] HALTING) AND StopDue THEN",
+        "VFD_Usual: LearnedMs := LongestReplyMs MOD [256 -> 257] * 2 + MARGIN_MS;",
     ],
 )
 def test_some_of_them_are_judged_as_the_list_says(change: str) -> None:
