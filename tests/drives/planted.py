@@ -266,8 +266,8 @@ PLANTED = (
     ),
     Planted(
         "a drive that is not ready stays so",
-        "    Repeats := (Asked.Bar = 0) AND NOT Seen.ReadyShown AND",
-        "    Repeats := FALSE AND NOT Seen.ReadyShown AND",
+        "      OR ((Asked.Bar = 0) AND NOT Seen.ReadyShown AND",
+        "      OR (FALSE AND NOT Seen.ReadyShown AND",
         test_stop.test_a_drive_that_is_not_ready_gets_the_word_of_a_stop_again,
         CIA,
     ),

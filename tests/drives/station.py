@@ -14,7 +14,7 @@ from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
-FAMILIES = ("CHF", "JSCC", "PF4", "SN300G5")
+FAMILIES = ("CHF", "GD200A", "JSCC", "PF4", "SN300G5")
 RTU_ONLY = ("PF4", "SN300G5")
 """Drives without MODBUS ASCII."""
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")

@@ -6,7 +6,7 @@ from tests.drives.station import FAMILIES
 
 from driveblocks.render.results import code
 
-WRITABLE = {"CHF": 0x8007, "JSCC": 0x0012, "PF4": 0x0027, "SN300G5": 0x0200}
+WRITABLE = {"CHF": 0x8007, "GD200A": 0x0004, "JSCC": 0x0012, "PF4": 0x0027, "SN300G5": 0x0200}
 
 
 def both(kind: str, apart: int) -> tuple[Bench, list[Frame], list[Frame]]:

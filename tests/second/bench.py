@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tests.drives.bench import RUNS, Bench
-from tests.second import chf, jscc, pf4, sn300g5
+from tests.second import chf, gd200a, jscc, pf4, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
@@ -15,8 +15,9 @@ from tests.second.station import IN_SEEN, library, name_of
 
 from structured_text.engines.engine import Library, Value
 
-KIND = {"CHF": "chf", "JSCC": "jscc", "PF4": "pf", "SN300G5": "sn"}
-STORES = {"CHF": chf.stores, "JSCC": jscc.stores, "PF4": pf4.stores, "SN300G5": sn300g5.stores}
+KIND = {"CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "PF4": "pf", "SN300G5": "sn"}
+MODELS = {"CHF": chf, "GD200A": gd200a, "JSCC": jscc, "PF4": pf4, "SN300G5": sn300g5}
+STORES = {family: module.stores for family, module in MODELS.items()}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
 STRANGER = bytes((77, 3, 0, 1, 0, 1))
@@ -67,6 +68,8 @@ class Second(Bench):
         """When it spoke last."""
         self.strangers: list[int] = []
         """When it has spoken."""
+        self.acknowledged_us = 0
+        """When somebody has last acknowledged its frames."""
         self.unsaid = False
         """Nobody hears the first drive acknowledge a run."""
         self.lineless = False
@@ -132,7 +135,15 @@ class Second(Bench):
         self.block["Twin.Enable"] = True
         self.block["Twin.MaximumHz"] = self.block["Twin.FullScaleHz"] = 50.0
         self.block["Twin.StopWithinMs"] = STOP_WITHIN_MS[len(self.types)]
+        if "KeepWord" in self.pins[0] and self.types[0] == "SN300G5":
+            self.block["Twin.Settings.KeepWord"] = self.pins[0]["KeepWord"]
         self.pins[0]["Shared"] = on
+
+    def acknowledge(self) -> None:
+        """A person acknowledges frames of others."""
+        self.line(Acknowledge=True).run(100)
+        self.line(Acknowledge=False)
+        self.acknowledged_us = self.now
 
     def press(self) -> None:
         """A person presses the reset of the contact, and lets go."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
-from tests.second.observer import MOVES, RUN, STOPPING, any_of
+from tests.second.observer import MOVES, RUN, STOPPING, any_of, both, spoilt
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -43,13 +43,14 @@ CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = {
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
+    "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 }
-CHAR_US = 521
-"""A character of 10 bits at 19,200 bit/s, rounded up."""
 MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
+CHAR_US = 521
+"""A character of 10 bits at 19,200 bit/s, rounded up."""
 SHARED = 56
 """ErrorID: two drive blocks use the slot."""
 STANDS_US = 5_000_000
@@ -62,8 +63,8 @@ SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
 RUNS = 4
 """Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
-JOG_ENDS = b"\x06\x10\x00\x00\x08"
-"""CHF: 1000H, 8 ends a jog, line 326 of its manual."""
+JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
+"""8 ends a jog: at 1000H, line 326 of CHF's manual; at 2000H, page 139 of GD200A's."""
 LATE_ECHOES = 2
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
 LINE_ERRORS = (0, 61)
@@ -103,6 +104,8 @@ class Claim:
     """When it could last hear."""
     idle_us: int | None = None
     """Since when it stands, and nobody runs it."""
+    unlinked: int = 0
+    """Calls of its block without one of the line."""
     early: int = 0
     """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
@@ -120,7 +123,6 @@ class Claims:
         self.retries: object = 0
         self.all_us = 0
         """When the line last stopped all drives, or one did not obey: stops count as sent again."""
-        self.unlinked = 0
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
         """A frame to a drive, without checksum."""
@@ -159,6 +161,8 @@ class Claims:
         bench, claim, now = self.bench, self.claims[index], self.bench.now
         if bench.faults.twice:
             self.doubled_us = now
+        if bench.pins[index].get("StopAll"):
+            self.all_us = now
         before = claim.pins
         if bench.pins[index] != before:
             claim.pins, claim.changed_us = dict(bench.pins[index]), now
@@ -173,8 +177,8 @@ class Claims:
             claim.runs = 0
         turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
-        if index == 0:
-            self.unlinked = self.unlinked + 1 if bench.lineless else 0
+        if not (bench.lineless and bench.pins[index].get("Left")):
+            claim.unlinked = claim.unlinked + 1 if bench.lineless else 0
         if looks:
             self._look(index, claim, driven=driven)
 
@@ -203,8 +207,9 @@ class Claims:
         """The stop of the last order is sent first: after a jog its own, unless it is to coast."""
         armed = claim.armed_us is not None and self.bench.models[index].jogging
         coasts = self.bench.pins[index].get("CoastStop")
-        if armed and self.bench.types[index] == "CHF" and not coasts:
-            self._once(index, "jog stop", bad=body[1:6] != JOG_ENDS, seen=body.hex())
+        ends = JOG_ENDS.get(self.bench.types[index])
+        if armed and ends and not coasts:
+            self._once(index, "jog stop", bad=body[1:6] != ends, seen=body.hex())
 
     def _kept(self, index: int, body: bytes) -> None:
         """Bits that no command uses are as KeepWord has them in every run word of SN300G5."""
@@ -223,6 +228,7 @@ class Claims:
         """It has been running for long, with the same pins."""
         now = self.bench.now
         settled = claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > START_US
+        settled = settled and self.judge.observer.watches[index + 1].permitted
         return settled and self.attended(index) and self.willing(index) and self.well(index, START_US)
 
     def _supplies(self, index: int, claim: Claim) -> bool:
@@ -267,14 +273,15 @@ class Claims:
     def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
         asked = any_of(MOVES, pins)
-        stops = not pins["Enable"] or any_of(STOPPING, pins)
+        stops = not pins["Enable"] or any_of(STOPPING, pins) or spoilt(pins) or both(pins)
         if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
             claim.edge_us = None
-        elif claim.ready and not any_of(MOVES, before):
+        elif claim.ready and not any_of((*MOVES, "Restart"), before):
             claim.edge_us = now
         if claim.edge_us is not None:
             ignores = bench.models[index].o.ignores
-            if bench.models[index].local or (not ignores and not self.willing(index)):
+            one = bench.models[index]
+            if one.local or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
             elif not ignores and now - claim.edge_us > START_US:
                 self._once(index, "starts", bad=True)
@@ -293,7 +300,7 @@ class Claims:
         owed = left or all_ or bool(pin or pins.get("Restart") or pins.get("MonitorOnly"))
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
-        hears = bench.reachable(index) and not lossy and now >= bench.models[index].busy_us
+        hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
         good = driven and self.willing(index) and hears
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
@@ -317,7 +324,7 @@ class Claims:
         bench, now = self.bench, self.bench.now
         self._probe(index, claim)
         self._silent(index, claim)
-        alone = self.unlinked > UNLINKED_CALLS + 2 and not bench.pins[index].get("Left")
+        alone = claim.unlinked > UNLINKED_CALLS + 2 and not bench.pins[index].get("Left")
         told = bench.shows("StopOverdue", index) and not bench.shows("CommOk", index)
         self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
         pins = bench.pins[index]
@@ -327,9 +334,12 @@ class Claims:
         self._once(index, "shared", bad=shared and not told, seen=bench.reason(index))
         if index == 0:
             self._line()
+        heard = self.well(index, CALM_US // 5) and bench.shows("CommOk", index)
+        if not heard:
+            claim.odd = claim.early = 0
         if not self.attended(index) or bench.pins[index].get("Address") != index + 1:
             return
-        if self.well(index, CALM_US // 5) and bench.shows("CommOk", index):
+        if heard:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
             self._fault(index, claim)
@@ -356,7 +366,9 @@ class Claims:
     def _silent(self, index: int, claim: Claim) -> None:
         """The stop of a drive that does not answer is sent again and again."""
         bench, now = self.bench, self.bench.now
-        if bench.hears(index) or not self.attended(index) or bench.pins[index].get("SupplyOff") or bench.lineless:
+        pins = bench.pins[index]
+        elsewhere = pins.get("Address") != index + 1 or pins.get("SupplyOff") or bench.lineless
+        if bench.hears(index) or not self.attended(index) or elsewhere:
             claim.heard_us = now
         silent = now - max(claim.heard_us, claim.written_us) > SILENT_US and len(bench.models) < 8
         self._once(index, "silent", bad=silent)
@@ -414,11 +426,10 @@ class Claims:
 
     def _told(self, index: int) -> list[tuple[str, bool]]:
         pins = self.bench.pins[index]
-        both = (pins.get("RunForward") or pins.get("JogForward")) and (pins.get("RunReverse") or pins.get("JogReverse"))
         return [
             ("NO_SUPPLY", bool(pins.get("SupplyOff"))), ("STOP_ALL", bool(pins.get("StopAll"))),
             ("DISABLED", not pins["Enable"]), ("STOP_PIN", bool(pins.get("QuickStop") or pins.get("CoastStop"))),
-            ("BOTH", bool(both)),
+            ("BOTH", both(pins)),
         ]  # fmt: skip
 
     def _fault(self, index: int, claim: Claim) -> None:
@@ -428,6 +439,7 @@ class Claims:
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
+        old = old and self.well(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 
     def _able(self, index: int) -> None:
@@ -456,8 +468,10 @@ class Claims:
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
         most = LATE_ECHOES if bench.echo and any(one.o.late_per_1000 for one in bench.models) else 0
-        self._once(0, "strange", bad=good and strange > most, seen=f"{strange!r} foreign frames")
-        if any(pins.get("StopAll") for pins in bench.pins) or not all(self.willing(i) for i in units):
+        began = max(self.judge.units[i].unknown_us for i in units)
+        forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
+        self._once(0, "strange", bad=forgotten and strange > most, seen=f"{strange!r} foreign frames")
+        if not all(self.willing(i) for i in units):
             self.all_us = now
         retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)

@@ -44,6 +44,8 @@ def runs(kind: str, body: bytes) -> bool:
     """Whether a request without checksum makes a drive of this make run or jog."""
     if kind == "PF4":
         return body[1:4] == b"\x06\x20\0" and bool(body[5] & 6)  # 2000H: start and jog, page C-4
+    if kind == "GD200A":
+        return body[1:4] == b"\x06\x20\0" and body[4:6] <= b"\0\4"  # 2000H: 1 to 4, page 139
     if kind == "SN300G5":
         return body[1:4] == b"\x10\0\0" and bool(body[8] & 3)  # 0000H: bits 0 and 1
     return body[1:4] == b"\x06\x10\0" and body[5] in RUNS[kind]

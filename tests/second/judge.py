@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import Claims
+from tests.second.claims import MAX_SCAN_US, Claims
 from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
 
 if TYPE_CHECKING:
@@ -21,10 +21,14 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
+SLOW_US = 1_500_000
+"""How much later that may be where scans take longer than the program has promised."""
 RESTARTED_US = 2_000_000
 """After a restart nothing is written to a drive before it was read."""
 PIN_US = 3_500_000
 """In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
+ATTEMPTS_US = 1_000_000
+"""How much longer it takes where each stop is refused first."""
 BOOT_US = 10_000_000
 """After a restart silence is no alarm for so long, unless the drive has answered since."""
 STORE_US = 60_000_000
@@ -34,8 +38,9 @@ ANSWER_US = 2_000_000
 ASKED_US = 20_000_000
 """A parameter block has ended by then."""
 QUIET_US = 2_000_000
-CALM_US = 8_000_000
-"""A drive that can be reached for so long has CommOk, and no reason that says that it does not answer."""
+CALM_US = 10_000_000
+"""A drive that can be reached for so long has CommOk, and no reason that says that it does not answer: probes are sent
+8 s apart at most."""
 GRACE_US = 3_000_000
 """A contact may open so long after its reason has ended, which the block cannot know at once."""
 SHAFT = 700
@@ -43,14 +48,15 @@ SHAFT = 700
 SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
     "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
     "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
+    "GD200A": lambda one, now: one.LIVE[0x2100](one, now) in (1, 2),  # 2100H: 1 forward, 2 reverse
     "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
     "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
 }
 FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
-STATUS = {"CHF": 0x1001, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010}
-RAM_ONLY = {"CHF": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0}
+STATUS = {"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010}
+RAM_ONLY = {"CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0}
 """The bit of an address that leaves EEPROM alone."""
 NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 
@@ -80,6 +86,8 @@ class Unit:
     """For how long it could be reached since then."""
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
+    off: bool = False
+    """Its block was called with SupplyOff."""
     excused_us: int = 0
     """The same, but for a drive without supply on purpose."""
     unasked_us: int = 0
@@ -121,10 +129,11 @@ class Asked:
         ):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
         reads = error and self.name.startswith(READ) and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
-        if reads and judge.claims.well(self.index, bench.now - self.since_us + QUIET_US) and not mine:
+        if reads and judge.known(self.index, bench.now - self.since_us + CALM_US) and not mine:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
+        mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
             judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
         return True
@@ -146,6 +155,8 @@ class Judge:
         self.next_us = 0
         self.late: deque[int] = deque([0] * 100, maxlen=100)
         """How long the last scans were, in us: nobody knows when in them a reply came."""
+        self.lineless_us = -QUIET_US
+        """When the line was last not called."""
         self.asked: list[Asked] = []
         self.claims = Claims(self)
 
@@ -182,6 +193,7 @@ class Judge:
         bench, now = self.bench, self.bench.now
         looks = now >= self.next_us
         self.late.append(1000 * bench.elapsed)
+        self.lineless_us = now if bench.lineless else self.lineless_us
         opened = self.contact and not bench.contact
         for index in range(len(self.units)):
             self._drive(index, looks=looks)
@@ -199,7 +211,8 @@ class Judge:
         if now >= one.due:
             one.advance(now)
         unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
-        open_now = not bench.contact or self._boots(index)  # silence is no alarm yet
+        # silence is no alarm yet; a line that is not called can do nothing, which the drive block shows
+        open_now = not bench.contact or self._boots(index) or bench.lineless
         truth = Truth(
             hz, one.by, stopping=bool(one.stopping), contact_open=open_now, turned=one.turned, itself=one.itself
         )
@@ -238,7 +251,8 @@ class Judge:
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
             unit.away_us = now
-        if away and not pins.get("SupplyOff"):
+        unit.off = bool(pins.get("SupplyOff")) and (unit.off or not pins.get("Left"))
+        if away and (pins.get("Shared") or not unit.off):  # that excuses silence alone
             unit.excused_us = now
         if away or pins.get("Restart"):
             unit.unknown_us = now
@@ -253,10 +267,14 @@ class Judge:
         heard = heard and bench.now - unit.unknown_us > RESTARTED_US
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         most = PIN_US * (2 if len(bench.models) > 3 else 1)
+        most += ATTEMPTS_US if bench.models[index].o.not_in_command == "refuses" else 0
         late = unit.pin_us is not None and bench.now - unit.pin_us > most
         o = bench.models[index].o
         obeys = o.bus_stop_ends_others and o.not_in_command == "acknowledges"  # then the terminals' run is over, too
-        self.once(index, "stop pin", bad=late and (obeys or abs(hz) > self.figures.still_hz))
+        follows = abs(hz) > self.figures.still_hz and (
+            index or bench.mode != "MonitorOnly"
+        )  # else its speed is its own
+        self.once(index, "stop pin", bad=bool(late and (obeys or follows)))
 
     def _cut(self, index: int, unit: Unit, hz: float) -> None:
         """A drive that turns by the bus and does not hear, and a shared slot, open the contact soon."""
@@ -268,10 +286,17 @@ class Judge:
         silent = index + 1 in bench.deaf or one.cut
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
+        owed = owed and not bench.lineless
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
-        most = min(CUT_US, 1000 * bench.promised_cut + 3 * max(self.late)) if self._all_dead(index) else CUT_US
+        most = CUT_US + (SLOW_US if max(self.late) > MAX_SCAN_US else 0)
+        if self._all_dead(index):
+            most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
         late = unit.silent_since is not None and bench.now - unit.silent_since > most
         self.once(index, "cut", bad=late)
+
+    def known(self, index: int, since_us: int) -> bool:
+        """It could be reached for so long, nothing was lost, and nothing has begun anew."""
+        return self.claims.well(index, since_us) and self.bench.now - self.units[index].unknown_us > since_us
 
     def _all_dead(self, index: int) -> bool:
         """It is alone on the line, for which the line says how long it takes."""
@@ -287,7 +312,9 @@ class Judge:
         now, unit = self.bench.now, self.units[index]
         away = unit.excused_us > 0 and now - unit.excused_us < self.figures.stop_us + 2_000_000
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
-        if self.bench.restarts_contact or refuses:
+        one = self.bench.models[index]  # which refuses the stop, and is not proved to stand since the restart
+        obstinate = one.local and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
+        if self.bench.restarts_contact or refuses or obstinate:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
 
@@ -305,7 +332,7 @@ class Judge:
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge
         silent = calm and reason in SILENT and not held
         self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
-        if not good or bench.lineless:  # its clock is that of the line
+        if not good or now - self.lineless_us < QUIET_US:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
         lag = LAG_US + max(self.late)

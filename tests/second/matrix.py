@@ -24,9 +24,21 @@ from structured_text.engines.engine import Library
 
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
-BY_TERMINALS = {"CHF": {"run": 1}, "JSCC": {"F0_04": 1}, "PF4": {"P036": 1}, "SN300G5": {"b1_02": 1}}
-OWN_SPEED = {"CHF": {"speed": 0}, "JSCC": {"F0_08": 1}, "PF4": {"P038": 0}, "SN300G5": {"b1_01": 0}}
-JOGS = ("CHF",)
+BY_TERMINALS = {
+    "CHF": {"run": 1},
+    "GD200A": {"P00_01": 1},
+    "JSCC": {"F0_04": 1},
+    "PF4": {"P036": 1},
+    "SN300G5": {"b1_02": 1},
+}
+OWN_SPEED = {
+    "CHF": {"speed": 0},
+    "GD200A": {"P00_06": 0},
+    "JSCC": {"F0_08": 1},
+    "PF4": {"P038": 0},
+    "SN300G5": {"b1_01": 0},
+}
+JOGS = ("CHF", "GD200A")
 START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
 RESET_MS = 8000
@@ -53,6 +65,8 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
+    "GD200A.stop_ends_jog": BOTH, "GD200A.jog_stop_ends_run": BOTH, "GD200A.jogs_from_run": BOTH,
+    "GD200A.coast_stopped": BOTH,
     "PF4.start_acts": ("once", "always"), "PF4.stop_resets": BOTH, "PF4.commands_readable": BOTH,
     "SN300G5.key_cuts_line": BOTH,
     "SN300G5.run_needs_edge": BOTH, "KeepWord": (0, 0x24), "SN300G5.zero_speed_of": ("output", "shaft"),
@@ -154,6 +168,8 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
+        if family == "GD200A":
+            given["busy_refuses"] = "parameters"  # its manual has no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
         return given
@@ -321,8 +337,7 @@ class Run:
         b.run(1500)
         b.wait(lambda: not any(one.motor.hz(b.now) for one in b.models), 12_000)
         self._faults()
-        b.line(Acknowledge=True).run(100)
-        b.line(Acknowledge=False)
+        b.acknowledge()
         if not all(self.ready(index) for index in range(len(b.models))):
             self.fail("again")
             return

@@ -13,6 +13,8 @@ MOVES = RUN + JOG
 STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "SupplyOff", "Left")
 """Pins that stop while they are TRUE; `Left` is for a block that is not called. Enable stops while it is FALSE."""
 
+RAMP_US = 100_000
+"""What a second model takes for 1 Hz."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 
@@ -26,7 +28,7 @@ class Figures:
     seen_us: int = 0
     """How long StopConfirmed may outlive the start of a motion that the bus has not begun."""
     follow_us: int = 2_000_000
-    """How long the motor may be faster than a reference that was lowered."""
+    """How long the motor may be faster than a reference that was lowered, beside its ramp."""
     unseen_us: int = 0
     """A drive that goes on by itself so soon was not seen to stop: a dip of the supply that it rides through."""
     still_hz: float = 0.1
@@ -58,6 +60,17 @@ def any_of(names: tuple[str, ...], pins: Mapping[str, object]) -> bool:
         if pins.get(name):
             return True
     return False
+
+
+def spoilt(pins: Mapping[str, object]) -> bool:
+    """Whether a run is asked for with a negative reference, which stops it."""
+    hz = pins.get("SpeedReferenceHz", 0.0)
+    return isinstance(hz, float) and hz < 0.0 and any_of(RUN, pins)
+
+
+def both(pins: Mapping[str, object]) -> bool:
+    """Whether both directions are asked for, which is none."""
+    return any_of(("RunForward", "JogForward"), pins) and any_of(("RunReverse", "JogReverse"), pins)
 
 
 @dataclass(slots=True)
@@ -110,9 +123,7 @@ class Observer:
         """A scan: the pins that a block was called with, whether it shows StopConfirmed, and the motor after it."""
         watch, figures = self.watches[unit], self.figures
         asked = tuple([name for name in MOVES if pins.get(name)])
-        hz = pins.get("SpeedReferenceHz", 0.0)
-        spoilt = isinstance(hz, float) and hz < 0.0 and any_of(RUN, pins)
-        stops = spoilt or not asked or not pins.get("Enable", True) or any_of(STOPPING, pins)
+        stops = spoilt(pins) or not asked or not pins.get("Enable", True) or any_of(STOPPING, pins)
         watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz
@@ -168,7 +179,7 @@ class Observer:
         most = min(asked, limit) if limit else asked
         if most >= watch.most_hz:
             watch.most_hz, watch.lowered_at = most, now_us
-        elif now_us - watch.lowered_at > self.figures.follow_us:
+        elif now_us - watch.lowered_at > self.figures.follow_us + int(RAMP_US * (watch.most_hz - most)):
             watch.most_hz = most
         if not watch.permitted:
             return

@@ -16,13 +16,13 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
-PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "pf": "PF4"}
+PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "gd": "GD200A", "pf": "PF4"}
 SETTINGS: dict[str, dict[str, Any]] = {
     "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},
-    "pf": {"comm_us": None},
+    "gd": {}, "pf": {"comm_us": None},
 }  # fmt: skip
 """The maps' drives have no watchdog unless asked, and 0.01 Hz where the manual gives no scale."""
-CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5), "pf": (12, 12)}
+CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5), "gd": (4, 4), "pf": (12, 12)}
 
 
 class Pair:
@@ -32,7 +32,9 @@ class Pair:
         """Powered and standing, with the same ramps."""
         self.kind, self.now = kind, 0
         self.second: Drive = drive(kind, **(SETTINGS[kind] | options))
-        habits = Habits(bus_volts=540 if kind == "chf" else 589, scales=dict.fromkeys((0x26, 0x3002), Decimal(1)))
+        habits = Habits(
+            bus_volts=540 if kind in ("chf", "gd") else 589, scales=dict.fromkeys((0x26, 0x3002), Decimal(1))
+        )
         self.map = SimulatedDrive(MAPS[PREFIX[kind]], 1, habits)
 
     def do(self, step: str) -> tuple[object, object]:
@@ -80,13 +82,15 @@ RUN = {
     "sn": ("0001", 2500, "0000"),
     "jscc": ("1001", 2500, "1000"),
     "chf": ("2000", 5000, "1000"),
+    "gd": ("2001", 2500, "2000"),
     "pf": ("2001", 250, "2000"),
 }
 WAYS = {"pf": (0x12, 0x22)}
 """Words that run forward and in reverse; 1 and 2 of the others."""
-STOP = {"sn": 0, "jscc": 3, "chf": 5, "pf": 1}
+STOP = {"sn": 0, "jscc": 3, "chf": 5, "gd": 5, "pf": 1}
 LOOK = {"sn": (r("0010"), r("0021"), r("0014", 5)), "jscc": (r("2000", 2), r("3000")),
-        "chf": (r("1001"), r("3000"), r("5000")), "pf": (r("2103"), r("2101"))}  # fmt: skip
+        "chf": (r("1001"), r("3000"), r("5000")), "gd": (r("2100"), r("3000"), r("2102")),
+        "pf": (r("2103"), r("2101"))}  # fmt: skip
 AGREED = [
     "", "go 1000 look 3000 look halt 1000 look 3000 look", "back 4000 look go 1000 look 1500 look 5000 look",
     "go 4000 slower 500 look 4000 look", "go 4000 trip look 1000 look halt 9000 cure look",
@@ -103,6 +107,9 @@ ALONE = {
             w("chf", "3000", 1), w("chf", "4000", 1), "010400000001", "010300000000", "010300000011",
             w("chf", "2000", 10001), w("chf", "2000", 0xD8EF), w("chf", "2000", 0xD8F0), r("1000"), r("5001"),
             r("3000", 3)],
+    "gd": [r("0005"), w("gd", "0005", 7), r("0005"), r("8005"), r("4000"), w("gd", "3000", 1), w("gd", "4000", 1),
+           "010400000001", "010800001234", "01102000000204000103e8",
+           r("2000", 2), r("2102"), r("3001")],
     "pf": [r("2102"), r("4000"), w("pf", "2100", 1), w("pf", "4000", 1), "010400000001", "010300000000", r("2001"),
            w("pf", "0069", 1), r("0069"), r("2100", 2)],
 }  # fmt: skip
@@ -151,6 +158,8 @@ DIFFER = [
     ("sn", "", w("sn", "0002", 1), "011000020001", "a row that says unused is not called read-only"),
     ("jscc", "go 4000", w("jscc", "0005", 1), "0186 07", "open: whether parameters are written while it runs"),
     ("jscc", "", w("jscc", "1001", 5001), "0186 03", "above the drive's own maximum"),
+    ("gd", "", "010300000000", "0183 03", "a number of words that no frame may have: page 143"),
+    ("gd", "", "010300000011", "0183 03", "the same, above 16: page 132"),
     ("pf", "", r("0068"), "010302 0001", "A104 is the unit address, which the map's drive has elsewhere"),
     ("chf", "go 4000", w("chf", "0005", 1), "010650010006", "some are not changed while it runs: line 312"),
     ("chf", "go 4000 010610000003 4000", r("3000"), "010302 09c4", "open: whether a jog ends a run"),

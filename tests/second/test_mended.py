@@ -1,6 +1,9 @@
 """Mistakes that the matrix has found, each with the least that shows it."""
 
 from tests.second.bench import Second
+from tests.second.drive import RUNS
+from tests.second.events import ignore
+from tests.second.station import types_of
 
 TERMINALS = {"run": 1}
 
@@ -24,7 +27,7 @@ def test_the_reference_is_taken_back_after_both_stops_of_speed_only() -> None:
 
 
 def test_a_flickering_pin_of_speed_only_leaves_the_line_to_the_others() -> None:
-    b = Second("CHF", "JSCC", "SN300G5", settings=TERMINALS, pins={"SpeedOnly": True}, ms=50)
+    b = Second(*types_of("CHF", 3, ascii_=False), settings=TERMINALS, pins={"SpeedOnly": True}, ms=50)
     b.run(6000)
     b.flicker = "QuickStop"
     for _ in range(200):
@@ -68,3 +71,68 @@ def test_the_reference_is_sent_again_after_another_block_was_on_the_slot() -> No
         for hz in (10.0, 25.0):
             b.put(0, SpeedReferenceHz=hz).run(1000)
             assert b.models[0].reference_hz == hz, f"after {ms} ms"
+
+
+def test_a_motor_is_ready_again_after_another_block_was_on_its_slot() -> None:
+    """The stop of the other block was in the slot, and was waited for ever after."""
+    b = Second("CHF")
+    for ms in range(0, 200, 20):
+        b.wait(lambda: b.shows("Ready"), 9000)
+        b.run(ms)
+        b.twin(on=True)
+        b.run(2000)
+        b.twin(on=False)
+        assert b.wait(lambda: b.shows("Ready"), 9000), f"after {ms} ms"
+
+
+def test_a_reference_that_feeds_a_watchdog_does_not_hide_that_run_is_not_followed() -> None:
+    """Each acknowledged reference began FollowWithinMs anew."""
+    b = Second("CHF", options={"CHF": {"comm_us": 6_000_000}})
+    b.wait(lambda: b.shows("Ready"), 9000)
+    ignore(b, RUNS)
+    b.put(0, RunForward=True).run(6500)
+    assert b.reason() == "NOT_FOLLOWED"
+
+
+def test_a_flickering_stop_pin_during_a_reset_opens_no_contact() -> None:
+    """Each rise of the pin began the reading of the fault anew, and standstill was not proved in time."""
+    b = Second("CHF", ms=10)
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.press()
+    b.put(0, JogForward=True).run(1500)
+    b.models[0].trip(3, b.now, cause=True)
+    b.wait(lambda: b.shows("Fault"), 3000)
+    b.release().run(300)
+    b.put(0, FaultReset=True).run(50)
+    b.put(0, FaultReset=False)
+    b.flicker = "QuickStop"
+    b.run(9000)
+    assert b.contact
+
+
+def test_terminals_that_start_get_the_reference_that_a_dip_of_the_supply_has_erased() -> None:
+    """Where RefreshMs switches the refresh off nothing sent it again."""
+    b = at_terminals().put(0, RefreshMs=65535)
+    b.models[0].terminal(False, b.now)
+    b.run(3000)
+    b.models[0].power(False, b.now)
+    b.run(300)
+    b.models[0].power(True, b.now)
+    b.run(3000)
+    b.models[0].reset(b.now)
+    b.models[0].terminal(True, b.now)
+    b.run(2000)
+    assert b.models[0].reference_hz == 25.0
+
+
+def test_a_drive_that_begins_to_answer_does_not_wait_for_dead_ones() -> None:
+    """Until its third reply it shared the quarter of the wire that the dead have."""
+    b = Second(*types_of("CHF", 3, ascii_=True), ascii_=True, ms=40)
+    b.echo = True
+    b.wait(lambda: all(b.shows("Ready", each) for each in range(3)), 9000)
+    b.deaf.add(1)
+    b.put(0, Address=29, TurnRoundMs=0)
+    b.stall(2000)
+    b.run(5000)
+    assert b.shows("StopConfirmed", 1)
+    assert b.shows("StopConfirmed", 2)

@@ -28,6 +28,12 @@ EXAMPLES = [
     ("jscc", {"ascii": True}, "", ":010610000001E8", ":010610000001E8"),
     ("jscc", {}, "w1001=1F4 w1000=1 9s", "01 03 20 00 00 01 8F CA", "01 03 02 01 F4 B8 53"),
     ("jscc", {"ascii": True}, "w1001=1F4 w1000=1 9s", ":010320000001DB", ":01030201F405"),
+    # GD200A pages 131 to 138, 144
+    ("gd", {}, "w4=1388", "01 03 00 04 00 02 85 CA", "01 03 04 13 88 00 00 7E 9D"),
+    ("gd", {"unit": 2}, "", "02 06 00 04 13 88 C5 6E", "02 06 00 04 13 88 C5 6E"),
+    ("gd", {}, "", "01 08 00 00 12 AB AD 14", "01 08 00 00 12 AB AD 14"),
+    ("gd", {"unit": 2, "ascii": True}, "", ":021000040002041388003217", ":021000040002E8"),
+    ("gd", {}, "", "01 06 00 01 00 03 98 0B", rtu(bytes.fromhex("01 86 04")).hex()),
     # CHF lines 110 to 135 (the CRC is that of a byte count of two bytes), 137 to 177, 183 to 247, 366 to 395
     ("chf", {"two_byte_count": True}, "", "01 03 00 04 00 02 85 CA", "01 03 00 04 00 00 00 00 43 07"),
     ("chf", {"ascii": True}, "w4=2", ":010300040002F6", ":01030400020000F6"),
@@ -60,6 +66,18 @@ RUNS: list[tuple[str, dict[str, Any], str, str]] = [
     ("chf", {},
      "where go 1s hz where state 2s where w2000=FC18 9s hz back 9s hz where halt 1s hz where 9s where state",
      "3 0 10.1 1 42b starting 1 9c4 -5 -25 2 9c4 -14.9 2 598 3 0 standstill"),
+    ("gd", {},
+     "where state go 1s hz where r2101 state 2s where w2001=7D0 9s hz back 9s hz where halt 1s hz where state 9s where "
+     "state",
+     "3 0 standstill 10.1 1 42b 41 starting 1 9c4 20 -25 2 9c4 -14.9 2 598 ramping down 3 0 standstill"),
+    ("gd", {},
+     "go 9s trip:4 where r2102 r5000 1s w2000=1 1s where 9s w2000=7 where hz go 1s hz w2000=6 by 9s where",
+     "4 0 4 4 4 0 3 0 0 10.1 nobody 3 0"),
+    ("gd", {"settings": {"P14_05": 2}, "comm_us": 2_000_000}, "go 1900ms by 200ms by where r2102", "bus bus 1 728 0"),
+    ("gd", {"comm_us": 2_000_000}, "go 1900ms by 200ms by where r2102", "bus nobody 4 0 12"),
+    ("gd", {},
+     "w2001=1389 w2000=0 w2000=9 w2100=1 w4000=1 w8007=5 r7 stores w7=6 stores r8007 go w3=1 w2000=3 hz",
+     "!4 !4 !4 !2 !2 5 0 1 !2 !8 0.8"),
     ("pf", {"comm_us": None},
      "where state go 1s hz where state 2s where w2001=C8 9s hz back 9s hz where halt 1s hz where state 9s where state",
      "60d 0 standstill 10.1 61f 6a starting 70f fa 20 -25 703 fa -14.9 623 8f ramping down 601 0 standstill"),
@@ -238,6 +256,9 @@ FACES: dict[str, tuple[str, str, dict[str, Any], str]] = {
     "codes": ("jscc", "r4000", {"=": ((1, 2, 3, 4, 5, 6, 7, 8), (17, 18, 19, 20, 21, 22, 23, 24))}, "!2 | !12"),
     "error_form": ("jscc", "r4000", {}, "!2 | -"),
     "most_words": ("jscc", "r0+13", {"=": (12, 125)}, "!3 | 0 0 0 0 0 0 0 0 0 0 0 0 0"),
+    "coast_stopped": ("gd", "go 9s w2000=6 r2100 9s r2100", {}, "1 3 | 3 3"),
+    "faulty": ("gd", "trip:4 halt", {}, " | !1"),
+    "beyond": ("gd", "w1=3", {}, "!4 | !7"),
     "start_acts": ("pf", "go trip:12 9s w2000=8 w2000=1A 1s hz trip:12 9s w2000=12 w2000=1A w2000=12 1s hz", {},
         "10.1 0 | 10.1 10.4"),
     "both_directions": ("pf", "w2001=FA w2000=32 3s hz", {}, "-25 | 25"),
@@ -289,7 +310,7 @@ def test_each_option_has_its_row() -> None:
 def test_a_frame_needs_its_silence() -> None:
     # 8 characters of 573 us; JSCC asks for 10 ms, the others for 3.5 characters
     frame = rtu(bytes.fromhex("02 03 20 01 00 01"))  # to another unit
-    for kind, quiet in (("sn", 2005), ("chf", 2005), ("pf", 2005), ("jscc", 10_000)):
+    for kind, quiet in (("sn", 2005), ("chf", 2005), ("gd", 2005), ("pf", 2005), ("jscc", 10_000)):
         for wait, heard in ((quiet - 1, False), (quiet, True)):
             one = drive(kind, reply_us=(1000, 1000))
             one.receive(frame, 0)
@@ -371,10 +392,12 @@ def test_every_fault_of_the_manuals_shows() -> None:
 @pytest.mark.parametrize(
     ("kind", "spans"),
     [
-        # SN300G5 tables (I) to (VI), JSCC section 5, PowerFlex 4 pages C-3 to C-5, CHF 11.6.4
+        # SN300G5 tables (I) to (VI), JSCC section 5, PowerFlex 4 pages C-3 to C-5, CHF 11.6.4, GD200A 9.5
         ("sn", "0-9 e-1a 20-36 39-3b 80-8d 90-97 100-125 180-1a5 200-242 280-296 300-30c 30e-324 380-397 400-420 "
                "480-4b1 500-50d fffd-fffd"),
         ("jscc", "0-ff 1000-1002 2000-2001 3000-3000"),
+        ("gd", " ".join(f"{256 * group:x}-{256 * group + 39:x}" for group in range(18))
+               + " 2000-200e 2100-2103 3000-300e 3010-3010 3012-3016 5000-5000"),
         ("pf", "1-1 24-24 26-27 67-6b 2000-2001 2100-2101 2103-2103"),
         ("chf", "0-1ff 1000-1001 2000-2000 3000-3014 5000-5001"),
     ],

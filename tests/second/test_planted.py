@@ -34,6 +34,6 @@ def test_a_planted_mistake_is_seen(old: str, new: str, cell: str, rules: set[str
         return text.replace(old, new)
 
     stations = built(EmbeddedEngine(), edit)
-    assert sum(counted) == 1, "the mistake has its place"
+    assert any(counted), "the mistake has its place"
     found = [set(run(named(cell), seed, stations).rules) for seed in range(SEEDS)]
     assert any(each & rules for each in found), found
