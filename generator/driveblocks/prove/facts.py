@@ -66,6 +66,10 @@ def facts(drive: Drive) -> dict[str, str]:
         found[name] = f"Identity.{member}" if drive.identity else str(name != "wrong").upper()
     running = next(one for one in drive.operation.status if one.shows == "running")
     found["running"] = _any(_holds(drive, each) for each in running.any)
+    by_bus = drive.operation.commanded_by.all if drive.operation.commanded_by else ()
+    found["by_bus"] = _every(_holds(drive, each) for each in by_bus)
+    found["says_by_bus"] = _every(Decoded(drive).holds(each) for each in by_bus)
+    found["others_command"] = f"Control.Seen.OthersCommand <> ({found['says_by_bus']})" if by_bus else "TRUE"
     found["says_running"] = _any(Decoded(drive).holds(each) for each in running.any)
     for does in (*MOTIONS, *STOPS, "fault_reset"):
         one = commands.get(does)
