@@ -37,7 +37,7 @@ MOST = {
     # the framing of what came over a wire, which `explain` and `stand` read alike, came from explain
     # a program after its first scan, and a request with its reply, are modules of their own: `site` has them, too
     # prove: who commands a drive is what its status says
-    "modbus": 503, "plc": 2516, "prove": 1884, "reference": 1051, "render": 2733, "simulator": 1331, "stand": 520,
+    "modbus": 503, "plc": 2516, "prove": 1882, "reference": 1051, "render": 2733, "simulator": 1331, "stand": 520,
     # what a person needs before and at commissioning; `line`, from the drives to the picture; `parameters`
     # `commission` and `site`: the search and the steps, what is kept and read again, the page and the report
     # `listen`: frames from bytes, who asks whom, rate and format, a table per unit, a log
