@@ -104,6 +104,9 @@ class Claim:
     """When it could last hear."""
     idle_us: int | None = None
     """Since when it stands, and nobody runs it."""
+    output: bool = False
+    begun_us: int = 0
+    """Whether its motor is driven, and since when, by whoever: it gets its reference then."""
     unlinked: int = 0
     """Calls of its block without one of the line."""
     early: int = 0
@@ -161,6 +164,9 @@ class Claims:
         bench, claim, now = self.bench, self.claims[index], self.bench.now
         if bench.faults.twice:
             self.doubled_us = now
+        if bench.models[index].output and not claim.output:
+            claim.begun_us = now
+        claim.output = bench.models[index].output
         if bench.pins[index].get("StopAll"):
             self.all_us = now
         before = claim.pins
@@ -246,7 +252,8 @@ class Claims:
         if late or asks or not (self._steady(index, claim) or self._supplies(index, claim)):
             return
         first = claim.writes[0] if period else claim.writes[-2]
-        known = first > max(claim.changed_us, self.judge.units[index].unknown_us, claim.driven_us or 0) + START_US
+        since = max(claim.changed_us, self.judge.units[index].unknown_us, claim.driven_us or 0, claim.begun_us)
+        known = first > since + START_US
         if known and now_us - first < (3 * period if period else SPEED_US):
             self.judge.tell(index, "refresh", f"writes at {[each // 1000 for each in claim.writes]} ms")
 

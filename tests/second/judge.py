@@ -288,8 +288,9 @@ class Judge:
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         owed = owed and not bench.lineless
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
-        most = CUT_US + (SLOW_US if max(self.late) > MAX_SCAN_US else 0)
-        if self._all_dead(index):
+        slow = max(self.late) > MAX_SCAN_US
+        most = CUT_US + (SLOW_US if slow else 0)
+        if self._all_dead(index) and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
         late = unit.silent_since is not None and bench.now - unit.silent_since > most
         self.once(index, "cut", bad=late)

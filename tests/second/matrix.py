@@ -168,8 +168,8 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if family == "GD200A":
-            given["busy_refuses"] = "parameters"  # its manual has no code of a busy drive
+        if family in ("GD200A", "PF4"):
+            given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
         return given
