@@ -179,6 +179,12 @@ class Second(Bench):
         assert isinstance(value, int)
         return value
 
+    def turn_round(self, drive: int) -> int:
+        """How long the line waits for an answer of the drive now, ms."""
+        value = self.block[f"Drive{drive}.Diagnosis.TurnRoundMs"]
+        assert isinstance(value, int)
+        return value
+
     def reachable(self, drive: int) -> bool:
         """Whether the drive hears what is sent to the address of its pins."""
         return self.hears(drive) and self.models[drive].unit == self.pins[drive]["Address"]

@@ -104,6 +104,8 @@ class Claim:
     """When it could last hear."""
     idle_us: int | None = None
     """Since when it stands, and nobody runs it."""
+    unwilling_us: int = 0
+    """When it last did not obey the bus."""
     output: bool = False
     begun_us: int = 0
     """Whether its motor is driven, and since when, by whoever: it gets its reference then."""
@@ -183,6 +185,7 @@ class Claims:
             claim.runs = 0
         turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
+        claim.unwilling_us = claim.unwilling_us if self.willing(index) else now
         if not (bench.lineless and bench.pins[index].get("Left")):
             claim.unlinked = claim.unlinked + 1 if bench.lineless else 0
         if looks:
@@ -210,8 +213,9 @@ class Claims:
         self._once(index, "floods", bad=same and calm and answers, seen=body.hex())
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
-        """The stop of the last order is sent first: after a jog its own, unless it is to coast."""
-        armed = claim.armed_us is not None and self.bench.models[index].jogging
+        """The stop of the last order is sent first: after a jog its own, unless it is to coast or a restart came."""
+        known = (claim.armed_us or 0) > self.judge.units[index].unknown_us
+        armed = known and self.bench.models[index].jogging
         coasts = self.bench.pins[index].get("CoastStop")
         ends = JOG_ENDS.get(self.bench.types[index])
         if armed and ends and not coasts:
@@ -247,7 +251,8 @@ class Claims:
     def _refreshed(self, now_us: int, index: int, claim: Claim) -> None:
         period = self._period(index)
         claim.writes.append(now_us)
-        late = self.bench.models[index].o.late_per_1000
+        one = self.bench.models[index]
+        late = one.o.late_per_1000 or now_us < one.busy_us + START_US
         asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
         if late or asks or not (self._steady(index, claim) or self._supplies(index, claim)):
             return
@@ -287,12 +292,12 @@ class Claims:
             claim.edge_us = now
         if claim.edge_us is not None:
             ignores = bench.models[index].o.ignores
-            one = bench.models[index]
+            one, many = bench.models[index], len(bench.models) > 3
             if one.local or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - claim.edge_us > START_US:
+            elif not ignores and now - claim.edge_us > START_US * (2 if one.o.late_per_1000 and many else 1):
                 self._once(index, "starts", bad=True)
-            elif ignores and now - claim.edge_us > FOLLOW_US * (2 if len(bench.models) > 3 else 1):
+            elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
                 told = told or (bench.unsaid and bench.reason(index) == "NO_RUN")
                 self._once(index, "follow", bad=not told)
@@ -313,7 +318,8 @@ class Claims:
             claim.stop_us = claim.armed_us = None
         elif claim.stop_us is None and owed:
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
-            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * left
+            again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
+            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again)
             plain = (
                 claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
             )
@@ -358,13 +364,14 @@ class Claims:
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
         idle = now - self.judge.units[index].unknown_us > CALM_US
-        self._once(index, "age", bad=fast and idle and age > AGE_MS, seen=f"{age} ms")
+        most = AGE_MS + (ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0)  # stops that are refused come first
+        self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
 
     def _stands(self, index: int, claim: Claim) -> None:
         """A drive that has been standing for long, and that nobody starts, is shown so."""
         bench, now = self.bench, self.bench.now
         pins = bench.pins[index]
-        since = max(claim.idle_us or now, claim.changed_us, self.judge.units[index].unknown_us)
+        since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, self.judge.units[index].unknown_us)
         calm = now - since > STANDS_US and self.willing(index) and not bench.flicker and len(bench.models) < 8
         held = any_of(MOVES, pins) and pins["Enable"]
         quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
@@ -446,7 +453,7 @@ class Claims:
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
-        old = old and self.well(index, CALM_US // 2)
+        old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 
     def _able(self, index: int) -> None:
@@ -474,14 +481,14 @@ class Claims:
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
-        most = LATE_ECHOES if bench.echo and any(one.o.late_per_1000 for one in bench.models) else 0
+        most = LATE_ECHOES if any(one.o.late_per_1000 for one in bench.models) else 0
         began = max(self.judge.units[i].unknown_us for i in units)
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
         self._once(0, "strange", bad=forgotten and strange > most, seen=f"{strange!r} foreign frames")
         if not all(self.willing(i) for i in units):
             self.all_us = now
         retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
-        plain = steady and not any(one.o.late_per_1000 or now < one.busy_us for one in bench.models)
+        plain = steady and not any(one.o.late_per_1000 or now < one.busy_us + ATTEND_US for one in bench.models)
         self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
         self.retries = retries
         asked = block["TheLine.Requests"]

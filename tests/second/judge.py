@@ -21,6 +21,10 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
+UNLEARNED_MS = 500
+"""How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
+MORE_US = 500_000
+"""How much later that may be with three drives, and again with eight, whose requests are between its own."""
 SLOW_US = 1_500_000
 """How much later that may be where scans take longer than the program has promised."""
 RESTARTED_US = 2_000_000
@@ -154,6 +158,7 @@ class Judge:
         self.contact = False
         self.next_us = 0
         self.late: deque[int] = deque([0] * 100, maxlen=100)
+        self.slow_us = -CUT_US - SLOW_US
         """How long the last scans were, in us: nobody knows when in them a reply came."""
         self.lineless_us = -QUIET_US
         """When the line was last not called."""
@@ -193,6 +198,8 @@ class Judge:
         bench, now = self.bench, self.bench.now
         looks = now >= self.next_us
         self.late.append(1000 * bench.elapsed)
+        if self.late[-1] > MAX_SCAN_US:
+            self.slow_us = bench.now
         self.lineless_us = now if bench.lineless else self.lineless_us
         opened = self.contact and not bench.contact
         for index in range(len(self.units)):
@@ -288,8 +295,10 @@ class Judge:
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         owed = owed and not bench.lineless
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
-        slow = max(self.late) > MAX_SCAN_US
-        most = CUT_US + (SLOW_US if slow else 0)
+        slow = bench.now - self.slow_us < CUT_US + SLOW_US
+        most = CUT_US + (SLOW_US if slow else 0) + MORE_US * ((len(bench.models) > 1) + (len(bench.models) > 3))
+        if bench.turn_round(index) >= UNLEARNED_MS:
+            most = max(most, 1000 * bench.promised_cut)
         if self._all_dead(index) and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
         late = unit.silent_since is not None and bench.now - unit.silent_since > most
@@ -314,8 +323,10 @@ class Judge:
         away = unit.excused_us > 0 and now - unit.excused_us < self.figures.stop_us + 2_000_000
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
         one = self.bench.models[index]  # which refuses the stop, and is not proved to stand since the restart
-        obstinate = one.local and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
-        if self.bench.restarts_contact or refuses or obstinate:
+        elsewhere = one.local or one.run_source != "bus"
+        busy = self.bench.mode == "SpeedOnly" and now - one.busy_us < GRACE_US  # nor is it proved to stand there
+        obstinate = elsewhere and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
+        if self.bench.restarts_contact or refuses or obstinate or busy:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
 
@@ -333,7 +344,7 @@ class Judge:
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge
         silent = calm and reason in SILENT and not held
         self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
-        if not good or now - self.lineless_us < QUIET_US:  # its clock is that of the line
+        if not good or now - self.lineless_us < CALM_US // 2:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
         lag = LAG_US + max(self.late)

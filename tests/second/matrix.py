@@ -43,6 +43,8 @@ START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
 RESET_MS = 8000
 """For a reset, which is given up after 10 s."""
+FOREIGN, FOREIGN_MS = 54, 15_000
+"""The line's error while another master seems to be there, and how long it lasts: no reset is sent meanwhile."""
 APART_MS = (0, 20, 100, 300, 700, 1500, 1950)
 """When the second event comes."""
 BOTH: tuple[Any, ...] = (False, True)
@@ -377,6 +379,7 @@ class Run:
     def _reset(self, index: int, one: Drive) -> None:
         """By the bus, by a button, by its supply, whatever it takes."""
         b = self.bench
+        b.wait(lambda: b.block["TheLine.ErrorID"] != FOREIGN, FOREIGN_MS)
         if one.fault is not None and b.out("CanResetFault", index):
             b.put(index, FaultReset=True).run(100)
             b.put(index, FaultReset=False).run(1000)
