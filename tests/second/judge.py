@@ -158,8 +158,9 @@ class Judge:
         self.contact = False
         self.next_us = 0
         self.late: deque[int] = deque([0] * 100, maxlen=100)
-        self.slow_us = -CUT_US - SLOW_US
         """How long the last scans were, in us: nobody knows when in them a reply came."""
+        self.slow_us = -CUT_US - SLOW_US
+        """When a scan last took longer than the program has promised."""
         self.lineless_us = -QUIET_US
         """When the line was last not called."""
         self.asked: list[Asked] = []
