@@ -136,3 +136,28 @@ def test_a_drive_that_begins_to_answer_does_not_wait_for_dead_ones() -> None:
     b.run(5000)
     assert b.shows("StopConfirmed", 1)
     assert b.shows("StopConfirmed", 2)
+
+
+def test_words_that_lay_in_the_slot_while_the_block_was_not_called_are_not_new() -> None:
+    b = Second("JSCC")
+    b.wait(lambda: b.shows("Ready"), 9000)
+    for _ in range(15):
+        b.run(20)
+        b.leave("Skip0").run(80)
+        b.deaf.add(1)
+        b.run(700)
+        b.leave("Skip0", on=False).scan()
+        assert b.number("StatusAgeMs") >= 700
+        b.deaf.clear()
+        b.run(1000)
+
+
+def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
+    """Its reply may be an echo, which only a read can decide: that waited for the turn of the dead."""
+    for ms in range(0, 10_000, 1000):
+        b = Second("CHF")
+        b.deaf.add(1)
+        b.run(30_000 + ms)
+        b.deaf.clear()
+        b.run(3000)
+        assert b.shows("StopConfirmed")

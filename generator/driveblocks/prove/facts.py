@@ -151,8 +151,8 @@ def _read(drive: Drive) -> dict[str, str]:
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
         "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
         "ages": _every(
-            f"(Age{number} = 65535) OR (Age{number} = Was.Age{number} + PassedMs) "
-            f"OR Fresh AND (Entry = {number}) AND (Age{number} = 0)"
+            f"(Age{number} = 65535) OR (UINT_TO_UDINT(Age{number}) = UINT_TO_UDINT(Was.Age{number}) "
+            f"+ UINT_TO_UDINT(PassedMs)) OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
             for number in range(1, len(reads) + 1)
         ),
         "since": _every(

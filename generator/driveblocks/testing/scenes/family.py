@@ -97,7 +97,7 @@ class _Known:
         words = self.reads[number].words
         gets = {"Fresh": True, "Entry": number + 1, "Count": words - (not believed), "PassedMs": passed}
         if believed:
-            self.ages[number], self.since[number] = 0, True
+            self.ages[number], self.since[number] = passed, True
             self.settled = self.settled or all(self.since[each] for each in self.roles["verify"])
         return gets | {f".Fetched[{at}]": word(256 * number + 257 + at) for at in range(words)}, self.shows()
 
