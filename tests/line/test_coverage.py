@@ -4,7 +4,7 @@ import re
 from functools import cache
 
 from tests.blocks.library import sources
-from tests.line.vline import PARAMETER, STOP, Bench, Config, Drive, in_turn, line_sources
+from tests.line.vline import PARAMETER, STOP, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
 from structured_text.engines.embedded import EmbeddedEngine
@@ -176,15 +176,6 @@ def echo_ends(bench: Bench) -> None:
     bench.run(300)
 
 
-def alike(bench: Bench) -> None:
-    """Two registers of one length read in turn: equal, and then with a copy of each reply."""
-    values = {0x2000: 1, 0x3000: 1}
-    list(in_turn(bench, values))
-    values[0x3000] = 2
-    bench.drives[0].copy_us = 9000
-    list(in_turn(bench, values))
-
-
 def falls_silent(bench: Bench) -> None:
     """All eight at once: those that nobody has asked yet stay online until they are."""
     bench.ready().run(500)
@@ -210,7 +201,6 @@ TOURS = (
     (late, Config(drives=1, longest_ms=300)),
     (once, Config(drives=1)),
     (echo_ends, Config(drives=1, echo=True)),
-    (alike, Config(drives=1, words=1, longest_ms=100)),
     (odd_replies, Config(drives=1, kind=2)),
     (odd_replies, Config(drives=1, kind=2, ascii=True)),
     (full_counts, Config(drives=1)),

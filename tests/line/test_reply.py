@@ -2,7 +2,7 @@
 
 import pytest
 from tests.line.drives import KINDS
-from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config, in_turn
+from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config
 
 
 @pytest.mark.parametrize("ascii_", [False, True])
@@ -181,31 +181,6 @@ def test_a_dead_drive_makes_nobody_wait() -> None:
     bench.run(12000)
     assert not bench.slot(0, "Online")
     assert len(bench.run(10000)) > 440
-
-
-# ---------------------------------------------------------------- reads of one length
-
-
-@pytest.mark.parametrize("copy_us", [9_000, 14_000, 19_000])
-def test_a_copy_of_a_reply_does_not_pass_for_the_reply_to_the_next_read(copy_us: int) -> None:
-    bench = Bench(Config(drives=1, words=1, longest_ms=100))
-    values = {0x2000: 111, 0x3000: 222}
-    for _ in zip(range(8), in_turn(bench, values), strict=False):
-        pass
-    bench.drives[0].copy_us = copy_us
-    read = list(in_turn(bench, values))
-    assert len(read) > 40
-    assert [each for each in read if each[1] != values[each[0]]] == []
-
-
-def test_registers_of_equal_value_are_read_all_the_same() -> None:
-    """The second reply might be a copy; it is believed when nothing else comes, and teaches no time."""
-    bench = Bench(Config(drives=1, words=1, turn_low=1000, turn_high=1000))
-    read = list(in_turn(bench, {0x2000: 0, 0x3000: 0}))
-    assert len(read) > 40
-    assert {each[0] for each in read} == {0x2000, 0x3000}
-    assert bench["Timeouts"] == bench["Bad"] == 0
-    assert bench.slot(0, "LongestReplyMs") < bench.config.turn_ms
 
 
 def test_a_late_scan_gives_the_reply_one_more_call() -> None:

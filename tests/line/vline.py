@@ -77,8 +77,6 @@ class Drive:
     kind: Kind
     alive: bool = True
     turn_us: int | None = None
-    copy_us: int | None = None
-    """How long after a reply the adapter hands it over again; None: it does not."""
     answer: Callable[[bytes], bytes | None] | None = None
     heard: list[bytes] = field(default_factory=list)
     reads: int = 0
@@ -352,10 +350,6 @@ class Bench:
         if self._happens(self.config.truncate):
             text = text[: self.chance.randrange(len(text))]
         end = self.transmit(text, end + turn, whole=not self._happens(self.config.garble))
-        if drive.copy_us is not None:
-            busy = self._busy
-            self.transmit(text, end + drive.copy_us)
-            self._busy = busy
         if self._happens(self.config.duplicate):
             self.transmit(text, end + self._silence)
 
@@ -379,18 +373,3 @@ class Bench:
 def units(sent: list[Sent]) -> Iterator[int]:
     """Who was asked, one after the other."""
     return (each.unit for each in sent)
-
-
-def in_turn(bench: Bench, values: dict[int, int]) -> Iterator[tuple[int, int]]:
-    """A drive block that reads registers of one word in turn: each register, and the word that was read for it."""
-    bench.drives[0].answer = lambda pdu: pdu[:2] + b"\x02" + values[int.from_bytes(pdu[2:4], "big")].to_bytes(2, "big")
-    bench.put(0, OtherQuantity=0)
-    place, fresh = 0, bench.slot(0, "Fresh")
-    for _ in range(400):
-        bench.fill(0, POLL, 3, list(values)[place])
-        bench.block[f"Slots[0].Ask[{POLL}].Number"] = 16 + place
-        bench.scan()
-        if bench.slot(0, "Fresh") != fresh:
-            fresh = bench.slot(0, "Fresh")
-            yield list(values)[place], bench.slot(0, "PollWords[0]")
-            place = (place + 1) % len(values)

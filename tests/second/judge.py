@@ -19,8 +19,6 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
-ONE_WORD, HELD_US = ("PF4",), 500_000
-"""Families whose reads have one length: a reply that may be a copy is held for the wait for its own."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 UNLEARNED_MS = 500
@@ -350,7 +348,7 @@ class Judge:
         if not good or now - self.lineless_us < CALM_US // 2:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
-        lag = LAG_US + max(self.late) + HELD_US * (bench.types[index] in ONE_WORD)
+        lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
         for name in FACTS:
             shown = bench.shows(name, index)

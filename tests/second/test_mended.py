@@ -1,7 +1,5 @@
 """Mistakes that the matrix has found, each with the least that shows it."""
 
-from dataclasses import replace
-
 from tests.second.bench import Second
 from tests.second.drive import RUNS
 from tests.second.events import ignore
@@ -163,16 +161,3 @@ def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
         b.deaf.clear()
         b.run(3000)
         assert b.shows("StopConfirmed")
-
-
-def test_replies_that_an_adapter_hands_over_twice_are_not_shown_in_each_others_place() -> None:
-    """Each read of a PowerFlex 4 is one word long, and its reply does not say which."""
-    b = Second("PF4")
-    b.wait(lambda: b.shows("Ready"), 9000)
-    b.put(0, RunForward=True).run(5000)
-    b.faults = replace(b.faults, twice=300)
-    for _ in range(1000):
-        b.scan()
-        assert b.shows("Running")
-        assert b.out("FaultCode") == 0
-        assert abs(b.number("OutputFrequencyHz") - 25) < 1
