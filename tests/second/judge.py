@@ -19,6 +19,8 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
+ONE_WORD = ("PF4",)
+"""Families whose reads have one length: of a reply that comes twice the copy passes for the next, as docs/line.md says."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 UNLEARNED_MS = 500
@@ -348,6 +350,8 @@ class Judge:
         if not good or now - self.lineless_us < CALM_US // 2:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
+        if bench.types[index] in ONE_WORD and now - self.claims.doubled_us < CALM_US:
+            return
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
         for name in FACTS:
