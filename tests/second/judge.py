@@ -20,7 +20,7 @@ EVERY_US = 200_000
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 ONE_WORD = ("PF4",)
-"""Families whose reads have one length: of a reply that comes twice the copy passes for the next, as docs/line.md says."""
+"""Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 UNLEARNED_MS = 500

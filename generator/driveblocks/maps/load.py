@@ -3,9 +3,11 @@
 import re
 from pathlib import Path
 
-from driveblocks.maps import check, nodes, source
-from driveblocks.maps.decode import decode
+from driveblocks.maps import base, check, nodes, source
+from driveblocks.maps.decode import build, decode
+from driveblocks.maps.form import WORD
 from driveblocks.maps.model import Drive
+from driveblocks.maps.nodes import Entries, Node
 from driveblocks.maps.problem import Report
 
 _STEM = re.compile(
@@ -20,7 +22,7 @@ def load(path: Path) -> Drive:
     if not _STEM.fullmatch(path.stem):
         wrong = "the name of this file cannot name the folder of its blocks"
         report.add((1, 1), wrong, "use letters A to Z, digits, _ and -, such as my_drive.yaml")
-    return _loaded(source.read(path), report)
+    return _loaded(source.read(path), report, path)
 
 
 def loads(text: str, name: str) -> Drive:
@@ -28,9 +30,9 @@ def loads(text: str, name: str) -> Drive:
     return _loaded(text, Report(name))
 
 
-def _loaded(text: str, report: Report) -> Drive:
+def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
     before = len(report.problems)
-    root = nodes.parse(text, report)
+    root = _based(nodes.parse(text, report), report, path)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:
@@ -38,3 +40,21 @@ def _loaded(text: str, report: Report) -> Drive:
     report.raise_if_any()
     assert drive is not None  # noqa: S101  (a map that was not built has left a problem)
     return drive
+
+
+def _based(root: Node | None, report: Report, path: Path | None) -> Node | None:
+    """A map with what it takes over from its base. Raises MapError where the base itself has mistakes."""
+    asked = base.asked(root)
+    if asked is None or not isinstance(root, Entries):
+        return root
+    name = build(WORD, asked, report, "base")
+    file = base.find(name, path) if path and isinstance(name, str) else None
+    if file is None:
+        if isinstance(name, str):
+            wrong = f"there is no map {name}.yaml beside this one, nor among those that come with DriveBlocks"
+            report.add(asked.at, wrong, "name the file of the map of a sister model, without its ending")
+        return None
+    if base.asked(nodes.parse(source.read(file), Report(str(file)))):
+        report.add(asked.at, f"{file.name} has a base itself", f"take the base of {file.name}")
+        return None
+    return base.whole(root, file, load(file), report)

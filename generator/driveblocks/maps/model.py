@@ -1120,6 +1120,17 @@ class Drive(Entry):
     """A whole map: one drive family."""
 
     format: Literal[1] = fact("version of this format", "1")
+    base: Word | None = fact(
+        "the map of a sister model, by the name of its file, where this one says only what is different",
+        "rockwell_powerflex_4",
+        optional=True,
+    )
+    without: tuple[Str, ...] = fact(
+        "what the base has and this drive has not, or has otherwise as a whole: keys and names of rows",
+        "[settings, faults > codes > 48]",
+        optional=True,
+        default=(),
+    )
     prefix: Annotated[str, form.PREFIX] = fact("what the names of its blocks start with", "SN300G5")
     vendor: Text = fact("maker", "{en: SHUEN, zh: 数恩}")
     family: Text = fact("family", "{en: SN300G5 series, zh: SN300G5系列变频器}")

@@ -141,9 +141,7 @@ def _late_calls() -> Iterator[Step]:
 
 
 def _young() -> Iterator[Step]:
-    """Its reply may have come just after the last call."""
-    begin: Shows = {"Pins.ElapsedMs": SCAN_MS, ".Youngest": 65535}
-    yield Step("measures", begin, ms=400, shows={".Youngest": SCAN_MS})
+    yield Step("measures", {"Pins.ElapsedMs": SCAN_MS, ".Youngest": 65535}, ms=400, shows={".Youngest": SCAN_MS})
 
 
 def _quiet(drive: Drive) -> Iterator[Step]:

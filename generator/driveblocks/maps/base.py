@@ -1,0 +1,175 @@
+"""A map that says only what is different from the map of a sister model: both become one tree, as if it were one map.
+
+What a map takes over keeps its source, and names its document: the sister's manual. A source that the map gives itself
+holds for all that it takes over in that place.
+"""
+
+from pathlib import Path
+from typing import NamedTuple
+
+from driveblocks.maps import catalog, nodes, source
+from driveblocks.maps.model import Drive, Manual, Text
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of, required_of
+
+DEEPER = " > "
+"""Between the names of a path in `without`."""
+_NAMES = ("address", "bit", "code", "value", "does", "shows", "id", "what")
+"""Keys that name a row in its list."""
+_WHOLE = (Manual, Text)
+"""What is never made of both: half a sister's words would be nobody's."""
+
+
+def find(name: str, beside: Path) -> Path | None:
+    """The file of a base: beside the map, or among those that come with the program."""
+    files = (folder / f"{name}.yaml" for folder in (beside.parent, catalog.folder()))
+    return next((file for file in files if file.is_file()), None)
+
+
+def asked(root: Node | None) -> Node | None:
+    """What a map says of its base; None where it has none."""
+    return root.entries["base"][1] if isinstance(root, Entries) and "base" in root.entries else None
+
+
+def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Node:
+    """A map together with what it takes over from its base, which is the checked map `sister` in `file`."""
+    at = root.entries["base"][1].at
+    taken = nodes.parse(source.read(file), Report(str(file)))
+    assert taken is not None  # noqa: S101  (it was checked)
+    base = _moved(taken, at)
+    for path in _paths(root):
+        base = _cut(base, path.text.split(DEEPER), EntryOf(Drive)) or _missed(base, path, file, report)
+    assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
+    own = _Own(_word("document", file.stem, at), sister.family.en)
+    entries = dict(base.entries)
+    entries["documents"] = _documents(base, file, sister)
+    both = _both(EntryOf(Drive), Entries(entries, base.at), root, own)
+    return Entries(both.entries, root.at) if isinstance(both, Entries) else both
+
+
+class _Own(NamedTuple):
+    """What the base's own manual is called where facts are taken from it: as a document, and by its model."""
+
+    document: tuple[Scalar, Node]
+    family: str
+
+
+def _word(key: str, text: str, at: Place) -> tuple[Scalar, Node]:
+    return Scalar(key, plain=True, at=at), Scalar(text, plain=False, at=at)
+
+
+def _documents(base: Entries, file: Path, sister: Drive) -> tuple[Scalar, Node]:
+    """The base's documents, and its manual among them."""
+    at = base.at
+    said = {"id": file.stem, "title": sister.manual.title.en, "publisher": sister.manual.publisher.en}
+    said |= {"edition": sister.manual.edition} if sister.manual.edition else {}
+    said |= {"trust": "transcribed" if sister.manual.second_hand else "sister"}
+    row = Entries({key: _word(key, text, at) for key, text in said.items()}, at)
+    old = base.entries["documents"][1] if "documents" in base.entries else Items((), at)
+    rows = old.items if isinstance(old, Items) else ()
+    return Scalar("documents", plain=True, at=at), Items((*rows, row), at)
+
+
+def _moved(node: Node, at: Place) -> Node:
+    """The same, at one place: mistakes in what is taken over are shown where it is asked for."""
+    if isinstance(node, Scalar):
+        return node._replace(at=at)
+    if isinstance(node, Items):
+        return Items(tuple(_moved(each, at) for each in node.items), at)
+    return Entries({key: (name._replace(at=at), _moved(each, at)) for key, (name, each) in node.entries.items()}, at)
+
+
+# ---------------------------------------------------------------- what is left out
+
+
+def _paths(root: Entries) -> list[Scalar]:
+    listed = root.entries["without"][1] if "without" in root.entries else None
+    return [each for each in listed.items if isinstance(each, Scalar)] if isinstance(listed, Items) else []
+
+
+def _missed(base: Node, path: Scalar, file: Path, report: Report) -> Node:
+    wrong = f"`{path.text}` is nothing that {file.name} has"
+    report.add(path.at, wrong, "write keys and names of rows, such as `faults > codes > 48` or `settings`")
+    return base
+
+
+def _cut(node: Node, path: list[str], shape: Shape) -> Node | None:
+    """A tree without what a path leads to; None where it leads nowhere."""
+    if isinstance(node, Entries) and isinstance(shape, EntryOf) and path[0] in node.entries:
+        key, value = node.entries[path[0]]
+        inner = _cut(value, path[1:], keys_of(shape.cls)[path[0]].shape) if path[1:] else None
+        if path[1:] and inner is None:
+            return None
+        rest = {name: each for name, each in node.entries.items() if inner is not None or name != path[0]}
+        return Entries(rest if inner is None else rest | {path[0]: (key, inner)}, node.at)
+    if isinstance(node, Items) and isinstance(shape, ListOf):
+        for index, row in enumerate(node.items):
+            if _name(row, shape) == path[0]:
+                inner = _cut(row, path[1:], shape.item) if path[1:] else None
+                if path[1:] and inner is None:
+                    return None
+                kept = () if inner is None else (inner,)
+                return Items((*node.items[:index], *kept, *node.items[index + 1 :]), node.at)
+    return None
+
+
+# ---------------------------------------------------------------- what is taken over
+
+
+def _both(shape: Shape, base: Node, mine: Node | None, own: _Own) -> Node:
+    """What a map says, and what it takes over beside that: all, where it says nothing."""
+    if isinstance(shape, EntryOf) and isinstance(base, Entries) and isinstance(mine, Entries | None):
+        return mine if mine and shape.cls in _WHOLE else _entries(shape, base, mine, own)
+    if isinstance(shape, ListOf) and isinstance(base, Items) and isinstance(mine, Items | None):
+        return mine if mine and not (mine.items and _key(shape)) else _items(shape, base, mine, own)
+    return base if mine is None else mine
+
+
+def _entries(shape: EntryOf, base: Entries, mine: Entries | None, own: _Own) -> Entries:
+    """Key by key; its document is the sister's manual, unless the map gives a source of its own."""
+    known, said = keys_of(shape.cls), mine.entries if mine else {}
+    entries = {}
+    for key, (name, value) in base.entries.items():
+        if key != "document" or "source" not in said or key in said:
+            entries[key] = (name, _both(known[key].shape, value, said[key][1] if key in said else None, own))
+    entries |= {key: each for key, each in said.items() if key not in base.entries}
+    return Entries(entries if "source" in said else _sourced(shape, entries, own), mine.at if mine else base.at)
+
+
+def _items(shape: ListOf, base: Items, mine: Items | None, own: _Own) -> Items:
+    """Row by row: those of one name are one, at their old place; new ones follow, and one that is there twice."""
+    said = mine.items if mine else ()
+    last = {_name(row, shape): row for row in said}
+    rows = [_both(shape.item, row, last.get(_name(row, shape)), own) for row in base.items]
+    old = {_name(row, shape) for row in base.items}
+    new = [row for row in said if _name(row, shape) not in old or last[_name(row, shape)] is not row]
+    return Items((*rows, *new), mine.at if mine else base.at)
+
+
+def _sourced(shape: EntryOf, entries: dict[str, tuple[Scalar, Node]], own: _Own) -> dict[str, tuple[Scalar, Node]]:
+    """Keys of an entry whose source is a page of the base: the document is named, or, where no key can, the model."""
+    if "source" not in entries or "document" in entries:
+        return entries
+    if "document" in keys_of(shape.cls):
+        return entries | {"document": own.document}
+    key, said = entries["source"]
+    if isinstance(said, Scalar):
+        said = said._replace(text=f"{own.family}: {said.text}")
+    return entries | {"source": (key, said)}
+
+
+def _key(shape: ListOf) -> str | None:
+    """What names the rows of a list; None where they have no names, so that the list is replaced as one."""
+    if not isinstance(shape.item, EntryOf):
+        return None
+    must = {key.name for key in required_of(shape.item.cls)}
+    return next((name for name in _NAMES if name in must), None)
+
+
+def _name(row: Node, shape: ListOf) -> str | None:
+    key = _key(shape)
+    if key is None or not isinstance(row, Entries) or key not in row.entries:
+        return None
+    name = row.entries[key][1]
+    return name.text if isinstance(name, Scalar) else None

@@ -1,0 +1,138 @@
+"""A map that says only what is different from a sister's: what it takes over, from where, and what is refused."""
+
+from pathlib import Path
+
+import pytest
+
+from driveblocks.maps import catalog, trust
+from driveblocks.maps.load import load, loads
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+
+BASE = (Path(__file__).parents[2] / "generator/driveblocks/maps/skeleton.yaml").read_text(encoding="utf-8")
+HEAD = """format: 1
+base: acme
+prefix: BEST
+family: {en: Best 200}
+manual: {language: en, title: {en: Best 200 manual}, publisher: {en: Best}}
+"""
+
+
+def write(folder: Path, more: str = "", base: str = BASE) -> Path:
+    """A map with its base beside it."""
+    (folder / "acme.yaml").write_text(base, encoding="utf-8")
+    file = folder / "best.yaml"
+    file.write_text(HEAD + more, encoding="utf-8")
+    return file
+
+
+def made(folder: Path, more: str = "") -> Drive:
+    """That map, loaded."""
+    return load(write(folder, more))
+
+
+def wrong(file: Path) -> list[str]:
+    """What is refused, without the name of the file."""
+    with pytest.raises(MapError) as caught:
+        load(file)
+    return [str(each).removeprefix(f"{file}:") for each in caught.value.problems]
+
+
+def test_what_is_not_said_is_the_sisters_and_no_longer_read(tmp_path: Path) -> None:
+    best, acme = made(tmp_path), loads(BASE, "acme.yaml")
+    assert [row.address for _, row in best.registers()] == [row.address for _, row in acme.registers()]
+    assert {one.document for one in best.operation.commands} == {"acme"}
+    sister = best.documents[0]
+    assert (sister.id, sister.title, sister.trust) == ("acme", "Acme 100 communication manual", "sister")
+    assert trust.rung(acme) == "read, read, read"
+    assert trust.rung(best) == "sister, sister, sister"
+    assert best.frames[0].document == "acme"
+
+
+def test_a_source_of_its_own_holds_for_what_is_taken_over_there(tmp_path: Path) -> None:
+    best = made(
+        tmp_path,
+        """sections: [{id: commands, source: page 7}, {id: status, source: page 8}]
+operation:
+  commands: [{does: run_forward, source: page 7}, {does: run_reverse, source: page 7}, {does: stop, source: page 7}]
+  reference: {source: page 7}
+  standstill: {source: page 8}
+  status: [{shows: running, source: page 8}]
+faults: {source: page 9}
+""",
+    )
+    assert trust.rung(best) == "read, read, read"
+    assert [one.source for one in best.sections] == ["page 7", "page 8"]
+    assert best.operation.commands[2].writes[0].value == 3
+    assert [code.name for code in best.faults.codes] == ["Overcurrent"]
+
+
+def test_rows_of_one_name_are_one_and_new_ones_follow(tmp_path: Path) -> None:
+    best = made(
+        tmp_path,
+        """frames: []
+sections:
+  - id: status
+    registers: [{address: 2001H, scale: {factor: 0.1, source: page 8}}, {address: 2003H, name: Warning}]
+faults: {codes: [{code: 02H, name: Overvoltage}]}
+""",
+    )
+    rows = best.sections[1].registers
+    assert [row.address.first for row in rows] == [0x2000, 0x2001, 0x2002, 0x2003]
+    scale = rows[1].scale
+    assert scale is not None
+    assert (str(scale.factor), scale.document) == ("0.1", None)
+    assert rows[1].name == "Output frequency"
+    assert [(code.code, code.name) for code in best.faults.codes] == [(1, "Overcurrent"), (2, "Overvoltage")]
+
+
+def test_what_is_left_out_is_gone(tmp_path: Path) -> None:
+    best = made(
+        tmp_path,
+        """without: [faults > codes > 01H, operation > commands > run_reverse,
+  sections > commands > registers > 1000H > values > 2]
+frames: []
+faults: {codes: [{code: 02H, name: Overvoltage}]}
+""",
+    )
+    assert best.frames == ()
+    assert [code.code for code in best.faults.codes] == [2]
+    assert [one.value for one in best.sections[0].registers[0].values] == [1, 3]
+    assert [one.does for one in best.operation.commands] == ["run_forward", "stop"]
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ("without: [faults > codes > 01H > nothing]\n", "`faults > codes > 01H > nothing` is nothing"),
+        ("without: [settings]\n", "1:1: `the map` has no `settings`"),
+        ("settings: one\n", "6:11: `settings` is one value"),
+        ("whatever: 1\n", "6:1: unknown key `whatever`"),
+        ("sections: [{id: status, registers: [{address: 2001H, unit: foot}]}]\n", "6:60: `unit: foot` is not allowed"),
+        # what is taken over is wrong where it was asked for
+        ("without: [sections > status > registers > 2001H]\n", "2:7: "),
+    ],
+)
+def test_mistakes_are_shown_in_this_file(tmp_path: Path, more: str, told: str) -> None:
+    assert any(told in each for each in wrong(write(tmp_path, more)))
+
+
+def test_a_base_that_is_not_there_or_not_good(tmp_path: Path) -> None:
+    file = write(tmp_path)
+    (tmp_path / "acme.yaml").unlink()
+    assert wrong(file)[0].startswith("2:7: there is no map acme.yaml beside this one")
+    bad = tmp_path / "acme.yaml"
+    write(tmp_path, base=BASE.replace("format: 1", "format: 2"))
+    assert wrong(file)[0].startswith(f"{bad}:3:9: ")
+    write(tmp_path, base=HEAD)
+    assert wrong(file)[0].startswith("2:7: acme.yaml has a base itself")
+    with pytest.raises(MapError, match="there is no map acme"):
+        loads(HEAD, "text")
+
+
+def test_a_base_may_be_one_that_ships(tmp_path: Path) -> None:
+    file = tmp_path / "best.yaml"
+    file.write_text(HEAD.replace("acme", "rockwell_powerflex_4"), encoding="utf-8")
+    best = load(file)
+    assert (best.prefix, best.documents[-1].id) == ("BEST", "rockwell_powerflex_4")
+    assert best.faults.codes == load(catalog.folder() / "rockwell_powerflex_4.yaml").faults.codes
