@@ -831,6 +831,25 @@ def test_powerflex_4_commands_are_words_of_the_table_and_no_stop_runs() -> None:
     )
 
 
+def test_powerflex_40_is_the_same_by_its_own_manual() -> None:
+    found = rows(PF)
+    faults = [each.strip().split(" ", 1) for each in " ".join(powerflex_4.FORTY_FAULTS.split()).split(",")]
+    assert [[str(one.code), plainly(one.name)] for one in PF.faults.codes] == [
+        [code, plainly(name)] for code, name in faults
+    ]
+    bits = {one.bit.first: plainly(one.name or "") for one in found[8192].bits}
+    directions = found[8192].bits[4]
+    for bit, name in powerflex_4.FORTY_BITS.items():
+        assert bits[bit] == plainly(name)
+    assert [plainly(one.name) for one in directions.values[1:3]] == [*map(plainly, powerflex_4.FORTY_DIRECTION)]
+    status = [plainly(one.name or "") for one in found[8448].bits]
+    assert [*map(plainly, powerflex_4.FORTY_STATUS)] == status[: len(powerflex_4.FORTY_STATUS)]
+    for address, (raw, shown) in powerflex_4.FORTY_TENTHS.items():
+        scale = found[address].scale
+        assert scale is not None
+        assert raw * scale.factor == Decimal(shown)
+
+
 def test_powerflex_4_settings_and_what_it_does_without_its_line() -> None:
     held = {one.id: (one.register, one.default, one.needed.value if one.needed else None) for one in PF.settings}
     assert held == powerflex_4.SETTINGS

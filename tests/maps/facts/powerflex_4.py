@@ -62,3 +62,23 @@ limit read_words | registers | read
 storage | kept | writes
 broadcast | broadcast | obeys
 """
+
+FORTY_FAULTS = """
+2 Auxiliary Input, 3 Power Loss, 4 Undervoltage, 5 Overvoltage, 6 Motor Stalled, 7 Motor Overload, 8 Heatsink
+Overtemperature, 12 HW Overcurrent (300%), 13 Ground Fault, 29 Analog Input Loss, 33 Auto Restart Tries, 38 Phase U
+to Ground Short, 39 Phase V to Ground Short, 40 Phase W to Ground Short, 41 Phase UV Short, 42 Phase UW Short, 43
+Phase VW Short, 63 Software Overcurrent, 64 Drive Overload, 70 Power Unit Fail, 80 AutoTune Fail, 81 Communication
+Loss, 100 Parameter Checksum Error, 122 I/O Board Fail
+"""
+"""PowerFlex 40, 22B-UM001I, page C-6."""
+FORTY_BITS = {0: "Stop", 1: "Start", 2: "Jog", 3: "Clear Faults"}
+FORTY_DIRECTION = ["Forward Command", "Reverse Command"]
+"""... page C-4; bits 6, 7 and 15 are outputs from FRN 4.01 on."""
+FORTY_STATUS = [
+    "Ready", "Active (Running)", "Cmd Forward", "Rotating Forward", "Accelerating", "Decelerating", "Alarm",
+    "Faulted", "At Reference", "Reference by Comm", "Operation Cmd by Comm", "Parameters locked", "Digital Input 1",
+    "Digital Input 2",
+]  # fmt: skip
+"""... page C-4 of an earlier edition, from bit 0 on, the names in short."""
+FORTY_TENTHS = {8193: (543, "54.3"), 8451: (123, "12.3")}
+"""... pages C-3 of that edition and C-6: what a decimal is in Hz."""
