@@ -1116,6 +1116,19 @@ class Tolerance(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Numbering(Entry):
+    """How the manual numbers registers, where it does not give the addresses that are sent."""
+
+    first: Count = fact("the number of the register whose address is 0", "40001")
+    proof: Word | None = fact("id of an example request that shows it", "read_request", optional=True)
+    says: English | None = fact(
+        "the manual's own words, where no example shows it", "the number minus 1 is sent", optional=True
+    )
+    source: English = fact("where the manual says so", "section 5")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Drive(Entry):
     """A whole map: one drive family."""
 
@@ -1137,6 +1150,11 @@ class Drive(Entry):
     manual: Manual = fact("the manual that the map was read from", "{title: ..., publisher: ...}")
     id_forms: tuple[Annotated[str, form.ID_FORM], ...] = fact(
         "forms of the manual's parameter ids: A letter, 9 digit, X either", "[A9-99]"
+    )
+    numbering: Numbering | None = fact(
+        "how the manual numbers registers; then every address of this map is such a number, as in `address: 40102`",
+        "{first: 40001, proof: read_request, source: section 5}",
+        optional=True,
     )
     documents: tuple[Document, ...] = fact(
         "other public documents that corroborate values, or that facts are taken from",

@@ -71,6 +71,7 @@ def _form(shape: Form) -> Schema:
 
 
 def _plain(shape: Form) -> str:
-    """JSON Schema's regular expressions know no inline flags."""
+    """JSON Schema's regular expressions know no inline flags; by `numbering` an address may be the manual's number."""
     free = shape in (form.TEXT, form.ENGLISH)
-    return r"\S([\s\S]*\S)?" if free else shape.pattern.pattern
+    number = r"|[1-9][0-9]{0,5}(-[1-9][0-9]{0,5})?" if shape in (form.ADDRESS, form.ADDRESSES) else ""
+    return r"\S([\s\S]*\S)?" if free else shape.pattern.pattern + number

@@ -27,6 +27,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("printed", _printed(row)),
         ("one of", run),
         ("address", f"{address_text(address)} = {address}"),
+        ("number", str(address + drive.numbering.first) if drive.numbering else None),
         ("use", None if row.unused else _ACCESS[row.access or section.access]),
         ("unit", _unit(row)),
         ("scale", _scale(row)),

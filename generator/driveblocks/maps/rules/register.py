@@ -1,7 +1,7 @@
 """Rules on registers, their bits, values, ranges and scales."""
 
 from driveblocks.maps.form import Span, address_text, bits_text, span_text
-from driveblocks.maps.model import Bit, Drive, Manual, Range, Register, Value
+from driveblocks.maps.model import Bit, Drive, Manual, Numbering, Range, Register, Value
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
@@ -10,6 +10,8 @@ from driveblocks.maps.rules.unique import overlapping, unique
 def check(drive: Drive, report: Report) -> None:
     """Note every rule that a register table breaks."""
     _sections(drive, report)
+    if drive.numbering:
+        _numbering(drive, drive.numbering, report)
     _addresses(drive, report)
     for _, row in drive.registers():
         _spans(row, report)
@@ -25,6 +27,17 @@ def _sections(drive: Drive, report: Report) -> None:
         if not section.registers:
             wrong = f"section `{section.id}` has no registers"
             report.miss(section.place("registers"), wrong, "list its rows, or remove it")
+
+
+def _numbering(drive: Drive, one: Numbering, report: Report) -> None:
+    """What the numbers mean is proved: one that is wrong moves every register."""
+    asked = {frame.id for frame in drive.frames if frame.direction == "request" and frame.means.address is not None}
+    if one.proof is None and one.says is None:
+        right = "name an example request as `proof`, or give the manual's words as `says`"
+        report.miss(one.at, "nothing shows which address a number is", right)
+    elif one.proof is not None and one.proof not in asked:
+        wrong = f"`{one.proof}` is no example request that names a register"
+        report.add(one.place("proof"), wrong, "name one of `frames` whose `means` has an `address`")
 
 
 def _addresses(drive: Drive, report: Report) -> None:

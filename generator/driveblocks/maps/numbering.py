@@ -1,0 +1,64 @@
+"""Register numbers as a manual gives them, such as 40102, become the addresses that are sent."""
+
+import re
+from collections.abc import Callable
+
+from driveblocks.maps import form
+from driveblocks.maps.model import Drive
+from driveblocks.maps.nodes import Entries, Items, Node, Scalar
+from driveblocks.maps.problem import Place, Report
+from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of
+
+_NUMBER = re.compile(r"[1-9][0-9]{0,5}|[0-9A-F]{4}H")
+Addressed = Callable[[str, Place], str]
+"""Makes an address of a number at a place."""
+_KINDS = ("register", "bit")
+"""What a reference begins with that names a register."""
+
+
+def wired(root: Node | None, report: Report) -> Node | None:
+    """The same map with addresses in the place of the manual's numbers; as it is where it has no `numbering`."""
+    said = root.entries["numbering"][1] if isinstance(root, Entries) and "numbering" in root.entries else None
+    first = said.entries["first"][1] if isinstance(said, Entries) and "first" in said.entries else None
+    if root is None or not isinstance(first, Scalar) or not form.COUNT.pattern.fullmatch(first.text):
+        return root
+
+    def address(text: str, at: Place) -> str:
+        """An address or a range of them; what is neither stays, for the decoder to refuse."""
+        ends = text.split("-")
+        return "-".join(one(each, at) for each in ends) if all(map(_NUMBER.fullmatch, ends)) else text
+
+    def one(text: str, at: Place) -> str:
+        number = int(text[:-1], 16) if text.endswith("H") else int(text)
+        least = int(first.text)
+        if not least <= number <= least + 0xFFFF:
+            right = f"by `numbering` they are {least} to {least + 0xFFFF}"
+            report.add(at, f"{text} is no number of a register", right)
+            return "0000H"
+        return form.address_text(number - least)
+
+    return _wired(EntryOf(Drive), root, address)
+
+
+def _wired(shape: Shape, node: Node, address: Addressed) -> Node:
+    if isinstance(shape, EntryOf) and isinstance(node, Entries):
+        known = keys_of(shape.cls)
+        made = {
+            key: (name, _wired(known[key].shape, value, address) if key in known else value)
+            for key, (name, value) in node.entries.items()
+        }
+        return Entries(made, node.at)
+    if isinstance(shape, ListOf) and isinstance(node, Items):
+        return Items(tuple(_wired(shape.item, each, address) for each in node.items), node.at)
+    if not isinstance(node, Scalar):
+        return node
+    if shape in (form.ADDRESS, form.ADDRESSES):
+        return node._replace(text=address(node.text, node.at))
+    return node._replace(text=_reference(node, address)) if shape is form.REFERENCE else node
+
+
+def _reference(node: Scalar, address: Addressed) -> str:
+    """`register 40102` or `bit 40102.3`."""
+    kind, _, name = node.text.partition(" ")
+    number, dot, bit = name.partition(".")
+    return f"{kind} {address(number, node.at)}{dot}{bit}" if kind in _KINDS else node.text

@@ -1,0 +1,76 @@
+"""Maps whose addresses are the manual's own numbers of registers."""
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from tests.maps.test_base import BASE
+
+from driveblocks.maps.load import loads
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.maps.revision import revision
+
+RULES: dict[str, tuple[str, Callable[[int], str]]] = {
+    "1": ("first: 1, proof: request", lambda address: str(address + 1)),
+    "4xxxx": ("first: 40001, proof: request", lambda address: str(address + 40001)),
+    "hexadecimal": ("first: 1, proof: request", lambda address: f"{address + 1:04X}H"),
+    "from words": ("first: 1, says: the number minus 1 is sent", lambda address: str(address + 1)),
+}
+
+
+def numbered(name: str, text: str = BASE) -> str:
+    """The smallest map, its registers numbered by a rule."""
+    rule, number = RULES[name]
+    text = re.sub(r"\b([0-9A-F]{4})H", lambda found: number(int(found[1], 16)), text)
+    return text.replace("id_forms:", f"numbering: {{{rule}, source: section 1}}\nid_forms:")
+
+
+def wrong(text: str) -> list[str]:
+    """What is refused."""
+    with pytest.raises(MapError) as caught:
+        loads(text, "map")
+    return [each.wrong for each in caught.value.problems]
+
+
+def bare(drive: Drive) -> Drive:
+    """A map without its rule, and without words in which numbers are."""
+    frames = [replace(one, means=replace(one.means, says="")) for one in drive.frames]
+    return replace(drive, numbering=None, frames=tuple(frames))
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_numbers_become_the_addresses_that_are_sent(name: str) -> None:
+    map_ = loads(numbered(name), "map")
+    assert bare(map_) == bare(loads(BASE, "map"))
+    assert map_.numbering
+    assert map_.numbering.first == {"4xxxx": 40001}.get(name, 1)
+
+
+def test_references_are_numbers_too() -> None:
+    text = BASE.replace("about: [faults]", "about: [register 2002H, bit 2000H.0]")
+    assert loads(numbered("4xxxx", text), "map").absent[0].about == ("register 2002H", "bit 2000H.0")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ("proof: request, ", "", "nothing shows which address a number is"),
+        ("proof: request", "proof: reply", "`reply` is no example request that names a register"),
+        ("address: 44097", "address: 40000", "40000 is no number of a register"),
+        ("address: 44097", "address: 4H", "`address: 4H` is not an address or range"),
+        ("first: 40001", "first: 40002", "`means` says address 2000H, the bytes say 2001H"),
+        ("address: 44097", "address: 44097-44098", "a range of registers cannot have bits, values or a scale"),
+        ("first: 40001", "first: none", "`first: none` is not a count"),
+    ],
+)
+def test_what_is_wrong_with_numbers(old: str, new: str, told: str) -> None:
+    text = numbered("4xxxx")
+    assert old in text
+    assert any(told in each for each in wrong(text.replace(old, new, 1)))
+
+
+def test_the_rule_changes_no_revision_of_other_maps() -> None:
+    assert "numbering" not in BASE
+    assert revision(loads(BASE, "map")) == revision(replace(loads(BASE, "map"), numbering=None))
