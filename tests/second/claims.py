@@ -33,6 +33,8 @@ FOREIGN_US = 45_000_000
 PROBE_US = 12_000_000
 AGE_MS = 2600
 """How old words may be on a line of three drives at most."""
+SEEN_US = 300_000
+"""What the age of words does not say: the reply's way, and the scan in which it is shown."""
 USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
@@ -93,6 +95,8 @@ class Claim:
     """When a frame was last sent to it."""
     fault_us: int | None = None
     driven_us: int | None = None
+    far_us: int = 0
+    """When it was last not at the speed that it is asked for."""
     runs: int = 0
     """Orders to run since the last edge, or since it last turned."""
     written_us: int = 0
@@ -400,7 +404,9 @@ class Claims:
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
         self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
         shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
-        quiet = runs and shown and bench.number("StatusAgeMs", index) < AGE_MS
+        claim.far_us = now if far else claim.far_us
+        age = max(bench.number("StatusAgeMs", index), bench.number("MeasuresAgeMs", index))
+        quiet = runs and shown and age < AGE_MS and now - claim.far_us > 1000 * age + SEEN_US
         self._once(
             index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
         )

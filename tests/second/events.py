@@ -297,8 +297,10 @@ def _ignores_stops(b: Second, _: Random) -> None:
 
 
 def _obeys(b: Second, _: Random) -> None:
+    """At last, and what it has acknowledged, too: no run is left over in it that nobody can know of."""
     b.release()
     ignore(b, ())
+    b.models[0].commanded = None
 
 
 def _busy(b: Second, _: Random) -> None:

@@ -331,7 +331,7 @@ class Judge:
         obstinate = elsewhere and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
         if self.bench.restarts_contact or refuses or obstinate or busy:
             return True
-        return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US)
+        return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
 
     # ------------------------------------------------------------ what outputs say
 

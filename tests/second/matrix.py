@@ -338,6 +338,7 @@ class Run:
         self._keypad()
         b.run(1500)
         b.wait(lambda: not any(one.motor.hz(b.now) for one in b.models), 12_000)
+        b.acknowledge()
         self._faults()
         b.acknowledge()
         if not all(self.ready(index) for index in range(len(b.models))):

@@ -88,6 +88,8 @@ class Watch:
     most_hz: float = 0.0
     lowered_at: int = 0
     turned_since: int | None = None
+    caught: bool = False
+    """It was still turning the other way when it was started, and is braked and turned round."""
     interrupted: bool = False
     ended_us: int = 0
     """When it was last driven no longer, and whether it was permitted to be until then."""
@@ -131,6 +133,7 @@ class Observer:
         if driven and not watch.driven:
             if truth.itself and watch.interrupted and now_us - watch.ended_us <= self.figures.unseen_us and not stops:
                 watch.permitted = True
+            watch.caught = turns
             self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself), seen=truth)
         elif watch.driven and not driven:
             watch.interrupted, watch.ended_us = watch.permitted, now_us
@@ -187,5 +190,6 @@ class Observer:
         wrong_way = truth.hz * (-1 if pins.get("RunReverse") else 1) < -self.figures.still_hz
         self._judge(now_us, unit, "speed", bad=far, seen=truth)
         watch.turned_since = (watch.turned_since or now_us) if wrong_way and truth.turned else None
+        watch.caught = watch.caught and wrong_way
         young = watch.turned_since is not None and now_us - watch.turned_since <= figures.unseen_us + TURNED_US
-        self._judge(now_us, unit, "direction", bad=wrong_way and not young, seen=truth)
+        self._judge(now_us, unit, "direction", bad=wrong_way and not (young or watch.caught), seen=truth)
