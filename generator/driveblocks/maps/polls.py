@@ -111,6 +111,12 @@ def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:
     return words
 
 
+def other_words(drive: Drive, poll: Poll, reads: tuple[Poll, ...]) -> int:
+    """Registers of a poll after a timeout, 0 where there is no other length; its own where another read is as long."""
+    lengths = [each.words for each in reads]
+    return beyond(drive, poll, set(lengths)) or (poll.words if lengths.count(poll.words) > 1 else 0)
+
+
 def _apart(drive: Drive, found: list[Poll]) -> Iterator[Poll]:
     """The reads, each as long as none before it."""
     taken: set[int] = set()

@@ -7,7 +7,16 @@ from functools import lru_cache
 from driveblocks.maps import model, names
 from driveblocks.maps.model import Command, Condition, Drive, Scale, State, UnitAddress
 from driveblocks.maps.plan import plan
-from driveblocks.maps.polls import Poll, beyond, fast_words, identity_read, meaning_words, polls, schedule, slow_words
+from driveblocks.maps.polls import (
+    Poll,
+    fast_words,
+    identity_read,
+    meaning_words,
+    other_words,
+    polls,
+    schedule,
+    slow_words,
+)
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
@@ -252,9 +261,8 @@ def _reading(drive: Drive) -> Reading:
     places = list(_places(drive, reads))
     number = {each.address: each.number for each in places}
     turns = [index + 1 for index in schedule(reads)]
-    taken = {each.words for each in reads}
     return Reading(
-        reads=[_read(drive, index, read, places, taken) for index, read in enumerate(reads, 1)],
+        reads=[_read(drive, index, places, reads) for index in range(1, len(reads) + 1)],
         number=number,
         turns=turns,
         places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
@@ -364,9 +372,10 @@ def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
                 yield replace(word_input(drive, address), number=number, index=address - read.address)
 
 
-def _read(drive: Drive, number: int, read: Poll, places: list[Word], taken: set[int]) -> Read:
+def _read(drive: Drive, number: int, places: list[Word], reads: tuple[Poll, ...]) -> Read:
+    read = reads[number - 1]
     words = [place for place in places if place.number == number]
-    return Read(number, read, words, beyond(drive, read, taken))
+    return Read(number, read, words, other_words(drive, read, reads))
 
 
 def _identity(drive: Drive) -> Identified | None:

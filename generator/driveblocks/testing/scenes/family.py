@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import Poll, beyond, fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.simulator.pattern import of_write
@@ -66,12 +66,11 @@ def _reads(drive: Drive) -> Iterator[Row]:
 def _turns(drive: Drive) -> Iterator[Row]:
     """Which read it is in each turn; without one, the last."""
     reads = polls(drive)
-    taken = {read.words for read in reads}
     for turn, index in enumerate(schedule(reads)):
         read = reads[index]
         yield [f"turn {turn}", {"Turn": turn}, {
             "NextEntry": index + 1, "Register": word(read.address), "Quantity": read.words,
-            "OtherQuantity": beyond(drive, read, taken),
+            "OtherQuantity": other_words(drive, read, reads),
         }]  # fmt: skip
 
 
