@@ -1,8 +1,10 @@
 """Mistakes that the matrix has found, each with the least that shows it."""
 
+import pytest
 from tests.second.bench import Second
 from tests.second.drive import RUNS
 from tests.second.events import ignore
+from tests.second.matrix import named, run
 from tests.second.station import types_of
 
 TERMINALS = {"run": 1}
@@ -161,3 +163,14 @@ def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
         b.deaf.clear()
         b.run(3000)
         assert b.shows("StopConfirmed")
+
+
+@pytest.mark.parametrize(
+    "cell",
+    [
+        "PF4, full control, replies doubled, ramping down",  # its fault register, 0, passed for status and frequency
+        "CHF, jog, slow scans, local",  # its stops, which it refuses, left others without their references
+    ],
+)
+def test_cells_that_have_failed_hold(cell: str) -> None:
+    assert run(named(cell), 300).rules == []
