@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
-from tests.second.observer import MOVES, RUN, STOPPING, any_of, both, spoilt
+from tests.second.observer import MOVES, RUN, STOPPING, any_of, both
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -199,12 +199,13 @@ class Claims:
         """The first bit of a stop, from the call with the changed pin: within WorstStopMs, or alone StopAloneMs."""
         if claim.armed_us is None:
             return
+        lies = now_us - self.judge.units[index].lied_us < CALM_US
         took = now_us - CHAR_US * (2 * length + 5 if self.bench.ascii else length + 2) - claim.armed_us
         others = [i for i in range(len(self.claims)) if i != index]
         alone = all(self.claims[i].driven_us or self.bench.shows("StopConfirmed", i) for i in others)
         most = 1000 * int(self.bench.number("StopAloneMs" if alone else "WorstStopMs", index))
         claim.armed_us = None
-        if took > most and max(self.judge.late) <= MAX_SCAN_US:
+        if took > most and max(*self.judge.late, 1000 * self.bench.elapsed) <= MAX_SCAN_US and not lies:
             self.judge.tell(index, "first stop", f"after {took // 1000} ms, promised in {most // 1000}")
 
     def _again(self, now_us: int, index: int, claim: Claim, body: bytes) -> None:
@@ -258,6 +259,8 @@ class Claims:
         one = self.bench.models[index]
         late = one.o.late_per_1000 or now_us < one.busy_us + START_US
         asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
+        if self.bench.pins[index] != claim.pins:  # a stop pin that has just risen
+            return
         if late or asks or not (self._steady(index, claim) or self._supplies(index, claim)):
             return
         first = claim.writes[0] if period else claim.writes[-2]
@@ -289,7 +292,9 @@ class Claims:
     def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
         asked = any_of(MOVES, pins)
-        stops = not pins["Enable"] or any_of(STOPPING, pins) or spoilt(pins) or both(pins)
+        hz = pins["SpeedReferenceHz"]
+        assert isinstance(hz, float)
+        stops = not pins["Enable"] or any_of(STOPPING, pins) or hz < 0 or both(pins)
         if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
             claim.edge_us = None
         elif claim.ready and not any_of((*MOVES, "Restart"), before):
@@ -303,7 +308,7 @@ class Claims:
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
-                told = told or (bench.unsaid and bench.reason(index) == "NO_RUN")
+                told = told or (bench.unsaid and bench.reason(index) == "NO_RUN") or bench.reason(index) == "BY_ITSELF"
                 self._once(index, "follow", bad=not told)
 
     def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
@@ -317,7 +322,8 @@ class Claims:
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
-        good = driven and self.willing(index) and hears
+        lies = now - self.judge.units[index].lied_us < CALM_US
+        good = driven and self.willing(index) and hears and not lies
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
         elif claim.stop_us is None and owed:
@@ -376,7 +382,10 @@ class Claims:
         bench, now = self.bench, self.bench.now
         pins = bench.pins[index]
         since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, self.judge.units[index].unknown_us)
-        calm = now - since > STANDS_US and self.willing(index) and not bench.flicker and len(bench.models) < 8
+        dead = any(now - each.away_us < CALM_US for each in self.judge.units)  # others have their turn on the wire, too
+        calm = (
+            now - since > STANDS_US * (1 + dead) and self.willing(index) and not bench.flicker and len(bench.models) < 8
+        )
         held = any_of(MOVES, pins) and pins["Enable"]
         quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
         self._once(index, "stands", bad=bool(quiet and not bench.shows("StopConfirmed", index)))
@@ -400,7 +409,8 @@ class Claims:
         asked = min(hz, limit or hz, 50.0)
         steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
         permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
-        runs = steady and any_of(RUN, pins) and permitted
+        lies = now - self.judge.units[index].lied_us < CALM_US
+        runs = steady and any_of(RUN, pins) and permitted and not lies
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
         self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
         shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
@@ -410,7 +420,7 @@ class Claims:
         self._once(
             index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
         )
-        wrong = bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked)
+        wrong = bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked) and not lies
         self._once(index, "at speed already", bad=wrong and now - claim.changed_us > SPEED_US)
         limited = bool(bench.out("ReferenceLimited", index))
         self._once(index, "limited", bad=limited != (hz > min(limit or hz, 50.0)) and now - claim.changed_us > QUIET_US)

@@ -21,6 +21,8 @@ FOREIGN, SHARED = 54, 56
 """ErrorID: another master is on the line; two drive blocks use one slot."""
 REMEMBERED_US = 10_000_000
 """Its frames count for so long, or until a restart."""
+FORGOTTEN_US = 41_000_000
+"""For how long the line may take copies of replies for another master."""
 SEEN_BY = 7
 """More of them than the line bears, and some that may be damaged."""
 
@@ -353,7 +355,8 @@ def _acknowledged(b: Second, chance: Random) -> None:
 
 def _few_gone(b: Second, _: Random) -> None:
     """Four or fewer in ten seconds are none."""
-    if b.block["TheLine.ErrorID"] == FOREIGN:
+    doubled = b.now - b.judge.claims.doubled_us < FORGOTTEN_US
+    if b.block["TheLine.ErrorID"] == FOREIGN and not doubled:
         b.judge.tell(0, "strangers", "a few of their frames, and ErrorID is theirs")
     b.strange, b.strange_ms = False, 0
 
@@ -374,7 +377,7 @@ def _both_ways(b: Second, _: Random) -> None:
 
 
 def _wrong_reference(b: Second, chance: Random) -> None:
-    b.put(0, SpeedReferenceHz=chance.choice([-5.0, -0.01]))
+    b.put(0, SpeedReferenceHz=chance.choice([-5.0, -0.06]))
 
 
 def _too_fast(b: Second, _: Random) -> None:

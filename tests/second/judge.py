@@ -98,6 +98,8 @@ class Unit:
     """The same, but for a drive without supply on purpose."""
     unasked_us: int = 0
     """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
+    lied_us: int = -CALM_US
+    """When it last was one that acknowledges orders and does not obey them."""
     broken: set[str] = field(default_factory=set)
 
 
@@ -222,7 +224,10 @@ class Judge:
             one.advance(now)
         unit, pins, hz = self.units[index], bench.pins[index], one.motor.hz(now)
         # silence is no alarm yet; a line that is not called can do nothing, which the drive block shows
-        open_now = not bench.contact or self._boots(index) or bench.lineless
+        unit.lied_us = now if one.o.ignores else unit.lied_us
+        off = bool(pins.get("SupplyOff")) and not bench.hears(index)
+        off = off or bool(pins.get("MonitorOnly") and unit.lied_us > 0)  # it has acknowledged the stop before that
+        open_now = not bench.contact or self._boots(index) or bench.lineless or off
         truth = Truth(
             hz, one.by, stopping=bool(one.stopping), contact_open=open_now, turned=one.turned, itself=one.itself
         )
@@ -296,7 +301,7 @@ class Judge:
         silent = index + 1 in bench.deaf or one.cut
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
-        owed = owed and not bench.lineless
+        owed = owed and not (bench.lineless or bench.pins[index].get("SupplyOff"))  # its user says that it is off
         unit.silent_since = (unit.silent_since or bench.now) if owed else None
         slow = bench.now - self.slow_us < CUT_US + SLOW_US
         most = CUT_US + (SLOW_US if slow else 0) + MORE_US * ((len(bench.models) > 1) + (len(bench.models) > 3))
@@ -329,7 +334,9 @@ class Judge:
         elsewhere = one.local or one.run_source != "bus"
         busy = self.bench.mode == "SpeedOnly" and now - one.busy_us < GRACE_US  # nor is it proved to stand there
         obstinate = elsewhere and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
-        if self.bench.restarts_contact or refuses or obstinate or busy:
+        lies = now - unit.lied_us < self.figures.stop_us + 2_000_000
+        slow = now - self.slow_us < CUT_US + SLOW_US  # a line that scans late promises no time
+        if self.bench.restarts_contact or refuses or obstinate or busy or lies or slow:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
 
