@@ -143,7 +143,7 @@ def _load() -> Iterator[Step]:
     """One drive that answers at once keeps the line busy; a dead one leaves it free."""
     yield Step("from here", BEGIN, ms=1200, shows={
         "Bus.LoadPercent": (40, 100), "Bus.CycleMs": (20, 100), "Bus.WorstCycleMs >= Bus.CycleMs": True,
-        "Cycles > 1000": True,
+        "Cycles > 700": True,
         "Cycles < 1400": True,
     })  # fmt: skip
     yield Step("it is dead", {"Fate.Cut": True}, "NOT Slots[0].Online", 4000, {"Bus.OnlineCount": 0})
