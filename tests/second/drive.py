@@ -533,7 +533,7 @@ class Drive:
         if self.fault is not None and not self.cause:
             self.fault, self.heard_us = None, now_us
             if resumes:
-                self._obey(now_us, itself=itself)
+                self._obey(now_us, itself=itself or bool(self.o.ignores))  # what it should have stopped
         self.warned = False
         self._plan()
 

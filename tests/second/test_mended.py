@@ -166,11 +166,16 @@ def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
 
 
 @pytest.mark.parametrize(
-    "cell",
+    ("cell", "seed"),
     [
-        "PF4, full control, replies doubled, ramping down",  # its fault register, 0, passed for status and frequency
-        "CHF, jog, slow scans, local",  # its stops, which it refuses, left others without their references
+        (
+            "PF4, full control, replies doubled, ramping down",
+            300,
+        ),  # its fault register, 0, passed for status and frequency
+        ("CHF, jog, slow scans, local", 300),  # its stops, which it refused, left others without their references
+        ("CHF, jog, a changed address, standstill", 503),  # the unit of another block in the slot passed for its own
+        ("GD200A, jog, the line is not called, standstill", 503),  # ... and so did that of before
     ],
 )
-def test_cells_that_have_failed_hold(cell: str) -> None:
-    assert run(named(cell), 300).rules == []
+def test_cells_that_have_failed_hold(cell: str, seed: int) -> None:
+    assert run(named(cell), seed).rules == []
