@@ -3,14 +3,16 @@
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.maps.test_base import BASE
 
+from driveblocks.cli import app
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
-from driveblocks.maps.revision import revision
 
 RULES: dict[str, tuple[str, Callable[[int], str]]] = {
     "1": ("first: 1, proof: request", lambda address: str(address + 1)),
@@ -71,6 +73,8 @@ def test_what_is_wrong_with_numbers(old: str, new: str, told: str) -> None:
     assert any(told in each for each in wrong(text.replace(old, new, 1)))
 
 
-def test_the_rule_changes_no_revision_of_other_maps() -> None:
-    assert "numbering" not in BASE
-    assert revision(loads(BASE, "map")) == revision(replace(loads(BASE, "map"), numbering=None))
+def test_a_register_is_shown_with_its_number(tmp_path: Path) -> None:
+    file = tmp_path / "acme.yaml"
+    file.write_text(numbered("4xxxx"), encoding="utf-8")
+    shown = CliRunner().invoke(app, ["show", file.as_posix(), "1001H"])
+    assert re.search(r"^ *number +44098$", shown.stdout, re.MULTILINE)

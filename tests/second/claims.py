@@ -195,17 +195,20 @@ class Claims:
         if looks:
             self._look(index, claim, driven=driven)
 
+    def lies(self, index: int) -> bool:
+        """It acknowledges orders that it does not obey, or did so just now: nothing is claimed of what it does."""
+        return self.bench.now - self.judge.units[index].lied_us < CALM_US
+
     def _first(self, now_us: int, index: int, claim: Claim, length: int) -> None:
         """The first bit of a stop, from the call with the changed pin: within WorstStopMs, or alone StopAloneMs."""
         if claim.armed_us is None:
             return
-        lies = now_us - self.judge.units[index].lied_us < CALM_US
         took = now_us - CHAR_US * (2 * length + 5 if self.bench.ascii else length + 2) - claim.armed_us
         others = [i for i in range(len(self.claims)) if i != index]
         alone = all(self.claims[i].driven_us or self.bench.shows("StopConfirmed", i) for i in others)
         most = 1000 * int(self.bench.number("StopAloneMs" if alone else "WorstStopMs", index))
         claim.armed_us = None
-        if took > most and max(*self.judge.late, 1000 * self.bench.elapsed) <= MAX_SCAN_US and not lies:
+        if took > most and max(*self.judge.late, 1000 * self.bench.elapsed) <= MAX_SCAN_US and not self.lies(index):
             self.judge.tell(index, "first stop", f"after {took // 1000} ms, promised in {most // 1000}")
 
     def _again(self, now_us: int, index: int, claim: Claim, body: bytes) -> None:
@@ -322,8 +325,7 @@ class Claims:
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
-        lies = now - self.judge.units[index].lied_us < CALM_US
-        good = driven and self.willing(index) and hears and not lies
+        good = driven and self.willing(index) and hears and not self.lies(index)
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
         elif claim.stop_us is None and owed:
@@ -409,8 +411,7 @@ class Claims:
         asked = min(hz, limit or hz, 50.0)
         steady = driven and claim.driven_us is not None and now - max(claim.driven_us, claim.changed_us) > SPEED_US
         permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
-        lies = now - self.judge.units[index].lied_us < CALM_US
-        runs = steady and any_of(RUN, pins) and permitted and not lies
+        runs = steady and any_of(RUN, pins) and permitted and not self.lies(index)
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
         self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
         shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
@@ -420,7 +421,9 @@ class Claims:
         self._once(
             index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
         )
-        wrong = bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked) and not lies
+        wrong = (
+            bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked) and not self.lies(index)
+        )
         self._once(index, "at speed already", bad=wrong and now - claim.changed_us > SPEED_US)
         limited = bool(bench.out("ReferenceLimited", index))
         self._once(index, "limited", bad=limited != (hz > min(limit or hz, 50.0)) and now - claim.changed_us > QUIET_US)

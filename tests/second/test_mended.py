@@ -165,17 +165,20 @@ def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
         assert b.shows("StopConfirmed")
 
 
-@pytest.mark.parametrize(
-    ("cell", "seed"),
-    [
-        (
-            "PF4, full control, replies doubled, ramping down",
-            300,
-        ),  # its fault register, 0, passed for status and frequency
-        ("CHF, jog, slow scans, local", 300),  # its stops, which it refused, left others without their references
-        ("CHF, jog, a changed address, standstill", 503),  # the unit of another block in the slot passed for its own
-        ("GD200A, jog, the line is not called, standstill", 503),  # ... and so did that of before
-    ],
-)
-def test_cells_that_have_failed_hold(cell: str, seed: int) -> None:
+HELD = {
+    "its fault register, 0, came twice, and passed for status and frequency": (
+        "PF4, full control, replies doubled, ramping down", 300,
+    ),
+    "its stops, which it refused, left others without their references": ("CHF, jog, slow scans, local", 300),
+    "the unit of another block in the slot passed for its own": ("CHF, jog, a changed address, standstill", 503),
+    "a late reply of a dead drive left it to the next probe": (
+        "GD200A, MonitorOnly, a stall of 300 ms, starting", 401,
+    ),
+    "the unit of before passed for its own": ("GD200A, jog, the line is not called, standstill", 503),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", HELD)
+def test_a_cell_that_has_failed_holds(what: str) -> None:
+    cell, seed = HELD[what]
     assert run(named(cell), seed).rules == []

@@ -32,7 +32,7 @@ def asked(root: Node | None) -> Node | None:
     return root.entries["base"][1] if isinstance(root, Entries) and "base" in root.entries else None
 
 
-def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Node:
+def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Entries:
     """A map together with what it takes over from its base, which is the checked map `sister` in `file`."""
     at = root.entries["base"][1].at
     taken = nodes.parse(source.read(file), Report(str(file)))
@@ -42,10 +42,8 @@ def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Node:
         base = _cut(base, path.text.split(DEEPER), EntryOf(Drive)) or _missed(base, path, file, report)
     assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
     own = _Own(_word("document", file.stem, at), sister.family.en)
-    entries = dict(base.entries)
-    entries["documents"] = _documents(base, file, sister)
-    both = _both(EntryOf(Drive), Entries(entries, base.at), root, own)
-    return Entries(both.entries, root.at) if isinstance(both, Entries) else both
+    entries = base.entries | {"documents": _documents(base, file, sister)}
+    return _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
 
 
 class _Own(NamedTuple):

@@ -48,11 +48,12 @@ def _based(root: Node | None, report: Report, path: Path | None) -> Node | None:
     if asked is None or not isinstance(root, Entries):
         return root
     name = build(WORD, asked, report, "base")
-    file = base.find(name, path) if path and isinstance(name, str) else None
+    if not isinstance(name, str):
+        return None
+    file = base.find(name, path) if path else None
     if file is None:
-        if isinstance(name, str):
-            wrong = f"there is no map {name}.yaml beside this one, nor among those that come with DriveBlocks"
-            report.add(asked.at, wrong, "name the file of the map of a sister model, without its ending")
+        wrong = f"there is no map {name}.yaml beside this one, nor among those that come with DriveBlocks"
+        report.add(asked.at, wrong, "name the file of the map of a sister model, without its ending")
         return None
     if base.asked(nodes.parse(source.read(file), Report(str(file)))):
         report.add(asked.at, f"{file.name} has a base itself", f"take the base of {file.name}")
