@@ -31,8 +31,8 @@ MOST = {
     # explain, show, reference: `never`; render, simulator: `differs`
     # maps: what gives the reference its meaning, for scenes, too
     # maps: a map that says only what is different from a sister's; the manual's own numbers of registers; reads as long
-    # as others, which the slot says; show: a register's number in the manual
-    "maps": 7381, "output": 845,
+    # as others, which the slot says; show: a register's number in the manual; what the bus cannot do with a drive
+    "maps": 7400, "output": 845,
     # desk: why a run ends and what ends it, and words of the command line that several commands share, came from plc
     # desk: why a port refuses a rate or a format is said once, for what only listens, too
     # modbus: the longest good frame of several that bytes may begin with

@@ -1,5 +1,6 @@
 """Counts of what maps hold, and the tables of drives that are made from them."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -77,9 +78,18 @@ def test_the_table_has_a_line_for_each_drive_and_register_table(drive: Drive) ->
 def test_the_front_table_has_a_line_for_each_drive_with_what_it_can_do(drive: Drive) -> None:
     lines = inventory.front({CHECKOUT / "vendor_maps" / "example.yaml": drive}, CHECKOUT).splitlines()
     assert lines[2:] == [
-        "| [`EX100_Drive`](blocks/docs/EX100_Drive.md) | Example Drives EX100 series "
-        "| run, run in reverse, stop, coast, reset a fault | read, read, read | 8 | 2 |"
+        "| Example Drives | EX100 series | [`EX100_Drive`](blocks/docs/EX100_Drive.md) "
+        "| run, run in reverse, stop, coast, reset a fault, set parameters | jog, quick stop "
+        "| read, read, read | 8 | 2 |"
     ]  # fmt: skip
+
+
+def test_the_front_table_is_in_the_order_of_makers_and_says_where_no_parameter_can_be_set(drive: Drive) -> None:
+    other = replace(drive, vendor=replace(drive.vendor, en="Another"), sections=(), areas=())
+    folder = CHECKOUT / "vendor_maps"
+    lines = inventory.front({folder / "example.yaml": drive, folder / "other.yaml": other}, CHECKOUT).splitlines()[2:]
+    assert [line.split(" | ")[0] for line in lines] == ["| Another", "| Example Drives"]
+    assert lines[0].split(" | ")[4] == "jog, quick stop, set parameters"
 
 
 def test_links_lead_from_the_page_to_the_map(drive: Drive) -> None:

@@ -12,8 +12,8 @@ BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
 FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
 
 _FRONT = (
-    "drive block", "drives", "what the bus can do", "commands, status, faults", "misprints found",
-    "left open by the manual",
+    "maker", "drives", "drive block", "over the bus", "not over the bus", "commands, status, faults",
+    "misprints found", "left open by the manual",
 )  # fmt: skip
 _WORDS = {
     "run_forward": "run",
@@ -23,6 +23,7 @@ _WORDS = {
     "quick_stop": "quick stop",
     "coast_stop": "coast",
     "fault_reset": "reset a fault",
+    "parameters": "set parameters",
 }
 """What a drive can be asked to do, as the front table lists it."""
 
@@ -46,19 +47,37 @@ def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
 
 
 def front(maps: Mapping[Path, Drive], folder: Path) -> str:
-    """One line for each drive: its page, its name, what the bus can do with it, misprints and gaps of its manual.
+    """One line for each drive, by maker: its page, what the bus can do with it and what not, misprints and gaps.
 
-    Beside what the bus can do: how far the weakest command, status and fault can be trusted.
+    Between them: how far the weakest command, status and fault can be trusted.
     """
-    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 4 + ("---:",) * 2]
-    for path, drive in maps.items():
+    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 6 + ("---:",) * 2]
+    for path, drive in sorted(maps.items(), key=lambda each: view.title(each[1]).casefold()):
         page = Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs"
         link = f"[`{drive.prefix}_Drive`]({(page / f'{drive.prefix}_Drive.md').as_posix()})"
-        told = {each.does for each in drive.operation.commands} if drive.operation else set()
+        able = set(_able(drive))
+        can = ", ".join(word for name, word in _WORDS.items() if name in able)
+        cannot = ", ".join(word for name, word in _WORDS.items() if name not in able)
         held = counts.of_drive(drive)
-        can = ", ".join(word for name, word in _WORDS.items() if name in told)
-        rows.append((link, view.title(drive), can, trust.rung(drive), str(held.errata), str(held.absent)))
+        names = drive.vendor.en, drive.family.en, link
+        rows.append((*names, can, cannot, trust.rung(drive), str(held.errata), str(held.absent)))
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def _able(drive: Drive) -> Iterator[str]:
+    """What a drive can be asked to do, by the names of commands; `parameters` where there are some to be set."""
+    moving = {drive.operation.reference.register}
+    for command in drive.operation.commands:
+        yield command.does
+        moving |= {command.register, *(step.register for step in command.first)}
+    written = {
+        address
+        for section, row in drive.registers()
+        if "w" in (row.access or section.access) and not row.unused
+        for address in row.address
+    }
+    if any("w" in area.access for area in drive.areas) or written - moving - {each.register for each in drive.settings}:
+        yield "parameters"
 
 
 def table(maps: Mapping[Path, Drive], folder: Path) -> str:
