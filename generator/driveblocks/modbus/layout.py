@@ -5,6 +5,7 @@ A body is unit address, function code and data, without checksum.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 Direction = Literal["request", "reply"]
@@ -176,6 +177,7 @@ def granted(body: bytes, direction: Direction) -> Layout:
     return Layout(direction, body, parts, size, two_byte_count=wide)
 
 
+@lru_cache(1024)
 def request(body: bytes) -> Layout | None:
     """A request as the standard has it; None if its length is wrong. Of other functions nobody knows the length."""
     found = granted(body, "request") if len(body) >= 2 else None

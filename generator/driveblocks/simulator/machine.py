@@ -31,6 +31,7 @@ class Machine:
         self.unit = unit
         self.table = table(drive, self.habits, ascii_mode=ascii_mode)
         self.memory = Memory(self.table.storage, plate(drive, self.habits), words or {})
+        self._gauges = {each.register: each for each in self.table.gauges}
         self.motor = Motor()
         self.now = 0
         self.heard_at = 0
@@ -95,7 +96,7 @@ class Machine:
 
     def word(self, address: int) -> int:
         """What a register shows."""
-        gauge = next((each for each in self.table.gauges if each.register == address), None)
+        gauge = self._gauges.get(address)
         if gauge:
             return self._measure(gauge)
         if address == self.table.present:

@@ -57,4 +57,7 @@ class Memory:
 
 def inside(spans: Iterable[Span], address: int) -> bool:
     """Whether an address lies in one of these."""
-    return any(address in span for span in spans)
+    for span in spans:  # noqa: SIM110 - asked some ten times per request: `any` takes three times as long
+        if span.first <= address <= span.last:
+            return True
+    return False

@@ -13,7 +13,10 @@ from structured_text.engines.embedded.reals import single
 from structured_text.engines.embedded.shapes import is_scalar
 from structured_text.engines.engine import Value
 from structured_text.language.tree import Array, Block, Enum, Struct
-from structured_text.language.types import REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
+from structured_text.language.types import ELEMENTARY, REAL, TEMPORAL, Elementary, Kind, String, Subrange, Type, plain
+
+_TAKE_BYTES = frozenset({ELEMENTARY["BYTE"], ELEMENTARY["USINT"], ELEMENTARY["WORD"], ELEMENTARY["UINT"]})
+"""Types of elements into which every byte fits."""
 
 
 def members(kind: Type) -> dict[str, Type]:
@@ -92,10 +95,17 @@ def _fill(kind: Array, current: list[Any], value: Value, dimension: int) -> None
         raise ValueError(f"{len(value)} values do not fit into the {len(current)} elements of {kind}")
     last = dimension + 1 == len(kind.bounds)
     # Checked first and stored afterwards, so that with a wrong value in the middle nothing is half written.
-    made = [written(kind.element, current[place], each) for place, each in enumerate(value)] if last else []
+    made = _elements(kind.element, current, value) if last else []
     current[: len(made)] = made
     for place, each in enumerate(() if last else value):
         _fill(kind, current[place], each, dimension + 1)
+
+
+def _elements(kind: Type, current: list[Any], value: list[Value] | tuple[Value, ...] | bytes | bytearray) -> list[Any]:
+    """What to store for the first elements of an array. ValueError."""
+    if isinstance(value, bytes | bytearray) and kind in _TAKE_BYTES:
+        return list(value)  # nothing to check, and every frame comes this way
+    return [written(kind, current[place], each) for place, each in enumerate(value)]
 
 
 def _scalar(kind: Type, value: Value) -> Any:
