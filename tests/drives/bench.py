@@ -210,6 +210,16 @@ class Bench:
             self.scan()
         return self.frames[before:]
 
+    def wait(self, ms: int) -> list[Frame]:
+        """Scan for so long, a fifth as often, where nothing is to happen but time: blocks count what was measured."""
+        usual, most = self.ms, self.line_pins["MaxScanMs"]
+        self.ms = 5 * usual
+        self.line(MaxScanMs=self.ms)
+        frames = self.run(ms)
+        self.ms = usual
+        self.line(MaxScanMs=most)
+        return frames
+
     def until(self, test: Callable[[], object], ms: int = 5000) -> "Bench":
         """Scan until something is so; it must be within a time."""
         end = self.now + 1000 * ms

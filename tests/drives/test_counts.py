@@ -33,11 +33,11 @@ def test_starts_and_running_time_are_counted_and_begin_anew_at_a_restart(kind: s
     assert counts(bench) == (0, 0)
     bench.running()
     assert counts(bench) == (1, 0)
-    bench.run(125_000)
+    bench.wait(125_000)
     assert counts(bench) == (1, 2)
-    bench.put(RunForward=False).stopped().run(70_000)
+    bench.put(RunForward=False).stopped().wait(70_000)
     assert counts(bench) == (1, clock.ms // 60_000), "at standstill nothing is counted"
-    bench.running()
+    bench.running().wait(235_000 - clock.ms)
     while clock.ms < 239_900:
         bench.scan()
     assert counts(bench) == (2, 3), "both runs together"

@@ -51,7 +51,7 @@ def test_a_silent_drive_opens_the_contact_once_for_each_press(kind: str) -> None
     machine.bench.put(RunForward=True).run(3000)
     machine.dead, machine.changes = True, 0
     machine.feed()
-    machine.bench.run(30_000)
+    machine.bench.wait(30_000)
     assert (machine.closed, machine.changes) == (False, 1)
     machine.press().bench.run(9000)
     assert (machine.closed, machine.changes) == (True, 2)  # it may boot
@@ -75,7 +75,7 @@ def test_it_closes_at_power_up(auxiliary: bool) -> None:
 
 def test_with_an_auxiliary_contact_it_closes_whenever_a_person_comes() -> None:
     machine = Machine("JSCC")
-    machine.bench.run(60_000)
+    machine.bench.wait(60_000)
     assert not machine.bench.block["TheLine.StopOverdue"]
     machine.press().bench.run(15_000)
     assert machine.closed
@@ -110,7 +110,7 @@ def test_the_latch_alone() -> None:
 def test_a_mode_from_power_up_leaves_no_stop_open(kind: str, mode: str) -> None:
     bench = Bench(kind, start=False).put(**{mode: True}).restart()
     for _ in range(75):
-        bench.run(1000)
+        bench.wait(1000)
         assert not bench.shows("StopOverdue")
 
 
@@ -128,7 +128,7 @@ def test_a_mode_with_a_stop_from_outside_leaves_none_open(kind: str, mode: str, 
     else:
         bench.leave("Skip0").run(2000)
         bench.leave("Skip0", on=False)
-    frames = bench.run(60_000)
+    frames = bench.wait(60_000)
     assert stops(bench, bench.frames)
     assert not motions(bench, frames)
     assert not bench.shows("StopOverdue")
@@ -139,7 +139,7 @@ def test_a_stop_at_standstill_ends_by_its_refusal(kind: str) -> None:
     """The motor was proved to be at standstill, and nothing has moved it since: a refused stop is over."""
     bench = Bench(kind).stopped()
     bench.spoil = lambda frame, reply: reply if frame.read or reply is None else refused(bench, frame.unit, reply)
-    bench.put(Enable=False).run(20_000)
+    bench.put(Enable=False).wait(20_000)
     assert not bench.shows("StopOverdue")
 
 
@@ -188,8 +188,8 @@ def test_without_supply_a_drive_that_answers_owes_its_stop() -> None:
 def test_without_supply_a_silent_drive_gets_one_read_in_ten_seconds() -> None:
     bench = Bench("CHF").stopped().put(SupplyOff=True)
     bench.deaf = {1}
-    bench.run(20_000)
-    frames = bench.run(60_000)
+    bench.wait(20_000)
+    frames = bench.wait(60_000)
     assert not [each for each in frames if not each.read]
     assert 5 <= len(frames) <= 7
     assert not bench.shows("StopOverdue")
