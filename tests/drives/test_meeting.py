@@ -75,7 +75,7 @@ def test_with_speed_only_a_stop_pin_sends_its_stop_and_no_speed(kind: str, pin: 
 @pytest.mark.parametrize("kind", FAMILIES)
 @pytest.mark.parametrize("scale", [0.0, 0.01])
 def test_the_stop_key_of_a_drive_is_never_overridden(kind: str, scale: float) -> None:
-    """Pressed at any moment of a round of polls and of a refresh; two refreshes are due while it falls, two after that."""
+    """Pressed at any moment of a round of polls and of a refresh; two are due while it falls, two after that."""
     bench = Bench(kind).put(FrequencyScale=scale)
     for moment in range(0, 1100, 60):
         bench.put(RunForward=False).run(100)

@@ -1,6 +1,6 @@
 """XML as this project writes it: an element to a line, and text exactly as it was given."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 _MARKS = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
@@ -17,18 +17,16 @@ class Element:
     content: "tuple[Element, ...]" = ()
     text: str = ""
 
-    def lines(self, indent: str = "") -> Iterator[str]:
+    def lines(self, indent: str = "") -> list[str]:
         """One element to a line, but for one that is alone in another; a text keeps its own lines."""
         head = self.tag + "".join(f' {name}="{value.translate(_VALUE)}"' for name, value in self.attributes.items())
-        inner = [line for each in self.content for line in each.lines(f"{indent}  ")]
+        inner: list[str] = []
+        for each in self.content:
+            inner += each.lines(f"{indent}  ")
         if len(inner) > 1:
-            yield f"{indent}<{head}>"
-            yield from inner
-            yield f"{indent}</{self.tag}>"
-        elif text := self.text or "".join(inner).strip(" "):
-            yield f"{indent}<{head}>{text}</{self.tag}>"
-        else:
-            yield f"{indent}<{head}/>"
+            return [f"{indent}<{head}>", *inner, f"{indent}</{self.tag}>"]
+        text = self.text or "".join(inner).strip(" ")
+        return [f"{indent}<{head}>{text}</{self.tag}>" if text else f"{indent}<{head}/>"]
 
 
 def element(tag: str, attributes: Mapping[str, str | None] | None = None, *content: Element | None) -> Element:

@@ -11,6 +11,7 @@ MOST = 120
 """Columns of the longest line with a comment, but for a string that is longer itself."""
 
 _BESIDE = re.compile(r"( *)(\S.*;) (\(\*.*\*\))")
+_PIECES = re.compile(r"(?:'(?:\$.|[^$'])*'|[^\s'])+")
 _DECLARED = re.compile(r"  (\w+ : [^;]*;) +(\(\*.*\*\))")
 
 
@@ -57,7 +58,10 @@ def comment(text: str) -> str:
 
 def paragraph(lead: str, text: str, end: str = "", width: int = WIDTH) -> list[str]:
     """Lines of a comment that starts with `lead`; further lines are indented to its end."""
-    return textwrap.wrap(comment(text) + end, width, initial_indent=lead, subsequent_indent=" " * len(lead))
+    whole = comment(text) + end
+    if whole and len(lead) + len(whole) <= width:
+        return [lead + whole]  # as most are
+    return textwrap.wrap(whole, width, initial_indent=lead, subsequent_indent=" " * len(lead))
 
 
 def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]:
@@ -73,8 +77,12 @@ def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]
 
 def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
     """A statement on as many lines as it needs; a blank in a text is no place to break."""
+    pieces = _PIECES.findall(statement) if "'" in statement else statement.split()
+    whole = indent + " ".join(pieces)
+    if len(whole) <= width:
+        return [whole]
     lines = [indent]
-    for piece in re.findall(r"(?:'(?:\$.|[^$'])*'|[^\s'])+", statement):
+    for piece in pieces:
         if lines[-1].strip() and len(lines[-1]) + 1 + len(piece) > width:
             lines.append(f"{indent}  {piece}")
         else:
@@ -107,7 +115,10 @@ def _column(lines: list[str]) -> list[str]:
 
 def _wrapped(lead: str, comment: str) -> str:
     """A declaration whose comment continues below itself where the line ends."""
-    lines = textwrap.wrap(comment, max(MOST - len(lead), 40), break_long_words=False, break_on_hyphens=False)
+    width = max(MOST - len(lead), 40)
+    if len(comment) <= width and "\t" not in comment:
+        return lead + comment
+    lines = textwrap.wrap(comment, width, break_long_words=False, break_on_hyphens=False)
     return lead + f"\n{' ' * (len(lead) + 3)}".join(lines)
 
 
