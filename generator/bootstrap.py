@@ -173,8 +173,8 @@ def make_venv() -> bool:
 def run(steps: tuple[tuple[str, ...], ...]) -> int:
     """Run every step, also after one failed, and say at the end what happened. Returns 0 or 1."""
     results = []
-    for title, command, *arguments in steps:
-        say(title)
+    for number, (title, command, *arguments) in enumerate(steps, 1):
+        say(f"{title}, {number} of {len(steps)}")
         start = time.monotonic()
         status = step(command, *arguments)
         results.append((command, arguments, status, time.monotonic() - start))

@@ -18,6 +18,7 @@ from contextlib import nullcontext
 import pytest
 from hypothesis import HealthCheck, settings
 from tests import counting
+from tests.progress import Progress
 
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
@@ -70,6 +71,8 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         return
     for each in candidates():
         reporter.write_line(f"engine {each.name}: {'runs' if each.engine else 'does not run'}, {each.note}")
+    if session.config.pluginmanager.hasplugin("dsession"):
+        session.config.pluginmanager.register(Progress(lambda: session.testscollected, reporter.write_line))
 
 
 @pytest.hookimpl(wrapper=True)

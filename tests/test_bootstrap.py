@@ -199,6 +199,8 @@ def test_the_quick_test_says_what_it_left_out(
     assert bootstrap.main(["test", "--quick"]) == 0
     folders = {each for each in ran[-1] if each.startswith("tests/")}
     assert all((bootstrap.ROOT / each).is_dir() for each in folders)
-    left = capsys.readouterr().out.rpartition("left out: ")[2].partition(";")[0].split(", ")
+    said = capsys.readouterr().out
+    assert [line for line in said.splitlines() if line.startswith("== types")] == ["== types, 3 of 4"]
+    left = said.rpartition("left out: ")[2].partition(";")[0].split(", ")
     assert {"tests", "tests/second", "tests/prove", "tests/testing"} <= set(left)
     assert not folders & set(left)
