@@ -6,6 +6,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import replace
 from functools import partial
+from itertools import groupby
+from operator import itemgetter
 
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing.coverage import Counted, Coverage
@@ -47,9 +49,12 @@ def run(
             if jobs > 1 and engine.name == EMBEDDED and not sums:
                 results += _side_by_side(units, seconds, jobs)
                 continue
-            for unit, built in zip(units, _builds(engine, units, pool, together=not sums), strict=True):
-                results += _results(engine, unit, built, seconds)
-                results += [trouble for each in sums for trouble in _counted(each, unit, built)]
+            made = zip(units, _builds(engine, units, pool), strict=True)
+            for built, those in groupby(made, key=itemgetter(1)):
+                sharing = [unit for unit, _ in those]
+                for unit in sharing:
+                    results += _results(engine, unit, built, seconds)
+                results += [trouble for each in sums for trouble in _counted(each, sharing, built)]
     return Run(results, time.perf_counter() - start)
 
 
@@ -75,21 +80,22 @@ def _embedded(units: Sequence[Unit], seconds: float) -> list[Result]:
     return run(units, [EmbeddedEngine()], seconds).results
 
 
-def _counted(coverage: Coverage, unit: Unit, built: _Built) -> Iterator[Result]:
-    """Add what has run; a result only where that is not known."""
+def _counted(coverage: Coverage, units: Sequence[Unit], built: _Built) -> Iterator[Result]:
+    """Add what has run of one build of some units; a result only where that is not known."""
+    blocks = {block.path: block for unit in units for block in unit.blocks}
     try:
         if isinstance(built, Counted):
-            coverage.add(unit.blocks, built)
+            coverage.add(blocks.values(), built)
     except EngineError as error:
         outcome = Outcome("what has run is known", ERROR, str(error))
-        yield Result(coverage.engine, unit.suite.name, "coverage", (outcome,))
+        yield Result(coverage.engine, units[0].suite.name, "coverage", (outcome,))
 
 
-def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor, *, together: bool) -> Iterable[_Built]:
+def _builds(engine: Engine, units: Sequence[Unit], pool: ThreadPoolExecutor) -> Iterable[_Built]:
     build = partial(_built, engine)
     if engine.name != EMBEDDED:
         return pool.map(build, (unit.sources for unit in units))
-    whole = _whole(units) if together else None
+    whole = _whole(units)
     built = build(whole) if whole else None
     if built is None or isinstance(built, EngineError):
         return map(build, (unit.sources for unit in units))
