@@ -30,6 +30,7 @@ ELSEWHERE = {
     r"python3 generator/bootstrap.py ": "makes a virtual environment from an index, or runs this suite",
     r"pytest ": "a part of this suite",
     r"driveblocks build$": "`make blocks` runs it",
+    r"make blocks$": "`rm -r blocks && make blocks` runs it, which must make all anew",
     r"driveblocks prove": "half a minute of proofs; tests/prove/test_prove.py takes these lines from their pages",
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
     r"driveblocks test my_drive.yaml ": "tests/commands/test_ci_jobs.py runs the job in a clone",
