@@ -59,6 +59,11 @@ class Ability:
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
 
     @property
+    def turns(self) -> int:
+        """Reads that take turns: each is as many rounds old."""
+        return sum(not each.fast for each in polls(self.drive)) or 1
+
+    @property
     def motions(self) -> tuple[str, ...]:
         """The motions that the drive can be commanded, of MOTIONS."""
         return tuple(each for each in MOTIONS if self.can(each))

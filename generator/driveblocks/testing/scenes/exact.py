@@ -75,7 +75,7 @@ def scenes(drive: Drive) -> Iterator[Scene]:
     yield scene("when a drive is dead", POWER, *_dead())
     yield scene("when a request is withdrawn", POWER, *_mailbox())
     yield scene("when every call comes late", POWER, *_late_calls())
-    if can.drive.operation.measures:
+    if can.drive.operation.measures and can.turns == 1:
         yield scene("how old a measure is", POWER, *_young())
     yield scene("silence after a restart", POWER, *_quiet(drive))
     yield scene("when a stop is overdue", POWER, run(), *_overdue())

@@ -169,7 +169,7 @@ def _diagnosis(can: Ability) -> Shows:
     found |= {f"Slots[0].{name} = Bus.{name}": True for name in ("StopAloneMs", "WorstStopMs")}
     found |= {"Motor.Diagnosis.StatusAgeMs": (0, 400), "Motor.Diagnosis.State": 1}
     found["(Motor.Diagnosis.StopKind = 1) OR (Motor.Diagnosis.StopKind = 4)"] = True
-    if can.drive.operation.measures:
+    if can.drive.operation.measures and can.turns == 1:
         found["Motor.Diagnosis.MeasuresAgeMs"] = (0, 600)
     return found
 
