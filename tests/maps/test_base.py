@@ -136,3 +136,16 @@ def test_a_base_may_be_one_that_ships(tmp_path: Path) -> None:
     best = load(file)
     assert (best.prefix, best.documents[-1].id) == ("BEST", "rockwell_powerflex_4")
     assert best.faults.codes == load(catalog.folder() / "rockwell_powerflex_4.yaml").faults.codes
+
+
+def test_a_document_of_the_base_goes_with_the_last_that_names_it(tmp_path: Path) -> None:
+    guide = "documents: [{id: guide, title: Guide, publisher: Acme}]\nabsent:"
+    base = BASE.replace("absent:", guide).replace(
+        "find_out: ask the maker}", "find_out: ask, corroborated: [{document: guide, page: page 2, reads: nothing}]}"
+    )
+    (what,) = (one.what for one in loads(BASE, "acme.yaml").absent)
+    for more, left in (("", ["guide", "acme"]), (f"absent: [{{what: {what}, corroborated: []}}]\n", ["acme"])):
+        assert [one.id for one in load(write(tmp_path, more, base)).documents] == left
+    assert "nothing refers to document `mine`" in "".join(
+        wrong(write(tmp_path, "documents: [{id: mine, title: Mine, publisher: Best}]\n"))
+    )

@@ -4,6 +4,7 @@ What a map takes over keeps its source, and names its document: the sister's man
 holds for all that it takes over in that place.
 """
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -43,7 +44,8 @@ def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Entries:
     assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
     own = _Own(_word("document", file.stem, at), sister.family.en)
     entries = base.entries | {"documents": _documents(base, file, sister)}
-    return _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
+    made = _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
+    return Entries(made.entries | {"documents": _named(made, _rows(root))}, made.at)
 
 
 class _Own(NamedTuple):
@@ -64,9 +66,30 @@ def _documents(base: Entries, file: Path, sister: Drive) -> tuple[Scalar, Node]:
     said |= {"edition": sister.manual.edition} if sister.manual.edition else {}
     said |= {"trust": "transcribed" if sister.manual.second_hand else "sister"}
     row = Entries({key: _word(key, text, at) for key, text in said.items()}, at)
-    old = base.entries["documents"][1] if "documents" in base.entries else Items((), at)
-    rows = old.items if isinstance(old, Items) else ()
-    return Scalar("documents", plain=True, at=at), Items((*rows, row), at)
+    return Scalar("documents", plain=True, at=at), Items((*_rows(base), row), at)
+
+
+def _rows(node: Entries) -> tuple[Node, ...]:
+    """The documents of a map."""
+    listed = node.entries["documents"][1] if "documents" in node.entries else None
+    return listed.items if isinstance(listed, Items) else ()
+
+
+def _named(made: Entries, mine: tuple[Node, ...]) -> tuple[Scalar, Node]:
+    """Documents of both maps; of the base's only those that something which was taken over still names."""
+    key, old = made.entries["documents"]
+    named = {*_words("document", made), *(name for row in mine for name in _words("id", row))}
+    kept = tuple(row for row in _rows(made) if {*_words("id", row)} <= named)
+    return key, Items(kept, old.at) if isinstance(old, Items) else old
+
+
+def _words(key: str, node: Node) -> Iterator[str]:
+    """What a key says, anywhere in a tree."""
+    if isinstance(node, Items):
+        yield from (word for row in node.items for word in _words(key, row))
+    elif isinstance(node, Entries):
+        for name, (_, value) in node.entries.items():
+            yield from [value.text] if name == key and isinstance(value, Scalar) else _words(key, value)
 
 
 def _moved(node: Node, at: Place) -> Node:
