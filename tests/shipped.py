@@ -1,6 +1,9 @@
 """The shipped maps and their blocks with the programs that test them, read and made once per process."""
 
+from collections.abc import Mapping
 from functools import cache
+from pathlib import Path
+from typing import TypeVar
 
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.model import Drive
@@ -8,6 +11,7 @@ from driveblocks.output.units import units as tested
 from driveblocks.render.text import languages
 from driveblocks.testing.unit import Unit
 
+Row = TypeVar("Row")
 BOTH = languages(["en", "zh"], "utf-8")
 
 
@@ -21,6 +25,18 @@ def sources() -> list[collection.Source]:
 def drives() -> dict[str, Drive]:
     """The maps by prefix."""
     return {each.drive.prefix: each.drive for each in sources()}
+
+
+@cache
+def bases() -> dict[str, str]:
+    """The prefix of the sister that a map has as its base, by its own."""
+    prefix = {Path(each.path).stem: each.drive.prefix for each in sources()}
+    return {each.drive.prefix: prefix[each.drive.base] for each in sources() if each.drive.base}
+
+
+def sisters(table: Mapping[str, Row]) -> dict[str, Row]:
+    """What is so of each drive, by prefix: of one with a base, as of that, where the table does not say otherwise."""
+    return {**{own: table[base] for own, base in bases().items() if base in table}, **table}
 
 
 @cache

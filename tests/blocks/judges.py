@@ -12,6 +12,7 @@ from tests.blocks import asking, driving, meanings, permissions, vectors
 from tests.blocks.library import Blocks
 from tests.blocks.test_reply import assert_by_chance
 from tests.maps import test_facts
+from tests.maps.facts.powerflex_sisters import SISTERS
 from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
@@ -26,6 +27,7 @@ NAMES = {
     "CHF": ("chf", "CH"),
     "GD200A": ("gd200a", "GD"),
     "PF4": ("powerflex_4", "PF"),
+    **{name: (name, name) for name in SISTERS},
 }
 """What the module of facts calls each drive: in its table, and as a global."""
 

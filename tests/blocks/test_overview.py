@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from tests.blocks.library import BLOCKS, Blocks, octets, sources
+from tests.shipped import drives
 
 from driveblocks.reference.framing import rtu_seal
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -87,11 +88,7 @@ WORST: dict[str, dict[str, Value]] = {
     "MB_LineRequest": {"Ascii": True, "Open.FunctionCode": 16, "Open.Quantity": 4},
     "MB_BuildWriteMultiple": {**WRITE, "Quantity": 123},
     "MB_ParseReply": OPEN,
-    "CHF_Reply": OPEN,
-    "JSCC_Reply": OPEN,
-    "SN300G5_Reply": OPEN,
-    "GD200A_Reply": OPEN,
-    "PF4_Reply": OPEN,
+    **{f"{prefix}_Reply": OPEN for prefix in drives()},
     "GD200A_Request": {**WRITE, "Address": 0x2000, "Quantity": 15},
     "JSCC_Request": {**WRITE, "Address": 0x0000},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},

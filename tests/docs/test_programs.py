@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from tests.blocks.library import sources
 from tests.examples.test_examples import PARTS, SPARE
+from tests.shipped import drives
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Library, Source
@@ -54,11 +55,7 @@ def test_the_pages_have_programs() -> None:
         "Plant",
         "Parameters",
         "HardStops",
-        "CHF_Motor",
-        "GD200A_Motor",
-        "JSCC_Motor",
-        "PF4_Motor",
-        "SN300G5_Motor",
+        *(f"{prefix}_Motor" for prefix in drives()),
     } <= PROGRAMS.keys()
 
 

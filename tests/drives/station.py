@@ -37,7 +37,7 @@ def texts(edit: Edit = str, kinds: Sequence[str] = (*FAMILIES, *MADE_UP)) -> lis
     """The files that the stations of these drives need, each edited, and the stations."""
     made = [file for name in MADE_UP for file in blocks.drive(name.lower(), maps()[name], [])]
     found = [*sources(), *(Source(each.path, each.text) for each in made)]
-    others = tuple(f"{name}_" for name in (*FAMILIES, *MADE_UP) if name not in kinds)
+    others = tuple(f"{name}_" for name in maps() if name not in kinds)
     wanted = [each for each in found if _WANTED.fullmatch(each.path) and not each.path.split("/")[1].startswith(others)]
     stations = [station(types) for types in STATIONS if set(types) <= set(kinds)]
     return [*(Source(each.path, edit(each.text)) for each in wanted), Source("stations.st", "\n".join(stations))]

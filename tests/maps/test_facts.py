@@ -7,9 +7,11 @@ import re
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
 from pathlib import Path
+from typing import Any
 
 import pytest
 from tests.maps.facts import chf, gd200a, glossary, jscc, powerflex_4, sn300g5
+from tests.maps.facts.powerflex_sisters import SISTERS
 from tests.shipped import drives
 
 from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
@@ -18,8 +20,11 @@ MAPS = Path(__file__).parents[2] / "vendor_maps"
 
 SN, JS, CH, GD, PF = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF", "GD200A", "PF4"))
 DRIVES = {"sn300g5": SN, "jscc": JS, "chf": CH, "gd200a": GD, "powerflex_4": PF}
-TYPED = {"sn300g5": sn300g5, "jscc": jscc, "chf": chf, "gd200a": gd200a, "powerflex_4": powerflex_4}
+DRIVES |= {name: drives()[name] for name in SISTERS}
+TYPED: dict[str, Any] = {"sn300g5": sn300g5, "jscc": jscc, "chf": chf, "gd200a": gd200a, "powerflex_4": powerflex_4}
+TYPED |= SISTERS
 WHOLE = {"gd200a": {"commanded_by", "own_maximum"}, "powerflex_4": {"commanded_by"}}
+WHOLE |= {name: {"commanded_by"} for name in SISTERS}
 """What a manual says in full of what a drive does by itself and says of itself."""
 TOLD = {
     "sn300g5": ["watchdog"],
@@ -27,6 +32,8 @@ TOLD = {
     "chf": [],
     "gd200a": ["watchdog", "commanded_by", "own_maximum"],
     "powerflex_4": ["watchdog", "commanded_by"],
+    **{name: ["watchdog", "commanded_by"] for name in SISTERS},
+    "PF400": ["commanded_by"],
 }
 """... and what it says at all."""
 
@@ -139,6 +146,7 @@ SHOWS = {
     "chf": chf.SHOWS,
     "gd200a": gd200a.SHOWS,
     "powerflex_4": powerflex_4.SHOWS,
+    **{name: each.SHOWS for name, each in SISTERS.items()},
 }
 
 
@@ -800,7 +808,8 @@ def places(bit: Bit) -> str:
 
 def plainly(text: str) -> str:
     """A name without the manual's short forms and capitals."""
-    for short, long in (("HW ", "Hardware "), ("Cmd", "Command"), ("(300%)", "(300 %)")):
+    longer = (("HW ", "Hardware "), ("Cmd", "Command"), ("(300%)", "(300 %)"), ("Params ", "Parameters "))
+    for short, long in (*longer, ("Net Loss", "Network Loss"), ("Comm Loss", "Communication Loss")):
         text = text.replace(short, long)
     return text.lower()
 
@@ -862,6 +871,44 @@ def test_powerflex_4_settings_and_what_it_does_without_its_line() -> None:
         one.code: f"{one.data_bits}{one.parity[0].upper()}{one.stop_bits}" for one in PF.serial.format.codes
     } == powerflex_4.FORMAT
     assert {one.value: one.does for one in PF.watchdog.reactions} == powerflex_4.SILENT
+
+
+@pytest.mark.parametrize("drive", SISTERS)
+def test_a_sister_of_the_powerflex_4_has_the_bits_and_faults_of_its_own_manual(drive: str) -> None:
+    typed, known = SISTERS[drive], DRIVES[drive]
+    printed = dict(each.strip().split(" ", 1) for each in powerflex_4.FAULTS.strip().split("|"))
+    printed |= dict(each.strip().split(" ", 1) for each in typed.faults.strip().split("|") if each)
+    assert {str(one.code): plainly(one.name) for one in known.faults.codes} == {
+        code: plainly(name) for code, name in printed.items() if int(code) not in typed.lacks or code in typed.faults
+    }
+    found = rows(known)
+    for address, table in ((8192, typed.command), (8448, typed.status)):
+        named = ((bit, "-" if bit.unused else plainly(bit.name or "")) for bit in found[address].bits)
+        bits = {place: name for bit, name in named for place in bit.bit}
+        for place, name in (each.split(" ", 1) for each in table.split("|")):
+            assert bits[int(place)] == plainly(name)
+    for place, name in (each.split(" ", 1) for each in powerflex_4.STATUS.split("|")[:9]):
+        assert place == "6" or bits[int(place)] == plainly(name)  # the last table is that of 8448
+    assert {tuple(one.bit): one.equals for one in found[8192].never} == dict(typed.never)
+
+
+@pytest.mark.parametrize("drive", SISTERS)
+def test_a_sister_of_the_powerflex_4_has_its_words_scales_and_settings(drive: str) -> None:
+    typed, known = SISTERS[drive], DRIVES[drive]
+    words = {one.does: sum(1 << place for span in one.set for place in span) for one in known.operation.commands}
+    assert words == powerflex_4.WORDS
+    for one in known.operation.commands:
+        assert sum(1 << place for span in (*one.set, *one.clear) for place in span) == typed.touched
+    scales = {at: str(row.scale.factor) for at, row in rows(known).items() if row.scale and row.unit == "Hz"}
+    tenths = powerflex_4.TENTHS - typed.hundredths
+    assert scales == dict.fromkeys(typed.hundredths, "0.01") | dict.fromkeys(tenths, "0.1")
+    held = {one.id: (one.register, one.needed.value if one.needed else None) for one in known.settings}
+    assert held == typed.settings
+    assert all(one.register == int(one.id[1:]) for one in known.settings)
+    assert known.operation.reference.register == 8193
+    still = {(one.register, one.bit.first if one.bit else None, one.equals) for one in known.operation.standstill.all}
+    assert still == {(8448, 1, 0), (8451, None, 0)}
+    assert all(known.row_at(row) for row in (8192, 8193, 8448, 8449, 8451))
 
 
 # ---------------------------------------------------------------- GD200A

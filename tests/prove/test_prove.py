@@ -21,7 +21,7 @@ from driveblocks.prove.prover import Proved
 from driveblocks.prove.question import Verdict
 from structured_text.engines.embedded.engine import EmbeddedEngine
 
-FAMILIES = ("invt_chf", "invt_gd200a", "jscc", "rockwell_powerflex_4", "shuen_sn300g5")
+FAMILIES = tuple(path.stem for path in catalog.shipped())
 PAGE = Path(__file__).parents[2] / "docs" / "prove.md"
 
 

@@ -7,7 +7,7 @@ import pytest
 from tests.shipped import drives
 
 from driveblocks.maps import catalog, collection
-from driveblocks.maps.load import loads
+from driveblocks.maps.load import load, loads
 from driveblocks.output import build
 from driveblocks.render import library as library_of
 from driveblocks.render import text
@@ -100,7 +100,7 @@ def test_blocks_of_control_line_and_drives_fit_two_screens(library: dict[str, st
 
 @pytest.mark.parametrize("platform", library_of.PLATFORMS)
 def test_adapters_and_first_motors_have_names_for_every_target(platform: str) -> None:
-    drives = [loads(path.read_text("utf-8"), path.name) for path in MAPS]
+    drives = [load(path) for path in MAPS]
     made = [*library_of.adapter(platform, []), *(library_of.first_motor(platform, drive) for drive in drives)]
     readable = [
         (file.path, file.text) for file in made if "#include" not in file.text and "extern int" not in file.text

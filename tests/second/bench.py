@@ -16,7 +16,8 @@ from tests.second.station import IN_SEEN, library, name_of
 from structured_text.engines.engine import Library, Value
 
 KIND = {"CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "PF4": "pf", "SN300G5": "sn"}
-MODELS = {"CHF": chf, "GD200A": gd200a, "JSCC": jscc, "PF4": pf4, "SN300G5": sn300g5}
+KIND |= {name: name.lower() for name in pf4.VARIANTS}
+MODELS = pf4.alike({"CHF": chf, "GD200A": gd200a, "JSCC": jscc, "PF4": pf4, "SN300G5": sn300g5})
 STORES = {family: module.stores for family, module in MODELS.items()}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, any_of, both
+from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -42,13 +43,13 @@ REFRESH_US = 1_500_000
 AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
 """Pins with which no block alone serves a drive, or not in full control."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
-ABLE = {
+ABLE = alike({
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
-}
+})  # fmt: skip
 MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
 CHAR_US = 521

@@ -42,7 +42,7 @@ def ascii_(body: bytes) -> bytes:
 @lru_cache(maxsize=1 << 16)
 def runs(kind: str, body: bytes) -> bool:
     """Whether a request without checksum makes a drive of this make run or jog."""
-    if kind == "PF4":
+    if kind.startswith("PF"):
         return body[1:4] == b"\x06\x20\0" and bool(body[5] & 6)  # 2000H: start and jog, page C-4
     if kind == "GD200A":
         return body[1:4] == b"\x06\x20\0" and body[4:6] <= b"\0\4"  # 2000H: 1 to 4, page 139

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import MAX_SCAN_US, Claims
 from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
+from tests.second.pf4 import VARIANTS, alike
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -19,7 +20,7 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
-ONE_WORD = ("PF4",)
+ONE_WORD = ("PF4", *VARIANTS)
 """Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
@@ -51,18 +52,20 @@ GRACE_US = 3_000_000
 """A contact may open so long after its reason has ended, which the block cannot know at once."""
 SHAFT = 700
 """Scans of which the frequency is remembered."""
-SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = {
-    "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
-    "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
-    "GD200A": lambda one, now: one.LIVE[0x2100](one, now) in (1, 2),  # 2100H: 1 forward, 2 reverse
-    "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
-    "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
-}
+SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
+    {
+        "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
+        "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
+        "GD200A": lambda one, now: one.LIVE[0x2100](one, now) in (1, 2),  # 2100H: 1 forward, 2 reverse
+        "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
+        "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
+    }
+)
 FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
-STATUS = {"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010}
-RAM_ONLY = {"CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0}
+STATUS = alike({"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010})
+RAM_ONLY = alike({"CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 

@@ -13,31 +13,39 @@ from itertools import product
 from random import Random
 from typing import Any
 
-from tests.drives.station import FAMILIES, RTU_ONLY
 from tests.second import pairs
 from tests.second.bench import Second
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
-from tests.second.station import SIZES, types_of
+from tests.second.pf4 import VARIANTS, alike
+from tests.second.station import FAMILIES, RTU_ONLY, SIZES, types_of
 
 from structured_text.engines.engine import Library
 
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
-BY_TERMINALS = {
-    "CHF": {"run": 1},
-    "GD200A": {"P00_01": 1},
-    "JSCC": {"F0_04": 1},
-    "PF4": {"P036": 1},
-    "SN300G5": {"b1_02": 1},
-}
-OWN_SPEED = {
-    "CHF": {"speed": 0},
-    "GD200A": {"P00_06": 0},
-    "JSCC": {"F0_08": 1},
-    "PF4": {"P038": 0},
-    "SN300G5": {"b1_01": 0},
-}
+BY_TERMINALS = alike(
+    {
+        "CHF": {"run": 1},
+        "GD200A": {"P00_01": 1},
+        "JSCC": {"F0_04": 1},
+        "PF4": {"P036": 1},
+        "PF4M": {"run": 1},
+        "PF525": {"P046": 2},
+        "SN300G5": {"b1_02": 1},
+    }
+)
+OWN_SPEED = alike(
+    {
+        "CHF": {"speed": 0},
+        "GD200A": {"P00_06": 0},
+        "JSCC": {"F0_08": 1},
+        "PF4": {"P038": 0},
+        "PF4M": {"P108": 0},
+        "PF525": {"P047": 1},
+        "SN300G5": {"b1_01": 0},
+    }
+)
 JOGS = ("CHF", "GD200A")
 START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
@@ -166,11 +174,12 @@ class Run:
 
     def _options(self, family: str) -> dict[str, Any]:
         given = {k: v for k, v in self.row.items() if "." not in k and k not in LINE}
-        given |= {k.split(".")[1]: v for k, v in self.row.items() if k.startswith(f"{family}.")}
+        like = "PF4" if family in VARIANTS else family
+        given |= {k.split(".")[1]: v for k, v in self.row.items() if k.startswith(f"{like}.")}
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if family in ("GD200A", "PF4"):
+        if like in ("GD200A", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"

@@ -1,18 +1,26 @@
-"""Rockwell PowerFlex 4, from pages C-3 to C-5 of its manual 22A; settings of the line are those of sister models."""
+"""Rockwell PowerFlex 4, from pages C-3 to C-5 of its manual 22A; settings of the line are those of sister models.
 
-from collections.abc import Callable, Iterable
+The 40P, 4M, 400 and 525 are variants: each says, from its own manual, what is another parameter, scale or register.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 from tests.second.drive import Drive, Options, Refusal, Source
 
 COMMAND, REFERENCE = 8192, 8193  # pages C-3 and C-4
 STOP, START, JOG, CLEAR = 1, 2, 4, 8  # bits 0 to 3 of 8192
 WAYS = {1: "forward", 2: "reverse"}  # bits 5 and 4
-SOURCES = (None, "P036", "A069", "bus", "A070", "A071", "A072", "A073")  # bits 14 to 12
-PARAMETERS = (36, 38, 39, 103, 104, 105, 106, 107)  # named on pages C-3 to C-5, and in those of sisters
 LOSS = {0: "coast", 1: "coast", 2: "ramp", 3: "goes on"}
 """A105: fault, coast stop, stop, continue last."""
+VARIANTS = ("PF400", "PF40P", "PF4M", "PF525")
+Row = TypeVar("Row")
+
+
+def alike(table: Mapping[str, Row]) -> dict[str, Row]:
+    """What is so of each family; of a variant, as of the PowerFlex 4 where the table does not say otherwise."""
+    return {**dict.fromkeys(VARIANTS, table["PF4"]), **table}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +46,20 @@ class Pf4(Drive):
         "function": 1, "address": 2, "read only": 2, "count": 3, "value": 3, "running": 4, "mode": 4, "busy": 6,
     }  # fmt: skip  # of the standard: the appendix has none
     IDS = ("A104", "P036", "P038")
+    LOSS: ClassVar[str] = "A105"
+    SOURCES: ClassVar[tuple[str | None, ...]] = (None, "P036", "A069", "bus", "A070", "A071", "A072", "A073")
+    """Bits 14 to 12."""
+    PARAMETERS: ClassVar[tuple[int, ...]] = (36, 38, 39, 103, 104, 105, 106, 107)
+    """Named on pages C-3 to C-5, and in those of sisters."""
+    FACTORY: ClassVar[dict[str, int]] = {
+        "A104": 100, "P036": 5, "P038": 5, "A103": 3, "A105": 0, "A106": 50, "A107": 0,
+    }  # fmt: skip
+    HZ: ClassVar[float] = 0.1
+    """Of 8193: xxx.x, page C-4."""
+    UNUSED: ClassVar[int] = 0
+    """Bits of 8448 that a PowerFlex 4 has."""
+    AWAY: ClassVar[int] = 0
+    """The bit of 8192 that gives the drive to its keypad."""
     RUN_SOURCES: ClassVar[dict[int, Source]] = {0: "keypad", 1: "terminals", 5: "bus"}  # 0, 1: numbers of this model
     SPEED_FROM_BUS = 5
     LOW_VOLTAGE, LINE_LOST = 4, 81  # page C-5
@@ -46,22 +68,22 @@ class Pf4(Drive):
         """As a drive; `word` is the last logic command."""
         o = options or Pf4Options()
         self.MOST = {3: o.most_words, 6: 1}  # type: ignore[misc]  # per drive
-        self.eeprom = dict.fromkeys(PARAMETERS, 0)
+        self.eeprom = dict.fromkeys(self.PARAMETERS, 0)
         self.word, self.way = 0, "forward"
         super().__init__(unit, o, at_us, **settings)
 
     def _factory(self) -> dict[str, int]:
-        return {"A104": 100, "P036": 5, "P038": 5, "A103": 3, "A105": 0, "A106": 50, "A107": 0}
+        return dict(self.FACTORY)
 
     def _power_up(self, now_us: int, *, kept: bool) -> None:
         told = {each: self.ram.get(each, 0) if kept else 0 for each in (COMMAND, REFERENCE)}
         self.word = told[COMMAND]
-        self.eeprom |= {int(name[1:]): word for name, word in self.settings.items()}
+        self.eeprom |= {int(name[1:]): word for name, word in self.settings.items() if name[1:].isdigit()}
         self.ram = self.eeprom | told
         super()._power_up(now_us, kept=kept)
 
     def _line_watch(self) -> tuple[int | None, str, bool]:
-        action = self.force["A105"]
+        action = self.force[self.LOSS]
         return self.o.comm_us, self.o.comm_action if action == 0 else LOSS[action], action == 0
 
     def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:
@@ -96,7 +118,7 @@ class Pf4(Drive):
             self.store(address, word, now_us)
 
     def _refer_word(self, word: int, now_us: int) -> None:
-        hz = word / 10  # xxx.x, page C-4
+        hz = word * self.HZ
         if hz > self.maximum_hz and self.o.over == "refused":
             raise Refusal("value")
         self._refer(hz, now_us)
@@ -106,6 +128,8 @@ class Pf4(Drive):
         old, before = self.word, self.way
         self.word, self.way = word, self._way(word >> 4 & 3)
         begun = word & ~old
+        if word & self.AWAY:
+            self.local = True
         if begun & CLEAR:
             self._bus("reset", now_us)
         if word & STOP:
@@ -129,7 +153,7 @@ class Pf4(Drive):
         return self.by == "bus" and self.way != before
 
     def _goal(self) -> float:
-        source = SOURCES[self.word >> 12 & 7]
+        source = self.SOURCES[self.word >> 12 & 7]
         if source in (None, "bus") or self.by != "bus" or self.jogging:
             return super()._goal()
         return self.direction * min(self.maximum_hz, self.o.own_hz)
@@ -144,7 +168,7 @@ class Pf4(Drive):
             self.fault is not None, self.output and hz == goal, self.speed_from_bus,
             self.run_source == "bus" and not self.local, False, self.contact,
         ]  # fmt: skip
-        return sum(1 << place for place, bit in enumerate(bits) if bit)
+        return sum(1 << place for place, bit in enumerate(bits) if bit) & ~self.UNUSED
 
     LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = {
         1: lambda self, now_us: self._counts(now_us, 0.1),  # d001 is what 8451 shows: page C-4
@@ -154,6 +178,73 @@ class Pf4(Drive):
     }
 
 
+@dataclass(frozen=True, kw_only=True)
+class LaterOptions(Pf4Options):
+    """Bits 5 and 4 together are no command in these manuals."""
+
+    both_directions: Literal["toggle", "nothing"] = "nothing"
+
+
+class Pf40p(Pf4):
+    """A PowerFlex 40P in velocity mode, from pages C-3 to C-5 and C-7 of its manual 22D."""
+
+    PARAMETERS = (*Pf4.PARAMETERS, 207, 249)
+    FACTORY: ClassVar[dict[str, int]] = Pf4.FACTORY | {"E207": 0, "E249": 0}
+    HZ = 0.01  # xxx.xx, page C-5; 8451 has xxx.x, page C-7
+
+
+class Pf4m(Pf4):
+    """A PowerFlex 4M, from pages C-4 to C-6 of its manual 22F, and from page 215 of 2080-UM002L."""
+
+    IDS = ("C303", "run", "P108")
+    LOSS = "C304"
+    SOURCES = (None, "bus", "A409", "bus", "A410", "A411", "A412", "A413")  # 001: the speed reference's own
+    PARAMETERS = (108, 302, 303, 304, 305, 306)
+    FACTORY: ClassVar[dict[str, int]] = {
+        "C303": 100, "run": 5, "P108": 5, "C302": 3, "C304": 0, "C305": 5, "C306": 0,
+    }  # fmt: skip
+
+
+class Pf400(Pf4):
+    """A PowerFlex 400, from pages 170 to 173 of edition J of its manual 22C."""
+
+    IDS = ("C104", "P036", "P038")
+    LOSS = "C105"
+    SOURCES = (None, "bus", "A142", "bus", "A143", "A144", "A145", "A146")
+    PARAMETERS = (36, 38, 39, 102, 103, 104, 105)
+    FACTORY: ClassVar[dict[str, int]] = {"C104": 100, "P036": 5, "P038": 5, "C102": 0, "C103": 3, "C105": 0}
+    HZ = 0.01  # xxx.xx, page 172
+    AWAY = 0x40  # bit 6: local control
+    LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = Pf4.LIVE | dict.fromkeys(
+        (1, 8451),
+        lambda self, now_us: self._counts(now_us, 0.01),  # 1234 is 12.34 Hz
+    )
+
+
+class Pf525(Pf4):
+    """A PowerFlex 523 or 525 in velocity mode, from pages 204 and 205 of 520-UM001I and 207 to 210 of 520-UM001K."""
+
+    IDS = ("C124", "P046", "P047")
+    RUN_SOURCES: ClassVar[dict[int, Source]] = {1: "keypad", 2: "terminals", 3: "bus"}
+    SPEED_FROM_BUS = 3
+    LOSS = "C125"
+    SOURCES = (None, "bus", "P049", "P051", "A410", "A411", "A412", "A413")  # 001: P047
+    PARAMETERS = (41, 46, 47, *range(121, 128))
+    FACTORY: ClassVar[dict[str, int]] = {
+        "C124": 100, "P046": 3, "P047": 3, "C121": 0, "C122": 0, "C123": 3, "C125": 0, "C126": 50, "C127": 0,
+    }  # fmt: skip
+    HZ = 0.01
+    UNUSED = AWAY = 0x40  # bit 6: of the status, not used; of the command, force keypad control
+    LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = Pf4.LIVE | {
+        1: lambda self, now_us: self._counts(now_us, 0.01),  # b001
+        8450: lambda self, _: round(100 * self.reference_hz),
+        8451: lambda self, now_us: self._counts(now_us, 0.01),  # xxx.xx Hz
+        8452: lambda _, __: 0,  # xxx.xx A
+        8453: lambda _, __: 540,  # xxx V
+        8454: lambda _, __: 0,  # xxx.x V
+    }
+
+
 def stores(body: bytes) -> bool:
     """Whether a request without checksum may store something: a write to a parameter."""
-    return body[1] == 6 and body[2] == 0
+    return body[1] == 6 and body[2] < 0x20

@@ -1,9 +1,12 @@
 """A fixed sample of the matrix, small enough for the suite."""
 
+from dataclasses import replace
+
 from tests.drives.station import FAMILIES
 from tests.second import pairs
 from tests.second.events import AIMED, EVENTS
 from tests.second.matrix import JOGS, MODES, STATES, Cell
+from tests.second.pf4 import VARIANTS
 
 SIZE = 120
 """Cells of the sample."""
@@ -17,7 +20,14 @@ def aimed() -> list[tuple[Cell, int]]:
         for family in FAMILIES
         for state, seed in (("standstill", 0), ("at speed", 2))
     ]
-    return [each for each in found if each[0].event != "the motor turns round" or each[0].state == "at speed"]
+    found = [each for each in found if each[0].event != "the motor turns round" or each[0].state == "at speed"]
+    return [*found, *varied(found)]
+
+
+def varied(found: list[tuple[Cell, int]]) -> list[tuple[Cell, int]]:
+    """The cells of the PowerFlex 4, each for one of its variants."""
+    alike = [each for each in found if each[0].family == "PF4"]
+    return [(replace(cell, family=VARIANTS[at % len(VARIANTS)]), seed) for at, (cell, seed) in enumerate(alike)]
 
 
 def sample() -> list[tuple[Cell, int]]:
@@ -25,7 +35,8 @@ def sample() -> list[tuple[Cell, int]]:
     options = {"event": list(EVENTS), "state": STATES, "mode": MODES, "family": FAMILIES}
     rows = pairs.rows(options)
     step = max(1, len(rows) // SIZE)
-    return [
+    found = [
         (Cell(row["family"] if row["mode"] != "jog" else JOGS[0], row["mode"], row["event"], row["state"]), index % 4)
         for index, row in enumerate(rows[::step][:SIZE])
     ]
+    return [*found, *varied(found)]

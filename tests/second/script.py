@@ -7,12 +7,13 @@ from tests.second.drive import Drive
 from tests.second.frames import ascii_, ascii_opened, opened, rtu
 from tests.second.gd200a import Gd200a, Gd200aOptions
 from tests.second.jscc import Jscc, JsccOptions
-from tests.second.pf4 import Pf4, Pf4Options
+from tests.second.pf4 import LaterOptions, Pf4, Pf4m, Pf4Options, Pf40p, Pf400, Pf525
 from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
     "sn": (Sn300g5, Sn300g5Options), "jscc": (Jscc, JsccOptions), "chf": (Chf, ChfOptions),
-    "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions),
+    "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
+    "pf4m": (Pf4m, LaterOptions), "pf400": (Pf400, LaterOptions), "pf525": (Pf525, LaterOptions),
 }  # fmt: skip
 WORDS = {
     "sn": {"go": "w1=9C4 w0=1", "back": "w1=9C4 w0=2", "halt": "w0=0", "where": "r10+1 r21+1"},
@@ -21,8 +22,12 @@ WORDS = {
     "gd": {"go": "w2001=9C4 w2000=1", "back": "w2001=9C4 w2000=2", "halt": "w2000=5", "where": "r2100+1 r3000+1"},
     "pf": {"go": "w2001=FA w2000=12", "back": "w2001=FA w2000=22", "halt": "w2000=1", "where": "r2100+1 r2103+1"},
 }
+WORDS["pf4m"] = WORDS["pf"]
+for _name in ("pf40p", "pf400", "pf525"):
+    WORDS[_name] = WORDS["pf"] | {"go": "w2001=9C4 w2000=12", "back": "w2001=9C4 w2000=22"}
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
-POLLED = {"sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1", "pf": b"\x21\0\0\1", "gd": b"\x21\0\0\1"}
+POLLED = {"sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
+"""Of the others it is 2100H."""
 KEYS = ("start", "stop", "reset", "local")
 SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False),
             "inhibit": ("inhibit", True), "free": ("inhibit", False)}  # fmt: skip
@@ -80,7 +85,7 @@ class Talk:
         elif word.startswith("poll"):  # the status every 100 ms, for this many seconds
             for _ in range(10 * int(word[4:-1])):
                 self.now += 100_000
-                self.send(bytes([self.drive.unit, 3]) + POLLED[self.kind])
+                self.send(bytes([self.drive.unit, 3]) + POLLED.get(self.kind, b"\x21\0\0\1"))
         elif word.endswith("s"):
             self.now += int(word.rstrip("ms")) * (1000 if word.endswith("ms") else 1_000_000)
         else:

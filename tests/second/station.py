@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 from tests.drives import station as first
-from tests.drives.station import FAMILIES, PINS, RTU_ONLY
+from tests.drives.station import PINS
+from tests.second.pf4 import VARIANTS
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
@@ -17,11 +18,15 @@ BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer
 IN_SEEN = 6
 """Drives whose pins `Seen` has bits for; those of the others, and the contact's, are in `More`."""
 SIZES = (1, 3, 8)
+FAMILIES = (*first.FAMILIES, *VARIANTS)
+RTU_ONLY = (*first.RTU_ONLY, *VARIANTS)
 
 
 def types_of(family: str, number: int, *, ascii_: bool) -> tuple[str, ...]:
-    """A line of mixed drives; some have no MODBUS ASCII."""
-    others = [each for each in FAMILIES if not ascii_ or each not in RTU_ONLY]
+    """A line of mixed drives; some have no MODBUS ASCII. A variant has none beside it."""
+    if family in VARIANTS:
+        return (family, *types_of("CHF", number - 1, ascii_=False))
+    others = [each for each in first.FAMILIES if not ascii_ or each not in RTU_ONLY]
     at = others.index(family)
     return tuple((others[at:] + others[:at])[i % len(others)] for i in range(number))
 

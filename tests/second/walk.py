@@ -4,10 +4,13 @@
 """
 
 import sys
+from dataclasses import replace
 from random import Random
 
+from tests.drives.station import FAMILIES
 from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import Outcome, Run, cells
+from tests.second.pf4 import VARIANTS
 
 from structured_text.engines.engine import Library
 
@@ -45,7 +48,9 @@ class Walk(Run):
 def walk(seed: int, stations: Library | None = None) -> Outcome:
     """Walk a seed."""
     chance = Random(f"second {seed}")
-    cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED)])
+    cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED) and each.family in FAMILIES])
+    if cell.family == "PF4":
+        cell = replace(cell, family=("PF4", *VARIANTS)[seed % 5])
     return Walk(cell, seed, stations).go()
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from driveblocks.maps import catalog, trust
+from driveblocks.maps import trust
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import load
 from driveblocks.maps.model import Drive
@@ -24,16 +24,9 @@ ADDRESSES: dict[str, dict[str | None, list[int]]] = {
         "ULN": [3207], "LFT": [7121], "DP0": [7200], "SFR": [3102], "TFR": [3103], "HSP": [3104], "LSP": [3105],
         "ADD": [6001], "TBR": [6003], "TFO": [6004], "TTO": [6005], "SLL": [7010], "CHCF": [8401], "FR1": [8413],
     },
-    "pf400": {
-        None: [8192, 8193, 8448, 8449, 8451], "P036": [36], "P038": [38], "P039": [39],
-        "C102": [102], "C103": [103], "C104": [104], "C105": [105],
-    },
 }  # fmt: skip
 """Typed by hand, decimal, as the makers print them; without an id in their order."""
-SHOWN = {
-    "atv12": "ABS(ATV12_EstimatedMotorFrequencyHz(Raw := Reads.",
-    "pf400": "PF400_FeedbackOutputFrequencyHz(Raw := Reads.",
-}
+SHOWN = {"atv12": "ABS(ATV12_EstimatedMotorFrequencyHz(Raw := Reads."}
 """How the pin of the output frequency is made: RFR of an Altivar is negative in reverse, the pin of no family is."""
 
 
@@ -65,16 +58,6 @@ def test_what_the_makers_table_does_not_say_is_in_use_and_wants_a_check() -> Non
     in_use = {name for facts in trust.rungs(altivar).values() for name, one in facts.items() if one}
     assert in_use >= {"run_forward", "run_reverse", "stop", "quick_stop", "running", "state switched_on"}
     assert drive_block(altivar).own.second_hand
-
-
-def test_a_sister_has_scales_and_faults_of_its_own_and_all_that_moves_it_was_read() -> None:
-    four, four_hundred = load(catalog.folder() / "rockwell_powerflex_4.yaml"), drive("pf400")
-    assert trust.rung(four_hundred) == "read, read, read"
-    for one, factor in ((four, "0.1"), (four_hundred, "0.01")):
-        rows = [one.register_at(0x2001), one.register_at(0x2103)]
-        assert [str(row.scale.factor) for row in rows if row and row.scale] == [factor, factor]
-    listed, before = ({code.code for code in one.faults.codes} for one in (four_hundred, four))
-    assert (listed - before, before - listed) == ({15, 48, 71, 94}, {80})
 
 
 @pytest.mark.parametrize("name", ADDRESSES)

@@ -3,6 +3,7 @@
 from decimal import Decimal
 
 import pytest
+from tests.shipped import sisters
 from tests.simulator.talk import MAPS, talk
 
 from driveblocks.maps import catalog
@@ -11,14 +12,14 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.refusal import codes
 
-CODES = {
+CODES = sisters({
     # read in the manuals' tables of error codes; JSCC's has no numbers, those of the standard stand beside it
     "SN300G5": (0x01, 0x02, 0x03, 0x21, 0x22, 0x22, 0x24),
     "JSCC": (1, 2, 3, 3, 2, None, 6),
     "CHF": (2, 4, 5, 5, 4, None, 8),
     "GD200A": (1, 2, 4, 4, 2, 8, None),
     "PF4": (1, 2, 3, 3, 2, None, None),  # its manual has none: those of the standard
-}
+})  # fmt: skip
 
 
 @pytest.mark.parametrize("family", sorted(MAPS))

@@ -1,27 +1,32 @@
 """The shipped families: states and ramps, words typed by hand from the manuals' tables, frames as printed."""
 
 import pytest
+from tests.shipped import sisters
 from tests.simulator.talk import MAPS, Talk, body, pairs, prepared, talk
 
 from driveblocks.maps.model import Frame
 from driveblocks.simulator.habits import Habits
 
-STATUS = {"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100}
-FREQUENCY = {"SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103}
-COUNTS_PER_HZ = {"SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10}
+STATUS = sisters({"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100})
+FREQUENCY = sisters({"SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103})
+COUNTS_PER_HZ = sisters({"SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10, "PF400": 100, "PF525": 100})
 """0.01 Hz by 000FH bit 0; 0.1 Hz by JSCC's example and PF4's words; CHF's manual has none, so that of `Habits`."""
-WORDS = {
-    # bit 0 running, 1 zero speed, 2 reverse, 4 speed agree, 5 ready, 6 minor fault, 7 major fault
-    "SN300G5": {"stands": 0x22, "ramps": 0x21, "runs": 0x31, "reverse": 0x35, "fault": 0x82, "warning": 0x62},
-    # 1 forward, 2 reverse, 4 stopped, 8 fault
-    "JSCC": {"stands": 4, "ramps": 1, "runs": 1, "reverse": 2, "fault": 8, "warning": 4},
-    # 1 forward, 2 reverse, 3 standby, 4 fault
-    "CHF": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
-    # 1 forward, 2 reverse, 3 stopped, 4 fault
-    "GD200A": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
-    # bit 0 ready, 1 active, 3 rotating forward, 6 alarm, 7 faulted, 8 at reference, A commanded by comm
-    "PF4": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x441},
-}
+WORDS = sisters(
+    {
+        # bit 0 running, 1 zero speed, 2 reverse, 4 speed agree, 5 ready, 6 minor fault, 7 major fault
+        "SN300G5": {"stands": 0x22, "ramps": 0x21, "runs": 0x31, "reverse": 0x35, "fault": 0x82, "warning": 0x62},
+        # 1 forward, 2 reverse, 4 stopped, 8 fault
+        "JSCC": {"stands": 4, "ramps": 1, "runs": 1, "reverse": 2, "fault": 8, "warning": 4},
+        # 1 forward, 2 reverse, 3 standby, 4 fault
+        "CHF": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
+        # 1 forward, 2 reverse, 3 stopped, 4 fault
+        "GD200A": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
+        # bit 0 ready, 1 active, 3 rotating forward, 6 alarm, 7 faulted, 8 at reference, A commanded by comm
+        "PF4": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x441},
+        # bit 6 is not used
+        "PF525": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x401},
+    }
+)
 every_family = pytest.mark.parametrize("family", sorted(MAPS))
 
 
@@ -95,13 +100,15 @@ def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
     one = talk(family)
     one.drive.trip(18)
     # SN300G5: 12H is EF4, bit 1 of 0015H; the others show the number
-    where = {
-        "SN300G5": (0x0015, 2),
-        "JSCC": (0x3000, 18),
-        "CHF": (0x5000, 18),
-        "GD200A": (0x2102, 18),
-        "PF4": (0x2101, 18),
-    }[family]
+    where = sisters(
+        {
+            "SN300G5": (0x0015, 2),
+            "JSCC": (0x3000, 18),
+            "CHF": (0x5000, 18),
+            "GD200A": (0x2102, 18),
+            "PF4": (0x2101, 18),
+        }
+    )[family]
     assert one.read(where[0]) == where[1]
     one.drive.clear_cause()
     one.drive.reset()

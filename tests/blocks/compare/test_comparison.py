@@ -18,20 +18,21 @@ from structured_text.engines.engine import Engine
 SEED = 7
 FOLDERS = sorted({each.path.partition("/")[0] for each in alone()} - {"types"})
 
+ONE_WORD = [f"rockwell_powerflex_{name}/PF{name.upper()}" for name in ("4", "400", "40p", "4m", "525")]
 UNREACHED = {
     ("invt_chf/CHF_Reference.st", "IF Count > 10000.0 THEN"),
     ("invt_chf/CHF_Reference.st", "Count := 10000.0; (* the range of the register ends here *)"),
     ("invt_chf/CHF_Reference.st", "Limited := TRUE;"),
-    ("rockwell_powerflex_4/PF4_Request.st", "ELSIF Behind > 65536 THEN"),
-    ("rockwell_powerflex_4/PF4_Request.st", "ErrorID := 4; (* the registers run past FFFFH *)"),
+    *((f"{file}_Request.st", "ELSIF Behind > 65536 THEN") for file in ONE_WORD),
+    *((f"{file}_Request.st", "ErrorID := 4; (* the registers run past FFFFH *)") for file in ONE_WORD),
     ("modbus/MB_BuildWriteMultiple.st", "WHILE Index < Quantity DO"),
     ("modbus/MB_AsciiEncode.st", "WHILE Index < Length DO"),
     ("modbus/MB_AsciiDecode.st", "WHILE (Position < Behind) AND (ErrorID = 0) DO"),
     ("modbus/MB_ParseReply.st", "WHILE (Index < Request.Quantity) AND (Index < 125) DO"),
 }
-"""CHF_Reference guards a quotient that the clamp before it keeps at 1.0 or less; PF4_Request takes one register,
-which cannot lie past FFFFH; the lengths and quantities that bound these loops are checked before, so that none ends
-without a turn."""
+"""CHF_Reference guards a quotient that the clamp before it keeps at 1.0 or less; requests to a PowerFlex take one
+register, which cannot lie past FFFFH; the lengths and quantities that bound these loops are checked before, so that
+none ends without a turn."""
 
 
 _BESIDE: dict[str, Libraries] = {}

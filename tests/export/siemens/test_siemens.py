@@ -10,6 +10,7 @@ from tests.export.siemens.checks import CHECKS, Read, opened
 from tests.export.siemens.planted import PLANTED, Planted, few
 from tests.export.siemens.scl import SclError, read
 from tests.shapes import shapes
+from tests.shipped import drives
 
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.problem import ExportError
@@ -481,7 +482,7 @@ def test_a_master_of_the_plc_does_not_hold_a_stop_back_by_retries() -> None:
 def test_a_block_that_hands_memory_to_an_instruction_has_no_optimized_access_and_all_others_have() -> None:
     """The reader refuses any other; these are the blocks that it has seen."""
     found = {name for name, text in written().items() if "S7_Optimized_Access := 'FALSE'" in text}
-    assert found == {f"siemens/{prefix}_Master.scl" for prefix in ("CHF", "GD200A", "JSCC", "PF4", "SN300G5")}
+    assert found == {f"siemens/{prefix}_Master.scl" for prefix in drives()}
 
 
 def test_a_master_of_the_plc_believes_a_standstill_only_after_the_stop() -> None:
