@@ -42,6 +42,8 @@ MEMBERS = {
 """What lies in a structure of the drive block."""
 OFF = 65535
 """Off, in a setting."""
+PLACE = {name: 16 + place for place, name in enumerate(PINS)}
+"""Bits of `Seen` for the first drive."""
 SETTINGS = {
     "Enable": True,
     "SpeedReferenceHz": 25.0,
@@ -186,7 +188,7 @@ class Bench:
 
     def shows(self, name: str, drive: int = 0) -> bool:
         """An output that `Seen` holds, as it was at the end of the last scan."""
-        return bool(self.seen >> (16 + 8 * drive + PINS.index(name)) & 1)
+        return bool(self.seen >> (PLACE[name] + 8 * drive) & 1)
 
     def reason(self, drive: int = 0) -> str:
         """Why it does not run."""

@@ -9,7 +9,7 @@ from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
 from tests.second.judge import Asked, Judge
-from tests.second.observer import Figures
+from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
 
@@ -89,7 +89,7 @@ class Second(Bench):
             ascii_=ascii_,
             start=False,
         )
-        self.drives = []
+        self.drives, self.pins = [], [Pins(each) for each in self.pins]
         for index, kind in enumerate(types):
             given = dict((options or {}).get(kind, {}))
             given["settings"] = settings if settings and not index else {}

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
-from tests.second.observer import MOVES, RUN, STOPPING, any_of, both
+from tests.second.observer import MOVES, RUN, STOPPING, any_of, both, wish
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
@@ -180,13 +180,19 @@ class Claims:
         if bench.pins[index] != before:
             claim.pins, claim.changed_us = dict(bench.pins[index]), now
         ready = bench.shows("Ready", index)
-        settled = ready and bench.shows("StopConfirmed", index) and not bench.pins[index].get("Left")
+        settled = ready and bench.shows("StopConfirmed", index)
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
-        self._start(index, claim, before, driven=driven)
-        self._stop(index, claim, driven=driven)
+        if driven or not wish(bench.pins[index]).moves:
+            claim.edge_us = None
+        else:
+            self._start(index, claim, before)
+        if driven:
+            self._stop(index, claim)
+        else:
+            claim.stop_us = claim.armed_us = None
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
-        if driven or not any_of(MOVES, before):
+        if claim.runs and (driven or not any_of(MOVES, before)):
             claim.runs = 0
         turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
@@ -293,13 +299,13 @@ class Claims:
 
     # ------------------------------------------------------------ edges
 
-    def _start(self, index: int, claim: Claim, before: dict[str, object], *, driven: bool) -> None:
+    def _start(self, index: int, claim: Claim, before: dict[str, object]) -> None:
+        """What is asked to move, and does not yet."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
-        asked = any_of(MOVES, pins)
         hz = pins["SpeedReferenceHz"]
         assert isinstance(hz, float)
         stops = not pins["Enable"] or any_of(STOPPING, pins) or hz < 0 or both(pins)
-        if not asked or stops or driven or not self.attended(index) or not self.well(index, QUIET_US):
+        if stops or not self.attended(index) or not self.well(index, QUIET_US):
             claim.edge_us = None
         elif claim.ready and not any_of((*MOVES, "Restart"), before):
             claim.edge_us = now
@@ -315,10 +321,14 @@ class Claims:
                 told = told or (bench.unsaid and bench.reason(index) == "NO_RUN") or bench.reason(index) == "BY_ITSELF"
                 self._once(index, "follow", bad=not told)
 
-    def _stop(self, index: int, claim: Claim, *, driven: bool) -> None:
-        """The first stop is sent within WorstStopMs, and obeyed."""
+    def _stop(self, index: int, claim: Claim) -> None:
+        """The first stop to what is driven is sent within WorstStopMs, and obeyed.
+
+        A restart in the midst of that begins it anew: what was answered so far, and whether the port echoes, is
+        forgotten (rule 8 of the line: so is a scan that comes too late, in which nothing can be sent).
+        """
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
-        asked = any_of(MOVES, pins)
+        asked = wish(pins).moves
         all_ = bool(pins.get("StopAll"))
         pin = not asked or not pins["Enable"] or pins.get("QuickStop") or pins.get("CoastStop")
         left = bool(pins.get("Left")) and not all_
@@ -326,10 +336,10 @@ class Claims:
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
-        good = driven and self.willing(index) and hears and not self.lies(index)
+        good = self.willing(index) and hears and not self.lies(index)
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
-        elif claim.stop_us is None and owed:
+        elif owed and (claim.stop_us is None or pins.get("Restart")):
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
             claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again)

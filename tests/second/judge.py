@@ -74,13 +74,18 @@ NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 class Unit:
     """What is remembered of one drive."""
 
-    seen: dict[tuple[str, bool], int] = field(default_factory=dict)
-    """When a fact was last so."""
+    says_running: Callable[[Any, int], bool]
+    """Whether its status says that it runs."""
+    running: list[int] = field(default_factory=lambda: [-1, -1])
+    """When it last said that it does not, and that it does."""
+    fault: list[int] = field(default_factory=lambda: [-1, -1])
+    """The same of a fault."""
     shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=SHAFT))
     """Frequencies that the drive showed, with their times."""
     away_us: int = 0
     """When it could last not be reached."""
-    reached_us: int = 0
+    reachable: bool = False
+    """Whether it hears what is sent to the address of its pins."""
     heard_us: int = 0
     """When it could last hear, whatever the address of its pins."""
     unknown_us: int = 0
@@ -160,10 +165,12 @@ class Judge:
         self.observer = Observer(stores, figures, ascii_=bench.ascii)
         self.stores = stores
         self.found = self.observer.found
-        self.units = [Unit() for _ in bench.models]
+        self.units = [Unit(SAYS_RUNNING[each]) for each in bench.types]
         self.kept: set[int] = set()
         """Drives that nobody asks to stop and that nothing happens to: they run."""
         self.contact = False
+        self.open_now = False
+        """Whether the contact is open in this scan, or the line is not called, which can do nothing then."""
         self.next_us = 0
         self.late: deque[int] = deque([0] * 100, maxlen=100)
         """How long the last scans were, in us: nobody knows when in them a reply came."""
@@ -194,33 +201,35 @@ class Judge:
     def once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
         """A rule that may be broken at present: told when it breaks, not while it stays so."""
         broken = self.units[index].broken
-        if bad and rule not in broken:
+        if not bad:
+            broken.discard(rule)
+        elif rule not in broken:
             broken.add(rule)
             self.tell(index, rule, f"{seen} {self.bench.told(index)}".strip())
-        elif not bad:
-            broken.discard(rule)
 
     # ------------------------------------------------------------ every scan
 
     def scan(self) -> None:
         """The models and pins after a scan."""
         bench, now = self.bench, self.bench.now
-        looks = now >= self.next_us
+        looks, contact = now >= self.next_us, bench.contact
         self.late.append(1000 * bench.elapsed)
         if self.late[-1] > MAX_SCAN_US:
             self.slow_us = bench.now
         self.lineless_us = now if bench.lineless else self.lineless_us
-        opened = self.contact and not bench.contact
+        opened = self.contact and not contact
+        self.open_now = not contact or bench.lineless
         for index in range(len(self.units)):
             self._drive(index, looks=looks)
         if looks:
             self.next_us = now + EVERY_US
         if opened and not any(self._excused(index) for index in range(len(self.units))):
             self.tell(-1, "contact", f"opens for nothing; {bench.told()}")
-        if bench.contact and not self.contact and not bench.hand:
+        if contact and not self.contact and not bench.hand:
             self.tell(-1, "hand", "the contact closes by itself")
-        self.contact = bench.contact
-        self.asked = [each for each in self.asked if not each.over(self)]
+        self.contact = contact
+        if self.asked:
+            self.asked = [each for each in self.asked if not each.over(self)]
 
     def _drive(self, index: int, *, looks: bool) -> None:
         bench, now, one = self.bench, self.bench.now, self.bench.models[index]
@@ -231,10 +240,8 @@ class Judge:
         unit.lied_us = now if one.o.ignores else unit.lied_us
         off = bool(pins.get("SupplyOff")) and not bench.hears(index)
         off = off or bool(pins.get("MonitorOnly") and unit.lied_us > 0)  # it has acknowledged the stop before that
-        open_now = not bench.contact or self._boots(index) or bench.lineless or off
-        truth = Truth(
-            hz, one.by, stopping=bool(one.stopping), contact_open=open_now, turned=one.turned, itself=one.itself
-        )
+        open_now = self.open_now or off or self._boots(index)
+        truth = Truth(hz, one.by, bool(one.stopping), open_now, one.turned, one.itself)
         shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
         self._reach(index, unit)
@@ -251,8 +258,8 @@ class Judge:
             self._stop_pin(index, unit, hz)
         if self.kept:
             self.once(index, "kept", bad=index in self.kept and not driven)
-        unit.seen["Running", SAYS_RUNNING[bench.types[index]](one, now)] = now
-        unit.seen["Fault", one.fault is not None] = now
+        unit.running[unit.says_running(one, now)] = now
+        unit.fault[one.fault is not None] = now
         unit.shaft.append((now, one.shown_hz(now)))
         if looks:
             self._outputs(index, unit)
@@ -263,9 +270,8 @@ class Judge:
         hears = bench.hears(index)
         if hears:
             unit.heard_us = now
-        reached = hears and bench.reachable(index) and not pins.get("Left") and not pins.get("Shared")
-        if reached:
-            unit.reached_us = now
+        unit.reachable = hears and bench.models[index].unit == pins["Address"]
+        reached = unit.reachable and not pins.get("Left") and not pins.get("Shared")
         lossy = faults.lost or faults.unanswered or bench.strange or bench.lineless
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
@@ -275,7 +281,8 @@ class Judge:
             unit.excused_us = now
         if away or pins.get("Restart"):
             unit.unknown_us = now
-        if STATUS[bench.types[index]] in bench.models[index].o.forbidden:
+        forbidden = bench.models[index].o.forbidden
+        if forbidden and STATUS[bench.types[index]] in forbidden:
             unit.refuses_us = now
 
     def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
@@ -300,21 +307,24 @@ class Judge:
         bench, one = self.bench, self.bench.models[index]
         if bench.pins[index].get("Restart"):
             unit.restarted_us, unit.answered_us = bench.now, 0
-        elif bench.reachable(index):
+        elif unit.reachable:
             unit.answered_us += 1000 * bench.elapsed
         silent = index + 1 in bench.deaf or one.cut
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         owed = owed and not (bench.lineless or bench.pins[index].get("SupplyOff"))  # its user says that it is off
-        unit.silent_since = (unit.silent_since or bench.now) if owed else None
+        if not owed:
+            unit.silent_since = None
+            unit.broken.discard("cut")
+            return
+        unit.silent_since = unit.silent_since or bench.now
         slow = bench.now - self.slow_us < CUT_US + SLOW_US
         most = CUT_US + (SLOW_US if slow else 0) + MORE_US * ((len(bench.models) > 1) + (len(bench.models) > 3))
         if bench.turn_round(index) >= UNLEARNED_MS:
             most = max(most, 1000 * bench.promised_cut)
         if self._all_dead(index) and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
-        late = unit.silent_since is not None and bench.now - unit.silent_since > most
-        self.once(index, "cut", bad=late)
+        self.once(index, "cut", bad=bench.now - unit.silent_since > most)
 
     def known(self, index: int, since_us: int) -> bool:
         """It could be reached for so long, nothing was lost, and nothing has begun anew."""
@@ -365,9 +375,9 @@ class Judge:
             return
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
-        for name in FACTS:
+        for name, seen in (("Running", unit.running), ("Fault", unit.fault)):
             shown = bench.shows(name, index)
-            late = unit.seen.get((name, shown), -1) < since
+            late = seen[shown] < since
             self.once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
         if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
             self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)

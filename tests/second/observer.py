@@ -5,6 +5,7 @@ It knows no vendor map, no state of a block, and no reply.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from tests.second.frames import ascii_opened, opened
 
@@ -15,8 +16,37 @@ STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "Spee
 
 RAMP_US = 100_000
 """What a second model takes for 1 Hz."""
+STANDING = {"stop", "confirmed"}
+"""Rules that hold where it stands and nobody runs it."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What pins ask for."""
+
+    moves: tuple[str, ...]
+    """Run and jog pins that are TRUE."""
+    runs: bool
+    """One of them is a run pin."""
+    stops: bool
+    """None is, or another pin stops it all the same."""
+
+
+class Pins(dict[str, Any]):
+    """Pins of a block. What they ask for is reckoned when one changes, not in every scan."""
+
+    def __init__(self, pins: Mapping[str, object]) -> None:
+        """A copy of pins."""
+        super().__init__(pins)
+        self.known: Wish | None = None
+        """What they ask for, once it was reckoned."""
+
+    def __setitem__(self, name: str, value: object) -> None:
+        """Set a pin."""
+        self.known = None
+        super().__setitem__(name, value)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +103,18 @@ def both(pins: Mapping[str, object]) -> bool:
     return any_of(("RunForward", "JogForward"), pins) and any_of(("RunReverse", "JogReverse"), pins)
 
 
+def wish(pins: Mapping[str, object]) -> Wish:
+    """What pins ask for."""
+    if isinstance(pins, Pins) and pins.known is not None:
+        return pins.known
+    moves = tuple([name for name in MOVES if pins.get(name)])
+    stops = spoilt(pins) or not moves or not pins.get("Enable", True) or any_of(STOPPING, pins)
+    found = Wish(moves, any_of(RUN, pins), stops)
+    if isinstance(pins, Pins):
+        pins.known = found
+    return found
+
+
 @dataclass(slots=True)
 class Watch:
     """What is remembered of one motor."""
@@ -124,8 +166,8 @@ class Observer:
     def scan(self, now_us: int, unit: int, pins: Mapping[str, object], *, confirmed: bool, truth: Truth) -> None:
         """A scan: the pins that a block was called with, whether it shows StopConfirmed, and the motor after it."""
         watch, figures = self.watches[unit], self.figures
-        asked = tuple([name for name in MOVES if pins.get(name)])
-        stops = spoilt(pins) or not asked or not pins.get("Enable", True) or any_of(STOPPING, pins)
+        wanted = wish(pins)
+        asked, stops = wanted.moves, wanted.stops
         watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz
@@ -140,6 +182,10 @@ class Observer:
             watch.permitted = False  # whatever has ended it: the next start needs an edge of its own
         watch.driven = driven
         watch.ours = truth.by == "bus" or (watch.ours and turns and not truth.by)
+        if not (turns or driven):  # nothing is owed, and nothing is too fast: most drives in most scans
+            watch.stop_since, watch.others_since, watch.most_hz = None, None, 0.0
+            watch.broken -= STANDING
+            return
         owed = (stops or not watch.permitted) and watch.ours and (turns or driven)
         self._stop(now_us, unit, truth, stops=owed)
         self._confirmed(now_us, unit, truth, wrong=confirmed and turns)
@@ -173,7 +219,7 @@ class Observer:
     def _speed(self, now_us: int, unit: int, pins: Mapping[str, object], truth: Truth) -> None:
         """Not faster than asked, and not the other way round; a jog has a speed of its own."""
         watch, figures = self.watches[unit], self.figures
-        if not watch.driven or not any_of(RUN, pins):
+        if not watch.driven or not wish(pins).runs:
             watch.most_hz = 0.0
             return
         asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)

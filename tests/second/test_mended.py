@@ -174,6 +174,9 @@ HELD = {
     "a late reply of a dead drive left it to the next probe": (
         "GD200A, MonitorOnly, a stall of 300 ms, starting", 401,
     ),
+    "its two stops, which it refused in turn, left others without their references": (
+        "GD200A, MonitorOnly, slow scans, coasting", 503,
+    ),
     "the unit of before passed for its own": ("GD200A, jog, the line is not called, standstill", 503),
 }  # fmt: skip
 

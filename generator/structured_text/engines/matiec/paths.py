@@ -26,7 +26,7 @@ class Place:
 
     def read(self, memory: Memory) -> Value:
         """Make the value."""
-        return self.node.read(self._follow(memory), self.offset)
+        return self.node.read(self._follow(memory) if self.jumps else memory, self.offset)
 
     def write(self, memory: Memory, value: Value) -> None:
         """Put the value, whole or not at all. Raises ValueError."""
