@@ -106,14 +106,18 @@ def test_no_address_at_all_does_not_end_what_is_owed() -> None:
     assert not words(bench.run(1200)), "a restart begins anew"
 
 
-def test_a_restart_voids_the_copy_until_the_block_writes_it_anew() -> None:
+@pytest.mark.parametrize(("has_stop", "sent"), [(True, {COAST, JOG}), (False, {JOG})])
+def test_a_restart_voids_the_copy_for_what_the_slot_holds(has_stop: bool, sent: set[int]) -> None:
+    """The stop that a block asked for last may end a jog alone: where it is called no longer its other one counts."""
     bench = copied()
-    bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)
+    bench.fill(1, STOP, 6, bench.kind.stop_address, word=JOG)
     bench.attended.discard(1)
+    bench.put(1, StopWord=COAST, HasStop=has_stop)
     bench.set(Restart=True)
     bench.scan()
     bench.set(Restart=False)
-    assert set(words(bench.run(2500))) == {COAST}
+    assert set(words(bench.run(2500))) == sent
+    bench.put(1, StopWord=PLAIN, HasStop=True)
     bench.attended.add(1)
     bench.run(100)
     bench.attended.discard(1)

@@ -166,23 +166,24 @@ class Claims:
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
 
-    def scan(self, index: int, *, driven: bool, looks: bool) -> None:
-        """After a scan."""
+    def scan(self, index: int, hz: float, *, driven: bool, looks: bool) -> None:
+        """After a scan; the true speed of the shaft."""
         bench, claim, now = self.bench, self.claims[index], self.bench.now
         if bench.faults.twice:
             self.doubled_us = now
-        if bench.models[index].output and not claim.output:
+        output = bench.models[index].output
+        if output and not claim.output:
             claim.begun_us = now
-        claim.output = bench.models[index].output
-        if bench.pins[index].get("StopAll"):
+        claim.output = output
+        before, pins = claim.pins, bench.pins[index]
+        if pins.get("StopAll"):
             self.all_us = now
-        before = claim.pins
-        if bench.pins[index] != before:
-            claim.pins, claim.changed_us = dict(bench.pins[index]), now
+        if pins != before:
+            claim.pins, claim.changed_us = dict(pins), now
         ready = bench.shows("Ready", index)
         settled = ready and bench.shows("StopConfirmed", index)
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
-        if driven or not wish(bench.pins[index]).moves:
+        if driven or not wish(pins).moves:
             claim.edge_us = None
         else:
             self._start(index, claim, before)
@@ -194,10 +195,10 @@ class Claims:
         claim.driven_us = (claim.driven_us or now) if driven else None
         if claim.runs and (driven or not any_of(MOVES, before)):
             claim.runs = 0
-        turns = driven or bench.models[index].output or bench.models[index].motor.hz(now) != 0
+        turns = driven or claim.output or hz != 0
         claim.idle_us = None if turns else (claim.idle_us or now)
         claim.unwilling_us = claim.unwilling_us if self.willing(index) else now
-        if not (bench.lineless and bench.pins[index].get("Left")):
+        if not (bench.lineless and pins.get("Left")):
             claim.unlinked = claim.unlinked + 1 if bench.lineless else 0
         if looks:
             self._look(index, claim, driven=driven)

@@ -263,7 +263,7 @@ class Judge:
         unit.shaft.append((now, one.shown_hz(now)))
         if looks:
             self._outputs(index, unit)
-        self.claims.scan(index, driven=driven, looks=looks)
+        self.claims.scan(index, hz, driven=driven, looks=looks)
 
     def _reach(self, index: int, unit: Unit) -> None:
         bench, now, pins, faults = self.bench, self.bench.now, self.bench.pins[index], self.bench.faults

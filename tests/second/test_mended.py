@@ -177,6 +177,9 @@ HELD = {
     "its two stops, which it refused in turn, left others without their references": (
         "GD200A, MonitorOnly, slow scans, coasting", 503,
     ),
+    "in a restart it was called no longer, and the line stopped its run with the end of a jog": (
+        "GD200A, full control, block not called for 12 s, starting", 611,
+    ),
     "the unit of before passed for its own": ("GD200A, jog, the line is not called, standstill", 503),
 }  # fmt: skip
 
