@@ -135,7 +135,11 @@ class Claims:
         """When the line last stopped all drives, or one did not obey: stops count as sent again."""
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
-        """A frame to a drive, without checksum."""
+        """A frame to a drive, without checksum.
+
+        One that has been standing for long is written to no more, but in the scan of a restart it gets its stop: right
+        after another restart nothing else tells that scan from those before.
+        """
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (6, 16)
         self._kept(index, body)
@@ -162,7 +166,7 @@ class Claims:
             and not asks
             and self.willing(index)
             and self.well(index, QUIET_US)
-            and not any_of(MOVES, pins)
+            and not any_of((*MOVES, "Restart"), pins)
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
 
