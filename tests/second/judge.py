@@ -61,7 +61,6 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
     }
 )
-FACTS = ("Running", "Fault")
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
 STATUS = alike({"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010})

@@ -12,15 +12,22 @@ from click.testing import CliRunner
 from tests.shapes import shapes, texts
 
 from driveblocks.cli import app
+from driveblocks.docs.page import documents
 from driveblocks.maps import check
 from driveblocks.maps.collection import Source
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Condition, Does, Drive, Step
+from driveblocks.maps.plan import plan, reply_delay
+from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import Report
 from driveblocks.output import units as tested
 from driveblocks.render.context import kept
 from driveblocks.render.drive import Masked, drive_block
+from driveblocks.render.library import drive as library_of
+from driveblocks.render.library import generic
 from driveblocks.render.text import languages
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.site.register import spans
 from driveblocks.testing import runner
 from driveblocks.testing.script import Suite
 from driveblocks.testing.unit import Unit
@@ -186,6 +193,46 @@ def test_show_prints_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -
     assert [word in page for page in registers for word in ("run forward, write 2: write 0007H", "running: 2000H")] == [
         True, False, False, True
     ]  # fmt: skip
+
+
+def test_show_says_what_the_keypad_hides_and_what_serves_as_well(tmp_path: Path) -> None:
+    page = " ".join(run("two_registers", tmp_path, "show", "MAP", "serial").split())
+    assert "1 to 247 by P3.00; factory setting 0; at 0 it answers nobody" in page
+    assert "shown while P0.03 = 3" in page
+    assert "needed 1 or 2: run commands come from the bus" in page
+
+
+def test_no_request_crosses_a_group(tmp_path: Path) -> None:
+    """The pins of this drive want 2000H to 2002H; its manual keeps each two addresses apart."""
+    drive = shapes()["pulse"]
+    whole = replace(drive, limits=replace(drive.limits, group=None))
+    assert [(each.address, each.words) for each in polls(whole)] == [(0x2000, 3)]
+    assert [(each.address, each.words) for each in polls(drive)] == [(0x2000, 2), (0x2002, 1)]
+    assert [(each.first, each.last) for each in plan(drive).readable if each.first >= 0x2000] == [
+        (0x2000, 0x2001), (0x2002, 0x2002),
+    ]  # fmt: skip
+    assert spans(drive, [0x2000, 0x2001, 0x2002], 16) == [Span(0x2000, 0x2001), Span(0x2002, 0x2002)]
+    for one, asked, said in (
+        (drive, "01 03 20 00 00 02", "01 03 04"), (drive, "01 03 20 01 00 02", "01 83"),
+        (whole, "01 03 20 01 00 02", "01 03 04"),
+    ):  # fmt: skip
+        reply = SimulatedDrive(one, 1).reply(bytes.fromhex(asked))
+        assert reply is not None
+        assert reply.hex(" ").startswith(said)
+    assert "2  addresses of a group, which no request may cross" in run("pulse", tmp_path, "show", "MAP", "serial")
+
+
+def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
+    assert reply_delay(shapes()["pulse"]) == (30, 500)
+    assert reply_delay(shapes()["packed"]) == (None, None)
+    assert "by P3.06, 30 ms as delivered, 500 ms at most" in run("pulse", tmp_path, "show", "MAP", "serial")
+    assert "begin after 30 ms" in run("pulse", tmp_path, "line", "MAP")
+    assert "begin after 7 ms" in run("pulse", tmp_path, "line", "MAP", "--reply", "7ms")
+    drive = shapes()["pulse"]
+    files = [*generic(languages(["en"], "utf-8")), *library_of("one", drive, languages(["en"], "utf-8"))]
+    page = documents(files, [drive])["docs/PUL_Drive.md"]
+    assert "a turn-round of 30 ms, which is the factory setting of P3.06." in page
+    assert "| the drive answers later by P3.06, 30 ms as delivered, 500 ms at most |" in page
 
 
 def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 from rich.cells import cell_len
 from tests.plc.desk import maps
+from tests.shapes import shapes
 from tests.site.test_parameters import simulated
 
 from driveblocks.cli import app
@@ -22,7 +23,7 @@ from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
 from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
-from driveblocks.site import adapter, hour, hunt, kept, steps
+from driveblocks.site import adapter, hour, hunt, kept, sheet, steps
 from driveblocks.site.adapter import PortLine
 from driveblocks.site.found import Answer, Found, Measured, Set, Way
 from driveblocks.site.session import Wish, commission
@@ -257,6 +258,26 @@ def test_what_differs_at_the_keypad_is_read_or_asked(stem: str) -> None:
         assert [each.id for each in found.settings if each.differs] == ["B1-01", "B1-02"]
 
 
+def test_a_keypad_hides_settings_and_several_numbers_may_serve(tmp_path: Path) -> None:
+    said: list[str] = []
+    person = Person({"alone": "alone", "keypad": "P3.01"})
+    person.say = lambda what: said.append(str(what))  # type: ignore[method-assign]
+    mine = shapes()["two_registers"]
+    found = went(Line([SimulatedDrive(mine, 1)]), "jscc", person, drive=mine, rate=9600, form="8N1", unit=1)
+    assert said[0] == "As delivered this drive answers nobody: set P3.00 to an address first."
+    assert "P3.00 is shown only while P0.03 = 3" in said
+    assert [(each.id, each.must, each.told) for each in found.settings] == [
+        ("P3.00", (), "yes"),
+        ("P3.01", (1, 2), "no"),
+    ]
+    assert [replace(found.settings[1], read=one).differs for one in (0, 1, 2)] == [True, False, False]
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, found)
+    (one,) = kept.read(path).values()
+    assert [(each.id, each.right) for each in one.settings] == [("P3.00", ()), ("P3.01", (1, 2))]
+    assert "- setting P3.01: by eye not right, must be 1 or 2" in list(sheet.report("Pump", one))
+
+
 @pytest.mark.parametrize(
     ("answer", "right", "asked"),
     [
@@ -348,7 +369,7 @@ def test_a_register_that_no_table_lists_is_in_none(stem: str) -> None:
 FULL = Found(
     way=Way(19200, "8E1"), unit=3, family="fits", plate='5.5 kW "B" <1.02>',
     done=["quiet", "find", "keypad", "measure"],
-    settings=[Set("F0.04", "Run", 3, 4, "why", ""), Set("F0.08", "Speed", None, 8, "why", "no")],
+    settings=[Set("F0.04", "Run", 3, (4,), "why", ""), Set("F0.08", "Speed", None, (8,), "why", "no")],
     measured=Measured(200, 12, 2, 16, "001BH: refused"), tried=["19200 bit/s 8E1 RTU"], skipped=["gaps", "a, b: [c"],
     answers=[Answer("scale of 2000H", "20.0", 2000, "FrequencyScale", "0.01"), Answer("other: {x}", "#no", None)],
 )  # fmt: skip

@@ -31,7 +31,9 @@ from driveblocks.commands import FILE, refuse
 @click.option("--max-scan", metavar="TIME", help="The longest; else MaxScanMs of the program, or two scans.")
 @click.option("--keeps-silence", is_flag=True, help="The port itself keeps the silence between frames.")
 @click.option("--port-late", metavar="TIME", help="How long the port or its adapter delays request and reply.")
-@click.option("--reply", metavar="TIME", default="20ms", help="How long a drive takes until its reply begins.")
+@click.option(
+    "--reply", metavar="TIME", help="How long a drive takes until its reply begins; else 20 ms, or its setting."
+)
 @click.option("--watchdog", metavar="TIME", help="Time of the drives' own watchdogs; a program has it itself.")
 @click.option("--stop-within", metavar="TIME", help="The stops of all drives have to be sent within this time.")
 @click.option("--picture", type=FILE, metavar="FILE.svg", help="Draw one round of the line.")

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.docs.pins import SCALES, unit_of
+from driveblocks.maps.conduct import reply_delay
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
@@ -85,6 +86,8 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
             yield setting, f"of {measure.word.address_text}: without it `{measure.pin}` is the raw count"
     keeps = [f"16#{mask:04X} of {address_text(register)}" for register, mask in block.ordering.keeps.items()]
     yield "KeepWord", ", ".join(keeps) or "no use: no bit is left over"
+    if (delay := reply_delay(drive)) is not None:
+        yield "TurnRoundMs", f"the drive answers later {delay}"
 
 
 def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:

@@ -9,7 +9,7 @@ from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
-from driveblocks.maps import conduct, trust
+from driveblocks.maps import conduct, plan, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
@@ -208,7 +208,8 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
         feeds=drive.watchdog.feeds if drive.watchdog else None,
         proved_tripped=timing.proves_while_tripped(drive),
         states=STATES,
-        turn_round=TURN_ROUND_MS,
+        turn_round=_turn_round(drive),
+        delayed=plan.reply_delay(drive)[0] == _turn_round(drive) and drive.serial.reply_delay,
         **vars(motor(drive)),
         **values,
     )
@@ -267,7 +268,7 @@ def _guessed(drive: Drive) -> bool:
 
 def _stays(setting: Setting) -> bool:
     needed = setting.needed
-    return needed is not None and needed.value is not None and needed.by_terminals is None
+    return needed is not None and needed.right != () and needed.by_terminals is None
 
 
 def _matters(notice: Notice) -> bool:
@@ -328,8 +329,13 @@ def _reads(drive: Drive) -> Iterator[Read]:
             often if poll.fast else "one slow read a round",
             address_text(poll.address),
             [f"{word.address_text} {context.inside_a_sentence(word.title)}" for word in one.words],
-            [f"{wire_ms(poll, rate, BITS, TURN_ROUND_MS, _silence(drive)):.0f}" for rate in RATES],
+            [f"{wire_ms(poll, rate, BITS, _turn_round(drive), _silence(drive)):.0f}" for rate in RATES],
         )
+
+
+def _turn_round(drive: Drive) -> int:
+    """What a drive as delivered takes to answer, ms, as far as it is known."""
+    return max(TURN_ROUND_MS, plan.reply_delay(drive)[0] or 0)
 
 
 def _silence(drive: Drive) -> float | None:
@@ -362,7 +368,7 @@ def _scans(drive: Drive, poll: Poll, rate: int, *, keeps: bool) -> int:
     character = 1000 * BITS / rate
     own = _silence(drive)
     silence = 0.0 if own is None else max(3.5 * character, own)
-    wire = poll.characters(ascii_mode=own is None) * character + TURN_ROUND_MS
+    wire = poll.characters(ascii_mode=own is None) * character + _turn_round(drive)
     if keeps:
         return ceil((wire + silence) / SCAN_MS)
     return ceil(wire / SCAN_MS) + int((silence + 1) // SCAN_MS) + 1

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from driveblocks.maps import plan
 from driveblocks.maps.form import address_text, bits_text, masked_text
 from driveblocks.maps.model import Condition, Drive, Reaction, Setting, State, Watchdog
 
@@ -51,6 +52,16 @@ def _reaction(one: Reaction, chosen: Setting | None) -> str:
     named = next((f" {value.name.lower()}" for value in chosen.values if value.value == one.value), "")
     factory = " (factory)" if chosen.default == str(one.value) else ""
     return f"{one.value}{named}{factory}: {_DOES[one.does]}"
+
+
+def reply_delay(drive: Drive) -> str | None:
+    """What lets the drive answer later, and how much; None where nothing is known to."""
+    delay, (factory, longest) = drive.serial.reply_delay, plan.reply_delay(drive)
+    if delay is None:
+        return None
+    said = [f"{factory} ms as delivered"] if factory is not None else []
+    said += [f"{longest} ms at most"] if longest is not None else []
+    return f"by {delay.setting}, " + (", ".join(said) or f"{delay.milliseconds} ms for each count")
 
 
 def trip(drive: Drive) -> str:

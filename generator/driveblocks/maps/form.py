@@ -157,7 +157,10 @@ REFERENCE = _form(
     "reference", r"[a-z_]+( \S+)?", str, "write what the entry is about, such as `register 0220H` or `bit 0015H.7`"
 )
 ID_FORM = _form(
-    "id form", r"[A9X\-.]+", str, "write A for a letter, 9 for a digit, X for either: A9-99 is the form of H5-01"
+    "id form",
+    r"[Aa9X\-.]+",
+    str,
+    "write A for a letter, a for a small one, 9 for a digit, X for A or 9: A9-99 is the form of H5-01",
 )
 SYMBOL = _form("symbol", r"[A-Z][A-Za-z0-9]{0,30}", str, "write an identifier such as InputTerminals, without _")
 PLC_DEVICE = _form("PLC register name", r"[A-Z]+[0-9]+", str, "write the first register, such as D0")

@@ -221,6 +221,9 @@ class Needed(Entry):
     value: Number | None = fact(
         "the number to enter; left out where any value serves that the PLC also uses", "2", optional=True
     )
+    one_of: tuple[Number, ...] = fact(
+        "in the place of `value`: the numbers that serve, where more than one does", "[1, 2]", optional=True, default=()
+    )
     by_terminals: Number | None = fact(
         "the number that lets the drive's terminals run it instead, of the setting that chooses the source of the run "
         "command",
@@ -228,6 +231,19 @@ class Needed(Entry):
         optional=True,
     )
     why: English = fact("what it is for", "run commands come from the bus")
+
+    @property
+    def right(self) -> tuple[int, ...]:
+        """The numbers that serve; none where any does that the PLC also uses."""
+        return self.one_of if self.value is None else (self.value,)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Switch(Entry):
+    """A value of a keypad setting, on which something else depends."""
+
+    setting: Id = fact("id of the keypad setting", "H5-05")
+    value: Number = fact("the value", "0")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -245,6 +261,12 @@ class Setting(Named):
         "meaning of each number", "[{value: 0, name: 1200 bit/s, zh: 1200BPS}]", optional=True, default=()
     )
     needed: Needed | None = fact("what it must be before the drive listens", "{value: 2, why: ...}", optional=True)
+    visible_when: tuple[Switch, ...] = fact(
+        "the keypad shows it only while other settings are so, all of them: a level of access, a macro",
+        "[{setting: H5-05, value: 0}]",
+        optional=True,
+        default=(),
+    )
     note: English | None = fact("what else a person must know", "takes effect after a power cycle", optional=True)
     corroborated: tuple[Corroboration, ...] = fact(
         "other documents on this", "[{document: ..., page: ..., reads: ...}]", optional=True, default=()
@@ -326,6 +348,16 @@ class UnitAddress(Entry):
     )
     setting: Id | None = fact("id of the keypad setting", "H5-01", optional=True)
     default: Number | None = fact("factory setting", "1", optional=True)
+    no_address: Number | None = fact(
+        "the number of that setting at which the drive answers nobody; it may be the factory setting",
+        "0",
+        optional=True,
+    )
+
+    @property
+    def silent(self) -> bool:
+        """Whether the drive as delivered answers nobody."""
+        return self.no_address is not None and self.no_address == self.default
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -335,8 +367,22 @@ class Silence(Entry):
     source: English = fact("where the manual says so", "RTU frame structure")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     characters: Factor | None = fact("silence before and after a frame, in character times", "3.5", optional=True)
-    milliseconds: Factor | None = fact("silence before and after a frame, in ms at any bit rate", "10", optional=True)
+    milliseconds: Factor | None = fact(
+        "silence before and after a frame, in ms at any bit rate; also the pause that a drive wants after its reply",
+        "10",
+        optional=True,
+    )
     gap_characters: Factor | None = fact("longest pause inside a frame, in character times", "1.5", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReplyDelay(Entry):
+    """A keypad setting that lets the drive answer later."""
+
+    setting: Id = fact("id of the keypad setting, whose `default` and `range` are counts of it", "P14.03")
+    milliseconds: Factor = fact("how long one count is, ms", "1")
+    source: English = fact("where the manual says so", "table of communication parameters")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -366,6 +412,9 @@ class Serial(Entry):
     )
     unit: UnitAddress = fact("unit addresses", "{min: 1, max: 247, source: ...}")
     silence: Silence | None = fact("pauses around frames", "{characters: 3.5, source: ...}", optional=True)
+    reply_delay: ReplyDelay | None = fact(
+        "what lets the drive answer later", "{setting: P14.03, milliseconds: 1, source: ...}", optional=True
+    )
     broadcast: Broadcast | None = fact("broadcast", "{address: 0, replies: false, source: ...}", optional=True)
 
 
@@ -384,6 +433,11 @@ class Limits(Entry):
 
     read_words: Limit | None = fact("words that one 03H may read", "{value: 16, source: ...}", optional=True)
     write_words: Limit | None = fact("words that one request may write", "{value: 16, source: ...}", optional=True)
+    group: Limit | None = fact(
+        "addresses of a group, counted from 0000H, that no request may cross; 256 where the high byte is the group",
+        "{value: 256, source: ...}",
+        optional=True,
+    )
     data_bytes: Limit | None = fact(
         "bytes of the data field (between function code and checksum) of an RTU frame",
         "{value: 25, source: ...}",
@@ -791,14 +845,6 @@ class SilenceTime(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Switch(Entry):
-    """A value of a keypad setting that switches something off."""
-
-    setting: Id = fact("id of the keypad setting", "H5-05")
-    value: Number = fact("the value", "0")
-
-
-@dataclass(frozen=True, kw_only=True)
 class Reaction(Entry):
     """What the drive does when its line is silent, for one value of the setting that chooses it."""
 
@@ -1149,7 +1195,7 @@ class Drive(Entry):
     family: Text = fact("family", "{en: SN300G5 series, zh: SN300G5系列变频器}")
     manual: Manual = fact("the manual that the map was read from", "{title: ..., publisher: ...}")
     id_forms: tuple[Annotated[str, form.ID_FORM], ...] = fact(
-        "forms of the manual's parameter ids: A letter, 9 digit, X either", "[A9-99]"
+        "forms of the manual's parameter ids: A letter, a small letter, 9 digit, X letter or digit", "[A9-99]"
     )
     numbering: Numbering | None = fact(
         "how the manual numbers registers; then every address of this map is such a number, as in `address: 40102`",

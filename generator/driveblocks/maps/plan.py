@@ -1,7 +1,9 @@
 """What a drive allows on the wire, derived from its map: words per frame, readable and writable addresses."""
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import ceil
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Limit
@@ -42,8 +44,8 @@ def plan(drive: Drive) -> Plan:
         sub_functions=tuple(sub.code for sub in functions[8].sub_functions) if 8 in functions else (),
         rtu=_words(drive, "rtu"),
         ascii=_words(drive, "ascii"),
-        readable=_merged(_allowed(drive, "r")),
-        writable=_merged([*_allowed(drive, "w"), *_ram_only(drive)]),
+        readable=_grouped(drive, _merged(_allowed(drive, "r"))),
+        writable=_grouped(drive, _merged([*_allowed(drive, "w"), *_ram_only(drive)])),
     )
 
 
@@ -91,6 +93,33 @@ def _merged(spans: Iterable[Span]) -> tuple[Span, ...]:
         else:
             merged.append(span)
     return tuple(merged)
+
+
+def group(drive: Drive, address: int) -> int:
+    """The number of the group of an address, of which a request may have one; of most drives the same for all."""
+    return address // drive.limits.group.value if drive.limits.group else 0
+
+
+def _grouped(drive: Drive, spans: tuple[Span, ...]) -> tuple[Span, ...]:
+    """Spans, none of them in two groups."""
+    size = _value(drive.limits.group, 0x10000)
+    return tuple(
+        Span(max(span.first, start), min(span.last, start + size - 1))
+        for span in spans
+        for start in range(span.first - span.first % size, span.last + 1, size)
+    )
+
+
+def reply_delay(drive: Drive) -> tuple[int | None, int | None]:
+    """How much later the drive answers by its setting, as delivered and at most, ms; None: the manual does not say."""
+    delay = drive.serial.reply_delay
+    setting = next((each for each in drive.settings if delay and each.id == delay.setting), None)
+    if delay is None or setting is None:
+        return None, None
+    said = re.match("[0-9]{1,9}", setting.default or "")
+    counts = (int(said[0]) if said else None, setting.range.max if setting.range else None)
+    factory, most = (None if each is None else ceil(each * delay.milliseconds) for each in counts)
+    return factory, most
 
 
 def dialect(drive: Drive) -> Dialect:

@@ -8,8 +8,14 @@ from typing import Any
 from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
-_LATER = re.compile(r", (?:(?:base|numbering|document|trust|differs)=None|(?:never|without)=\(\))(?=[,)])")
-"""Keys that the format has learned since the first numbers were printed: left out, they change none."""
+_LATER = {
+    "None": "base numbering document trust differs no_address reply_delay group",
+    "()": "never without one_of visible_when",
+}
+"""Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""
+_LEFT_OUT = re.compile(
+    "|".join(f", (?:{'|'.join(keys.split())})={re.escape(is_)}(?=[,)])" for is_, keys in _LATER.items())
+)
 
 
 @lru_cache
@@ -49,4 +55,5 @@ def _english(value: Any) -> Any:
 
 
 def _facts(value: Any) -> str:
-    return _LATER.sub("", repr(value))
+    """What an entry says; keys that are left out change nothing, so that a new key changes no old number."""
+    return _LEFT_OUT.sub("", repr(value))

@@ -107,11 +107,13 @@ class Requests:
 
     def _addresses(self, asked: Asked) -> Iterator[str]:
         count = asked.quantity if asked.function in COUNTED else 1
-        if asked.function in READS and not self._all(asked.address, count, self.readable):
+        if asked.function in READS and not self.all(asked.address, count, self.readable):
             yield "NOT_READABLE"
-        if asked.function in {6, 16} and not self._all(asked.address, count, self.writable):
+        if asked.function in {6, 16} and not self.all(asked.address, count, self.writable):
             yield "NOT_WRITABLE"
 
-    @staticmethod
-    def _all(address: int, count: int, allowed: frozenset[int]) -> bool:
-        return all(one in allowed for one in range(address, address + count))
+    def all(self, address: int, count: int, allowed: frozenset[int]) -> bool:
+        """Whether some registers are all among these, and in one group."""
+        group = self.drive.limits.group
+        crosses = group is not None and address // group.value != (address + count - 1) // group.value
+        return not crosses and all(one in allowed for one in range(address, address + count))

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 
 from rich.console import RenderableType
 
+from driveblocks.maps import conduct
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import BaudCode, Choice, Drive, FormatCode, Function, Limits, ModeCode, Serial, Setting
 from driveblocks.show.errata import corroborated
@@ -14,6 +15,7 @@ _TOLERATED = {"two_byte_count": ("byte count", "of a read may be a word")}
 _LIMITS = {
     "read_words": "words in one read",
     "write_words": "words in one write",
+    "group": "addresses of a group, which no request may cross",
     "data_bytes": "data bytes in an RTU frame",
     "ascii_data_bytes": "data bytes in an ASCII frame",
 }
@@ -37,6 +39,7 @@ def line(drive: Drive) -> Iterator[RenderableType]:
         ("format", known.format and _choice(known.format, map(_format, known.format.codes))),
         ("unit address", _unit(known)),
         ("silence", _silence(known)),
+        ("replies later", conduct.reply_delay(drive)),
         ("broadcast", _broadcast(known)),
     )
     yield heading("Limits")
@@ -76,6 +79,7 @@ def _unit(line: Serial) -> str:
     unit = line.unit
     setting = f" by {unit.setting}" if unit.setting else ""
     default = "" if unit.default is None else f"; factory setting {unit.default}"
+    default += "" if unit.no_address is None else f"; at {unit.no_address} it answers nobody"
     beyond = f"; beyond the standard's 247 by {unit.above_247}" if unit.above_247 else ""
     return f"{unit.min} to {unit.max}{setting}{default}  ({unit.source}{beyond})"
 
@@ -139,6 +143,7 @@ def of_setting(drive: Drive, setting: Setting) -> RenderableType:
     return card(
         f"{setting.id}  {both(setting.name, setting.own)}",
         ("needed", _needed(setting)),
+        ("shown while", listed(f"{each.setting} = {each.value}" for each in setting.visible_when) or None),
         ("printed", setting.zh if setting.zh_used else None),
         ("register", address_text(setting.register) if setting.register is not None else None),
         ("range", f"{setting.range.min} to {setting.range.max}" if setting.range else None),
@@ -155,6 +160,6 @@ def _needed(setting: Setting) -> str | None:
     if setting.needed is None:
         return None
     needed = setting.needed
-    value = "" if needed.value is None else f"{needed.value}: "
+    value = f"{' or '.join(map(str, needed.right))}: " if needed.right else ""
     other = "" if needed.by_terminals is None else f" ({needed.by_terminals}: from the drive's terminals)"
     return f"{value}{needed.why}{other}"

@@ -4,7 +4,7 @@ from driveblocks.modbus import layout
 from driveblocks.modbus.request import READS
 from driveblocks.simulator.machine import Machine
 from driveblocks.simulator.memory import inside
-from driveblocks.simulator.table import Limit
+from driveblocks.simulator.table import Limit, Table
 
 SHORT = 6
 """Bytes of every request but 10H: unit, function and two words."""
@@ -71,14 +71,21 @@ def _read(machine: Machine, first: int, number: int) -> list[int]:
     if not 1 <= number <= table.most.read:
         raise Refused("quantity")
     addresses = range(first, first + number)
-    if not all(inside(table.readable, address) for address in addresses):
+    if not all(inside(table.readable, address) for address in addresses) or _crosses(table, addresses):
         raise Refused("address")
     return [machine.word(address) for address in addresses]
+
+
+def _crosses(table: Table, addresses: range) -> bool:
+    """Whether registers are in more than one of the groups that the drive keeps apart."""
+    return addresses[0] // table.group != addresses[-1] // table.group
 
 
 def _write(machine: Machine, first: int, words: list[int]) -> None:
     table, memory = machine.table, machine.memory
     addresses = range(first, first + len(words))
+    if _crosses(table, addresses):
+        raise Refused("address")
     for address in addresses:
         if not inside(table.writable, address):
             raise Refused("read_only" if inside(table.readable, address) else "address")

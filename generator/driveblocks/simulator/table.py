@@ -78,6 +78,8 @@ class Table:
     most: Words
     readable: tuple[Span, ...]
     writable: tuple[Span, ...]
+    group: int
+    """Addresses of a group, which no request may cross."""
     broadcast: int | None
     """The unit address to which all drives listen; None: the map has none."""
     broadcasts: tuple[int, ...]
@@ -117,6 +119,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         most=words,
         readable=allowed.readable,
         writable=allowed.writable,
+        group=drive.limits.group.value if drive.limits.group else 0x10000,
         broadcast=broadcast.address if broadcast else None,
         broadcasts=broadcast.start_addresses if broadcast else (),
         limits=(*_limits(drive), *_choices(drive), *_highest(drive, habits)),

@@ -8,6 +8,7 @@ from driveblocks.desk.words import Refused, time
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
+from driveblocks.maps.plan import reply_delay
 from driveblocks.maps.polls import Poll, polls
 from driveblocks.maps.problem import MapError
 from driveblocks.plc import probe, source
@@ -23,6 +24,8 @@ from structured_text.visible import file_name
 MOST_UNITS = 32
 USUAL = {"BitRate": 9600, "CharacterBits": 10}
 """What a line takes where a pin is 0."""
+USUAL_REPLY_MS = 20
+"""What a drive takes until its reply begins, where nobody and no map says more."""
 _PARITY = {"none": "N", "even": "E", "odd": "O"}
 
 
@@ -41,7 +44,7 @@ class Words:
     max_scan: str | None = None
     keeps_silence: bool = False
     port_late: str | None = None
-    reply: str = "20ms"
+    reply: str | None = None
     watchdog: str | None = None
     stop_within: str | None = None
 
@@ -162,8 +165,9 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     size = _size(block, bus)
     port = f"{seen.wiring.port}.LateMs" if seen.wiring.port else f"{bus}.PortLateMs"
     keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
-    scan, reply = times["scan"] or 0, times["reply"] or 0
-    unlearned = _slots(seen, size)
+    scan, unlearned = times["scan"] or 0, _slots(seen, size)
+    delays = (reply_delay(each.drive)[0] or 0 for each in _units(seen, size) if each.drive)
+    reply = times["reply"] or max(USUAL_REPLY_MS, *delays)
     for at in range(size):
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
         block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply

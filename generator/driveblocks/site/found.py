@@ -87,7 +87,8 @@ class Set:
     id: str
     name: str
     read: int | None
-    must: int | None
+    must: tuple[int, ...]
+    """What it may be; empty where anything serves that the PLC also uses."""
     why: str
     told: str = ""
     """What a person has answered."""
@@ -95,7 +96,7 @@ class Set:
     @property
     def differs(self) -> bool:
         """Whether it was read and is not what it must be."""
-        return self.read is not None and self.must is not None and self.read != self.must
+        return self.read is not None and self.must != () and self.read not in self.must
 
 
 @dataclass(frozen=True)

@@ -41,7 +41,13 @@ class Checked(Entry):
     id: Id = fact("the manual's id", "H5-01")
     read: Number | None = fact("as read", "1", optional=True)
     must: Number | None = fact("as it must be", "2", optional=True)
+    one_of: tuple[Number, ...] = fact("as it may be, where several numbers serve", "[1, 2]", optional=True, default=())
     told: Str | None = fact("what a person said of it: yes or no", '"yes"', optional=True)
+
+    @property
+    def right(self) -> tuple[int, ...]:
+        """The numbers that serve; none where any does."""
+        return self.one_of if self.must is None else (self.must,)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -201,7 +207,7 @@ def _lines(about: About, found: Found) -> Iterator[str]:
         yield from [f"{key}: {_flow(some)}"] if some else []
     rows: dict[str, list[dict[str, Any]]] = {
         "settings": [
-            {"id": each.id, "read": each.read, "must": each.must, "told": each.told} for each in found.settings
+            {"id": each.id, "read": each.read, **_due(each.must), "told": each.told} for each in found.settings
         ],
         "answers": [vars(each) for each in found.answers],
     }
@@ -210,6 +216,10 @@ def _lines(about: About, found: Found) -> Iterator[str]:
         yield f"measured: {_flow(given)}"
     for key, entries in rows.items():
         yield from [f"{key}:", *(f"  - {_flow(each)}" for each in entries)] if entries else []
+
+
+def _due(numbers: tuple[int, ...]) -> dict[str, Any]:
+    return {"one_of": list(numbers)} if len(numbers) > 1 else {"must": next(iter(numbers), None)}
 
 
 def _flow(value: object) -> str:

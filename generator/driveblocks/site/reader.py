@@ -81,7 +81,9 @@ class Reader:
 
         Raises LostError.
         """
-        left = spans([row.address for row in rows(self._drive) if row.address not in words], self._most)[::-1]
+        left = spans(self._drive, [row.address for row in rows(self._drive) if row.address not in words], self._most)[
+            ::-1
+        ]
         while left:
             span = left.pop()
             answer = self._answer(span)

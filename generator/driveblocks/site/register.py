@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Register
-from driveblocks.maps.plan import plan
+from driveblocks.maps.plan import group, plan
 from driveblocks.simulator.pattern import of_condition
 
 
@@ -63,11 +63,12 @@ def unread(drive: Drive) -> Iterator[str]:
             yield f"{span} are not read: {ids}, among them, must not be, and the manual does not say where"
 
 
-def spans(wanted: list[int], most: int) -> list[Span]:
-    """The addresses as runs of `most` at most, by address."""
+def spans(drive: Drive, wanted: list[int], most: int) -> list[Span]:
+    """The addresses as runs of `most` at most, none in two groups of the drive, by address."""
     found: list[Span] = []
     for address in sorted(wanted):
-        if found and address == found[-1].last + 1 and len(found[-1]) < most:
+        same = bool(found) and group(drive, address) == group(drive, found[-1].last)
+        if same and address == found[-1].last + 1 and len(found[-1]) < most:
             found[-1] = Span(found[-1].first, address)
         else:
             found.append(Span(address, address))

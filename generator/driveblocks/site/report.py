@@ -6,6 +6,7 @@ from typing import Any
 from rich.console import RenderableType
 from rich.text import Text
 
+from driveblocks.maps.conduct import reply_delay
 from driveblocks.show.layout import facts, table
 from driveblocks.site.line import Figures
 
@@ -53,6 +54,9 @@ def _said(own: Figures) -> Iterator[tuple[str, object]]:
     late = f"; the port delays frames by up to {line.port_late} ms" if line.port_late else ""
     yield "silence", f"{own.silence:.3g} ms, kept by {who}{late}"
     yield "replies", f"begin after {line.reply} ms"
+    for name, said in {each.drive.prefix: reply_delay(each.drive) for each in line.units if each.drive}.items():
+        if said is not None:
+            yield "", f"{name} answers later {said}; give --reply where it is set so"
     yield "one stop", f"sent within {own.alone} ms"
     yield "all stops", f"sent within {own.worst} ms; within {own.unlearned} ms before the drives have replied"
     yield "cut cable", f"StopOverdue after {own.cut} ms at most, where no drive answers any more"

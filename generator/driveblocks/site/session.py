@@ -62,7 +62,9 @@ def commission(line: Line, asker: Asker, wish: Wish, keep: Callable[[Found], Non
 
 def _found(line: Line, asker: Asker, wish: Wish, found: Found) -> Talk:
     """Steps 1 and 2. Raises EndedError."""
-    every = wish.ways()
+    every, unit = wish.ways(), wish.drive.serial.unit
+    if unit.silent:
+        asker.say(f"As delivered this drive answers nobody: set {unit.setting} to an address first.")
     asker.say("Step 1: listening for 60 s; nothing is sent.")
     if fault := hunt.quiet(line, every, asker):
         raise EndedError(fault)

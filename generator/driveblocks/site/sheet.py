@@ -64,7 +64,10 @@ def measured(entries: Mapping[str, Kept]) -> dict[str, list[tuple[str, list[tupl
 
 def _sheet(label: str, one: Kept, drive: Drive | None) -> str:
     parts = [f"<h2>{html.escape(label)}</h2>", _table(("", ""), _facts(one))]
-    settings = [(each.id, _text(each.read), _text(each.must) or "as the PLC", each.told or "") for each in one.settings]
+    settings = [
+        (each.id, _text(each.read), " or ".join(map(str, each.right)) or "as the PLC", each.told or "")
+        for each in one.settings
+    ]
     answers = [(each.gap, each.answer, _text(each.word), _given(each.gives, each.value)) for each in one.answers]
     runs = [(what, do, "") for what, do in script(drive)] if drive else []
     tables: tuple[tuple[str, tuple[str, ...], Sequence[tuple[str, ...]]], ...] = (
@@ -113,10 +116,10 @@ def report(label: str, one: Kept) -> Iterator[str]:
         if name not in ("map", "who"):
             yield f"- {name}: {value}"
     yield f"- tried: {', '.join(one.tried) or 'not kept'}"
-    differing = [each for each in one.settings if each.told == "no" or None not in (each.read, each.must)]
-    for each in differing:
-        if each.read != each.must or each.told == "no":
-            yield f"- setting {each.id}: {'by eye not right' if each.read is None else each.read}, must be {each.must}"
+    for each in one.settings:
+        if each.told == "no" or (each.read is not None and each.right and each.read not in each.right):
+            due = " or ".join(map(str, each.right)) or "as the PLC"
+            yield f"- setting {each.id}: {'by eye not right' if each.read is None else each.read}, must be {due}"
     for said in one.answers:
         word = "" if said.word is None else f"; word {said.word}"
         yield f"- gap `{said.gap}`: {said.answer}{word}{_given(said.gives, said.value, '; ')}"

@@ -36,16 +36,18 @@ def keypad(talk: Talk, asker: Asker, found: Found) -> None:
             continue
         readable = each.register is not None and any(each.register in span for span in allowed)
         words = _words(talk, Span(each.register, each.register)) if readable and each.register is not None else ()
-        must = each.needed.value
-        found.settings.append(Set(each.id, each.name, words[0] if words else None, must, each.needed.why))
+        found.settings.append(Set(each.id, each.name, words[0] if words else None, each.needed.right, each.needed.why))
     made = table("id", "setting", "is", "must be", "why", wide=("setting", "why"))
     settings = {each.id: each for each in talk.drive.settings}
     for one in found.settings:
         known = settings[one.id]
-        made.add_row(one.id, one.name, named(known, one.read) or "?", named(known, one.must) or "as the PLC", one.why)
+        made.add_row(one.id, one.name, named(known, one.read) or "?", _right(known, one.must) or "as the PLC", one.why)
     asker.say(made)
+    for each in (settings[one.id] for one in found.settings):
+        if each.visible_when:
+            asker.say(f"{each.id} is shown only while {_conditions(each)}")
     for one in (each for each in found.settings if each.differs):
-        asker.say(f"{one.id} is {one.read} and must be {one.must}: set it at the keypad")
+        asker.say(f"{one.id} is {one.read} and must be {' or '.join(map(str, one.must))}: set it at the keypad")
     if not any(each.read is None for each in found.settings):
         return
     differing = _differing(asker, {each.id for each in found.settings})
@@ -78,6 +80,14 @@ def named(setting: Setting, number: int | None) -> str:
     """A value as the keypad has it, with its name."""
     name = next((each.name for each in setting.values if each.value == number), "")
     return "" if number is None else f"{number} {name}".strip()
+
+
+def _right(setting: Setting, numbers: Collection[int]) -> str:
+    return " or ".join(named(setting, each) for each in numbers)
+
+
+def _conditions(setting: Setting) -> str:
+    return " and ".join(f"{each.setting} = {each.value}" for each in setting.visible_when)
 
 
 def _words(talk: Talk, span: Span) -> tuple[int, ...]:
@@ -120,7 +130,7 @@ def _holds(talk: Talk, gap_ms: int) -> bool:
 
 def _longest_read(talk: Talk) -> int:
     """Words of the longest read that is answered, over registers that the map lists."""
-    every = spans([each.address for each in rows(talk.drive)], most(talk.drive, talk.way.mode).read)
+    every = spans(talk.drive, [each.address for each in rows(talk.drive)], most(talk.drive, talk.way.mode).read)
     span = max([first_read(talk.drive), *every], key=len)
     while len(span) > 1 and not _words(talk, span):
         span = Span(span.first, span.first + len(span) // 2 - 1)

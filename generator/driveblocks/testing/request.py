@@ -244,6 +244,10 @@ def _addresses(model: Requests, asked: Asked) -> Iterator[Case]:
     yield from (Case("address", replace(asked, address=address), source(address)) for address in (0, 0xFFFF))
     if asked.function not in COUNTED:
         return
+    if model.drive.limits.group is not None:
+        size = model.drive.limits.group.value
+        borders = (last for span in spans for last in span if last < span.last and (last + 1) % size == 0)
+        yield from (Case("end of a group", replace(asked, address=last, quantity=2), source(last)) for last in borders)
     for span in spans:
         yield Case("end of a range", replace(asked, address=span.last, quantity=2), source(span.last))
         if len(span) > 1:

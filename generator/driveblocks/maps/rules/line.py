@@ -1,7 +1,7 @@
 """Rules on the serial line, the limits of frames, and the functions."""
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Broadcast, Drive, Function, Serial, Silence
+from driveblocks.maps.model import Broadcast, Drive, Function, ReplyDelay, Serial, Silence
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.unique import unique
 
@@ -10,6 +10,9 @@ STANDARD_UNITS = 247
 
 _CEILINGS = {"read_words": 125, "write_words": 123, "data_bytes": 252, "ascii_data_bytes": 252}
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: what fits into a PDU of 253 bytes."""
+
+MOST_GROUP = 0x8000
+"""Half of all addresses: a larger group holds them all, or all but a few."""
 
 SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
 """Functions that the blocks know: what a manual lists beside them is a fact that nobody can use."""
@@ -21,6 +24,8 @@ def check(drive: Drive, report: Report) -> None:
     _unit(drive.serial, report)
     if drive.serial.silence is not None:
         _silence(drive.serial.silence, report)
+    if drive.serial.reply_delay is not None:
+        _reply_delay(drive, drive.serial.reply_delay, report)
     if drive.serial.broadcast is not None:
         _broadcast(drive, drive.serial.broadcast, report)
     _limits(drive, report)
@@ -48,7 +53,7 @@ def _unit(serial: Serial, report: Report) -> None:
     elif unit.max <= STANDARD_UNITS and unit.above_247 is not None:
         wrong = f"`above_247`, but the addresses end at {unit.max}"
         report.add(unit.place("above_247"), wrong, "remove it, or correct `max`")
-    if unit.default is not None and not unit.min <= unit.default <= unit.max:
+    if unit.default is not None and not unit.min <= unit.default <= unit.max and not unit.silent:
         wrong = f"default {unit.default} is no unit address of this drive"
         report.add(unit.place("default"), wrong, f"it has {unit.min} to {unit.max}")
 
@@ -65,6 +70,15 @@ def _silence(silence: Silence, report: Report) -> None:
     if gap is not None and characters is not None and gap >= characters:
         wrong = f"a pause of {gap} characters inside a frame, where {characters} end it"
         report.add(silence.place("gap_characters"), wrong, "the pause inside a frame is the shorter one")
+
+
+def _reply_delay(drive: Drive, delay: ReplyDelay, report: Report) -> None:
+    if delay.setting not in {each.id for each in drive.settings}:
+        wrong = f"there is no setting `{delay.setting}`"
+        report.miss(delay.place("setting"), wrong, "name an entry of `settings`")
+    if delay.milliseconds <= 0:
+        wrong = f"{delay.milliseconds} ms is no time"
+        report.add(delay.place("milliseconds"), wrong, "write how long one count is, in ms")
 
 
 def _broadcast(drive: Drive, cast: Broadcast, report: Report) -> None:
@@ -86,6 +100,10 @@ def _limits(drive: Drive, report: Report) -> None:
         if limit is not None and limit.value > ceiling:
             wrong = f"{name} {limit.value} does not fit a Modbus frame"
             report.add(limit.place("value"), wrong, f"at most {ceiling} do")
+    group = drive.limits.group
+    if group is not None and group.value > MOST_GROUP:
+        wrong = f"groups of {group.value} addresses keep nothing apart"
+        report.add(group.place("value"), wrong, f"write {MOST_GROUP} at most, or remove it")
     if drive.limits.ascii_data_bytes and "ascii" not in drive.serial.mode.modes:
         wrong = "a limit for ASCII frames, but the drive speaks no ASCII"
         report.add(drive.limits.place("ascii_data_bytes"), wrong, "remove it, or add ascii to `modes`")

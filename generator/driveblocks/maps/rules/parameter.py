@@ -9,7 +9,7 @@ from driveblocks.maps.model import Drive, Entry, Register, Section, Series
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.unique import overlapping
 
-_CLASSES = {"A": "[A-Z]", "9": "[0-9]", "X": "[A-Z0-9]"}
+_CLASSES = {"A": "[A-Z]", "a": "[a-z]", "9": "[0-9]", "X": "[A-Z0-9]"}
 _NUMBERED = re.compile(r"(.*?)([0-9]+)")
 
 

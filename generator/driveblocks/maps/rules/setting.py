@@ -1,7 +1,7 @@
 """Rules on keypad settings: their values, their registers, and the codes of the serial line that they choose."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import (
@@ -35,6 +35,8 @@ def check(drive: Drive, report: Report) -> None:
         of_form(drive, setting, setting.id, report)
         _values(setting, report)
         _numbers(setting, report)
+        _alternatives(setting, report)
+        _visible(setting, settings, report)
         _register(drive, setting, registers.get(setting.id), report)
     for name, choice, codes in _choices(drive.serial):
         _choice(name, choice, codes, report)
@@ -43,6 +45,8 @@ def check(drive: Drive, report: Report) -> None:
     unit = drive.serial.unit
     if unit.setting is not None:
         _chosen("unit", unit, (), settings.get(unit.setting), report)
+    if unit.no_address is not None:
+        _no_address(unit, unit.no_address, settings.get(unit.setting or ""), report)
 
 
 def _values(setting: Setting, report: Report) -> None:
@@ -61,7 +65,8 @@ def _numbers(setting: Setting, report: Report) -> None:
     """What the setting must be, and its factory setting where that is printed in plain decimal."""
     needed = setting.needed
     if needed is not None:
-        for key, number in (("value", needed.value), ("by_terminals", needed.by_terminals)):
+        numbers = [("value", needed.value), ("by_terminals", needed.by_terminals)]
+        for key, number in (*numbers, *(("one_of", one) for one in needed.one_of)):
             wrong = _impossible(setting, number) if number is not None else ""
             if wrong:
                 report.miss(needed.place(key), f"needed is {number}, but {wrong}", "correct one of them")
@@ -71,6 +76,56 @@ def _numbers(setting: Setting, report: Report) -> None:
         if wrong:
             right = "correct one of them; where the manual prints both, leave `default` out and add an erratum"
             report.miss(setting.place("default"), f"default is {default}, but {wrong}", right)
+
+
+def _alternatives(setting: Setting, report: Report) -> None:
+    needed = setting.needed
+    some = needed.one_of if needed is not None else ()
+    if needed is None or not some:
+        return
+    if needed.value is not None:
+        report.add(needed.place("one_of"), "`one_of` beside `value`", "write the numbers that serve in one of them")
+    elif len(set(some)) < len(some) or len(some) == 1:
+        report.add(needed.place("one_of"), f"`one_of` names {_list(some)}", "write two numbers or more, or `value`")
+
+
+def _visible(setting: Setting, settings: Mapping[str, Setting], report: Report) -> None:
+    """Note a condition that no keypad can meet."""
+    for each in setting.visible_when:
+        other = settings.get(each.setting)
+        if other is None:
+            report.miss(each.place("setting"), f"there is no setting `{each.setting}`", "name an entry of `settings`")
+        elif setting.id in _waits_for(each.setting, settings):
+            wrong = f"{setting.id} is shown only after it was set itself"
+            report.add(each.place("setting"), wrong, "name a setting that the keypad shows without it")
+        elif wrong := _impossible(other, each.value):
+            report.miss(each.place("value"), f"shown while it is {each.value}, but {wrong}", "correct one of them")
+
+
+def _waits_for(first: str, settings: Mapping[str, Setting]) -> set[str]:
+    """A setting, and those without which it is not shown, whatever comes between."""
+    found, waiting = set[str](), [first]
+    while waiting:
+        id_ = waiting.pop()
+        if id_ in settings and id_ not in found:
+            found.add(id_)
+            waiting += [each.setting for each in settings[id_].visible_when]
+    return found
+
+
+def _no_address(unit: UnitAddress, number: int, setting: Setting | None, report: Report) -> None:
+    """Note a number for no address that is one, or that nobody is told to change."""
+    if unit.min <= number <= unit.max:
+        report.add(
+            unit.place("no_address"), f"{number} is a unit address of this drive", f"it has {unit.min} to {unit.max}"
+        )
+    if unit.setting is None:
+        report.miss(unit.place("no_address"), "no setting that holds it", "add `setting`, an entry of `settings`")
+    elif setting is not None and (wrong := _impossible(setting, number)):
+        report.miss(unit.place("no_address"), f"it is {number}, but {wrong}", "correct one of them")
+    elif setting is not None and unit.silent and setting.needed is None:
+        wrong = f"the drive answers nobody until {setting.id} is set, and it is not `needed`"
+        report.miss(unit.place("no_address"), wrong, f"add `needed: {{why: ...}}` to {setting.id}")
 
 
 def _impossible(setting: Setting, number: int) -> str:
