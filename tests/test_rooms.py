@@ -34,7 +34,7 @@ MOST = {
     # as others, which the slot says; show: a register's number in the manual; what the bus cannot do with a drive
     # a document that only the base needed goes with the fact that named it
     # maps: settings of which several values serve, that a keypad hides, or at which the drive answers nobody; what lets
-    # it answer later; groups of addresses, which no request crosses. site, show, simulator, docs: the same, said and kept
+    # it answer later; groups of addresses, which no request crosses. Elsewhere: the same, said and kept
     "maps": 7568, "output": 845,
     # desk: why a run ends and what ends it, and words of the command line that several commands share, came from plc
     # desk: why a port refuses a rate or a format is said once, for what only listens, too

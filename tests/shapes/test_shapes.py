@@ -21,6 +21,7 @@ from driveblocks.maps.plan import plan, reply_delay
 from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import Report
 from driveblocks.output import units as tested
+from driveblocks.reference.permission import Judge, Write
 from driveblocks.render.context import kept
 from driveblocks.render.drive import Masked, drive_block
 from driveblocks.render.library import drive as library_of
@@ -35,7 +36,7 @@ from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 
 NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low", "packed")
-CONCERNED = re.compile(r"_Test(Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
+CONCERNED = re.compile(r"_Test(MayWrite|Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
 """Programs that depend on the shape; requests and replies do not."""
 every = pytest.mark.parametrize("name", NAMES)
 
@@ -219,7 +220,8 @@ def test_no_request_crosses_a_group(tmp_path: Path) -> None:
         reply = SimulatedDrive(one, 1).reply(bytes.fromhex(asked))
         assert reply is not None
         assert reply.hex(" ").startswith(said)
-    assert "2  addresses of a group, which no request may cross" in run("pulse", tmp_path, "show", "MAP", "serial")
+    page = " ".join(run("pulse", tmp_path, "show", "MAP", "serial").split())
+    assert "2 addresses of a group, which no request may cross (section 2)" in page
 
 
 def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
@@ -233,6 +235,36 @@ def test_a_setting_lets_the_drive_answer_later(tmp_path: Path) -> None:
     page = documents(files, [drive])["docs/PUL_Drive.md"]
     assert "a turn-round of 30 ms, which is the factory setting of P3.06." in page
     assert "| the drive answers later by P3.06, 30 ms as delivered, 500 ms at most |" in page
+
+
+def test_a_write_is_stored_as_the_map_says(tmp_path: Path) -> None:
+    """Each write in its turn, with the stores of the drive after it."""
+    for name, writes in {
+        "cia402": [("3000 00 07", 0), ("3001 00 01", 0), ("3001 00 02", 1)],
+        "profidrive": [("3000 00 07", 0)],
+        "pulse": [("1001 13 88", 0)],
+        "active_low": [("1001 13 88", 0), ("1002 13 88", 1)],
+    }.items():
+        drive = SimulatedDrive(shapes()[name], 1)
+        for written, stores in writes:
+            assert drive.reply(bytes.fromhex(f"01 06 {written}")) == bytes.fromhex(f"01 06 {written}")
+            assert drive.memory.stores == stores, (name, written)
+    assert "write 2 to 3001H" in run("cia402", tmp_path, "show", "MAP")
+    assert "in RAM while P3.07 = 1" in run("pulse", tmp_path, "show", "MAP")
+    assert "1001H is 1002H in RAM" in run("active_low", tmp_path, "show", "MAP")
+    told = " ".join(run("active_low", tmp_path, "explain", "01 06 10 02 13 88 21 9C", "--drive", "MAP").split())
+    assert "stored in EEPROM, which frequent writes wear out; 1001H is the same in RAM" in told
+
+
+def test_a_drive_that_stores_nothing_refuses_a_store_and_the_stored_twin_of_the_reference_is_its_own() -> None:
+    for name in ("profidrive", "pulse", "active_low"):
+        gate = next(each.text for each in units()[name].blocks if each.path.endswith("_ParameterGate.st"))
+        assert "Why := ERROR_NOT_ABLE;" in gate, name
+    gate = next(each.text for each in units()["cia402"].blocks if each.path.endswith("CIA_ParameterGate.st"))
+    assert "Ask.Address := WORD#16#3001;" in gate
+    assert "Ask.Words[0] := WORD#16#0002;" in gate
+    judge = Judge(shapes()["active_low"])
+    assert [judge.result(Write(each)) for each in (0x1001, 0x1002, 0x1003)] == ["OWNED", "OWNED", "OK"]
 
 
 def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:

@@ -189,13 +189,23 @@ def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[st
             yield f"must never be sent: {never.why}"
     if row.masks:
         yield from _masks(row, word)
-    if writing and drive.storage.register is not None and drive.storage.register in row.address:
-        most = f", at most {drive.storage.max_writes} times" if drive.storage.max_writes else ""
-        yield f"stores all parameters{most}"
+    if writing:
+        yield from _stores(drive, row)
     proofs = [one for one in drive.operation.standstill.all if one.register in row.address]
     if not writing and proofs:
         met = all(_met(one, word) for one in proofs)
         yield "as at standstill" if met else "no standstill"
+
+
+def _stores(drive: Drive, row: Register) -> Iterator[str]:
+    """What a write to a register stores."""
+    storage = drive.storage
+    if storage.register is not None and storage.register in row.address:
+        most = f", at most {storage.max_writes} times" if storage.max_writes else ""
+        yield f"stores all parameters{most}"
+    for twin in storage.twins:
+        if twin.stored in row.address:
+            yield f"stored in EEPROM, which frequent writes wear out; {address_text(twin.ram)} is the same in RAM"
 
 
 def _met(condition: Condition, word: int) -> bool:

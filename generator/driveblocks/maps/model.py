@@ -676,22 +676,40 @@ class Area(Named):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Twin(Entry):
+    """Two registers of one value: a write to the one is stored, to the other not."""
+
+    stored: Address = fact("the register whose writes are stored", "000EH")
+    ram: Address = fact("the one whose writes stay in RAM", "000DH")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Storage(Entry):
     """What happens to a written parameter: RAM, EEPROM, or unexplained (then it counts as EEPROM)."""
 
-    method: Literal["enter_register", "ram_address_bit", "unexplained"] = fact(
+    method: Literal["enter_register", "ram_address_bit", "ram_twin", "by_setting", "volatile", "unexplained"] = fact(
         "`enter_register`: writes reach RAM, writing a register stores them; `ram_address_bit`: writes are stored "
-        "unless a bit is added to the address; `unexplained`: the manual does not say",
+        "unless a bit is added to the address; `ram_twin`: writes are stored, but some registers are there a second "
+        "time in RAM; `by_setting`: a keypad setting decides, and must be set to RAM; `volatile`: nothing that is "
+        "written outlasts the supply; `unexplained`: the manual does not say",
         "enter_register",
     )
     source: English = fact("where the manual says so", "section (VI)")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English = fact("the rule in one or two sentences", "ENTER stores all parameters")
     register: Address | None = fact("enter_register: the register to write", "FFFDH", optional=True)
-    value: Number | None = fact("enter_register: the value to write", "0", optional=True)
+    value: Number | None = fact(
+        "enter_register: the word to write; where one bit stores, with the others as they must be", "0", optional=True
+    )
     max_writes: Count | None = fact("how often the memory can be written", "100000", optional=True)
     add: Address | None = fact("ram_address_bit: what to add to an address", "8000H", optional=True)
     area: Word | None = fact("ram_address_bit: the only area where it may be added", "function_codes", optional=True)
+    twins: tuple[Twin, ...] = fact(
+        "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", optional=True, default=()
+    )
+    ram_when: Switch | None = fact(
+        "by_setting: the setting, and its value for RAM", "{setting: H5-05, value: 0}", optional=True
+    )
     readable: bool = fact("ram_address_bit: whether such an address may be read", "false", optional=True, default=True)
 
 

@@ -72,10 +72,14 @@ class Judge:
         self._rows = {address: row for _, row in drive.registers() for address in row.address}
         self._areas = frozenset(address for area in drive.areas for address in area.addresses)
         self._bit = drive.storage.add or 0
+        self._twins: dict[int, int] = {}
+        for twin in drive.storage.twins:
+            self._twins |= {twin.ram: twin.stored, twin.stored: twin.ram}
 
     def result(self, wish: Write) -> str:
         """The name of the result; `OK` where it may be written."""
-        meant: set[int | None] = {wish.address, wish.address & ~self._bit}
+        again = self._twins.get(wish.address, wish.address)
+        meant: set[int | None] = {wish.address, wish.address & ~self._bit, again}
         for name, registers in self._known.items():
             if meant & registers:
                 return name

@@ -84,9 +84,10 @@ def _listed(drive: Drive) -> Iterator[int]:
 
 
 def _with_aliases(drive: Drive, addresses: Iterable[int | None]) -> set[int]:
-    """Those of some addresses that are known, and the same with the bit by which a drive spares its memory."""
-    bit = drive.storage.add or 0
-    return {alias for one in addresses if one is not None for alias in (one, one | bit)}
+    """Those of some addresses that are known, and where a drive has the same again: in RAM, or stored."""
+    bit, twins = drive.storage.add or 0, drive.storage.twins
+    pairs = {first: second for one in twins for first, second in ((one.ram, one.stored), (one.stored, one.ram))}
+    return {alias for one in addresses if one is not None for alias in (one, one | bit, pairs.get(one, one))}
 
 
 def _spans(addresses: Iterable[int]) -> list[Span]:

@@ -9,8 +9,8 @@ from driveblocks.simulator.table import Storage
 class Memory:
     """Words by address. A register that was never written is 0.
 
-    By the map's storage rule a write to a parameter is stored at once (`ram_address_bit` without the bit, and
-    `unexplained`, which counts as EEPROM), or with ENTER, all of them in one store.
+    By the map's storage rule a write to a parameter is stored at once (`ram_address_bit` without the bit, all but the
+    twins in RAM, and `unexplained`, which counts as EEPROM), with ENTER, all of them in one store, or never.
     """
 
     def __init__(self, storage: Storage, plate: Mapping[int, int], words: Mapping[int, int]) -> None:
@@ -42,7 +42,7 @@ class Memory:
         self.words[home] = word
         if address == self.storage.register and word == self.storage.value:
             self.stored = {each: self[each] for each in self.words if self.parameter(each)}
-        elif self.storage.method != "enter_register" and home == address and self.parameter(address):
+        elif self.storage.at_once and home == address and self.parameter(address):
             self.stored[address] = word
         else:
             return False

@@ -62,6 +62,8 @@ class Storage:
     """What a write to a parameter stores: see `Memory`."""
 
     method: str
+    at_once: bool
+    """A write to a parameter is stored without more."""
     areas: tuple[Span, ...]
     """Parameters; of `ram_address_bit` those that the bit may be added to."""
     add: int
@@ -211,6 +213,15 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     return Set(reference.register, times, per, signed, reference.negative_reverses, verify)
 
 
+def _around(span: Span, address: int) -> list[Span]:
+    """A span without an address."""
+    return [
+        part
+        for part in (Span(span.first, min(span.last, address - 1)), Span(max(span.first, address + 1), span.last))
+        if part
+    ]
+
+
 def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
@@ -220,8 +231,12 @@ def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     rows = [row.address for section in sections for row in section.registers]
     areas = [area.addresses for area in drive.areas if storage.area in (None, area.id)]
     kept = areas if storage.method == "ram_address_bit" else [*areas, *rows]
+    for twin in storage.twins:
+        parts = [part for span in kept for part in _around(span, twin.ram)]
+        kept = [*parts, *([] if any(twin.stored in part for part in parts) else [Span(twin.stored, twin.stored)])]
     return Storage(
         method=storage.method,
+        at_once=storage.method in ("ram_address_bit", "ram_twin", "unexplained"),
         areas=tuple(sorted(span for span in kept if any(span.first in each for each in writable))),
         add=storage.add or 0,
         register=-1 if storage.register is None else storage.register,

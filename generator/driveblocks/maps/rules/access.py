@@ -36,9 +36,14 @@ def cyclic(drive: Drive, address: int, place: Place, report: Report) -> Register
 
 def _stored(drive: Drive, address: int) -> str | None:
     """Why a write to an address ends in EEPROM, or counts as if it did; None where it stays in RAM."""
-    storage, unexplained = drive.storage, drive.storage.method == "unexplained"
+    storage, unexplained = drive.storage, drive.storage.method in ("unexplained", "ram_twin")
     if address == storage.register:
         return "a write there stores all parameters"
+    for twin in storage.twins:
+        if address == twin.ram:
+            return None
+        if address == twin.stored:
+            return f"a write there is stored; {address_text(twin.ram)} is its twin in RAM"
     area = next((area for area in drive.areas if address in area.addresses), None)
     if area is not None and (unexplained or area.id == storage.area):
         return f"the area `{area.id}` is stored in EEPROM" + " as far as the manual says" * unexplained

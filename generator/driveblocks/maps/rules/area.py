@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, span_text
-from driveblocks.maps.model import Area, AreaExample, Drive, Storage
+from driveblocks.maps.model import Area, AreaExample, Drive, Storage, Switch
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.access import known, ram_span
 from driveblocks.maps.rules.parameter import of_form
@@ -12,6 +12,9 @@ from driveblocks.maps.rules.unique import overlapping, unique
 _STORAGE_KEYS = {
     "enter_register": ("register", "value"),
     "ram_address_bit": ("add", "area"),
+    "ram_twin": ("twins",),
+    "by_setting": ("ram_when",),
+    "volatile": (),
     "unexplained": (),
 }
 _Claim = tuple[Place, str]
@@ -70,12 +73,12 @@ def _example(drive: Drive, area: Area, example: AreaExample, report: Report) -> 
 def _storage_keys(storage: Storage, report: Report) -> None:
     needed = _STORAGE_KEYS[storage.method]
     for key in needed:
-        if getattr(storage, key) is None:
+        if getattr(storage, key) in (None, ()):
             wrong = f"`method: {storage.method}` has no `{key}`"
             report.miss(storage.at, wrong, f"it needs {' and '.join(needed)}")
     for method, keys in _STORAGE_KEYS.items():
         for key in keys:
-            if method != storage.method and getattr(storage, key) is not None:
+            if method != storage.method and getattr(storage, key) not in (None, ()):
                 wrong = f"`{key}` does not belong to `method: {storage.method}`"
                 report.add(storage.place(key), wrong, f"remove it, or write `method: {method}`")
 
@@ -87,11 +90,29 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
         if allowed is not None and storage.value is not None and not allowed.holds(storage.value):
             wrong = f"{storage.value} is outside the range of {address_text(storage.register)}"
             report.add(storage.place("value"), wrong, f"it holds {allowed.min} to {allowed.max}")
+    twice = [address for twin in storage.twins for address in (twin.stored, twin.ram)]
+    for twin in storage.twins:
+        for key, address in (("stored", twin.stored), ("ram", twin.ram)):
+            known(drive, address, "w", twin.place(key), report)
+            if twice.count(address) > 1:
+                report.add(twin.place(key), f"{address_text(address)} is there twice", "name each register once")
+    if storage.ram_when is not None:
+        _ram_when(drive, storage.ram_when, report)
     areas = {area.id: area for area in drive.areas}
     if storage.area is not None and storage.area not in areas:
         report.miss(storage.place("area"), f"there is no area `{storage.area}`", "name an entry of `areas`")
     elif storage.area is not None and storage.add is not None:
         _address_bit(storage.add, areas[storage.area], storage.place("add"), report)
+
+
+def _ram_when(drive: Drive, switch: Switch, report: Report) -> None:
+    """Note a setting that nobody is told to set so: every reference would be stored."""
+    setting = next((each for each in drive.settings if each.id == switch.setting), None)
+    if setting is None:
+        report.miss(switch.place("setting"), f"there is no setting `{switch.setting}`", "name an entry of `settings`")
+    elif setting.needed is None or setting.needed.right != (switch.value,):
+        wrong = f"writes stay in RAM while {setting.id} is {switch.value}, and it is not `needed` so"
+        report.miss(switch.place("value"), wrong, f"add `needed: {{value: {switch.value}, why: ...}}` to {setting.id}")
 
 
 def _address_bit(add: int, area: Area, place: Place, report: Report) -> None:

@@ -200,6 +200,8 @@ def _stored(made: Table) -> str:
     storage = made.storage
     if storage.method == "enter_register":
         return f"(Number = {storage.register})" if storage.register >= 0 else "FALSE"
+    if not storage.at_once:
+        return "FALSE"
     return _within("Number", _joined(storage.areas)) or "FALSE"
 
 
