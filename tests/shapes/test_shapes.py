@@ -39,6 +39,7 @@ NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low", "packed
 CONCERNED = re.compile(r"_Test(MayWrite|Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
 """Programs that depend on the shape; requests and replies do not."""
 every = pytest.mark.parametrize("name", NAMES)
+FAULT = next(one for one in shapes()["packed"].operation.status if one.shows == "fault")
 
 
 def command(drive: Drive, does: Does) -> Command:
@@ -142,8 +143,34 @@ def test_a_start_pulse_is_cleared_by_the_stop() -> None:
 
 def test_a_fault_is_shown_by_any_code_but_0(tmp_path: Path) -> None:
     said = drive_block(shapes()["packed"]).showing.says["fault"]
+    assert said == ["((Reads.PresentFaultWord AND WORD#16#FF00) <> WORD#16#0000)"]
+    assert "fault 2002H bit 8-F <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+    plain = replace(shapes()["packed"].operation, status=(replace(FAULT, any=(replace(FAULT.any[0], bit=None),)),))
+    said = drive_block(replace(shapes()["packed"], operation=plain)).showing.says["fault"]
     assert said == ["(Reads.PresentFaultWord <> WORD#16#0000)"]
-    assert "fault 2002H <> 0 (table 2)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+
+
+def test_the_code_of_a_fault_may_be_some_bits_of_its_word(tmp_path: Path) -> None:
+    """The low byte is a warning, as in Delta's 2100H the high one is."""
+    block = next(each.text for each in units()["packed"].blocks if each.path.endswith("PCK_Drive.st"))
+    assert "Code := WORD_TO_UINT(Reads.PresentFaultWord AND WORD#16#FF00) / 256;" in block
+    assert "fault code 2002H bits 8-F (table 3)" in " ".join(run("packed", tmp_path, "show", "MAP").split())
+    asked = ("--request", "01 03 20 02 00 01 2E 0A", "--drive", "MAP")
+    assert "Overcurrent" in run("packed", tmp_path, "explain", "01 03 02 01 03 F9 D5", *asked)
+    assert "no fault" in run("packed", tmp_path, "explain", "01 03 02 00 03 F8 45", *asked)
+    drive = SimulatedDrive(shapes()["packed"], 1)
+    drive.trip(1)
+    assert drive.reply(bytes.fromhex("01 03 20 02 00 01")) == bytes.fromhex("01 03 02 01 00")
+
+
+def test_a_scale_may_rest_on_a_setting_of_the_keypad(tmp_path: Path) -> None:
+    assert "one count is 0.01 Hz only while P2.02 = 0 (table 2)" in " ".join(
+        run("packed", tmp_path, "show", "MAP", "2001H").split()
+    )
+
+
+def test_a_status_may_be_a_bit_that_is_0() -> None:
+    assert drive_block(shapes()["packed"]).showing.says["warning"] == ["NOT DriveStatusBits.NoWarning"]
 
 
 def test_what_must_never_be_sent_is_refused_in_a_command() -> None:

@@ -141,6 +141,7 @@ def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
     row = drive.register_at(address)
     if not any(address in span for span in drive.faults.registers) or (row and row.values):
         return
+    word = drive.faults.code_in(address, word)
     fault = next((one for one in drive.faults.codes if one.code == word), None)
     if fault is not None:
         yield Line("fault", fault.id or "", fault.name, fault.text_zh or "", word)

@@ -497,6 +497,11 @@ class Scale(Entry):
     when: Condition | None = fact(
         "holds only while this is true", "{register: 000FH, bit: 0, equals: 0}", optional=True
     )
+    needs: Switch | None = fact(
+        "holds only while a keypad setting, which then is needed so, has a value: a choice of decimals or of a unit",
+        "{setting: H5-05, value: 0}",
+        optional=True,
+    )
     proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
 
 
@@ -983,6 +988,11 @@ class Faults(Entry):
     present: Address | None = fact(
         "the one that holds the fault that is present, where `bits` do not show it", "3000H", optional=True
     )
+    present_bits: Bits | None = fact(
+        "the bits of that register which hold the code, where the others hold something else, such as a warning",
+        "0-7",
+        optional=True,
+    )
     codes: tuple[Fault, ...] = fact(
         "the codes, in the manual's order", "[{code: 01H, id: FU, name: ..., zh: ...}]", optional=True, default=()
     )
@@ -992,6 +1002,11 @@ class Faults(Entry):
     trip_output: TripOutput | None = fact(
         "what becomes of the motor in a trip", "{motor: coasts, source: ...}", optional=True
     )
+
+    def code_in(self, address: int, word: int) -> int:
+        """The code in a word of a register that reports faults."""
+        bits = self.present_bits if address == self.present else None
+        return word if bits is None else word >> bits.first & (1 << len(bits)) - 1
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -127,6 +127,10 @@ class Faulty:
 
     word: Word | None
     words: list[Word]
+    mask: int = 0
+    """Of the word the bits with the code; 0: it is the whole word."""
+    times: int = 1
+    """What they count for the code in its lowest."""
 
 
 @dataclass(frozen=True)
@@ -417,7 +421,9 @@ def _condition(drive: Drive, one: Condition) -> Test:
 
 def _fault(drive: Drive) -> Faulty:
     if drive.faults.present is not None:
-        return Faulty(word_input(drive, drive.faults.present), [])
+        bits = drive.faults.present_bits
+        mask, times = (sum(1 << bit for bit in bits), 1 << bits.first) if bits else (0, 1)
+        return Faulty(word_input(drive, drive.faults.present), [], mask, times)
     numbers = context.fault_number(drive)
     return Faulty(None, numbers.words if numbers else [])
 

@@ -131,7 +131,8 @@ def _shown(drive: Drive) -> Iterator[RenderableType]:
 def _fault_code(drive: Drive) -> str:
     faults = drive.faults
     if faults.present is not None:
-        return f"{address_text(faults.present)}  ({faults.source})"
+        bits_ = f" bits {bits_text(faults.present_bits)}" if faults.present_bits else ""
+        return f"{address_text(faults.present)}{bits_}  ({faults.source})"
     bits = faults.bits
     return (
         f"the bits of {address_text(bits.first)} to {address_text(bits.last)}  ({bits.source})" if bits else "not given"

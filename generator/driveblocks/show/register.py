@@ -75,6 +75,7 @@ def _scale(row: Register) -> str | None:
     if scale is None:
         return None
     when = f"\nonly while {condition(scale.when)}" if scale.when else ""
+    when += f"\nonly while {scale.needs.setting} = {scale.needs.value}" if scale.needs else ""
     proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
 

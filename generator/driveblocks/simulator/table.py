@@ -97,6 +97,8 @@ class Table:
     reference: Set
     storage: Storage
     present: int | None
+    present_shift: int
+    """How far up its word the code of the present fault is, in bits."""
     fault_bits: tuple[int, int] | None
     copies: dict[int, Copy]
     zeros: str
@@ -135,6 +137,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         reference=_reference(drive, drive.operation.reference, habits),
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
+        present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
         fault_bits=(bits.first, bits.last) if bits else None,
         copies={each.register: each for each in again},
         zeros=zeros(drive, {*known, *(each.register for each in again)}),

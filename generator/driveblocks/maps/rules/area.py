@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, span_text
-from driveblocks.maps.model import Area, AreaExample, Drive, Storage, Switch
+from driveblocks.maps.model import Area, AreaExample, Drive, Storage
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.access import known, ram_span
 from driveblocks.maps.rules.parameter import of_form
+from driveblocks.maps.rules.setting import must_be
 from driveblocks.maps.rules.unique import overlapping, unique
 
 _STORAGE_KEYS = {
@@ -97,22 +98,12 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
             if twice.count(address) > 1:
                 report.add(twin.place(key), f"{address_text(address)} is there twice", "name each register once")
     if storage.ram_when is not None:
-        _ram_when(drive, storage.ram_when, report)
+        must_be(drive, storage.ram_when, "writes stay in RAM", report)
     areas = {area.id: area for area in drive.areas}
     if storage.area is not None and storage.area not in areas:
         report.miss(storage.place("area"), f"there is no area `{storage.area}`", "name an entry of `areas`")
     elif storage.area is not None and storage.add is not None:
         _address_bit(storage.add, areas[storage.area], storage.place("add"), report)
-
-
-def _ram_when(drive: Drive, switch: Switch, report: Report) -> None:
-    """Note a setting that nobody is told to set so: every reference would be stored."""
-    setting = next((each for each in drive.settings if each.id == switch.setting), None)
-    if setting is None:
-        report.miss(switch.place("setting"), f"there is no setting `{switch.setting}`", "name an entry of `settings`")
-    elif setting.needed is None or setting.needed.right != (switch.value,):
-        wrong = f"writes stay in RAM while {setting.id} is {switch.value}, and it is not `needed` so"
-        report.miss(switch.place("value"), wrong, f"add `needed: {{value: {switch.value}, why: ...}}` to {setting.id}")
 
 
 def _address_bit(add: int, area: Area, place: Place, report: Report) -> None:

@@ -1,12 +1,13 @@
 """Rules on faults, the registers and bits that report them, and on error replies."""
 
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorCode, ErrorForm, Fault, Value
+from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorCode, ErrorForm, Fault, Faults, Value
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.unique import unique
 
 _ERROR_KEYS = {"exception": ("add",), "write_reply": ("function", "address")}
+WORD_BITS = 16
 _MOST_WORDS = 64
 """Fault words of one drive; more is a slip in an address."""
 _ADDED = (0x40, 0x80)
@@ -56,6 +57,20 @@ def _present(drive: Drive, report: Report) -> None:
     elif not any(faults.present in span for span in faults.registers):
         wrong = f"{address_text(faults.present)} is not among `registers`"
         report.miss(faults.place("present"), wrong, "name one of them")
+    if faults.present_bits is not None:
+        _present_bits(faults, len(faults.present_bits), report)
+
+
+def _present_bits(faults: Faults, count: int, report: Report) -> None:
+    if not 1 <= count < WORD_BITS:
+        wrong = f"`present_bits` are {count} bits"
+        report.add(faults.place("present_bits"), wrong, "write the smaller first, and leave all 16 out")
+    elif faults.present is None:
+        report.miss(faults.place("present_bits"), "no register has these bits", "add `present`")
+    for fault in faults.codes:
+        if fault.code >= 1 << count > 1:
+            wrong = f"fault {fault.code} does not fit into {count} bits"
+            report.add(fault.place("code"), wrong, "correct it, or `present_bits`")
 
 
 def _fault_values(values: tuple[Value, ...], address: int, codes: dict[int, Fault], report: Report) -> None:

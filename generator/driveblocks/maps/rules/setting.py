@@ -12,6 +12,7 @@ from driveblocks.maps.model import (
     ModeCode,
     Serial,
     Setting,
+    Switch,
     UnitAddress,
     Value,
 )
@@ -38,6 +39,9 @@ def check(drive: Drive, report: Report) -> None:
         _alternatives(setting, report)
         _visible(setting, settings, report)
         _register(drive, setting, registers.get(setting.id), report)
+    for _, row in drive.registers():
+        if row.scale is not None and row.scale.needs is not None:
+            must_be(drive, row.scale.needs, "the scale holds", report)
     for name, choice, codes in _choices(drive.serial):
         _choice(name, choice, codes, report)
         if choice.setting is not None:
@@ -47,6 +51,16 @@ def check(drive: Drive, report: Report) -> None:
         _chosen("unit", unit, (), settings.get(unit.setting), report)
     if unit.no_address is not None:
         _no_address(unit, unit.no_address, settings.get(unit.setting or ""), report)
+
+
+def must_be(drive: Drive, switch: Switch, what: str, report: Report) -> None:
+    """Note a setting on which something rests, and that nobody is told to set so."""
+    setting = next((each for each in drive.settings if each.id == switch.setting), None)
+    if setting is None:
+        report.miss(switch.place("setting"), f"there is no setting `{switch.setting}`", "name an entry of `settings`")
+    elif setting.needed is None or setting.needed.right != (switch.value,):
+        wrong = f"{what} while {setting.id} is {switch.value}, and it is not `needed` so"
+        report.miss(switch.place("value"), wrong, f"add `needed: {{value: {switch.value}, why: ...}}` to {setting.id}")
 
 
 def _values(setting: Setting, report: Report) -> None:

@@ -261,7 +261,8 @@ def _gauge(gauge: Gauge) -> str:
 
 def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
     if made.present is not None:
-        yield made.present, "Value := UINT_TO_WORD(Motor.FaultCode);"
+        times = f" * {2**made.present_shift}" if made.present_shift else ""
+        yield made.present, f"Value := UINT_TO_WORD(Motor.FaultCode{times});"
     if made.fault_bits:
         for code in numbers:
             place, bit = divmod(code - 1, 16)
