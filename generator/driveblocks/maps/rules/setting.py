@@ -54,7 +54,7 @@ def check(drive: Drive, report: Report) -> None:
 
 
 def must_be(drive: Drive, switch: Switch, what: str, report: Report) -> None:
-    """Note a setting on which something rests, and that nobody is told to set so."""
+    """Note a setting on which something rests, and that no person is asked to set so."""
     setting = next((each for each in drive.settings if each.id == switch.setting), None)
     if setting is None:
         report.miss(switch.place("setting"), f"there is no setting `{switch.setting}`", "name an entry of `settings`")
@@ -128,7 +128,7 @@ def _waits_for(first: str, settings: Mapping[str, Setting]) -> set[str]:
 
 
 def _no_address(unit: UnitAddress, number: int, setting: Setting | None, report: Report) -> None:
-    """Note a number for no address that is one, or that nobody is told to change."""
+    """Note a number for no address that is one, or that no person is asked to change."""
     if unit.min <= number <= unit.max:
         report.add(
             unit.place("no_address"), f"{number} is a unit address of this drive", f"it has {unit.min} to {unit.max}"
