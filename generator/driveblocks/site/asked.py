@@ -167,7 +167,7 @@ def _line(words: Words, seen: Controller, loaded: source.Loaded, times: Mapping[
     keeps = f"{seen.wiring.port}.KeepsSilence" if seen.wiring.port else f"{bus}.KeepsSilence"
     scan, unlearned = times["scan"] or 0, _slots(seen, size)
     delays = (reply_delay(each.drive)[0] or 0 for each in _units(seen, size) if each.drive)
-    reply = times["reply"] or max(USUAL_REPLY_MS, *delays)
+    reply = times["reply"] or max([USUAL_REPLY_MS, *delays])
     for at in range(size):
         block[f"{bus}.Slots[{at}].Replies"] = LEARNED_AFTER
         block[f"{bus}.Slots[{at}].LongestReplyMs"] = reply
