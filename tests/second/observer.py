@@ -18,6 +18,8 @@ RAMP_US = 100_000
 """What a second model takes for 1 Hz."""
 STANDING = {"stop", "confirmed"}
 """Rules that hold where it stands and nobody runs it."""
+ATTEND_US = 1_000_000
+"""AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 
@@ -130,6 +132,8 @@ class Watch:
     most_hz: float = 0.0
     lowered_at: int = 0
     turned_since: int | None = None
+    left_us: int | None = None
+    """Since when its block is called no longer, with nothing but that against a run that was permitted."""
     caught: bool = False
     """It was still turning the other way when it was started, and is braked and turned round."""
     interrupted: bool = False
@@ -168,6 +172,7 @@ class Observer:
         watch, figures = self.watches[unit], self.figures
         wanted = wish(pins)
         asked, stops = wanted.moves, wanted.stops
+        self._left(now_us, watch, pins, asked)
         watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz
@@ -176,7 +181,8 @@ class Observer:
             if truth.itself and watch.interrupted and now_us - watch.ended_us <= self.figures.unseen_us and not stops:
                 watch.permitted = True
             watch.caught = turns
-            self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself), seen=truth)
+            waited = watch.left_us is not None and now_us - watch.left_us <= ATTEND_US
+            self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself or waited), seen=truth)
         elif watch.driven and not driven:
             watch.interrupted, watch.ended_us = watch.permitted, now_us
             watch.permitted = False  # whatever has ended it: the next start needs an edge of its own
@@ -190,6 +196,13 @@ class Observer:
         self._stop(now_us, unit, truth, stops=owed)
         self._confirmed(now_us, unit, truth, wrong=confirmed and turns)
         self._speed(now_us, unit, pins, truth)
+
+    def _left(self, now_us: int, watch: Watch, pins: Mapping[str, object], asked: tuple[str, ...]) -> None:
+        """Whether its block is called no longer since it was permitted to run, and nothing else has happened."""
+        if not pins.get("Left") or asked != watch.asked_before or any_of(("StopAll", "Restart"), pins):
+            watch.left_us = None
+        elif watch.permitted:
+            watch.left_us = now_us
 
     def _judge(self, now_us: int, unit: int, rule: str, *, bad: bool, seen: Truth) -> None:
         broken = self.watches[unit].broken

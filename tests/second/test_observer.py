@@ -24,6 +24,8 @@ GOOD: dict[str, list[tuple[int, str, str, float]]] = {
                                (8100, "F", "+", 0.0), (8200, "F", "b", 0.0)],
     "contact": [*RUNNING, (5000, "", "b", 20.0), (8000, "", "o", 20.0), (60_000, "", "o", 0.5)],
     "dip": [*RUNNING, (5000, "F", "", 19.0), (5300, "F", "i", 18.0), (6000, "F", "d", 9.0), (7000, "F", "+", 0.0)],
+    "left while its run waits": [*STOPPED, (100, "F", "+", 0.0), (150, "Fl", "", 0.0), (1100, "Fl", "b", 0.0),
+                                 (1700, "Fl", "d", 0.0), (1800, "Fl", "", 0.0)],
     "slower": [*RUNNING, (3000, "F<", "b", 20.0), (4500, "F<", "b", 10.0), (9000, "F<", "b", 10.0)],
     "reverse": [*STOPPED, (100, "R", "+", 0.0), (200, "R", "b", -1.0), (2200, "R", "b", -20.0)],
 }  # fmt: skip
@@ -36,6 +38,9 @@ BAD: list[tuple[str, list[tuple[int, str, str, float]]]] = [
     ("edge", [*RUNNING, (5000, "F", "", 19.0), (5100, "F", "b", 18.0)]),  # ... or a dip, or a trip
     ("edge", [*RUNNING, (5000, "F", "k", 20.0), (5100, "F", "b", 20.0)]),
     *[("edge", [*STOPPED, (100, "F", "+", 0.0), (150, f"F{pin}", "+", 0.0), (300, "F", "b", 0.0)]) for pin in "carmsl"],
+    ("edge", [*STOPPED, (100, "F", "+", 0.0), (150, "Fl", "", 0.0), (1200, "Fl", "b", 0.0)]),  # AttendMs is over
+    ("edge", [*STOPPED, (100, "F", "+", 0.0), (150, "Fl", "", 0.0), (200, "Fla", "", 0.0), (300, "Fl", "b", 0.0)]),
+    ("edge", [*STOPPED, (100, "", "+", 0.0), (150, "Fl", "", 0.0), (300, "Fl", "b", 0.0)]),  # it has not seen the pin
     ("stop", [*RUNNING, (5000, "", "b", 20.0), (8001, "", "b", 20.0)]),
     ("stop", [*RUNNING, (5000, "F-", "b", 20.0), (8001, "F-", "b", 20.0)]),
     ("stop", [*RUNNING, (5000, "Fl", "d", 20.0), (8001, "Fl", "d", 0.2)]),  # nobody calls the block
