@@ -138,7 +138,7 @@ class Claims:
         """A frame to a drive, without checksum.
 
         One that has been standing for long is written to no more, but in the scan of a restart it gets its stop: right
-        after another restart nothing else tells that scan from those before.
+        after another restart its pins are those of the scan before.
         """
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (6, 16)

@@ -8,7 +8,6 @@ import ctypes
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from math import prod
 from typing import Any, Protocol
 
@@ -52,23 +51,18 @@ class Scalar:
     split: Callable[[Value], Fields]
     fields: int = 1
 
-    @cached_property
-    def packed(self) -> struct.Struct:
-        """How it lies in memory."""
-        return struct.Struct("=" + self.code)
-
     @property
     def size(self) -> int:
         """Bytes, padding included."""
-        return self.packed.size
+        return struct.calcsize("=" + self.code)
 
     def read(self, memory: Memory, offset: int) -> Value:
         """Make the Python value of the bytes at `offset`."""
-        return self.join(self.packed.unpack_from(memory, offset))
+        return self.join(struct.unpack_from("=" + self.code, memory, offset))
 
     def write(self, memory: Memory, offset: int, value: Value) -> None:
         """Put a Python value at `offset`."""
-        self.packed.pack_into(memory, offset, *self.split(value))
+        struct.pack_into("=" + self.code, memory, offset, *self.split(value))
 
     def leaves(self, path: str, offset: int) -> Iterator[tuple[str, int, "Scalar"]]:
         """Give itself."""
