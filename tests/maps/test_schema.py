@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
@@ -27,14 +28,18 @@ def test_it_is_a_schema() -> None:
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: path.stem)
 def test_a_good_map_passes(path: Path) -> None:
     data = yaml.load(path.read_text(encoding="utf-8"), yaml.BaseLoader)  # noqa: S506  (texts only, as editors see patterns)
-    wrong = [e for e in jsonschema.Draft7Validator(schema.schema()).iter_errors(data) if e.validator != "enum"]
-    assert [e.message for e in wrong] == []
+    assert [each.message for each in wrong(data) if each.validator != "enum"] == []
 
 
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: path.stem)
 def test_a_good_map_passes_as_an_editor_reads_it(path: Path) -> None:
-    data = yaml.safe_load(path.read_text(encoding="utf-8"))
-    assert [e.message for e in jsonschema.Draft7Validator(schema.schema()).iter_errors(data)] == []
+    assert [each.message for each in wrong(yaml.safe_load(path.read_text(encoding="utf-8")))] == []
+
+
+def wrong(data: Any) -> list[jsonschema.ValidationError]:
+    """What the schema finds; of a map with a base not what it misses, which the base may have."""
+    found = jsonschema.Draft7Validator(schema.schema()).iter_errors(data)
+    return [each for each in found if "base" not in data or each.validator != "required"]
 
 
 def test_an_unknown_key_is_refused() -> None:
