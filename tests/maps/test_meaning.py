@@ -6,13 +6,13 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
+from tests.shipped import sisters
 
 from driveblocks.maps import check, load
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Bit, Command, Drive, Register
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import meaning, term
-from tests.shipped import sisters
 
 ROOT = Path(__file__).parents[2]
 PATHS = [
