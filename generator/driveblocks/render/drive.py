@@ -312,7 +312,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         keeps=context.kept(drive),
         write=6 if 6 in plan(drive).functions else 16,
         reference=reference.register,
-        scaled=reference.scale is not None,
+        scaled=reference.scaled,
         percent=reference.percent,
         maximum=reference.maximum,
     )
