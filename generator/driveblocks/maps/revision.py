@@ -9,8 +9,8 @@ from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = re.compile(
-    r", (?:(?:base|numbering|document|trust|differs|full_scale|full_scale_hz)=None|(?:never|without)=\(\)|negative=False)"
-    r"(?=[,)])"
+    r", (?:(?:base|numbering|document|trust|differs|full_scale|full_scale_hz)=None|(?:never|without)=\(\)"
+    r"|negative=False)(?=[,)])"
 )
 """Keys that the format has learned since the first numbers were printed: left out, they change none."""
 
