@@ -32,8 +32,8 @@ MOST = {
     # maps: what gives the reference its meaning, for scenes, too
     # maps: a map that says only what is different from a sister's; the manual's own numbers of registers; reads as long
     # as others, which the slot says; show: a register's number in the manual; what the bus cannot do with a drive
-    # maps: fractions of a full scale, a direction by the sign of the reference, speeds in r/min, and their rules; simulator,
-    # reference, render, prove, testing, show: the same; more measures
+    # maps: fractions of a full scale, a direction by the sign of the reference, speeds in r/min, and their rules
+    # simulator, reference, render, prove, testing, show, docs: the same, and more measures
     "maps": 7530, "output": 845,
     # desk: why a run ends and what ends it, and words of the command line that several commands share, came from plc
     # desk: why a port refuses a rate or a format is said once, for what only listens, too
