@@ -8,7 +8,7 @@ from typing import Any
 from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
-_LATER = re.compile(r", (?:(?:base|numbering|document|trust|differs)=None|(?:never|without)=\(\))(?=[,)])")
+_LATER = re.compile(r", (?:space=None(?:, words=None, order=None)?|(?:base|numbering|document|trust|differs)=None|(?:never|without)=\(\))(?=[,)])")
 """Keys that the format has learned since the first numbers were printed: left out, they change none."""
 
 
