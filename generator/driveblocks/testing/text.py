@@ -32,8 +32,9 @@ def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[
     """Programs per kind of text and language that the map has."""
     faults = sorted({fault.code for fault in drive.faults.codes})
     numbers = {reference.error_number(error) for error in drive.errors.codes}
-    bits = [bit for _, row in drive.registers() for bit in row.bits if bit.name]
-    values = [value for _, row in drive.registers() for value in row.values]
+    rows = [row for _, row in drive.registers() if row.address.first <= LAST]
+    bits = [bit for row in rows for bit in row.bits if bit.name]
+    values = [value for row in rows for value in row.values]
     for language in languages:
         if reference.has(drive, language.suffix, drive.faults.codes):
             yield _codes(drive, stem, language, "Fault", faults)
