@@ -59,6 +59,11 @@ class Ability:
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
 
     @property
+    def many_reads(self) -> bool:
+        """Whether it has more reads than three, so that a rare one, as of its fault code, comes late."""
+        return len(polls(self.drive)) > 3
+
+    @property
     def motions(self) -> tuple[str, ...]:
         """The motions that the drive can be commanded, of MOTIONS."""
         return tuple(each for each in MOTIONS if self.can(each))
