@@ -542,7 +542,7 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     codes = [first, second, second, first, first, first, second, first, second]
     for count, code in enumerate(codes, 1):
         shown = code if can.code else 0
-        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=600 if can.many_reads else 300, shows={
+        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=1000 if can.many_reads else 300, shows={
             "Fault": True, "FaultCode": shown, "Motor.Diagnosis.FaultBack1": shown,
         })  # fmt: skip
         yield Step("it is reset", {"Fate.KeypadReset": True}, "NOT Motor.Fault", 1500)
@@ -552,7 +552,7 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     } | {"Motor.Diagnosis.FirstFaultCode": first if can.code else 0})  # fmt: skip
     yield Step("the PLC restarts", {"Pins.Restart": True}, ms=40)
     yield Step("it has stopped it", {"Pins.Restart": False}, "Motor.StopConfirmed", 3000)
-    yield Step("its first fault", {"Fate.Trips": second}, ms=800 if can.many_reads else 400, shows={
+    yield Step("its first fault", {"Fate.Trips": second}, ms=1000 if can.many_reads else 400, shows={
         "Motor.Diagnosis.FirstFaultCode": second if can.code else 0, "Fault": True,
     })  # fmt: skip
 
