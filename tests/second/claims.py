@@ -17,6 +17,8 @@ QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
+PATH_US = {"ATV312": 2_000_000}
+"""How much longer that takes where a start has four writes, three of which wait for a state."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 FOLLOW_US = 7_500_000
@@ -43,6 +45,7 @@ AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
 """Pins with which no block alone serves a drive, or not in full control."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = {
+    "ATV312": (True, False, True, True, True),  # CMD, page 12
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
@@ -307,7 +310,9 @@ class Claims:
             one, many = bench.models[index], len(bench.models) > 3
             if one.local or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - claim.edge_us > START_US * (2 if one.o.late_per_1000 and many else 1):
+            elif not ignores and now - claim.edge_us > self._start_us(index) * (
+                2 if one.o.late_per_1000 and many else 1
+            ):
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
@@ -434,6 +439,9 @@ class Claims:
         since = self.bench.now - 1000 * int(self.bench.number("StatusAgeMs", index)) - 1_000_000
         return all(abs(hz - asked) > 1.0 for at, hz in shaft if at >= since)
 
+    def _start_us(self, index: int) -> int:
+        return START_US + PATH_US.get(self.bench.types[index], 0)
+
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
@@ -471,7 +479,8 @@ class Claims:
         claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
-        old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
+        late = CALM_US // 2 + PATH_US.get(bench.types[index], 0)  # which has more rare reads, too
+        old = claim.fault_us is not None and now - claim.fault_us > late and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 

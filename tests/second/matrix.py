@@ -16,6 +16,7 @@ from typing import Any
 from tests.drives.station import FAMILIES, RTU_ONLY
 from tests.second import pairs
 from tests.second.bench import Second
+from tests.second.claims import PATH_US
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.station import SIZES, types_of
@@ -25,6 +26,7 @@ from structured_text.engines.engine import Library
 MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
 BY_TERMINALS = {
+    "ATV312": {"CHCF": 2, "CD1": 1},
     "CHF": {"run": 1},
     "GD200A": {"P00_01": 1},
     "JSCC": {"F0_04": 1},
@@ -32,6 +34,7 @@ BY_TERMINALS = {
     "SN300G5": {"b1_02": 1},
 }
 OWN_SPEED = {
+    "ATV312": {"FR1": 1},
     "CHF": {"speed": 0},
     "GD200A": {"P00_06": 0},
     "JSCC": {"F0_08": 1},
@@ -64,6 +67,7 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "comm_action": ("ramp", "quick", "coast"), "comm_trips": BOTH, "fed_by": ("own", "any"),
     "busy_refuses": ("parameters", "writes", "all"),
     # families
+    "ATV312.disable_stops": ("Stt", "ramp"), "ATV312.reset_to": ("disabled", "ready"), "ATV312.reached_at_rest": BOTH,
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
@@ -170,7 +174,7 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if family in ("GD200A", "PF4"):
+        if family in ("ATV312", "GD200A", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
@@ -226,7 +230,8 @@ class Run:
     def at_speed(self, index: int = 0) -> bool:
         """Wait until the motor truly is."""
         b = self.bench
-        return b.wait(lambda: self._state_of(index) == "at speed", START_MS)
+        more = PATH_US.get(b.types[index], 0) // 1000
+        return b.wait(lambda: self._state_of(index) == "at speed", START_MS + more)
 
     def reach(self) -> None:
         """From power-up to the state. Raises NotReached."""

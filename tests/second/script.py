@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from tests.second.atv312 import Atv312, Atv312Options
 from tests.second.chf import Chf, ChfOptions
 from tests.second.drive import Drive
 from tests.second.frames import ascii_, ascii_opened, opened, rtu
@@ -12,17 +13,30 @@ from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
     "sn": (Sn300g5, Sn300g5Options), "jscc": (Jscc, JsccOptions), "chf": (Chf, ChfOptions),
-    "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions),
+    "atv": (Atv312, Atv312Options), "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions),
 }  # fmt: skip
 WORDS = {
     "sn": {"go": "w1=9C4 w0=1", "back": "w1=9C4 w0=2", "halt": "w0=0", "where": "r10+1 r21+1"},
     "jscc": {"go": "w1001=FA w1000=1", "back": "w1001=FA w1000=2", "halt": "w1000=3", "where": "r2001+1 r2000+1"},
     "chf": {"go": "w2000=1388 w1000=1", "back": "w2000=1388 w1000=2", "halt": "w1000=5", "where": "r1001+1 r3000+1"},
     "gd": {"go": "w2001=9C4 w2000=1", "back": "w2001=9C4 w2000=2", "halt": "w2000=5", "where": "r2100+1 r3000+1"},
+    "atv": {
+        "go": "w2136=FA w2135=0 w2135=6 w2135=7 w2135=F",
+        "back": "w2136=FA w2135=0 w2135=6 w2135=7 w2135=80F",
+        "halt": "w2135=7",
+        "where": "rC86+1 rC82+1",
+    },
     "pf": {"go": "w2001=FA w2000=12", "back": "w2001=FA w2000=22", "halt": "w2000=1", "where": "r2100+1 r2103+1"},
 }
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
-POLLED = {"sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1", "pf": b"\x21\0\0\1", "gd": b"\x21\0\0\1"}
+POLLED = {
+    "atv": b"\x0c\x81\0\1",
+    "sn": b"\0\x10\0\1",
+    "jscc": b"\x20\1\0\1",
+    "chf": b"\x10\1\0\1",
+    "pf": b"\x21\0\0\1",
+    "gd": b"\x21\0\0\1",
+}
 KEYS = ("start", "stop", "reset", "local")
 SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False),
             "inhibit": ("inhibit", True), "free": ("inhibit", False)}  # fmt: skip
