@@ -49,6 +49,7 @@ ABLE = {
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
+    "MX2": (True, False, False, False, True),  # coils 0001H to 0004H, I585 page 6-27
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 }
@@ -139,7 +140,7 @@ class Claims:
     def sent(self, now_us: int, index: int, body: bytes) -> None:
         """A frame to a drive, without checksum."""
         claim, pins = self.claims[index], self.bench.pins[index]
-        writes = body[1] in (6, 16)
+        writes = body[1] in (5, 6, 16)
         self._kept(index, body)
         shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
         if shared and not writes and index + 1 not in self.bench.deaf:

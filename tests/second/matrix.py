@@ -30,6 +30,7 @@ BY_TERMINALS = {
     "CHF": {"run": 1},
     "GD200A": {"P00_01": 1},
     "JSCC": {"F0_04": 1},
+    "MX2": {"A002": 1},
     "PF4": {"P036": 1},
     "SN300G5": {"b1_02": 1},
 }
@@ -38,6 +39,7 @@ OWN_SPEED = {
     "CHF": {"speed": 0},
     "GD200A": {"P00_06": 0},
     "JSCC": {"F0_08": 1},
+    "MX2": {"A001": 2},
     "PF4": {"P038": 0},
     "SN300G5": {"b1_01": 0},
 }
@@ -67,6 +69,9 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "comm_action": ("ramp", "quick", "coast"), "comm_trips": BOTH, "fed_by": ("own", "any"),
     "busy_refuses": ("parameters", "writes", "all"),
     # families
+    "MX2.run_acts": ("once", "always"), "MX2.reset_acts": ("rise", "fall"), "MX2.reset_cuts": BOTH,
+    "MX2.reset_keeps_coils": BOTH, "MX2.reset_deaf_us": (0, 1_000_000), "MX2.volts": (1, 10), "MX2.half_pairs": BOTH,
+    "MX2.way_while_running": ("turns", "next start"), "MX2.coil_13": ("running", "tripped"),
     "ATV312.disable_stops": ("Stt", "ramp"), "ATV312.reset_to": ("disabled", "ready"), "ATV312.reached_at_rest": BOTH,
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
@@ -174,7 +179,7 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if family in ("ATV312", "GD200A", "PF4"):
+        if family in ("ATV312", "GD200A", "MX2", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"

@@ -20,7 +20,7 @@ MONITORS = (*range(0x1001, 0x1009), *range(0x1009, 0x1015))  # I570 page 287
 ENTER, STORES = 0x0900, 0x0902  # I585 page 6-20
 A004 = 0x1204
 NAMED = {"A001": 0x1201, "A002": 0x1202, "C072": 0x144C, "C076": 0x1450, "C077": 0x1451, "C102": 0x146A}
-PARAMETERS = (0x1103, 0x1104, 0x1105, 0x1106, A004, *NAMED.values())
+PARAMETERS = (0x1103, 0x1104, 0x1105, 0x1106, A004, 0x144B, 0x144E, 0x144F, *NAMED.values())
 LOSS = {0: ("coast", True), 1: ("ramp", True), 2: ("goes on", False), 3: ("coast", False), 4: ("ramp", False)}
 """C076: 00 trips, 01 decelerates and trips, 02 ignores, 03 runs free, 04 decelerates; words of SJ700, page 4-129."""
 

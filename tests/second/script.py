@@ -8,12 +8,13 @@ from tests.second.drive import Drive
 from tests.second.frames import ascii_, ascii_opened, opened, rtu
 from tests.second.gd200a import Gd200a, Gd200aOptions
 from tests.second.jscc import Jscc, JsccOptions
+from tests.second.mx2 import Mx2, Mx2Options
 from tests.second.pf4 import Pf4, Pf4Options
 from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
     "sn": (Sn300g5, Sn300g5Options), "jscc": (Jscc, JsccOptions), "chf": (Chf, ChfOptions),
-    "atv": (Atv312, Atv312Options), "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions),
+    "atv": (Atv312, Atv312Options), "mx": (Mx2, Mx2Options), "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions),
 }  # fmt: skip
 WORDS = {
     "sn": {"go": "w1=9C4 w0=1", "back": "w1=9C4 w0=2", "halt": "w0=0", "where": "r10+1 r21+1"},
@@ -30,6 +31,7 @@ WORDS = {
 }
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
 POLLED = {
+    "mx": b"\x10\0\0\3",
     "atv": b"\x0c\x81\0\1",
     "sn": b"\0\x10\0\1",
     "jscc": b"\x20\1\0\1",
