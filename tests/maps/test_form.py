@@ -62,7 +62,7 @@ REFUSED: list[tuple[Form, str]] = [
     *[(form.WORD, text) for text in ("Read", "1st", "a-b", "_a", "")],
     *[(form.PREFIX, text) for text in ("Sn", "1T", "A" * 13, "A_B", "")],
     *[(form.REFERENCE, text) for text in ("Register 0001H", "register  0001H", "register 0001H 0002H", "1", "")],
-    *[(form.ID_FORM, text) for text in ("H5-01", "a9", "")],
+    *[(form.ID_FORM, text) for text in ("H5-01", "b9", "")],
     *[(form.PLC_DEVICE, text) for text in ("D", "0", "d0", "D0.1")],
     *[(form.TEXT, text) for text in ("", " ", " x", "x ", "x\n")],
 ]
