@@ -31,7 +31,7 @@ from driveblocks.site.session import Wish, commission
 MAPS = {each.path.stem: each.drive for each in maps()}
 BASES = {stem: each.base or stem for stem, each in MAPS.items()}
 PAIRS = [(stem, other) for stem in MAPS for other in MAPS if stem == other or BASES[stem] != BASES[other]]
-"""Maps and drives; sisters are left out, which reads alone need not tell apart."""
+"""Maps and drives, without sisters: their registers may be the same."""
 ABOUT = kept.About("Pump", "jscc", "12345678", "2026-11-23 10:30", "")
 WAY = Way(9600)
 
