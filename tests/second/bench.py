@@ -262,7 +262,7 @@ class Second(Bench):
         """All run and jog pins FALSE."""
         return self.put(drive, **dict.fromkeys(RUNS, False))
 
-    def wait(self, test: Callable[[], object], ms: int) -> bool:
+    def wait(self, test: Callable[[], object], ms: int) -> bool:  # type: ignore[override]  # until something is so, not for a time
         """Scan until something is so, or for so long."""
         end = self.now + 1000 * ms
         while not test():
