@@ -4,9 +4,9 @@ import re
 from pathlib import Path
 
 import pytest
+from tests import shipped
 from tests.blocks.library import sources
 from tests.examples.test_examples import PARTS, SPARE
-from tests.shipped import drives
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Library, Source
@@ -42,7 +42,8 @@ PROGRAMS = _programs()
 @pytest.fixture(scope="module")
 def library() -> Library:
     """The library with every program of the pages."""
-    texts = [each for each in sources() if each.path.startswith(PARTS) and not SPARE.search(each.path)]
+    parts = (*PARTS, *(f"{each.path.stem}/" for each in shipped.sources()))
+    texts = [each for each in sources() if each.path.startswith(parts) and not SPARE.search(each.path)]
     texts += [Source(f"{name}.st", text) for name, text in PROGRAMS.items()]
     assert [
         each for each in lint_sources((each.path, each.text) for each in texts) if "HardStops" not in each.path
@@ -55,7 +56,7 @@ def test_the_pages_have_programs() -> None:
         "Plant",
         "Parameters",
         "HardStops",
-        *(f"{prefix}_Motor" for prefix in drives()),
+        *(f"{prefix}_Motor" for prefix in shipped.drives()),
     } <= PROGRAMS.keys()
 
 
