@@ -39,7 +39,7 @@ TEST = (
     ("tests", "pytest", "-n", "auto", "--dist", "loadfile", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
 QUICK = (
-    "docs", "examples", "explain", "maps", "modbus", "reference", "render", "simulator", "structured_text/language",
+    "docs", "explain", "maps", "modbus", "reference", "render", "simulator", "structured_text/language",
 )  # fmt: skip
 """Folders of tests that answer soon: maps, their blocks as text, and the pages."""
 LAST_LINE = ("driveblocks", "test")

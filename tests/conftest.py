@@ -72,6 +72,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     for each in candidates():
         reporter.write_line(f"engine {each.name}: {'runs' if each.engine else 'does not run'}, {each.note}")
     if session.config.pluginmanager.hasplugin("dsession"):
+        reporter._show_progress_info = False  # its share is of tests that have a dot
         session.config.pluginmanager.register(Progress(lambda: session.testscollected, reporter.write_line))
 
 
