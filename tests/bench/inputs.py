@@ -70,7 +70,9 @@ SPECIAL: dict[str, dict[str, Pin]] = {
     "CHF_ValueTextEn": {"Address": 0x1000},
     "CHF_ValueTextZh": {"Address": 0x1000},
     "GD200A_Request": {"Address": 0x2000, "Quantity": 2},
-    "PF4_Request": {"Address": 0x2100, "Quantity": 1},
+    **{
+        f"{prefix}_Request": {"Address": 0x2100, "Quantity": 1} for prefix in ("PF4", "PF400", "PF40P", "PF4M", "PF525")
+    },
     "GD200A_CanRead": {"Address": 0x2100, "Quantity": 2},
     "GD200A_CanWrite": {"Address": 0x2000, "Quantity": 1},
     "GD200A_ValueTextEn": {"Address": 0x2000},

@@ -88,7 +88,13 @@ def drive_suite(source: Source, languages: Sequence[text.Language]) -> Suite:
     made = [program for group, subject in GROUPS.items() for program in _finished(group, subject(drive, stem))]
     made += _finished("Texts", text.scripts(drive, stem, languages))
     parts = harness.simulation() | {f"{stem}/{simulated.name(drive)}.st": simulated.text(drive, Ability(drive).codes)}
-    return Suite(stem, tuple(made), len(drive.frames), parts, unreached(Ability(drive)))
+    return Suite(
+        stem,
+        tuple(made),
+        len(drive.frames),
+        parts,
+        unreached(Ability(drive), writes=parameters.place_of(drive) is not None),
+    )
 
 
 def _finished(group: str, scripts: Iterable[Script]) -> Iterator[Program]:

@@ -15,8 +15,8 @@ REASONS = {
 }  # fmt: skip
 
 
-def unreached(can: Ability) -> dict[str, str]:
-    """Reasons that no scene of a family shows, and why."""
+def unreached(can: Ability, *, writes: bool) -> dict[str, str]:
+    """Reasons that no scene of a family shows, and why; `writes`: some parameter can be written."""
     found = {
         "RELEASED": "it is in Diagnosis.StopReason alone, where a scene looks for it",
     }
@@ -30,6 +30,8 @@ def unreached(can: Ability) -> dict[str, str]:
         found["NOT_READY"] = "the drive does not show whether it is ready"
     if not can.can("fault_reset"):
         found["RESETTING"] = "the drive has no fault reset by the bus"
+    if not writes:
+        found["WRITE_WAITS"] = "the map lists no parameter that may be written"
     if set(can.motions) == set(MOTIONS):
         found["NOT_ABLE"] = "the drive has every command of motion"
     return found
