@@ -24,8 +24,19 @@ KINDS = (
     Kind(3, 0x2000, 6, 0x1001, 6, 0x1000, 1, 5, 0x80, 0, 0),
     Kind(3, 0x0020, 16, 0x0002, 16, 0x0001, 2, 0, 0x80, 0, 0),
     Kind(3, 0x3000, 6, 0x2001, 6, 0x2000, 1, 3, 0, 6, 0x5001),
+    Kind(1, 0x0010, 5, 0x0001, 5, 0x0000, 1, 0, 0x80, 0, 0),
 )
-"""Stop by function 06 or by two words of function 10H; refusals as function + 80H or as a write reply."""
+"""Stop by function 06, by two words of function 10H, or by a coil; refusals as function + 80H or as a write reply."""
+
+
+def counted(request: bytes, number: int) -> bytes:
+    """The reply to a read, whose registers hold a number; of coils, its lowest bits."""
+    quantity = request[5]
+    if request[1] in (1, 2):
+        data = (number % (1 << quantity)).to_bytes((quantity + 7) // 8, "little")
+    else:
+        data = (number % 65536).to_bytes(2, "big") * quantity
+    return request[:2] + bytes([len(data)]) + data
 
 
 def header() -> str:

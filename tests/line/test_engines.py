@@ -21,8 +21,9 @@ def twins(engines: Mapping[str, Engine], every: int = 1) -> Twins:
     return Twins([_BUILT[name].instance("MB_Line8") for name in engines], every)
 
 
-def test_matiec_and_the_embedded_engine(matiec: Engine) -> None:
-    walk(6, 300, twins(beside(matiec), every=3))
+@pytest.mark.parametrize("seed", [6, 16])
+def test_matiec_and_the_embedded_engine(matiec: Engine, seed: int) -> None:
+    walk(seed, 300, twins(beside(matiec), every=3))
 
 
 def test_a_difference_is_found() -> None:

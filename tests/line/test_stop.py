@@ -199,7 +199,7 @@ def test_a_stop_that_the_port_does_not_take_is_overdue_in_time() -> None:
 
 def test_a_stop_that_no_line_can_send_is_overdue() -> None:
     bench = Bench().ready()
-    bench.fill(1, STOP, 5, 0)
+    bench.fill(1, STOP, 15, 0)
     bench.stop(1)
     bench.run(60)
     assert bench.slot(1, "StopOverdue")

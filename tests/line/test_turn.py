@@ -89,7 +89,7 @@ def test_a_request_that_no_line_can_send_is_answered() -> None:
     bench.ask(1, PARAMETER, 3, 0x100, quantity=5)
     bench.run(50)
     assert bench.answer(1, PARAMETER) == "REQUEST"
-    bench.ask(1, PARAMETER, 5, 0x100)
+    bench.ask(1, PARAMETER, 15, 0x100)
     bench.run(50)
     assert bench.answer(1, PARAMETER) == "REQUEST"
 

@@ -159,18 +159,22 @@ static void hear(const unsigned char *text, int count, us end) {
   }
   /* a parameter leaves only while its drive block lets it pass, a fault reset once per Number */
   if (address == PARAMETER_AT) { f.parameters++; if (slots[open_drive].PARAMETERCLEARED != slots[open_drive].ASK.table[2].NUMBER) f.unasked++; }
-  else if (!open_stop && bytes[1] != 3 && bytes[1] != 4 && slots[open_drive].RESETASKED) {
+  else if (!open_stop && bytes[1] > 4 && slots[open_drive].RESETASKED) {
     if (one->last_reset == slots[open_drive].ASK.table[1].NUMBER) f.unasked++;
     one->last_reset = slots[open_drive].ASK.table[1].NUMBER; }
   if (!one->alive) return;
   if (open_stop) { one->stops_heard++; one->moved = 0; }
-  else if (bytes[1] != 3 && bytes[1] != 4 && address != PARAMETER_AT) one->moved = 1;
+  else if (bytes[1] > 4 && address != PARAMETER_AT) one->moved = 1;
   memcpy(reply, bytes, 6);
-  if (bytes[1] == 3 || bytes[1] == 4) {
+  if (bytes[1] <= 2) { /* coils: the lowest bits of the count */
+    int data = (bytes[5] + 7) / 8; one->truth = (one->truth + 1) & ((1 << bytes[5]) - 1);
+    reply[2] = data; length = 3 + data; reply[3] = one->truth & 255; reply[4] = one->truth >> 8;
+    if (data == 1) reply[4] = 0;
+  } else if (bytes[1] <= 4) {
     int words = bytes[5]; one->truth = (one->truth + 1) & 0xFFFF;
     reply[2] = 2 * words; length = 3 + 2 * words;
     for (int i = 0; i < words; i++) { reply[3 + 2 * i] = one->truth >> 8; reply[4 + 2 * i] = one->truth & 255; }
-  } else if (!open_stop && address != PARAMETER_AT) one->written = bytes[1] == 6 ? bytes[4] << 8 | bytes[5] : bytes[7] << 8 | bytes[8];
+  } else if (!open_stop && address != PARAMETER_AT) one->written = bytes[1] <= 6 ? bytes[4] << 8 | bytes[5] : bytes[7] << 8 | bytes[8];
   if (happens(c.loss)) return;
   us start = end + between(c.turn_low, c.turn_high); int in_time = start - end <= c.turn_ms * 1000LL;
   if (happens(c.late)) { start = end + between(c.turn_ms * 1000L, c.longest_ms * 1000L); in_time = 0; }

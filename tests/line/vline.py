@@ -13,7 +13,7 @@ from random import Random
 from typing import Self
 
 from tests.blocks.library import sources
-from tests.line.drives import KINDS, Kind
+from tests.line.drives import KINDS, Kind, counted
 
 from driveblocks.reference.checksum import crc16, lrc
 from driveblocks.render.results import RESULTS
@@ -88,9 +88,9 @@ class Drive:
         self.heard.append(request)
         if self.answer is not None:
             return self.answer(request)
-        if request[1] in (3, 4):
+        if request[1] <= 4:
             self.reads += 1
-            return request[:2] + bytes([2 * request[5]]) + (self.reads % 65536).to_bytes(2, "big") * request[5]
+            return counted(request, self.reads)
         return request[:6]
 
 
@@ -110,7 +110,7 @@ class Sent:
     @property
     def read(self) -> bool:
         """Whether it reads."""
-        return self.pdu[1] in (3, 4)
+        return self.pdu[1] <= 4
 
 
 def sealed(frame: bytes, ascii_: bool) -> bytes:

@@ -85,7 +85,8 @@ class Walk:
                     raise BrokenRuleError(f"seed {self.seed}, scan {number}: a stop of slot {slot} was not heard")
             if drive.answer is not None:
                 self.odd[slot] = bench.now + 1_000_000
-            shown, reads = bench.slot(slot, "PollWords[0]"), fresh[slot][1] & 0xFFFF
+            mask = (1 << bench.slot(slot, "PollCount")) - 1 if bench.kind.read_function <= 2 else 0xFFFF
+            shown, reads = bench.slot(slot, "PollWords[0]"), fresh[slot][1] & mask
             told = self.clean and bench.slot(slot, "Fresh") != fresh[slot][0] and bench.now > self.odd[slot]
             if told and shown != reads:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} shows an old reading")
@@ -130,7 +131,7 @@ class Walk:
         self.bench.command(slot, 7)
 
     def parameter(self, slot: int) -> None:
-        function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4)])
+        function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4), (1, 3), (2, 4), (5, 1)])
         address, word = self.chance.choice([0, 0x0123, 0xFFFF]), self.chance.randrange(65536)
         self.bench.ask(slot, PARAMETER, function, address, quantity=quantity, word=word)
         if word < 20_000:
@@ -138,7 +139,7 @@ class Walk:
 
     def invalid(self, slot: int) -> None:
         box, function, quantity = self.chance.choice(
-            [(1, 5, 1), (2, 3, 5), (2, 16, 0), (3, 3, 17), (0, 5, 1), (3, 16, 2), (2, 3, 0)]
+            [(1, 15, 1), (2, 3, 5), (2, 16, 0), (3, 3, 17), (0, 15, 1), (3, 16, 2), (2, 3, 0), (2, 1, 5), (3, 5, 1)]
         )
         if self.bench.answer(slot, STOP) or box:
             self.bench.ask(slot, box, function, 0x2000, quantity=quantity)
@@ -159,9 +160,10 @@ class Walk:
 
     def _double(self, request: bytes) -> bytes:
         """The reply of a drive whose byte count is a word."""
-        if request[1] not in (3, 4):
+        if request[1] > 4:
             return request[:6]
-        return request[:2] + (2 * request[5]).to_bytes(2, "big") + bytes(2 * request[5] - 1) + b"\x01"
+        data = (request[5] + 7) // 8 if request[1] <= 2 else 2 * request[5]
+        return request[:2] + data.to_bytes(2, "big") + bytes(data - 1) + b"\x01"
 
     def die(self, slot: int) -> None:
         self.bench.drives[slot].alive = not self.bench.drives[slot].alive

@@ -18,6 +18,7 @@ from driveblocks.maps.rules import (
     record,
     register,
     setting,
+    space,
     standstill,
     vector,
     watchdog,
@@ -25,7 +26,7 @@ from driveblocks.maps.rules import (
 
 _PARTS = (
     *(register, name, identifier, parameter, area, line, setting),
-    *(command, never, operation, standstill, condition, identity, watchdog, fault, vector, record, reading),
+    *(command, never, operation, space, standstill, condition, identity, watchdog, fault, vector, record, reading),
 )
 
 

@@ -49,15 +49,48 @@ class Form:
     """Whether an editor's YAML may read a match as a number, so that the schema must allow one."""
 
 
+SPACES = {"holding": 0x00000, "coil": 0x20000, "discrete": 0x40000, "input": 0x60000}
+"""The four tables of Modbus, each with addresses 0000H to FFFFH, and what is added to an address to tell them apart.
+
+So every look-up by address knows the table, and none follows another. On the wire are the lowest 16 bits.
+"""
+TABLES = {"register": "", "bit": "", "coil": "coil ", "discrete": "discrete ", "input": "input "}
+"""What a reference begins with that names a register, and what names the table before its address."""
+_FEW = r"(?:(?:coil|discrete|input) )?"
+
+
+def space_of(address: int) -> str:
+    """The table of an address."""
+    return next(name for name, start in SPACES.items() if start <= address <= start + 0xFFFF)
+
+
+def is_bit(address: int) -> bool:
+    """Whether an address is that of a coil or a discrete input, which holds one bit."""
+    return space_of(address) in ("coil", "discrete")
+
+
+def wire(address: int) -> int:
+    """What is sent for an address."""
+    return address & 0xFFFF
+
+
 def address_text(address: int) -> str:
-    """Print an address as the manuals do: 38 -> 0026H."""
-    return f"{address:04X}H"
+    """Print an address as the manuals do: 38 -> 0026H; of another table than the holding registers with its name."""
+    if address <= 0xFFFF:
+        return f"{address:04X}H"
+    return f"{space_of(address)} {wire(address):04X}H"
+
+
+def address_name(address: int) -> str:
+    """An address as a part of an identifier: 0026H, Coil0001H."""
+    table, _, number = address_text(address).rpartition(" ")
+    return f"{table.capitalize()}{number}"
 
 
 def span_text(span: Span) -> str:
     """Print an address range as a map does: 0106H-0125H, or one address."""
     first = address_text(span.first)
-    return first if len(span) == 1 else f"{first}-{address_text(span.last)}"
+    return first if len(span) == 1 else f"{first}-{address_text(wire(span.last))}"
 
 
 def bits_text(span: Span) -> str:
@@ -75,7 +108,14 @@ def _number(text: str) -> int:
 
 
 def _address(text: str) -> int:
-    return int(text[:-1], 16)
+    space, _, number = text.rpartition(" ")
+    return SPACES[space or "holding"] + int(number[:-1], 16)
+
+
+def _addresses(text: str) -> Span:
+    first, _, last = text.partition("-")
+    start = _address(first)
+    return Span(start, start - wire(start) + _address(last) if last else start)
 
 
 def _span(text: str, digit: Callable[[str], int]) -> Span:
@@ -108,11 +148,16 @@ ID = _form(
     str,
     "write the id as the manual prints it, such as H5-01, or a range A2-01..A2-32",
 )
-ADDRESS = _form("address", r"[0-9A-F]{4}H", _address, "write four upper-case hexadecimal digits and H, such as 0026H")
+ADDRESS = _form(
+    "address",
+    _FEW + "[0-9A-F]{4}H",
+    _address,
+    "write four upper-case hexadecimal digits and H, such as 0026H, after the name of another table: coil 0001H",
+)
 ADDRESSES = _form(
     "address or range",
-    r"[0-9A-F]{4}H(-[0-9A-F]{4}H)?",
-    lambda t: _span(t, _address),
+    _FEW + "[0-9A-F]{4}H(-[0-9A-F]{4}H)?",
+    _addresses,
     "write 0026H, or a range 0106H-0125H",
 )
 BITS = _form(

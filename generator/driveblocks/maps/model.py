@@ -46,6 +46,8 @@ Reacts = Literal["stop", "quick_stop", "coast_stop", "trips", "runs_on", "other_
 """What a drive does by itself when its line is silent; the stops are those of the commands."""
 Trust = Literal["read", "sister", "transcribed", "in_use"]
 """How far facts of a document can be trusted, the best first."""
+Space = Literal["holding", "input", "coil", "discrete"]
+"""A table of Modbus."""
 Does = Literal[
     "run_forward", "run_reverse", "jog_forward", "jog_reverse", "jog_stop", "stop", "coast_stop", "quick_stop",
     "fault_reset",
@@ -581,7 +583,16 @@ class Register(Worded, Entry):
     unused: bool = fact("the manual says that the address is not used", "true", optional=True, default=False)
     unit: Unit | None = fact("unit of the engineering value", "Hz", optional=True)
     scale: Scale | None = fact("factor of the engineering value", "{factor: 0.1, source: ...}", optional=True)
-    signed: bool = fact("the word is a two's complement number", "true", optional=True, default=False)
+    space: Space | None = fact("overrides the section's `space`", "input", optional=True)
+    words: Literal[2] | None = fact(
+        "2: each value has 32 bits in two registers, and is named by the first; the address is a range",
+        "2",
+        optional=True,
+    )
+    order: Literal["high_first", "low_first"] | None = fact(
+        "of 32 bits, the word that the first register holds; left out, the high one", "low_first", optional=True
+    )
+    signed: bool = fact("the value is a two's complement number", "true", optional=True, default=False)
     range: Range | None = fact("allowed raw values", "{min: -10000, max: 10000}", optional=True)
     values: tuple[Value, ...] = fact(
         "meaning of each value of the word", "[{value: 1, name: ..., zh: ...}]", optional=True, default=()
@@ -612,6 +623,11 @@ class Register(Worded, Entry):
     )
 
     @property
+    def size(self) -> int:
+        """How many registers hold a value."""
+        return self.words or 1
+
+    @property
     def barred(self) -> int:
         """The bits of `never`, as a mask."""
         return reduce(or_, (one.mask for one in self.never), 0)
@@ -635,6 +651,13 @@ class Section(Entry):
     source: English = fact("where it is in the manual", "section (II)")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     access: Access = fact("how its registers may be used: r, w or rw", "r")
+    space: Space | None = fact(
+        "the table of Modbus that its registers are in: `holding` registers (read by 03H), `input` registers (04H), "
+        "`coil`s (read by 01H, written by 05H) or `discrete` inputs (02H); a coil is a register whose value is 0 or 1. "
+        "Elsewhere the table is named before the address, as in `register: coil 0001H`",
+        "coil",
+        optional=True,
+    )
     registers: tuple[Register, ...] = fact(
         "the rows, in the manual's order", "[{address: 0020H, id: U1-01, name: ..., zh: ...}]"
     )

@@ -32,9 +32,16 @@ def block(prefix: str, name: str) -> str:
     return f"{prefix}_{name}"
 
 
-def word_pin(row: Register) -> str:
-    """The input that takes a register's word."""
-    return f"{symbol(row).removesuffix('Word')}Word"
+def word_pin(row: Register, address: int) -> str:
+    """The input that takes a register's word: of a value of 32 bits the high or the low one."""
+    return f"{symbol(row).removesuffix('Word')}{_half(row, address)}Word"
+
+
+def _half(row: Register, address: int) -> str:
+    if row.words is None:
+        return ""
+    second = (address - row.address.first) % row.words == 1
+    return "Low" if second != (row.order == "low_first") else "High"
 
 
 def wrong_symbol(entry: Register | Bit | Value) -> str | None:

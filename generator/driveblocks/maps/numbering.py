@@ -1,4 +1,4 @@
-"""Register numbers as a manual gives them, such as 40102, become the addresses that are sent."""
+"""Register numbers as a manual gives them, such as 40102, become the addresses that are sent, each with its table."""
 
 import re
 from collections.abc import Callable
@@ -10,10 +10,9 @@ from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.shape import EntryOf, ListOf, Shape, keys_of
 
 _NUMBER = re.compile(r"[1-9][0-9]{0,5}|[0-9A-F]{4}H")
+_SPACED = re.compile(r"((?:coil|discrete|input) )?(.*)", re.DOTALL)
 Addressed = Callable[[str, Place], str]
 """Makes an address of a number at a place."""
-_KINDS = ("register", "bit")
-"""What a reference begins with that names a register."""
 
 
 def wired(root: Node | None, report: Report) -> Node | None:
@@ -25,8 +24,10 @@ def wired(root: Node | None, report: Report) -> Node | None:
 
     def address(text: str, at: Place) -> str:
         """An address or a range of them; what is neither stays, for the decoder to refuse."""
-        ends = text.split("-")
-        return "-".join(one(each, at) for each in ends) if all(map(_NUMBER.fullmatch, ends)) else text
+        match = _SPACED.fullmatch(text)
+        space, rest = (match[1] or "", match[2]) if match else ("", text)
+        ends = rest.split("-")
+        return space + "-".join(one(each, at) for each in ends) if all(map(_NUMBER.fullmatch, ends)) else text
 
     def one(text: str, at: Place) -> str:
         number = int(text[:-1], 16) if text.endswith("H") else int(text)
@@ -61,4 +62,35 @@ def _reference(node: Scalar, address: Addressed) -> str:
     """`register 40102` or `bit 40102.3`."""
     kind, _, name = node.text.partition(" ")
     number, dot, bit = name.partition(".")
-    return f"{kind} {address(number, node.at)}{dot}{bit}" if kind in _KINDS else node.text
+    return f"{kind} {address(number, node.at)}{dot}{bit}" if kind in form.TABLES else node.text
+
+
+def spaced(root: Node | None) -> Node | None:
+    """The same map with the table of its section, or its own, before the address of each row."""
+    sections = root.entries["sections"][1] if isinstance(root, Entries) and "sections" in root.entries else None
+    if not isinstance(root, Entries) or not isinstance(sections, Items):
+        return root
+    made = Items(tuple(map(_section, sections.items)), sections.at)
+    return Entries(root.entries | {"sections": (root.entries["sections"][0], made)}, root.at)
+
+
+def _section(section: Node) -> Node:
+    rows = section.entries["registers"][1] if isinstance(section, Entries) and "registers" in section.entries else None
+    if not isinstance(section, Entries) or not isinstance(rows, Items):
+        return section
+    made = Items(tuple(_row(row, _space(section)) for row in rows.items), rows.at)
+    return Entries(section.entries | {"registers": (section.entries["registers"][0], made)}, section.at)
+
+
+def _row(row: Node, space: str) -> Node:
+    said = row.entries["address"][1] if isinstance(row, Entries) and "address" in row.entries else None
+    own = _space(row) or space
+    if not isinstance(row, Entries) or not isinstance(said, Scalar) or own in ("", "holding") or " " in said.text:
+        return row
+    made = said._replace(text=f"{own} {said.text}")
+    return Entries(row.entries | {"address": (row.entries["address"][0], made)}, row.at)
+
+
+def _space(entry: Node) -> str:
+    said = entry.entries["space"][1] if isinstance(entry, Entries) and "space" in entry.entries else None
+    return said.text if isinstance(said, Scalar) else ""

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, space_of
 from driveblocks.maps.model import Drive, Limit
 from driveblocks.modbus.layout import Dialect
 
@@ -55,6 +55,29 @@ def _words(drive: Drive, mode: str) -> Words:
         return Words(0, 0)
     limits = most(drive, mode)
     return Words(limits.read if codes & {3, 4} else 0, limits.write if 16 in codes else 0)
+
+
+def holding(spans: Iterable[Span]) -> tuple[Span, ...]:
+    """Those of some spans that are holding registers: what requests and parameters of a user can name."""
+    return tuple(span for span in spans if space_of(span.first) == "holding")
+
+
+def used(drive: Drive) -> frozenset[int]:
+    """The functions that a drive block may use: those that the map lists, but for what it marks as not sent."""
+    return frozenset(function.code for function in drive.functions if function.sent)
+
+
+def reads_by(drive: Drive, address: int) -> int:
+    """The function that reads a register: 04H a holding register, too, where the drive has no 03H."""
+    return {"coil": 1, "discrete": 2, "input": 4}.get(space_of(address), 3 if 3 in used(drive) else 4)
+
+
+def writes_by(drive: Drive, address: int) -> int:
+    """The function that writes a value: 05H a coil, 10H a pair and what the drive does not let 06H write."""
+    row = drive.register_at(address)
+    if space_of(address) == "coil":
+        return 5
+    return 16 if (row is not None and row.words) or 6 not in used(drive) else 6
 
 
 def most(drive: Drive, mode: str) -> Words:

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.form import Span, address_text, is_bit
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import most, plan
+from driveblocks.maps.pair import whole
+from driveblocks.maps.plan import most, plan, reads_by
 
 MOST_POLLS = 12
 MOST_WORDS = 16
@@ -13,6 +14,9 @@ MOST_WORDS = 16
 
 REQUEST, REPLY, WORD = 8, 5, 2
 """Characters in RTU of a read request, of its reply without words, and of a word (MODBUS Application Protocol, 6.3)."""
+
+NO_WAY = 1_000_000
+"""The cost of what cannot be read so."""
 
 PAUSES = 10
 """What turn-round and silence are worth, in characters: a transaction costs them, a longer one does not cost more."""
@@ -25,12 +29,23 @@ class Poll:
     function: int
     address: int
     words: int
+    """Registers; or coils, which are the bits of one word."""
     fast: bool
     """Whether it is sent every round; the slow ones take turns, one in a round."""
 
+    @property
+    def data(self) -> int:
+        """Data bytes of its reply."""
+        return (self.words + 7) // 8 if is_bit(self.address) else WORD * self.words
+
+    @property
+    def looks(self) -> tuple[int, int]:
+        """By what its reply can be told from others: the function and the length."""
+        return self.function, self.data
+
     def characters(self, *, ascii_mode: bool = False) -> int:
         """Characters on the wire, request and reply together."""
-        rtu = REQUEST + REPLY + WORD * self.words
+        rtu = REQUEST + REPLY + self.data
         # ASCII: two for a byte, ':' CR LF around each frame, and an LRC of one byte where RTU has two
         return 2 * (rtu - 2) + 6 if ascii_mode else rtu
 
@@ -46,9 +61,8 @@ def fast_words(drive: Drive) -> frozenset[int]:
     conditions = [*operation.standstill.all, *(each for status in operation.status for each in status.any)]
     conditions += operation.commanded_by.all if operation.commanded_by else ()
     measured = (each.register for each in operation.measures if each.shows == "output_frequency")
-    return frozenset(
-        [*(each.register for each in conditions), *(state.register for state in operation.states), *measured]
-    )
+    words = [*(each.register for each in conditions), *(state.register for state in operation.states), *measured]
+    return frozenset(each for word in words for each in whole(drive, word))
 
 
 def slow_words(drive: Drive) -> frozenset[int]:
@@ -65,14 +79,15 @@ def slow_words(drive: Drive) -> frozenset[int]:
         words.add(faults.present)
     elif faults.bits is not None:
         words.update(range(faults.bits.first, faults.bits.last + 1))
-    return frozenset(words - fast_words(drive))
+    return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:
     """What gives the reference its meaning: settings that the map asks for, and the drive's own maximum frequency."""
     operation = drive.operation
     own = (operation.own_maximum.register,) if operation.own_maximum else ()
-    return frozenset([*own, *(each.register for each in operation.reference.verify)])
+    words = [*own, *(each.register for each in operation.reference.verify)]
+    return frozenset(each for word in words for each in whole(drive, word))
 
 
 def polls(drive: Drive) -> tuple[Poll, ...]:
@@ -99,11 +114,11 @@ def identity_read(drive: Drive) -> Poll | None:
     return found[0]
 
 
-def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:
+def beyond(drive: Drive, poll: Poll, taken: set[tuple[int, int]]) -> int:
     """A length from the poll's own on that no other read has, over listed registers that may be read; else 0."""
-    allowed, most = plan(drive).readable, most_words(drive)
+    allowed, most = plan(drive).readable, _most(drive, poll.address)
     words = poll.words
-    while words in taken:
+    while replace(poll, words=words).looks in taken:
         last = Span(poll.address, poll.address + words)
         words += 1
         if words > most or not _used(drive, last.last) or not _together(drive, allowed, last):
@@ -113,17 +128,17 @@ def beyond(drive: Drive, poll: Poll, taken: set[int]) -> int:
 
 def other_words(drive: Drive, poll: Poll, reads: tuple[Poll, ...]) -> int:
     """Registers of a poll after a timeout, 0 where there is no other length; its own where another read is as long."""
-    lengths = [each.words for each in reads]
-    return beyond(drive, poll, set(lengths)) or (poll.words if lengths.count(poll.words) > 1 else 0)
+    lengths = [each.looks for each in reads]
+    return beyond(drive, poll, set(lengths)) or (poll.words if lengths.count(poll.looks) > 1 else 0)
 
 
 def _apart(drive: Drive, found: list[Poll]) -> Iterator[Poll]:
     """The reads, each as long as none before it."""
-    taken: set[int] = set()
+    taken: set[tuple[int, int]] = set()
     for poll in found:
-        words = beyond(drive, poll, taken) or poll.words
-        taken.add(words)
-        yield replace(poll, words=words)
+        longer = replace(poll, words=beyond(drive, poll, taken) or poll.words)
+        taken.add(longer.looks)
+        yield longer
 
 
 def most_words(drive: Drive) -> int:
@@ -131,23 +146,33 @@ def most_words(drive: Drive) -> int:
     return min([MOST_WORDS, *(most(drive, mode).read for mode in drive.serial.mode.modes)])
 
 
+def _most(drive: Drive, address: int) -> int:
+    """The same of coils: a word of them."""
+    return MOST_WORDS if is_bit(address) else most_words(drive)
+
+
 def _cheapest(drive: Drive, words: list[int]) -> tuple[Poll, ...]:
-    """The cheapest way to read the words, by address; of ways that cost the same, the one with fewest fast words."""
+    """The cheapest way to read the words, by address; of ways that cost the same, the one with fewest fast words.
+
+    The words of a pair are in one read.
+    """
     allowed = plan(drive)
-    least = most_words(drive)
-    function = 3 if 3 in allowed.functions else 4
     fast = fast_words(drive)
     best: list[tuple[int, int, tuple[Poll, ...]]] = [(0, 0, ())]
     for end, word in enumerate(words, 1):
         if not any(word in span for span in allowed.readable):
             raise ValueError(f"the drive block needs {address_text(word)}, which the map does not let it read")
         ways = []
+        most = _most(drive, word)
         for start, first in enumerate(words[:end]):
-            if word - first < least and _together(drive, allowed.readable, Span(first, word)):
-                poll = Poll(function, first, word - first + 1, not fast.isdisjoint(words[start:end]))
+            halves = first != min(whole(drive, first)) or word != max(whole(drive, word))
+            if not halves and word - first < most and _together(drive, allowed.readable, Span(first, word)):
+                poll = Poll(reads_by(drive, first), first, word - first + 1, not fast.isdisjoint(words[start:end]))
                 cost, hurried, before = best[start]
                 ways.append((cost + poll.cost, hurried + poll.words * poll.fast, (*before, poll)))
-        best.append(min(ways, key=lambda way: way[:2]))
+        best.append(min(ways, key=lambda way: way[:2], default=(NO_WAY, 0, ())))
+    if best[-1][0] >= NO_WAY:
+        raise ValueError("a value of 32 bits takes both its registers in one read, which the map does not allow")
     return best[-1][2]
 
 

@@ -11,8 +11,8 @@ def concerns(ref: str, kind: str, key: int | str) -> bool:
     A reference to a bit is also about its register.
     """
     said, _, name = ref.partition(" ")
-    if kind == "register" and said in ("register", "bit"):
-        return key in form.ADDRESSES.parse(name.partition(".")[0])
+    if kind == "register" and said in form.TABLES:
+        return key in form.ADDRESSES.parse(form.TABLES[said] + name.partition(".")[0])
     if said != kind:
         return False
     return bool(form.NUMBER.parse(name) == key) if isinstance(key, int) else name == key

@@ -5,9 +5,11 @@ Taken from the map itself, not from what the generator made of it.
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
 from driveblocks.maps.names import UNIT_NAMES
-from driveblocks.maps.plan import plan
+from driveblocks.maps.pair import whole
+from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
@@ -29,6 +31,8 @@ SENT = dict(
 )
 """What the control calls a command."""
 ALL = 0xFFFF
+ON = 0xFF00
+"""What sets a coil."""
 NEAR = (
     "AtSpeed = (Running AND Diagnosis.OutputFrequencyValid AND (OutputFrequencyHz >= Speed.AskedHz - REAL#0.5) "
     "AND (OutputFrequencyHz <= Speed.AskedHz + REAL#0.5))"
@@ -44,8 +48,10 @@ def facts(drive: Drive) -> dict[str, str]:
         "P": drive.prefix,
         "lowest": str(drive.serial.unit.min),
         "highest": str(drive.serial.unit.max),
-        "write": "6" if 6 in plan(drive).functions else "16",
+        "write": str(writes_by(drive, stop.register)),
         "reference": word(drive.operation.reference.register),
+        "written": _written(drive),
+        "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
         "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
         **_read(drive),
@@ -54,7 +60,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "holds_ms": _every(_holds_ms(drive)),
         "at_a_write": _every(_writes(commands, "(Control.Sent <> {name}) OR (Control.StepNumber <= {last})")),
         "all_written": _every(_writes(commands, "(Control.Send.Order <> {name}) OR (Control.Send.OrderStep = {last})")),
-        "unwritable": _every(_beside(register) for register in sorted(_command_registers(drive))),
+        "unwritable": _every(_beside(each) for each in sorted(_command_registers(drive)) if not is_bit(each)),
         "keep": "Settings.KeepWord" if any(_kept(drive, one) for one in commands.values()) else word(0),
     }
     shown = {one.shows for one in drive.operation.status}
@@ -93,9 +99,35 @@ def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str
         keep = 0 if write.value is not None else _kept(drive, write)
         before = image.get(write.register, 0) & ~_mask(write.clear)
         image[write.register] = write.value if write.value is not None else before | _mask(write.set)
-        value = word(image[write.register])
+        value = word(ON * image[write.register] if is_bit(write.register) else image[write.register])
         held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
-        yield f"({ask}.Address = {word(write.register)}) AND ({held})"
+        by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
+        yield f"({ask}.Address = {word(write.register)}) AND ({held}){by}"
+
+
+def _by(drive: Drive, register: int) -> str:
+    """The function that writes a register, where they are not all written by one: two tables have the same addresses."""
+    return f" AND (Slot.Ask[1].FunctionCode = {writes_by(drive, register)})" if len(_functions(drive)) > 1 else ""
+
+
+def _functions(drive: Drive) -> set[int]:
+    return {writes_by(drive, register) for register in _command_registers(drive)}
+
+
+def _is_reference(drive: Drive) -> str:
+    reference = drive.operation.reference.register
+    return f"(Slot.Ask[1].Address = {word(reference)}){_by(drive, reference)}"
+
+
+def _written(drive: Drive) -> str:
+    """The function and the quantity of a write: one word, or two of a reference of 32 bits."""
+    codes = _any(f"Slot.Ask[1].FunctionCode = {code}" for code in sorted(_functions(drive)))
+    if len(whole(drive, drive.operation.reference.register)) == 1:
+        return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
+    row = drive.register_at(drive.operation.reference.register)
+    high = 1 if row is not None and row.order == "low_first" else 0
+    pair = f"(Slot.Ask[1].Quantity = 2) AND (Slot.Ask[1].Words[{high}] = {word(0)})"
+    return f"({codes}) AND (({_is_reference(drive)}) AND {pair} OR NOT ({_is_reference(drive)}) AND (Slot.Ask[1].Quantity = 1))"
 
 
 def _kept(drive: Drive, write: Command | Step) -> int:
@@ -131,13 +163,13 @@ def _read(drive: Drive) -> dict[str, str]:
         come = f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
         words = range(poll.address, poll.address + poll.words)
         for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
-            name = word_input(drive, address).name
-            taken.append(
-                f"({come}) AND ({name} = Words[{address - poll.address}]) OR NOT ({come}) AND ({name} = Was.{name})"
-            )
+            name, at = word_input(drive, address).name, address - poll.address
+            said = f"(SHR(Words[0], {at}) AND {word(1)})" if is_bit(address) else f"Words[{at}]"
+            taken.append(f"({come}) AND ({name} = {said}) OR NOT ({come}) AND ({name} = Was.{name})")
     turns = [
         f"(Turn <> {turn}) OR (NextEntry = {index + 1}) AND (Register = {word(reads[index].address)}) "
         f"AND (Quantity = {reads[index].words})"
+        + (f" AND (FunctionCode = {reads[index].function})" if len({each.function for each in reads}) > 1 else "")
         for turn, index in enumerate(schedule(reads))
     ]
     fast = [number for number, poll in enumerate(reads, 1) if poll.fast]
@@ -271,7 +303,7 @@ def _proof_reads(drive: Drive) -> list[int]:
 
 def _command_registers(drive: Drive) -> set[int]:
     written = {write.register for one in drive.operation.commands for write in one.writes}
-    return written | {drive.operation.reference.register}
+    return written | {*whole(drive, drive.operation.reference.register)}
 
 
 def _beside(register: int) -> str:

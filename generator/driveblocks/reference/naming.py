@@ -10,9 +10,14 @@ def name_of(entry: Register | Bit | Value) -> str:
     return entry.symbol or re.sub(r"[^A-Za-z0-9]*([A-Za-z0-9])([A-Za-z0-9]*)[^A-Za-z0-9]*", _capital, entry.name or "")
 
 
-def word_pin(row: Register) -> str:
-    """The pin that takes a register's word: `Status word` -> `StatusWord`, `Status` -> `StatusWord`."""
-    return f"{name_of(row).removesuffix('Word')}Word"
+def word_pin(row: Register, address: int) -> str:
+    """The pin that takes a register's word: `Status word` -> `StatusWord`, `Status` -> `StatusWord`.
+
+    Of a value of 32 bits: `Output frequency` -> `OutputFrequencyHighWord`, `OutputFrequencyLowWord`.
+    """
+    halves = ("High", "Low") if row.order != "low_first" else ("Low", "High")
+    half = halves[(address - row.address.first) % 2] if row.words == 2 else ""
+    return f"{name_of(row).removesuffix('Word')}{half}Word"
 
 
 def _capital(match: re.Match[str]) -> str:

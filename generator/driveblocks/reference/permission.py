@@ -4,18 +4,21 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Drive, Register, Section
 
 MOST_READ, MOST_WRITTEN = 125, 123
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12."""
+
+LAST = 0xFFFF
+"""The last holding register; addresses of other tables lie beyond."""
 
 READ_HEAD, WRITE_HEAD = 1, 5
 """Data bytes that are no words: the byte count of a read reply; address, quantity and byte count of a 10H request."""
 
 
 def readable(drive: Drive) -> frozenset[int]:
-    """Every address that may be read: readable rows, those not in use included, and readable areas."""
-    rows = [row.address for section, row in drive.registers() if "r" in (row.access or section.access)]
+    """Every holding register that may be read: readable rows, those not in use included, and readable areas."""
+    rows = [row.address for section, row in _rows(drive) if "r" in (row.access or section.access)]
     areas = [area.addresses for area in drive.areas if "r" in area.access]
     return frozenset(address for span in (*rows, *areas) for address in span)
 
@@ -25,8 +28,13 @@ def writable(drive: Drive) -> frozenset[int]:
     return frozenset((*_written_rows(drive), *_written_areas(drive), *ram_only(drive)))
 
 
+def _rows(drive: Drive) -> Iterator[tuple[Section, Register]]:
+    """The rows of holding registers; a user names no others."""
+    return ((section, row) for section, row in drive.registers() if row.address.first <= LAST)
+
+
 def _written_rows(drive: Drive) -> Iterator[int]:
-    for section, row in drive.registers():
+    for section, row in _rows(drive):
         if "w" in (row.access or section.access) and not row.unused:
             yield from row.address
 
@@ -55,6 +63,13 @@ class Write:
     stopped: bool = True
 
 
+def _of_reference(drive: Drive) -> Iterator[int]:
+    """The reference register, or both of a pair."""
+    first = drive.operation.reference.register
+    row = drive.register_at(first)
+    yield from range(first, first + (row.words or 1 if row else 1))
+
+
 class Judge:
     """Says of every request to write a register of a drive which result it has."""
 
@@ -65,11 +80,11 @@ class Judge:
         commands = (command.register for command in operation.commands)
         self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
-            "OWNED": {operation.reference.register, *commands, *steps},
+            "OWNED": {*_of_reference(drive), *commands, *steps},
             "LINE_SETTING": {setting.register for setting in drive.settings},
         }
         self._writable = writable(drive)
-        self._rows = {address: row for _, row in drive.registers() for address in row.address}
+        self._rows = {address: row for _, row in _rows(drive) for address in row.address}
         self._areas = frozenset(address for area in drive.areas for address in area.addresses)
         self._bit = drive.storage.add or 0
         self._twins: dict[int, int] = {}
@@ -94,7 +109,7 @@ class Judge:
 
     def _beyond(self, wish: Write) -> bool:
         row = self._rows.get(wish.address)
-        if row is None or row.range is None:
+        if row is None or row.range is None or row.words == 2:
             return False
         number = wish.value - 0x10000 if row.signed and wish.value > 0x7FFF else wish.value
         return not row.range.min <= number <= row.range.max
@@ -119,7 +134,7 @@ def parameters(drive: Drive) -> dict[Numbered, int]:
 
 
 def _identified(drive: Drive) -> Iterator[tuple[str, int]]:
-    for _, row in drive.registers():
+    for _, row in _rows(drive):
         first = (row.id or "").partition("..")[0]
         for index, address in enumerate(row.address):
             if not row.unused:

@@ -50,8 +50,9 @@ def is_unknown(row: Register, word: int) -> bool:
 
 
 def count(row: Register, word: int) -> int:
-    """The number that a word means: two's complement where the map says so."""
-    return word - 0x10000 if row.signed and word > 0x7FFF else word
+    """The number that a word, or two, means: two's complement where the map says so."""
+    bits = 32 if row.words == 2 else 16
+    return word - (1 << bits) if row.signed and word >= 1 << bits - 1 else word
 
 
 def exact(row: Register, word: int) -> Fraction:

@@ -12,6 +12,8 @@ from driveblocks.reference.permission import most, readable, writable
 READS = frozenset({3, 4})
 COUNTED = frozenset({3, 4, 16})
 BUILDABLE = frozenset({3, 4, 6, 8, 16})
+READ_INPUTS, INPUTS = 4, 0x60000
+"""The function of input registers, and where a map has these: a request names holding registers alone."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ class Requests:
     def __init__(self, drive: Drive) -> None:
         """Take from the map what it allows."""
         self.drive = drive
-        self.functions = {function.code: function for function in drive.functions}
+        inputs = any(row.address.first >= INPUTS for _, row in drive.registers())
+        self.functions = {one.code: one for one in drive.functions if not (inputs and one.code == READ_INPUTS)}
         self.readable, self.writable = readable(drive), writable(drive)
         self.rtu, self.ascii = most(drive, ascii_mode=False), most(drive, ascii_mode=True)
 

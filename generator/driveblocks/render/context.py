@@ -8,7 +8,7 @@ from typing import Literal
 
 from driveblocks import __version__
 from driveblocks.maps import names
-from driveblocks.maps.form import Span, address_text, bits_text
+from driveblocks.maps.form import Span, address_text, bits_text, is_bit, space_of
 from driveblocks.maps.model import (
     Broadcast,
     Command,
@@ -22,7 +22,7 @@ from driveblocks.maps.model import (
     Value,
 )
 from driveblocks.maps.names import UNIT_NAMES, symbol
-from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words
+from driveblocks.maps.plan import READ_WORDS, WRITE_WORDS, Plan, Words, holding
 from driveblocks.maps.revision import revision
 from driveblocks.render.expression import Test, is_real
 
@@ -55,6 +55,8 @@ class Word:
     """The bits that mean faults, where there are such."""
     base: int = 0
     """The number of the fault before that of its bit 0."""
+    bit: bool = False
+    """It is a bit, that of its place in the one word of its read."""
 
 
 ANY = Test("Value", 0, 0)
@@ -160,8 +162,9 @@ class Request:
 
 
 def request(drive: Drive, allowed: Plan) -> Request:
-    """What a drive can be asked."""
-    functions = {code: folder for code, folder in FUNCTIONS.items() if code in allowed.functions}
+    """What a drive can be asked: of holding registers, since each of its functions is of one table."""
+    elsewhere = any(space_of(span.first) == "input" for span in allowed.readable)
+    functions = {code: folder for code, folder in FUNCTIONS.items() if code in allowed.functions and not (code == 4 and elsewhere)}
     modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)
@@ -179,7 +182,7 @@ def request(drive: Drive, allowed: Plan) -> Request:
         unit_pin="Standard" if unit.max > 247 else "UnitAddress",
         broadcast=broadcast,
         start_addresses=broadcast.start_addresses if broadcast else (),
-        example_read=allowed.readable[0].first if allowed.readable else 0,
+        example_read=next((span.first for span in holding(allowed.readable)), 0),
     )
 
 
@@ -246,6 +249,8 @@ class Row:
     unit: str | None = None
     scale: Scale | None = None
     signed: bool = False
+    pair: bool = False
+    """Its value has 32 bits."""
 
 
 def decoders(drive: Drive) -> Iterator[Row]:
@@ -261,7 +266,7 @@ def scales(drive: Drive) -> Iterator[Row]:
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed)
+            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed, pair=row.words is not None)
 
 
 def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row:
@@ -449,6 +454,8 @@ class Referred:
     verify: tuple[Condition, ...]
     highest: int
     highest_why: str
+    pair: str | None
+    """Of a reference of 32 bits, the word that comes first; its high word is 0."""
 
 
 def reference(drive: Drive) -> Referred:
@@ -472,6 +479,7 @@ def reference(drive: Drive) -> Referred:
         verify=spec.verify,
         highest=highest,
         highest_why=f"{why} ends here",
+        pair=(row.order or "high_first") if row.words else None,
     )
 
 
@@ -504,7 +512,7 @@ def word_input(drive: Drive, address: int) -> Word:
     """The word of a register."""
     row = drive.register_at(address)
     assert row is not None  # noqa: S101  (a checked map lists the registers of its conditions)
-    return Word(names.word_pin(row), address, address_text(address), row.name or "")
+    return Word(names.word_pin(row, address), address, address_text(address), row.name or "", bit=is_bit(address))
 
 
 def tested(pin: str, condition: Condition | State) -> Test:

@@ -5,8 +5,10 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from driveblocks.maps import model, names
+from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Condition, Drive, Scale, State, UnitAddress
-from driveblocks.maps.plan import plan
+from driveblocks.maps.pair import places
+from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
     Poll,
     fast_words,
@@ -26,6 +28,8 @@ from driveblocks.render.context import Word, word_input
 from driveblocks.render.decoded import Call, Decoded
 from driveblocks.render.expression import Test
 
+ON = 0xFF00
+"""What sets a coil; 0 clears it (MODBUS Application Protocol V1.1b3, 6.5)."""
 CONSTANTS = {
     "stop": "RAMP_STOP", "quick_stop": "QUICK_STOP", "coast_stop": "COAST_STOP", "jog_stop": "JOG_STOP",
     "run_forward": "GO_FORWARD", "run_reverse": "GO_REVERSE", "jog_forward": "JOG_AHEAD", "jog_reverse": "JOG_BACK",
@@ -60,6 +64,8 @@ class Write:
     """How long the next write waits, ms."""
     moves: bool
     """With it the motor may begin to turn."""
+    function: int
+    """By what it is written."""
 
 
 @dataclass(frozen=True)
@@ -152,6 +158,8 @@ class Measured:
     unit: str
     setting: str
     word: Word
+    low: Word | None
+    """The low word of a value of 32 bits, whose high one is the word."""
     scale: Scale | None
     function: str
     when: str | None
@@ -178,6 +186,8 @@ class Reading:
     state_reads: list[int]
     verify_reads: list[int]
     measure_reads: list[int]
+    several: bool
+    """Not all are read by one function."""
     identity: Identified | None
 
 
@@ -213,7 +223,13 @@ class Ordering:
     can: dict[str, Command]
     keeps: dict[int, int]
     write: int
-    """The function code of writes."""
+    """The function code of stops."""
+    by: int
+    """That of the reference."""
+    mixed: bool
+    """Not all are written by one function."""
+    pair: str | None
+    """The word that comes first in a reference of 32 bits."""
     reference: int
     scaled: bool
     percent: bool
@@ -278,6 +294,7 @@ def _reading(drive: Drive) -> Reading:
         state_reads=sorted({number[each.register] for each in operation.states}),
         verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
+        several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
 
@@ -302,7 +319,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
     commands = {one.does: one for one in drive.operation.commands}
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
-    reference = context.reference(drive)
+    reference, by = context.reference(drive), writes_by(drive, commands["stop"].register)
     return Ordering(
         stops={STOPS[one.does]: writes[0] for one, writes in written if one.does in STOPS},
         orders=orders,
@@ -314,7 +331,10 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         waits=waits,
         can={str(does): one for does, one in commands.items()},
         keeps=context.kept(drive),
-        write=6 if 6 in plan(drive).functions else 16,
+        write=by,
+        by=writes_by(drive, reference.register),
+        mixed={each.function for writes in orders.values() for each in writes} | {writes_by(drive, reference.register)} != {by},
+        pair=reference.pair,
         reference=reference.register,
         scaled=reference.scale is not None,
         percent=reference.percent,
@@ -355,7 +375,8 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
             before = image.get(write.register, 0) & ~context.bits_of(write.clear)
             image[write.register] = before | context.bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
-        yield Write(write.register, image[write.register], keep, hold, moves and write is one)
+        bits = image[write.register] and ON if is_bit(write.register) else image[write.register]
+        yield Write(write.register, bits, keep, hold, moves and write is one, writes_by(drive, write.register))
 
 
 def _waits(drive: Drive, told: Decoded) -> Iterator[Wait]:
@@ -448,12 +469,14 @@ def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
     shown = pin_of(one.shows)
+    high, low = places(row, one.register) if row.words else (one.register, one.register)
     return Measured(
         pin=shown.pin,
         valid=shown.valid,
         unit=shown.unit,
         setting=shown.setting,
-        word=word_input(drive, one.register),
+        word=word_input(drive, high),
+        low=word_input(drive, low) if row.words else None,
         scale=scale,
         function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
         when=told.holds(scale.when) if scale and scale.when else None,

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import plan
+from driveblocks.maps.plan import holding, plan
 from driveblocks.render import context, parameter, text
 from driveblocks.render.channels import channels
 from driveblocks.render.drive import drive_block
@@ -160,8 +160,8 @@ def drive(stem: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
 def _blocks(drive: Drive) -> Iterator[tuple[str, Mapping[str, object]]]:
     """The template of each block, and what it is to print."""
     allowed = plan(drive)
-    yield "CanAccess", vars(context.access(drive, "r", allowed.readable))
-    yield "CanAccess", vars(context.access(drive, "w", allowed.writable))
+    yield "CanAccess", vars(context.access(drive, "r", holding(allowed.readable)))
+    yield "CanAccess", vars(context.access(drive, "w", holding(allowed.writable)))
     yield "MayWrite", vars(parameter.may_write(drive, allowed))
     numbers = parameter.addresses(drive)
     if numbers is not None:

@@ -4,9 +4,10 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import Span, is_bit, space_of
 from driveblocks.maps.model import Drive, Storage
-from driveblocks.maps.plan import Plan
+from driveblocks.maps.pair import whole
+from driveblocks.maps.plan import Plan, holding
 from driveblocks.render.context import source_of
 
 MOST = 4
@@ -56,7 +57,7 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
         ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
     ]
     taken = {one for _, _, some in kept for one in some}
-    writable = {address for span in allowed.writable for address in span}
+    writable = {address for span in holding(allowed.writable) for address in span}
     fixed = _spans(_with_aliases(drive, _listed(drive)) - writable - taken)
     return MayWrite(
         name=f"{drive.prefix}_MayWrite",
@@ -69,16 +70,16 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
 
 def _commanded(drive: Drive) -> Iterator[int]:
     """The registers by which the drive block moves the motor."""
-    yield drive.operation.reference.register
+    yield from whole(drive, drive.operation.reference.register)
     for command in drive.operation.commands:
-        yield command.register
-        for step in command.first:
-            yield step.register
+        for write in command.writes:
+            if not is_bit(write.register):
+                yield write.register
 
 
 def _listed(drive: Drive) -> Iterator[int]:
     for _, row in drive.registers():
-        yield from row.address
+        yield from row.address if space_of(row.address.first) == "holding" else ()
     for area in drive.areas:
         yield from area.addresses
 
@@ -103,7 +104,7 @@ def _spans(addresses: Iterable[int]) -> list[Span]:
 
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
     for _, row in drive.registers():
-        if row.range is not None and writable.issuperset(row.address):
+        if row.range is not None and not row.words and writable.issuperset(row.address):
             yield Ranged(row.address, row.signed, row.range.min, row.range.max)
 
 
@@ -211,7 +212,7 @@ def _group(letter: int, group: int) -> str:
 def _ids(drive: Drive) -> Iterator[tuple[str, int, int]]:
     """Each id with its first address and the number of registers."""
     for _, row in drive.registers():
-        if row.id is not None and not row.unused:
+        if row.id is not None and not row.unused and space_of(row.address.first) == "holding":
             yield row.id, row.address.first, len(row.address)
     for setting in drive.settings:
         if setting.register is not None:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypedDict
 
-from driveblocks.maps.form import address_text
+from driveblocks.maps.form import address_text, space_of
 from driveblocks.maps.model import Bit, Drive, Fault, Returned, Worded
 from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
@@ -225,7 +225,7 @@ def place_texts(drive: Drive, language: Language) -> Iterator[PlaceText]:
 
 
 def _addresses(drive: Drive) -> list[int]:
-    return [row.address.first for _, row in drive.registers()]
+    return [row.address.first for _, row in drive.registers() if space_of(row.address.first) == "holding"]
 
 
 def _group(drive: Drive, address: int, kind: str, language: Language) -> Group:

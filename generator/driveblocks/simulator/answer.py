@@ -1,13 +1,18 @@
 """What a simulated drive replies, by MODBUS Application Protocol V1.1b3 and its map's limits and refusals."""
 
+from driveblocks.maps.form import SPACES, is_bit, space_of
 from driveblocks.modbus import layout
-from driveblocks.modbus.request import READS
 from driveblocks.simulator.machine import Machine
 from driveblocks.simulator.memory import inside
 from driveblocks.simulator.table import Limit, Table
 
 SHORT = 6
 """Bytes of every request but 10H: unit, function and two words."""
+TABLES = {1: "coil", 2: "discrete", 4: "input", 5: "coil"}
+"""The tables of functions that are not of holding registers."""
+READS = (1, 2, 3, 4)
+ON = 0xFF00
+"""What sets a coil (MODBUS Application Protocol V1.1b3, 6.5)."""
 
 
 class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of the program)
@@ -45,19 +50,26 @@ def _whole(machine: Machine, request: bytes) -> bool:
 def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:
     """The data of the reply. Raises Refused."""
     table, function = machine.table, request[1]
-    if function not in table.functions or function not in (*READS, 6, 8, 16):
+    if function not in table.functions or function not in (*READS, 5, 6, 8, 16):
         raise Refused("function")
     first, number = int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
     if function == 8:
         if first not in table.sub_functions:
             raise Refused("function")
         return request[2:]
+    at = first + SPACES[_table(machine, function)]
     if function in READS:
-        words = _read(machine, first, number)
+        words = _read(machine, at, number)
+        if function <= 2:
+            return bytes([(number + 7) // 8]) + _packed(words)
         return bytes([2 * number]) + b"".join(word.to_bytes(2, "big") for word in words)
     if everyone and table.broadcasts and first not in table.broadcasts:
         raise Refused("address")
-    if function == 6:
+    if function == 5:
+        if number not in (0, ON):
+            raise Refused("value")
+        _write(machine, at, [number // ON])
+    elif function == 6:
         _write(machine, first, [number])
     else:
         if not 1 <= number <= table.most.write or request[6] != 2 * number:
@@ -66,9 +78,22 @@ def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:
     return request[2:SHORT]
 
 
+def _table(machine: Machine, function: int) -> str:
+    """The table that a function is of; 04H reads holding registers where the map has no others."""
+    table = TABLES.get(function, "holding")
+    known = any(space_of(span.first) == table for span in machine.table.readable)
+    return table if known or function != 4 else "holding"
+
+
+def _packed(bits: list[int]) -> bytes:
+    """Coils as bytes, the first as the lowest bit of the first one (6.1)."""
+    number = sum(bit << place for place, bit in enumerate(bits))
+    return number.to_bytes((len(bits) + 7) // 8, "little")
+
+
 def _read(machine: Machine, first: int, number: int) -> list[int]:
     table = machine.table
-    if not 1 <= number <= table.most.read:
+    if not 1 <= number <= (16 * table.most.read if is_bit(first) else table.most.read):
         raise Refused("quantity")
     addresses = range(first, first + number)
     if not all(inside(table.readable, address) for address in addresses) or _crosses(table, addresses):
@@ -90,7 +115,7 @@ def _write(machine: Machine, first: int, words: list[int]) -> None:
         if not inside(table.writable, address):
             raise Refused("read_only" if inside(table.readable, address) else "address")
     for limit in table.limits:
-        if limit.register in addresses and not _fits(words[limit.register - first], limit):
+        if limit.register in addresses and not _fits(_number(machine, addresses, words, limit), limit):
             raise Refused("value")
     parameters = any(memory.parameter(address) for address in addresses)
     if (parameters or machine.habits.busy_refuses_all) and machine.now < machine.busy_until:
@@ -104,8 +129,17 @@ def _write(machine: Machine, first: int, words: list[int]) -> None:
     machine.written(before)
 
 
-def _fits(word: int, limit: Limit) -> bool:
-    return limit.low <= (word - 0x10000 if limit.signed and word & 0x8000 else word) <= limit.high
+def _number(machine: Machine, addresses: range, words: list[int], limit: Limit) -> int:
+    """What a limited register would hold after a write."""
+    word, bits = words[limit.register - addresses[0]], 16
+    if limit.above is not None:
+        high = words[limit.above - addresses[0]] if limit.above in addresses else machine.memory[limit.above]
+        word, bits = word | high << 16, 32
+    return word - (1 << bits) if limit.signed and word >> bits - 1 else word
+
+
+def _fits(number: int, limit: Limit) -> bool:
+    return limit.low <= number <= limit.high
 
 
 def _refuse(machine: Machine, reason: str) -> None:

@@ -154,7 +154,7 @@ class Machine:
             "dc_bus_voltage": 1000 * habits.bus_volts,
             "output_power": habits.kilowatts * self.load * share * driven // 10,
         }[gauge.shows]
-        return _counts(milli, gauge.milli)
+        return _counts(milli, gauge.milli, gauge.shift or 0)
 
     # ------------------------------------------------------------ time
 
@@ -188,8 +188,10 @@ class Machine:
 
     def _referred(self) -> int:
         given = self.table.reference
-        word = self.memory[given.register]
-        number = word - 0x10000 if given.signed and word & 0x8000 else word
+        word, bits = self.memory[given.register], 16
+        if given.above is not None:
+            word, bits = word | self.memory[given.above] << 16, 32
+        number = word - (1 << bits) if given.signed and word >> bits - 1 else word
         milli = abs(number) * given.times // given.per
         if not all(each.holds(self.memory[each.register]) for each in given.verify):
             milli *= self.habits.misread
@@ -357,6 +359,6 @@ class Machine:
             self.state, self._next = self._next[0], None
 
 
-def _counts(milli: int, per: int) -> int:
-    """A word, rounded towards 0, as C divides."""
-    return (milli // per if milli >= 0 else -(-milli // per)) & WORD
+def _counts(milli: int, per: int, shift: int = 0) -> int:
+    """A word, rounded towards 0, as C divides; of 32 bits the high one with a shift of 16."""
+    return (milli // per if milli >= 0 else -(-milli // per)) >> shift & WORD

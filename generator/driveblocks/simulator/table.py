@@ -8,6 +8,7 @@ from functools import lru_cache
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Reference
+from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.modbus.layout import Dialect
 from driveblocks.simulator.copies import Copy, copies, zeros
@@ -33,6 +34,8 @@ class Gauge:
     milli: int
     """Thousandths of its unit in a count."""
     signed: bool
+    shift: int | None = None
+    """Of a value of 32 bits, 16 where the register holds its high word, 0 where its low one; None: of 16 bits."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,8 @@ class Limit:
     low: int
     high: int
     signed: bool
+    above: int | None = None
+    """Of a value of 32 bits, the register of its high word; the other is that of its low one."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,8 @@ class Set:
     signed: bool
     reverses: bool
     verify: tuple[Pattern, ...]
+    above: int | None = None
+    """Of a value of 32 bits, the register of its high word; the other is that of its low one."""
 
 
 @dataclass(frozen=True)
@@ -154,19 +161,24 @@ def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str 
 
 
 def _gauges(drive: Drive, habits: Habits) -> tuple[Gauge, ...]:
-    shows = {each.register: each.shows for each in drive.operation.measures}
+    shows = {at: each.shows for each in drive.operation.measures for at in whole(drive, each.register)}
     status = {each.register for one in drive.operation.status for each in one.any}
     status |= {state.register for state in drive.operation.states}
     for each in drive.operation.standstill.all:
         # no status, and 0 at standstill: a frequency, or nothing that a motor could show
         if each.register not in status and each.bit is None and each.mask is None and each.equals == 0:
-            shows.setdefault(each.register, "output_frequency")
+            for register in whole(drive, each.register):
+                shows.setdefault(register, "output_frequency")
     return tuple(_gauge(drive, habits, register, what) for register, what in sorted(shows.items()))
 
 
 def _gauge(drive: Drive, habits: Habits, register: int, shows: str) -> Gauge:
     row = drive.register_at(register)
-    return Gauge(register, shows, _milli(_factor(drive, habits, register)), bool(row and row.signed))
+    milli, signed = _milli(_factor(drive, habits, register)), bool(row and row.signed)
+    if row is None or row.words is None:
+        return Gauge(register, shows, milli, signed)
+    high = register == places(row, whole(drive, register)[0])[0]
+    return Gauge(register, shows, milli, signed, 16 if high else 0)
 
 
 def _factor(drive: Drive, habits: Habits, register: int) -> Decimal:
@@ -181,10 +193,11 @@ def _milli(factor: Decimal) -> int:
 
 def _limits(drive: Drive) -> tuple[Limit, ...]:
     return tuple(
-        Limit(address, row.range.min, row.range.max, row.signed or row.range.min < 0)
+        Limit(low, row.range.min, row.range.max, row.signed or row.range.min < 0, high if row.words else None)
         for _, row in drive.registers()
         if row.range
-        for address in row.address
+        for address in list(row.address)[:: row.size]
+        for high, low in [places(row, address) if row.words else (address, address)]
     )
 
 
@@ -213,6 +226,9 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     if reference.means == "percent_of_maximum":
         times, per = 1000 * habits.maximum_hz, int(100 / factor)
     verify = tuple(of_condition(each) for each in reference.verify)
+    if row is not None and row.words:
+        high, low = places(row, reference.register)
+        return Set(low, times, per, signed, reference.negative_reverses, verify, high)
     return Set(reference.register, times, per, signed, reference.negative_reverses, verify)
 
 
@@ -229,7 +245,7 @@ def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     """Parameters are the areas, and writable rows of sections without a command; the rest is never stored."""
     storage = drive.storage
     told = {*(step.register for command in drive.operation.commands for step in command.first)}
-    told |= {each.register for each in drive.operation.commands} | {drive.operation.reference.register}
+    told |= {each.register for each in drive.operation.commands} | {*whole(drive, drive.operation.reference.register)}
     sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
     rows = [row.address for section in sections for row in section.registers]
     areas = [area.addresses for area in drive.areas if storage.area in (None, area.id)]

@@ -3,7 +3,7 @@
 import random
 from collections.abc import Iterator
 
-from driveblocks.maps.form import address_text
+from driveblocks.maps.form import address_name, address_text
 from driveblocks.maps.model import Drive, Register, Section
 from driveblocks.reference.register import decode, engineering
 from driveblocks.testing import bench
@@ -18,6 +18,8 @@ PER_WORD = 32
 RANDOM = 6
 """Random words per register, the same in every run."""
 
+LONG = (65536, 65537, 100000, 0x12345678, 0xFFFF, 16777215, 16777216, 16777217, 0x7FFFFFFF, 0x80000000, 0xFFFFFF00, -1)
+"""Of 32 bits, those beyond the 24 of a REAL, too."""
 RAW = (0, 1, 2, 3, 10, 99, 100, 500, 1000, 4095, 5000, 9999, 10000, 12345, 32767, 32768, 32769, 55536, 65534, 65535)
 
 
@@ -39,7 +41,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 def _decoder(drive: Drive, stem: str, section: Section, row: Register) -> Script:
     address, source = address_text(row.address.first), row.source or section.source
     title = f"register {address}, {row.name}, taken apart"
-    program = bench.script(drive, stem, address, title, source)
+    program = bench.script(drive, stem, address_name(row.address.first), title, source)
     bench.declare(program, Decode=register_block(drive, row))
     outputs = decode(row, 0)
     flags = [name for name, value in outputs.items() if isinstance(value, bool)]
@@ -103,8 +105,10 @@ def _scale(program: Script, drive: Drive, section: Section, row: Register) -> No
     assert row.scale is not None  # noqa: S101  (asked before)
     extra = (row.range.min, row.range.max) if row.range else ()
     probes = []
-    for raw in dict.fromkeys(raw & 0xFFFF for raw in (*RAW, *extra)):
-        call = f"{scale_block(drive, row)}(Raw := {word(raw)})"
+    mask = 0xFFFF if row.words is None else 0xFFFFFFFF
+    for raw in dict.fromkeys(raw & mask for raw in (*RAW, *(LONG if row.words else ()), *extra)):
+        pins = f"High := {word(raw >> 16)}, Low := {word(raw & 0xFFFF)}" if row.words else f"Raw := {word(raw)}"
+        call = f"{scale_block(drive, row)}({pins})"
         value = engineering(row, raw)
         probes.append(bench.is_real(call, value, f"{raw:04X}H is {value:.9g} {row.unit}"))
     words = f"{address_text(row.address.first)}, {row.name}, {row.scale.factor} {row.unit} per count"

@@ -29,7 +29,7 @@ def _pins(drive: Drive, table: Table, addresses: list[int]) -> dict[int, str]:
     for address in addresses:
         row = drive.register_at(address)
         assert row is not None  # noqa: S101  (a checked map lists them)
-        pins[address] = word_pin(row)
+        pins[address] = word_pin(row, address)
         table.column(pins[address], "WORD", 0, f"register {address_text(address)}")
     return pins
 

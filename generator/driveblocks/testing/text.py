@@ -24,12 +24,17 @@ class Language(Protocol):
         """A codec of Python."""
 
 
+LAST = 0xFFFF
+"""The last holding register; those of other tables have no texts by address."""
+
+
 def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[Script]:
     """Programs per kind of text and language that the map has."""
     faults = sorted({fault.code for fault in drive.faults.codes})
     numbers = {reference.error_number(error) for error in drive.errors.codes}
-    bits = [bit for _, row in drive.registers() for bit in row.bits if bit.name]
-    values = [value for _, row in drive.registers() for value in row.values]
+    rows = [row for _, row in drive.registers() if row.address.first <= LAST]
+    bits = [bit for row in rows for bit in row.bits if bit.name]
+    values = [value for row in rows for value in row.values]
     for language in languages:
         if reference.has(drive, language.suffix, drive.faults.codes):
             yield _codes(drive, stem, language, "Fault", faults)
@@ -110,6 +115,8 @@ def _bits(drive: Drive, stem: str, language: Language) -> Script:
     program = bench.script(drive, stem, f"BitText{language.suffix}", "texts of bits")
     for section, row in drive.registers():
         address = row.address.first
+        if address > LAST:
+            continue
         lowest = {bit.bit.first: bits_text(bit.bit) for bit in row.bits}
         other = next((number for number in range(17) if number not in lowest), 16)
         unnamed = {other: f"{other}, which has no name"} if lowest else {}
@@ -124,6 +131,8 @@ def _values(drive: Drive, stem: str, language: Language) -> Script:
     program = bench.script(drive, stem, f"ValueText{language.suffix}", "texts of values")
     for section, row in drive.registers():
         address = row.address.first
+        if address > LAST:
+            continue
         listed = {value.value for value in row.values}
         for number in sorted({*listed, *({min(max(listed) + 1, 65535)} if listed else ())}):
             probe = _place(drive, language, "Value", address, number)

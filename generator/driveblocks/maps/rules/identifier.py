@@ -110,9 +110,10 @@ def _words(drive: Drive, report: Report) -> None:
     before: Register | None = None
     for address in sorted(fast_words(drive) | slow_words(drive)):
         row = drive.register_at(address)
-        if row is not None and row is before:
+        if row is not None and row is before and not row.words:
             wrong = f"pins show two registers of the row {span_text(row.address)}, which has one name for both"
             report.add(row.place("address"), wrong, "write one row per register")
         elif row is not None:
-            pins.add(row, names.word_pin(row), names.wrong_pin(names.word_pin(row)))
+            pin = names.word_pin(row, address)
+            pins.add(row, pin, names.wrong_pin(pin))
         before = row

@@ -15,7 +15,10 @@ MOST_GROUP = 0x8000
 """Half of all addresses: a larger group holds them all, or all but a few."""
 
 SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
-"""Functions that the blocks know: what a manual lists beside them is a fact that nobody can use."""
+OF_BITS = frozenset({0x01, 0x02, 0x05})
+"""Functions that the blocks know: what a manual lists beside them is a fact that nobody can use. Those of coils are sent
+by a drive block alone, where a map has coils.
+"""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -140,8 +143,8 @@ def _function(function: Function, report: Report) -> None:
 def _sent(function: Function, report: Report) -> None:
     """Note a function that no block sends and that the map does not mark so, and the mark on one that they send."""
     what = f"function {function.code:02X}H"
-    if function.sent and function.code not in SENT:
-        wrong = f"no block sends {what}, only " + ", ".join(f"{code:02X}H" for code in sorted(SENT))
+    if function.sent and function.code not in SENT | OF_BITS:
+        wrong = f"no block sends {what}, only " + ", ".join(f"{code:02X}H" for code in sorted(SENT | OF_BITS))
         report.add(function.place("code"), wrong, "add `sent: false`, so that nobody counts on it")
     elif not function.sent and function.code in SENT:
         report.add(function.place("sent"), f"blocks send {what}", "remove `sent: false`")

@@ -2,8 +2,10 @@
 
 import re
 from collections.abc import Callable
+from functools import partial
 
-from driveblocks.maps.form import Span, address_text, bits_text
+from driveblocks.maps import form
+from driveblocks.maps.form import address_text, bits_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Place, Report
 
@@ -36,6 +38,7 @@ class Known:
             "function": {function.code for function in drive.functions},
         }
         self.finders: dict[str, Callable[[str], list[str]]] = {"register": self._registers, "bit": self._bits}
+        self.finders |= {name: partial(self._registers, table=name) for name in ("coil", "discrete", "input")}
 
     def resolve(self, refs: tuple[str, ...], place: Place, report: Report) -> list[str]:
         """The canonical names that references cover; notes one that names nothing, or that is there twice."""
@@ -71,16 +74,15 @@ class Known:
             return [f"{kind} {number:02X}H"] if number in self.codes[kind] else []
         return [f"{kind} {name}"] if name in self.names.get(kind, set()) else []
 
-    def _registers(self, name: str) -> list[str]:
-        match = _ADDRESSES.fullmatch(name)
-        if match is None:
+    def _registers(self, name: str, table: str = "register") -> list[str]:
+        if _ADDRESSES.fullmatch(name) is None:
             return []
-        first, last = int(match[1], 16), int(match[2] or match[1], 16)
-        rows = self.drive.rows_in(Span(first, last))
+        first, last = (span := form.ADDRESSES.parse(form.TABLES[table] + name)).first, span.last
+        rows = self.drive.rows_in(span)
         in_area = any(first in area.addresses for area in self.drive.areas)
         if last < first or not (in_area or self.drive.register_at(first)):
             return []
-        return [f"register {address_text(row.address.first)}" for row in rows] or [f"register {name}"]
+        return [_reference(row.address.first) for row in rows] or [f"{table} {name}"]
 
     def _bits(self, name: str) -> list[str]:
         match = _BIT.fullmatch(name)
@@ -90,3 +92,8 @@ class Known:
         low, high = int(match[2], 16), int(match[3] or match[2], 16)
         spans = [bit.bit for bit in row.bits if bit.bit.first <= high and low <= bit.bit.last]
         return [f"bit {match[1]}H.{bits_text(span)}" for span in spans]
+
+
+def _reference(address: int) -> str:
+    """How a register is named: that of another table than the holding registers by its name."""
+    return address_text(address) if form.wire(address) != address else f"register {address_text(address)}"

@@ -1,6 +1,6 @@
 """Rules on registers, their bits, values, ranges and scales."""
 
-from driveblocks.maps.form import Span, address_text, bits_text, span_text
+from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
 from driveblocks.maps.model import Bit, Drive, Manual, Numbering, Range, Register, Value
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.name import worded
@@ -51,13 +51,18 @@ def _spans(row: Register, report: Report) -> None:
     if row.address.first > row.address.last:
         wrong = f"range {span_text(row.address)} runs backwards"
         report.add(row.place("address"), wrong, "write the smaller address first")
-    if len(row.address) > 1 and (row.bits or row.values or row.scale):
+    if len(row.address) > row.size and (row.bits or row.values or row.scale):
         wrong = "a range of registers cannot have bits, values or a scale"
         report.add(row.place("address"), wrong, "write one row per register")
+    if row.words and len(row.address) % row.words:
+        wrong = f"{len(row.address)} register{'s' * (len(row.address) > 1)} for values of 32 bits"
+        report.add(row.place("address"), wrong, "write both registers of each value, such as 1000H-1001H")
 
 
 def _words_of(row: Register, report: Report) -> None:
-    low, high = (-32768, 32767) if row.signed else (0, 65535)
+    bits = 1 if is_bit(row.address.first) else 16 * row.size
+    low, high = (-1 << bits - 1, (1 << bits - 1) - 1) if row.signed else (0, (1 << bits) - 1)
+    _kind(row, report)
     if row.range is not None:
         _range(row.range, low, high, row.signed, report)
     _values(row.values, low, high, "the word", report)
@@ -75,14 +80,28 @@ def _words_of(row: Register, report: Report) -> None:
         report.add(row.place("values"), wrong, "put the values into a bit field, or drop one")
 
 
+def _kind(row: Register, report: Report) -> None:
+    """Note keys that a value of one bit, or of 32, cannot have."""
+    if is_bit(row.address.first):
+        wrong, keys = "a coil or discrete input is one bit", ("bits", "masks", "signed", "words", "scale", "never")
+    elif row.words:
+        wrong, keys = "a value of 32 bits is a number", ("bits", "masks", "values", "never")
+    else:
+        wrong, keys = "`order` is of two words", ("order",)
+    for key in keys:
+        if getattr(row, key):
+            report.add(row.place(key), f"{wrong}: it has no `{key}`", "remove it, or correct `space` or `words`")
+
+
 def _range(allowed: Range, low: int, high: int, signed: bool, report: Report) -> None:
     if allowed.min > allowed.max:
         wrong = f"range {allowed.min} to {allowed.max} runs backwards"
         report.add(allowed.at, wrong, "write the smaller number as `min`")
     if allowed.min < low or allowed.max > high:
         hint = "" if signed or allowed.min >= 0 else "; a negative number needs `signed: true`"
-        wrong = f"range {allowed.min} to {allowed.max} does not fit the word"
-        report.add(allowed.at, wrong, f"a word holds {low} to {high}{hint}")
+        what = {1: "bit", 65535: "word"}.get(high - low, "two words")
+        wrong = f"range {allowed.min} to {allowed.max} does not fit the {what}"
+        report.add(allowed.at, wrong, f"a word holds {low} to {high}{hint}" if what == "word" else f"it holds {low} to {high}{hint}")
 
 
 def _values(values: tuple[Value, ...], low: int, high: int, holder: str, report: Report) -> None:

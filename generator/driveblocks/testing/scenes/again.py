@@ -4,8 +4,10 @@ from collections.abc import Iterator
 
 from driveblocks.maps.model import Drive
 from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
+from structured_text.language.writing import word
 from driveblocks.testing.script import Script
 
 AT_REST: Shows = {
@@ -41,7 +43,7 @@ def _midst(can: Ability) -> Iterator[tuple[str, list[Step]]]:
     if can.can("jog_forward"):
         yield "while it jogs", [Step("it jogs", {"JogForward": True}, "Seen.Milli > 2000", 1500)]
     register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
-    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield "while a start waits for its answer", [Step("no answer", lost, why("STARTING"), 500), Step("", ms=100)]
     yield (
         "after a start without an answer",

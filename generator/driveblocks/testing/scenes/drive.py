@@ -7,9 +7,8 @@ from typing import Any
 
 import jinja2
 
-from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
 from driveblocks.maps.model import Condition, Drive
-from driveblocks.reference.permission import readable, writable
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import Pattern, of_condition
@@ -66,6 +65,15 @@ def counts_per_hertz(drive: Drive) -> float:
     return 1000.0 * given.per / given.times
 
 
+def mark(address: int) -> int:
+    """By what it tells registers apart, a WORD: those of other tables than the holding registers are high up."""
+    return wire(address) + 0x4000 * (address >> 17)
+
+
+def _marked(spans: Iterable[Span]) -> list[Span]:
+    return [Span(mark(span.first), mark(span.first) + len(span) - 1) for span in spans]
+
+
 def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
     places = _places(drive, made)
     at = {address: index for index, address in enumerate(places)}
@@ -74,17 +82,18 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "name": name(drive),
         "family": comment(drive.family.en),
         "source": comment(drive.manual.title.en),
-        "places": [{"address": word(each), "word": word(places[each]) if places[each] else ""} for each in places],
+        "places": [{"address": word(mark(each)), "word": word(places[each]) if places[each] else ""} for each in places],
         "reference": _reference(made, at),
         "verify": bool(made.reference.verify),
-        "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {3, 4, 6, 16})),
+        "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {1, 2, 3, 4, 5, 6, 16})),
         "codes": made.codes,
         "busy": busy(drive),
         "two_byte_count": made.dialect.two_byte_count,
         "most": made.most,
-        "readable": _within("Number", _runs(readable(drive))),
-        "writable": _within("Number", _runs(writable(drive))),
-        "limits": [_limit(one) for one in made.limits],
+        "tables": _tables(made),
+        "readable": _within("Number", _joined(_marked(made.readable))),
+        "writable": _within("Number", _joined(_marked(made.writable))),
+        "limits": [_limit(one) for one in made.limits if one.above is None],
         "parameters": _within("Number", _joined(made.storage.areas)) or "FALSE",
         "home": _home(made),
         "faces": [_face(made, register) for register in made.named],
@@ -106,6 +115,8 @@ def _places(drive: Drive, made: Table) -> dict[int, int]:
     words = {move.pattern.register: 0 for move in made.moves}
     words |= {need.pattern.register: 0 for move in made.moves for need in move.needs}
     words.setdefault(made.reference.register, 0)
+    if made.reference.above is not None:
+        words.setdefault(made.reference.above, 0)
     for one in settled(drive):
         pattern = of_condition(one)
         words[pattern.register] = words.get(pattern.register, 0) & ~pattern.mask | pattern.value
@@ -132,9 +143,13 @@ def _reference(made: Table, at: dict[int, int]) -> Context:
     given = made.reference
     kept = f"Kept[{at[given.register]}]"
     times, per = _reduced(given.times, given.per)
+    number = f"INT_TO_DINT(WORD_TO_INT({kept}))" if given.signed else f"UINT_TO_DINT(WORD_TO_UINT({kept}))"
+    if given.above is not None:
+        above = f"UINT_TO_DINT(WORD_TO_UINT(Kept[{at[given.above]}]))"
+        number = f"UINT_TO_DINT(WORD_TO_UINT({kept})) + {above} * 65536"
     return {
         "place": at[given.register],
-        "number": f"INT_TO_DINT(WORD_TO_INT({kept}))" if given.signed else f"UINT_TO_DINT(WORD_TO_UINT({kept}))",
+        "number": number,
         "signed": given.signed,
         "reverses": given.reverses,
         "times": times,
@@ -149,9 +164,15 @@ def _reduced(times: int, per: int) -> tuple[int, int]:
     return times // common, per // common
 
 
-def _runs(addresses: frozenset[int]) -> list[Span]:
-    """Addresses as ranges."""
-    return _joined(Span(each, each) for each in sorted(addresses))
+def _tables(made: Table) -> list[Context]:
+    """What is added to the first register by each function of another table."""
+    known = {space_of(span.first) for span in made.readable} | {space_of(span.first) for span in made.writable}
+    codes = {"coil": (1, 5), "discrete": (2,), "input": (4,)}
+    return [
+        {"test": " OR ".join(f"(FunctionCode = {code})" for code in codes[table]), "add": mark(SPACES[table])}
+        for table in codes
+        if table in known
+    ]
 
 
 def _joined(spans: Iterable[Span]) -> list[Span]:
@@ -183,7 +204,7 @@ def _limit(one: Any) -> Context:
     beyond = [f"({number} > {one.high})"]
     if one.low > (-32768 if one.signed else 0):
         beyond.insert(0, f"({number} < {one.low})")
-    return {"register": one.register, "beyond": " OR ".join(beyond)}
+    return {"register": mark(one.register), "beyond": " OR ".join(beyond)}
 
 
 def _home(made: Table) -> Context | None:
@@ -228,21 +249,21 @@ def _face(made: Table, register: int) -> Context:
         for each, keys in sorted(words.items())
         if each != other
     ]
-    names = {"name": f"Face{address_text(register)}", "comment": f"{address_text(register)}: status"}
-    return {**names, "groups": groups, "other": word(other), "register": register}
+    names = {"name": f"Face{address_name(register)}", "comment": f"{address_text(register)}: status"}
+    return {**names, "groups": groups, "other": word(other), "register": mark(register)}
 
 
 def _shown(drive: Drive, made: Table, numbers: tuple[int, ...]) -> list[Context]:
     """Registers that show something: what is done with `Value`."""
     found: dict[int, list[str]] = {}
     for register, mask in made.named.items():
-        face = f"Face{address_text(register)}"
+        face = f"Face{address_name(register)}"
         found.setdefault(register, []).append(f"Value := (Value AND {word(~mask)}) OR {face};")
     for gauge in made.gauges:
         found.setdefault(gauge.register, []).append(_gauge(gauge))
     for register, statement in (*_faults(made, numbers), *_mistaken(drive)):
         found.setdefault(register, []).append(statement)
-    return [{"register": register, "statements": lines} for register, lines in sorted(found.items())]
+    return [{"register": mark(register), "statements": lines} for register, lines in sorted(found.items())]
 
 
 def _gauge(gauge: Gauge) -> str:
@@ -254,6 +275,10 @@ def _gauge(gauge: Gauge) -> str:
         "output_power": "(Share MOD 101) * 20",
     }[gauge.shows]
     counts = f"{milli} / {gauge.milli}"
+    if gauge.shift is not None:
+        low = f"(({counts}) MOD 65536 + 65536) MOD 65536"
+        high = f"((({counts}) - {low}) / 65536 + 65536) MOD 65536"
+        return f"Value := UDINT_TO_WORD(DINT_TO_UDINT({high if gauge.shift else low}));"
     if gauge.signed:
         return f"Value := INT_TO_WORD(DINT_TO_INT({counts}));"
     return f"Value := UDINT_TO_WORD(DINT_TO_UDINT({counts}));"
@@ -282,7 +307,7 @@ def _proof(drive: Drive) -> Context:
     """The registers that prove standstill, each with the bits of the others."""
     registers = sorted({each.register for each in drive.operation.standstill.all})
     every = (1 << len(registers)) - 1
-    proof = [(register, word(every & ~(1 << place))) for place, register in enumerate(registers)]
+    proof = [(mark(register), word(every & ~(1 << place))) for place, register in enumerate(registers)]
     return {"proof": proof, "unproved": word(every)}
 
 

@@ -6,6 +6,7 @@ In the form of part.yaml; what they must show comes from the map alone.
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words
 from driveblocks.reference.naming import word_pin
@@ -71,6 +72,7 @@ def _turns(drive: Drive) -> Iterator[Row]:
         yield [f"turn {turn}", {"Turn": turn}, {
             "NextEntry": index + 1, "Register": word(read.address), "Quantity": read.words,
             "OtherQuantity": other_words(drive, read, reads),
+            **({"FunctionCode": read.function} if len({each.function for each in reads}) > 1 else {}),
         }]  # fmt: skip
 
 
@@ -141,7 +143,10 @@ class _Known:
         """The words that a read has brought."""
         read, kept = self.reads[number], fast_words(self.drive) | slow_words(self.drive)
         rows = {at: self.drive.register_at(read.address + at) for at in range(read.words) if read.address + at in kept}
-        return {word_pin(row): word(256 * number + 257 + at) for at, row in rows.items() if row}
+        told = {at: 256 * number + 257 + at for at in rows}
+        if is_bit(read.address):  # the bits of the first word
+            told = {at: (256 * number + 257) >> at & 1 for at in rows}
+        return {word_pin(row, read.address + at): word(told[at]) for at, row in rows.items() if row}
 
 
 def _reads_of(drive: Drive) -> dict[str, set[int]]:
@@ -188,7 +193,11 @@ def _orders(drive: Drive) -> Iterator[Row]:
             yield [words, {"Order": numbers[does]} | number, _write(one, step, several=several)]
             yield none
     reference = word(drive.operation.reference.register)
-    shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
+    shows: Shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
+    row = drive.register_at(drive.operation.reference.register)
+    if row is not None and row.words:
+        low = row.order == "low_first"
+        shows |= {"Value": word(0x1234 if low else 0), "Second": word(0 if low else 0x1234), "Quantity": 2}
     yield ["the reference", {"Order": 10, "ReferenceWord": 0x1234}, shows]
 
 
@@ -204,7 +213,7 @@ def _write(one: Command, step: int, *, several: bool) -> Shows:
     value = f"(TheOrders.Value AND {word(pattern.mask)})"
     found: Shows = {
         "Register": word(pattern.register),
-        value: word(pattern.value),
+        value: word(0xFF00 * pattern.value if is_bit(pattern.register) else pattern.value),
         "Moves": last and one.does in MOTIONS,
     }
     more: Shows = {"Last": len(one.first), "HoldMs": 0 if last else one.first[step].for_ms or 0}

@@ -4,8 +4,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from driveblocks.maps.model import Drive
+from driveblocks.maps.pair import whole
 from driveblocks.maps.trust import second_hand
 from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
 from structured_text.language.writing import word
@@ -653,7 +655,7 @@ def _unacknowledged(can: Ability, what: str, reason: str) -> Iterator[Step]:
     register = operation.reference.register if what == "reference" else forward.register
     if register == operation.reference.register and what == "run":
         return
-    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield Step("its write is lost", lost, why(reason), 6000, {"Seen.Starts": 0, "Running": False})
     yield Step("it comes again", {"Fate.Skips": False, "RunForward": False}, "Motor.Ready", 5000, NOTHING_STARTED)
     yield run()
@@ -663,7 +665,7 @@ def _unsaid(can: Ability) -> Iterator[Step]:
     """The status is read before a run is written again: it runs, so it is acknowledged."""
     forward = next(one for one in can.drive.operation.commands if one.does == "run_forward")
     register = forward.register
-    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": f"WORD#16#{register:04X}", "RunForward": True}
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "RunForward": True}
     yield Step("it runs, and nobody says so", lost, "Motor.AtSpeed", 4000, {
         "Seen.Starts": 1, "Seen.Runs": 1, "Running": True,
     })  # fmt: skip
@@ -673,7 +675,7 @@ def _unsaid(can: Ability) -> Iterator[Step]:
 def _tries(can: Ability) -> Iterator[Step]:
     """One attempt and three more, with a look at the status before each."""
     register = next(one.register for one in can.drive.operation.commands if one.does == "run_forward")
-    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(register), "Fate.Local": True, "RunForward": True}
+    lost: Shows = {"Fate.Unsaid": True, "Fate.Skipped": word(mark(register)), "Fate.Local": True, "RunForward": True}
     before: Shows = {".Mark": "Seen.Writes - Seen.References"}
     yield Step("four times unanswered", lost | before, why("NO_RUN"), 6000, {
         "Seen.Writes - Seen.References - Mark": (4, 5), "Seen.Driven": False,
@@ -772,7 +774,7 @@ def _speed_only(can: Ability) -> Iterator[Step]:
         "a run pin starts nothing", {"RunForward": True}, ms=500, shows=NOTHING_STARTED | {"Reason": "SPEED_ONLY"}
     )
     register = can.drive.operation.reference.register
-    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(register), "SpeedReferenceHz": 26.0}
+    lost: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(register)), "SpeedReferenceHz": 26.0}
     yield Step("a reference is lost", lost, why("NO_REFERENCE"), 3000, {"Error": True, "ErrorID": 20})
     yield Step("it is sent again", {"Fate.Skips": False}, why("SPEED_ONLY"), 2000, NOTHING_STARTED)
     refuses: Shows = {"Fate.RefusesWrites": True, "SpeedReferenceHz": 24.0, ".Mark": "Seen.Writes"}
@@ -802,7 +804,7 @@ def _calm(can: Ability) -> Iterator[Step]:
     """After a stop pin the reference stays 0 for half a second."""
     speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}
     yield Step("the reference is sent", speeds, f"({why('SPEED_ONLY')}) AND (Seen.References > 0)", 2000)
-    register = word(can.drive.operation.reference.register)
+    register = word(whole(can.drive, can.drive.operation.reference.register)[-1])
     given = f"(Seen.LastRegister = {register}) AND (Seen.LastWord <> WORD#16#0000)"
     for _ in range(2):
         yield Step("Enable falls", {"Enable": False}, ms=100, shows={"Motor.Diagnosis.State": 6})

@@ -6,7 +6,7 @@ from driveblocks.maps.model import Drive
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import settled, simulated
+from driveblocks.testing.scenes.drive import mark, settled, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, STANDS, run
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script, why
 from driveblocks.testing.script import SCAN_MS, Script
@@ -172,7 +172,7 @@ def _in_vain(drive: Drive, place: int) -> Iterator[Step]:
     code = simulated(drive).codes["address"] or 0
     refused = error("Writer", "REFUSED") | nothing | {"Writer.RefusedReason": code, "Slots[0].RefusedReason": code}
     yield from does("Writer", place, "Error", refused, Given=word(3))
-    lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(place)}
+    lost: Shows = {"Fate.RefusesWrites": False, "Fate.Skips": True, "Fate.Skipped": word(mark(place))}
     yield Step("its answer stays away", lost, ms=50, shows=nothing)
     yield from does("Writer", place, "Error", error("Writer", "SILENCE") | nothing, Given=word(3))
     yield from does("Reader", place, "Done", {"Reader.RefusedReason": 0, "Reader.ErrorID": 0})
@@ -191,7 +191,7 @@ def _while_it_runs(can: Ability, place: int) -> Iterator[Step]:
 
 def _waits(place: int) -> Iterator[Step]:
     pending: Shows = {".Writing": True, ".Place": word(place), ".Given": word(3), "Fate.Skips": True}
-    pending |= {"Fate.Skipped": word(place)}
+    pending |= {"Fate.Skipped": word(mark(place))}
     yield Step("its answer stays away", pending, why("WRITE_WAITS"), 500, {"Ready": False, "Writer.Busy": True})
     yield Step("an edge starts nothing", {"RunForward": True}, ms=60, shows=NOTHING_STARTED | {"Reason": "WRITE_WAITS"})
     yield Step("a stop is a new one", {"Enable": False}, ms=60, shows={"Slots[0].StopAgain": False})

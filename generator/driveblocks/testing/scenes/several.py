@@ -7,6 +7,7 @@ from driveblocks.maps.plan import most
 from driveblocks.reference.permission import Judge, Write, readable, writable
 from driveblocks.testing.code import NUMBERS
 from driveblocks.testing.scenes.ability import Ability
+from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED
 from driveblocks.testing.scenes.parameter import BLOCKS, CALLS, WITHIN_MS, does, error, idle, meant, place_of
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, scene, script
@@ -195,7 +196,7 @@ def _one_behind(place: int) -> Iterator[Step]:
 
 
 def _in_time(place: int) -> Iterator[Step]:
-    never: Shows = {"Fate.Skips": True, "Fate.Skipped": word(place), "Pins.ParameterRetries": 200}
+    never: Shows = {"Fate.Skips": True, "Fate.Skipped": word(mark(place)), "Pins.ParameterRetries": 200}
     lost: Shows = {".Writing": True, ".Place": word(place), ".Given": word(3)}
     yield Step("a write that is not answered", never | lost, ms=200, shows={
         "Writer.Busy": True, "Writer.Error": False, "Writer.ErrorID": 0,

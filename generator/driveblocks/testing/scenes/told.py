@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
+from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.reference.command import Commands
 from driveblocks.testing.scenes.ability import Ability
-from driveblocks.testing.scenes.drive import busy, simulated
+from driveblocks.testing.scenes.drive import busy, mark, simulated
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, RUNNING, STANDS
 from driveblocks.testing.scenes.scene import More, Scene, Shows, Step, Value, scene, script
 from driveblocks.testing.script import Script
@@ -50,7 +51,7 @@ def known(drive: Drive) -> Shows:
         "SilenceMs": int(silence.milliseconds or 0) if silence else 0, "PollEveryMs": 0,
         "ExceptionAdd": 0 if form.address is not None else form.added, "ErrorFunction": form.function or 0,
         "ErrorAddress": word(form.address or 0), "BusyReason": busy(drive), "TwoByteCount": form.two_byte_count,
-        "Ask[0].FunctionCode": _write(drive), "Ask[0].Quantity": 1, "Ask[0].Address": word(stop.register),
+        "Ask[0].FunctionCode": _write(drive, stop.register), "Ask[0].Quantity": 1, "Ask[0].Address": word(stop.register),
         "StopRegister": word(stop.register), "StopWord": word(_word(drive, stop)),
     }  # fmt: skip
     if jog is not stop:
@@ -63,8 +64,12 @@ def _command(drive: Drive, does: str) -> Command:
     return found[0]
 
 
-def _write(drive: Drive) -> int:
-    return 6 if any(function.code == 6 for function in drive.functions) else 16
+def _write(drive: Drive, register: int) -> int:
+    """What writes a register."""
+    row = drive.register_at(register)
+    if is_bit(register):
+        return 5
+    return 6 if any(function.code == 6 for function in drive.functions) and not (row and row.words) else 16
 
 
 def _word(drive: Drive, command: Command) -> int:
@@ -126,11 +131,11 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     run = _command(drive, "run_forward")
     reference = drive.operation.reference.register
     yield Step("it runs as ever", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
-        "Seen.Starts": 1, "Seen.LastRegister = " + word(run.register): True,
+        "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
         "Once": run.register != reference, "Begins": run.register != reference, "ResetAsked": False,
-        "Ask[1].FunctionCode": _write(drive), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register),
+        "Ask[1].FunctionCode": _write(drive, run.register), "Ask[1].Quantity": 1, "Ask[1].Address": word(run.register),
         "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip

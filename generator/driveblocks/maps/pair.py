@@ -1,0 +1,64 @@
+"""Values of 32 bits, which two registers hold: how a condition on one is one on each of its words."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from driveblocks.maps.model import Condition, Drive, Register
+
+REAL_BITS = 24
+"""Bits of a number that a REAL holds (IEC 60559, binary32): a larger one is rounded where it is shown."""
+
+
+def words(row: Register, value: int) -> tuple[int, int]:
+    """The words of a value in the order of their registers."""
+    high, low = value >> 16 & 0xFFFF, value & 0xFFFF
+    return (low, high) if row.order == "low_first" else (high, low)
+
+
+def places(row: Register, address: int) -> tuple[int, int]:
+    """The addresses of the high and the low word of the value whose first register this is."""
+    return (address + 1, address) if row.order == "low_first" else (address, address + 1)
+
+
+def is_first(row: Register, address: int) -> bool:
+    """Whether an address is the first of a pair, or a value of its own."""
+    return (address - row.address.first) % row.size == 0
+
+
+def whole(drive: Drive, address: int) -> tuple[int, ...]:
+    """All registers of the value at an address: two of a pair."""
+    row = drive.register_at(address)
+    if row is None or row.size == 1:
+        return (address,)
+    first = address - (address - row.address.first) % row.size
+    return first, first + 1
+
+
+def apart(drive: Drive) -> Drive:
+    """The same map where a condition on a pair that must hold is one on each of its registers.
+
+    One of several that may hold cannot be parted, and stays, for the rules to refuse.
+    """
+    operation = drive.operation
+    said = {
+        "standstill": _all(drive, operation.standstill),
+        "commanded_by": _all(drive, operation.commanded_by),
+        "reference": replace(operation.reference, verify=tuple(_parted(drive, operation.reference.verify))),
+    }
+    return replace(drive, operation=replace(operation, **said), identity=_all(drive, drive.identity))
+
+
+def _all(drive: Drive, one: Any) -> Any:
+    return one if one is None else replace(one, all=tuple(_parted(drive, one.all)))
+
+
+def _parted(drive: Drive, conditions: tuple[Condition, ...]) -> Iterator[Condition]:
+    for one in conditions:
+        row = drive.register_at(one.register)
+        plain = one.bit is None and one.mask is None and not one.differs and 0 <= one.equals < 1 << 32
+        if row is None or row.size == 1 or not is_first(row, one.register) or not plain:
+            yield one
+        else:
+            for register, value in zip(whole(drive, one.register), words(row, one.equals), strict=True):
+                yield replace(one, register=register, equals=value)
