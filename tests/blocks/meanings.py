@@ -82,7 +82,7 @@ def word_pin(drive: Drive, address: int) -> str:
     """The pin that takes a register's word."""
     row = drive.register_at(address)
     assert row is not None
-    return naming.word_pin(row)
+    return naming.word_pin(row, address)
 
 
 def proofs(drive: Drive, addresses: list[int]) -> Iterator[dict[int, int]]:

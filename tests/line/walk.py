@@ -131,7 +131,9 @@ class Walk:
         self.bench.command(slot, 7)
 
     def parameter(self, slot: int) -> None:
-        function, quantity = self.chance.choice([(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4), (1, 3), (2, 4), (5, 1)])
+        function, quantity = self.chance.choice(
+            [(3, 1), (3, 4), (4, 2), (6, 1), (8, 1), (16, 2), (16, 4), (1, 3), (2, 4), (5, 1)]
+        )
         address, word = self.chance.choice([0, 0x0123, 0xFFFF]), self.chance.randrange(65536)
         self.bench.ask(slot, PARAMETER, function, address, quantity=quantity, word=word)
         if word < 20_000:

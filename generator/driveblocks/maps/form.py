@@ -152,7 +152,7 @@ ADDRESS = _form(
     "address",
     _FEW + "[0-9A-F]{4}H",
     _address,
-    "write four upper-case hexadecimal digits and H, such as 0026H, after the name of another table: coil 0001H",
+    "write four upper-case hexadecimal digits and H, such as 0026H",
 )
 ADDRESSES = _form(
     "address or range",

@@ -12,6 +12,9 @@ from driveblocks.modbus.layout import Dialect
 READ_WORDS, WRITE_WORDS = 125, 123
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: registers that fit into a PDU of 253 bytes."""
 
+OF_BITS = frozenset({1, 2, 5})
+"""Functions of coils and discrete inputs, which only a drive block sends, where its map has some."""
+
 READ_OVERHEAD, WRITE_OVERHEAD = 1, 5
 """Data bytes beside the words: byte count of a read reply; address, quantity and byte count of a 10H request."""
 
@@ -63,8 +66,8 @@ def holding(spans: Iterable[Span]) -> tuple[Span, ...]:
 
 
 def used(drive: Drive) -> frozenset[int]:
-    """The functions that a drive block may use: those that the map lists, but for what it marks as not sent."""
-    return frozenset(function.code for function in drive.functions if function.sent)
+    """The functions that a drive block may use: those that the map lists, but for those of coils that are not sent."""
+    return frozenset(function.code for function in drive.functions if function.sent or function.code not in OF_BITS)
 
 
 def reads_by(drive: Drive, address: int) -> int:

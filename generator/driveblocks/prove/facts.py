@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, Step
 from driveblocks.maps.names import UNIT_NAMES
-from driveblocks.maps.pair import whole
+from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
@@ -44,6 +44,7 @@ def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
     commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
     stop = commands["stop"]
+    row = drive.register_at(drive.operation.reference.register)
     found = {
         "P": drive.prefix,
         "lowest": str(drive.serial.unit.min),
@@ -51,6 +52,7 @@ def facts(drive: Drive) -> dict[str, str]:
         "write": str(writes_by(drive, stop.register)),
         "reference": word(drive.operation.reference.register),
         "written": _written(drive),
+        "sent_word": f"Slot.Ask[1].Words[{places(row, 1)[1] - 1 if row and row.words else 0}]",
         "holds_reference": _is_reference(drive),
         "standstill": _every(_holds(drive, each) for each in drive.operation.standstill.all),
         "proof_since": _every(f"Reads.Since{number}" for number in _proof_reads(drive)),
@@ -106,7 +108,7 @@ def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str
 
 
 def _by(drive: Drive, register: int) -> str:
-    """The function that writes a register, where they are not all written by one: two tables have the same addresses."""
+    """The function that writes a register, where it is not the same for all: two tables have the same addresses."""
     return f" AND (Slot.Ask[1].FunctionCode = {writes_by(drive, register)})" if len(_functions(drive)) > 1 else ""
 
 
@@ -126,8 +128,8 @@ def _written(drive: Drive) -> str:
         return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
     row = drive.register_at(drive.operation.reference.register)
     high = 1 if row is not None and row.order == "low_first" else 0
-    pair = f"(Slot.Ask[1].Quantity = 2) AND (Slot.Ask[1].Words[{high}] = {word(0)})"
-    return f"({codes}) AND (({_is_reference(drive)}) AND {pair} OR NOT ({_is_reference(drive)}) AND (Slot.Ask[1].Quantity = 1))"
+    pair, is_ = f"(Slot.Ask[1].Quantity = 2) AND (Slot.Ask[1].Words[{high}] = {word(0)})", _is_reference(drive)
+    return f"({codes}) AND (({is_}) AND {pair} OR NOT ({is_}) AND (Slot.Ask[1].Quantity = 1))"
 
 
 def _kept(drive: Drive, write: Command | Step) -> int:

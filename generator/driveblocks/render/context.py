@@ -164,7 +164,11 @@ class Request:
 def request(drive: Drive, allowed: Plan) -> Request:
     """What a drive can be asked: of holding registers, since each of its functions is of one table."""
     elsewhere = any(space_of(span.first) == "input" for span in allowed.readable)
-    functions = {code: folder for code, folder in FUNCTIONS.items() if code in allowed.functions and not (code == 4 and elsewhere)}
+    functions = {
+        code: folder
+        for code, folder in FUNCTIONS.items()
+        if code in allowed.functions and not (code == 4 and elsewhere)
+    }
     modes, unit, broadcast = drive.serial.mode.modes, drive.serial.unit, drive.serial.broadcast
     most = allowed.rtu if "rtu" in modes else _without_framing(drive)
     less = allowed.ascii.read < most.read or (16 in functions and allowed.ascii.write < most.write)

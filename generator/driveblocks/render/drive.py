@@ -333,7 +333,8 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         keeps=context.kept(drive),
         write=by,
         by=writes_by(drive, reference.register),
-        mixed={each.function for writes in orders.values() for each in writes} | {writes_by(drive, reference.register)} != {by},
+        mixed={each.function for writes in orders.values() for each in writes} | {writes_by(drive, reference.register)}
+        != {by},
         pair=reference.pair,
         reference=reference.register,
         scaled=reference.scale is not None,

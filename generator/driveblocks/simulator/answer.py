@@ -1,5 +1,7 @@
 """What a simulated drive replies, by MODBUS Application Protocol V1.1b3 and its map's limits and refusals."""
 
+from collections.abc import Iterator
+
 from driveblocks.maps.form import SPACES, is_bit, space_of
 from driveblocks.modbus import layout
 from driveblocks.simulator.machine import Machine
@@ -60,22 +62,26 @@ def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:
     at = first + SPACES[_table(machine, function)]
     if function in READS:
         words = _read(machine, at, number)
-        if function <= 2:
-            return bytes([(number + 7) // 8]) + _packed(words)
-        return bytes([2 * number]) + b"".join(word.to_bytes(2, "big") for word in words)
+        data = _packed(words) if is_bit(at) else b"".join(word.to_bytes(2, "big") for word in words)
+        return bytes([len(data)]) + data
     if everyone and table.broadcasts and first not in table.broadcasts:
         raise Refused("address")
+    _write(machine, at, list(_written(machine, function, number, request)))
+    return request[2:SHORT]
+
+
+def _written(machine: Machine, function: int, number: int, request: bytes) -> Iterator[int]:
+    """The words that a request writes; of a coil 1 or 0. Raises Refused."""
     if function == 5:
         if number not in (0, ON):
             raise Refused("value")
-        _write(machine, at, [number // ON])
+        yield number // ON
     elif function == 6:
-        _write(machine, first, [number])
+        yield number
+    elif not 1 <= number <= machine.table.most.write or request[6] != 2 * number:
+        raise Refused("quantity")
     else:
-        if not 1 <= number <= table.most.write or request[6] != 2 * number:
-            raise Refused("quantity")
-        _write(machine, first, [int.from_bytes(request[at : at + 2], "big") for at in range(7, len(request), 2)])
-    return request[2:SHORT]
+        yield from (int.from_bytes(request[at : at + 2], "big") for at in range(7, len(request), 2))
 
 
 def _table(machine: Machine, function: int) -> str:

@@ -2,6 +2,7 @@
 
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Broadcast, Drive, Function, ReplyDelay, Serial, Silence
+from driveblocks.maps.plan import OF_BITS
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules.unique import unique
 
@@ -15,10 +16,7 @@ MOST_GROUP = 0x8000
 """Half of all addresses: a larger group holds them all, or all but a few."""
 
 SENT = frozenset({0x03, 0x04, 0x06, 0x08, 0x10})
-OF_BITS = frozenset({0x01, 0x02, 0x05})
-"""Functions that the blocks know: what a manual lists beside them is a fact that nobody can use. Those of coils are sent
-by a drive block alone, where a map has coils.
-"""
+"""Functions that blocks know: what a manual lists beside them and those of coils is a fact that nobody can use."""
 
 
 def check(drive: Drive, report: Report) -> None:

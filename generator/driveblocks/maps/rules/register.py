@@ -83,11 +83,11 @@ def _words_of(row: Register, report: Report) -> None:
 def _kind(row: Register, report: Report) -> None:
     """Note keys that a value of one bit, or of 32, cannot have."""
     if is_bit(row.address.first):
-        wrong, keys = "a coil or discrete input is one bit", ("bits", "masks", "signed", "words", "scale", "never")
+        wrong, keys = "a coil or discrete input is one bit", ["bits", "masks", "signed", "words", "scale", "never"]
     elif row.words:
-        wrong, keys = "a value of 32 bits is a number", ("bits", "masks", "values", "never")
+        wrong, keys = "a value of 32 bits is a number", ["bits", "masks", "values", "never"]
     else:
-        wrong, keys = "`order` is of two words", ("order",)
+        wrong, keys = "a value of 16 bits is one word", ["order"]
     for key in keys:
         if getattr(row, key):
             report.add(row.place(key), f"{wrong}: it has no `{key}`", "remove it, or correct `space` or `words`")
@@ -101,7 +101,11 @@ def _range(allowed: Range, low: int, high: int, signed: bool, report: Report) ->
         hint = "" if signed or allowed.min >= 0 else "; a negative number needs `signed: true`"
         what = {1: "bit", 65535: "word"}.get(high - low, "two words")
         wrong = f"range {allowed.min} to {allowed.max} does not fit the {what}"
-        report.add(allowed.at, wrong, f"a word holds {low} to {high}{hint}" if what == "word" else f"it holds {low} to {high}{hint}")
+        report.add(
+            allowed.at,
+            wrong,
+            f"a word holds {low} to {high}{hint}" if what == "word" else f"it holds {low} to {high}{hint}",
+        )
 
 
 def _values(values: tuple[Value, ...], low: int, high: int, holder: str, report: Report) -> None:

@@ -40,7 +40,8 @@ def _wide(drive: Drive, address: int) -> bool:
 
 def _conditions(drive: Drive) -> Iterator[Condition | State]:
     operation = drive.operation
-    yield from (*operation.standstill.all, *operation.reference.verify, *operation.states)
+    yield from (*operation.standstill.all, *operation.reference.verify)
+    yield from operation.states
     yield from (each for one in (drive.identity, operation.commanded_by) if one for each in one.all)
     yield from (condition for status in operation.status for condition in status.any)
     yield from (row.scale.when for _, row in drive.registers() if row.scale and row.scale.when)
@@ -109,7 +110,10 @@ def _written(drive: Drive, report: Report) -> None:
 
 def _functions(drive: Drive, report: Report) -> None:
     """Note a function that the blocks need and the map does not list."""
-    operation, known, place = drive.operation, used(drive), drive.place("functions")
+    operation, place = drive.operation, drive.place("functions")
+    known = used(drive)
+    if not (known & {3, 4} and known & {6, 16}):
+        return  # that is reported as a whole
     needed: dict[int, str] = {}
     identity = {each.register for each in drive.identity.all} if drive.identity else set()
     for address in sorted(fast_words(drive) | slow_words(drive) | identity):
@@ -118,4 +122,6 @@ def _functions(drive: Drive, report: Report) -> None:
         needed.setdefault(writes_by(drive, write.register), f"write {address_text(write.register)}")
     for code, why in sorted(needed.items()):
         if code not in known:
-            report.miss(place, f"to {why} takes function {code:02X}H, which is not listed", "list it, if the drive has it")
+            report.miss(
+                place, f"to {why} takes function {code:02X}H, which is not listed", "list it, if the drive has it"
+            )

@@ -7,8 +7,8 @@ from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import mark
 from driveblocks.testing.scenes.motor import NOTHING_STARTED, POWER, RUNNING, STANDS, run
 from driveblocks.testing.scenes.scene import Scene, Shows, Step, scene, script, why
-from structured_text.language.writing import word
 from driveblocks.testing.script import Script
+from structured_text.language.writing import word
 
 AT_REST: Shows = {
     "Enable": True, "RunForward": False, "JogForward": False, "QuickStop": False, "CoastStop": False,

@@ -82,10 +82,14 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         "name": name(drive),
         "family": comment(drive.family.en),
         "source": comment(drive.manual.title.en),
-        "places": [{"address": word(mark(each)), "word": word(places[each]) if places[each] else ""} for each in places],
+        "places": [
+            {"address": word(mark(each)), "word": word(places[each]) if places[each] else ""} for each in places
+        ],
         "reference": _reference(made, at),
         "verify": bool(made.reference.verify),
-        "functions": " AND ".join(f"(FunctionCode <> {one})" for one in sorted(made.functions & {1, 2, 3, 4, 5, 6, 16})),
+        "functions": " AND ".join(
+            f"(FunctionCode <> {one})" for one in sorted(made.functions & {1, 2, 3, 4, 5, 6, 16})
+        ),
         "codes": made.codes,
         "busy": busy(drive),
         "two_byte_count": made.dialect.two_byte_count,

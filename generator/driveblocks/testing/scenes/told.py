@@ -51,7 +51,8 @@ def known(drive: Drive) -> Shows:
         "SilenceMs": int(silence.milliseconds or 0) if silence else 0, "PollEveryMs": 0,
         "ExceptionAdd": 0 if form.address is not None else form.added, "ErrorFunction": form.function or 0,
         "ErrorAddress": word(form.address or 0), "BusyReason": busy(drive), "TwoByteCount": form.two_byte_count,
-        "Ask[0].FunctionCode": _write(drive, stop.register), "Ask[0].Quantity": 1, "Ask[0].Address": word(stop.register),
+        "Ask[0].FunctionCode": _write(drive, stop.register), "Ask[0].Quantity": 1,
+        "Ask[0].Address": word(stop.register),
         "StopRegister": word(stop.register), "StopWord": word(_word(drive, stop)),
     }  # fmt: skip
     if jog is not stop:
