@@ -1,6 +1,7 @@
 """A drive that coils command: its reference and output frequency are pairs, its current is an input register."""
 
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
+from driveblocks.maps.problem import MapError
 from driveblocks.output.units import units
 from driveblocks.reference.checksum import crc16
 from driveblocks.render.text import languages
@@ -102,7 +104,7 @@ def test_pairs_and_coils_are_read_together() -> None:
 
 
 def test_no_read_ends_inside_a_pair() -> None:
-    """Also where words before and after a pair are so many that they do not fit into one read."""
+    """Also where words before and after a pair do not fit into one read with it."""
     row = "      - {address: 0011H, access: r, name: Present fault}\n"
     rows = "".join(
         f"      - {{address: {at:04X}H, access: r, name: Value {at}, unit: A, scale: {{factor: 0.1, source: t}}}}\n"
@@ -116,6 +118,19 @@ def test_no_read_ends_inside_a_pair() -> None:
         assert (read.address <= 0x1000 < read.address + read.words) == (
             read.address <= 0x1001 < read.address + read.words
         )
+
+
+def test_an_example_frame_proves_the_scale_of_a_pair() -> None:
+    frames = """frames:
+  - {id: asked, direction: request, mode: rtu, source: section 2, printed: 01 03 10 00 00 02 C0 CB, checksum: right,
+     correct: 01 03 10 00 00 02 C0 CB, means: {says: reads 1000H, unit: 1, function: 03H, address: 1000H, words: 2}}
+  - {id: told, direction: reply, mode: rtu, source: section 2, printed: 01 03 04 00 01 00 00 AB F3, checksum: right,
+     correct: 01 03 04 00 01 00 00 AB F3, answers: asked, means: {says: it is fast, unit: 1, function: 03H, words: 2,
+     byte_count: 4, values: [1, 0], quantities: [{register: 1000H, value: 655.36, unit: Hz}]}}"""
+    made = loads(MAP.replace("frames: []", frames), "x.yaml")
+    assert made.frames[1].means.quantities[0].value == Decimal("655.36")
+    with pytest.raises(MapError, match="but 65536 x "):
+        loads(MAP.replace("frames: []", frames.replace("655.36", "655.35")), "x.yaml")
 
 
 # ---------------------------------------------------------------- blocks and programs

@@ -96,6 +96,8 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
     )
     if word is None:
         return known
+    if row.words:
+        return replace(known, note="one of two words of a value of 32 bits")
     value = number(word, row.signed) * row.scale.factor if row.scale else None
     lines = (*_lines(row, word), *_faults(drive, address, word), *(_commands(drive, address, word) if writing else ()))
     note = "; ".join(_notes(drive, row, word, writing))

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from driveblocks.explain import suspicion
 from driveblocks.explain.meaning import Held, held
-from driveblocks.maps.form import Span, address_text, span_text
+from driveblocks.maps.form import Span, address_text, span_text, wire
 from driveblocks.maps.model import Drive, ErrorCode
-from driveblocks.maps.plan import READ_WORDS
+from driveblocks.maps.plan import READ_WORDS, start_of
 from driveblocks.maps.view import error_number
 from driveblocks.modbus import layout
 from driveblocks.modbus.layout import Dialect, Direction, Layout, Part
@@ -134,7 +134,7 @@ class Reader:
         meaning: dict[str, Callable[[], str]] = {
             "unit": lambda: "broadcast: all drives" if part.number == 0 else f"unit {part.number}",
             "function": lambda: self._function(one, part.number),
-            "address": lambda: self._address(part.number),
+            "address": lambda: self._address(part.number + self._start(one)),
             "quantity": lambda: self._quantity(one, part.number),
             "byte count": lambda: self._byte_count(one, part.number),
             "reason": lambda: self._reason(part.number, standard=self._foreign(one)),
@@ -162,8 +162,9 @@ class Reader:
         return f"{address_text(number)} {known}".rstrip()
 
     def _quantity(self, one: Layout, number: int) -> str:
-        first = one.number("address") or 0
-        last = min(first + max(number, 1) - 1, 0xFFFF)
+        start = self._start(one)
+        first = (one.number("address") or 0) + start
+        last = min(first + max(number, 1) - 1, start + 0xFFFF)
         return f"{_things(one, number)}, {span_text(Span(first, last))}" if number else "no registers"
 
     def _sub_function(self, code: int) -> str:
@@ -182,17 +183,22 @@ class Reader:
 
     def _first(self, one: Layout, asked: Asked | None) -> int | None:
         own = one.number("address")
-        return own if own is not None else asked.address if asked is not None and not one.refusal else None
+        found = own if own is not None else asked.address if asked is not None and not one.refusal else None
+        return None if found is None else found + self._start(one)
+
+    def _start(self, one: Layout) -> int:
+        """Where the table of a function begins."""
+        return start_of(self.drive, one.function)
 
     def _registers(self, one: Layout, asked: Asked | None) -> Iterator[Held]:
         first = self._first(one, asked)
         writing = one.function in (6, 16)
         for place, word in enumerate(one.words):
-            address = first + place if first is not None and first + place <= 0xFFFF else None
+            address = first + place if first is not None and wire(first) + place <= 0xFFFF else None
             yield held(self.drive, address, word, writing=writing)
         quantity = one.number("quantity") or 0
         if not one.words and first is not None and one.function in (3, 4, 16) and quantity <= READ_WORDS:
-            for address in range(first, min(first + quantity, 0x10000)):
+            for address in range(first, first + min(quantity, 0x10000 - wire(first))):
                 yield held(self.drive, address, None, writing=False)
 
     # ------------------------------------------------------------ what is wrong, what to know

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import most, plan
+from driveblocks.maps.plan import most, plan, start_of
 from driveblocks.modbus.layout import KNOWN, Layout
 from driveblocks.modbus.request import READS, Asked, asked_by
 
@@ -115,7 +115,8 @@ def _many(drive: Drive, one: Layout, ascii_mode: bool) -> Iterator[Told]:
 def _address(drive: Drive, asked: Asked, readable: frozenset[int], writable: frozenset[int]) -> Iterator[Told]:
     reading = asked.function in READS
     allowed, other = (readable, writable) if reading else (writable, readable)
-    closed = [one for one in range(asked.address, asked.address + asked.quantity) if one not in allowed]
+    first = asked.address + start_of(drive, asked.function)
+    closed = [one for one in range(first, first + asked.quantity) if one not in allowed]
     if not closed:
         return
     whole = closed[-1] - closed[0] == len(closed) - 1
@@ -124,7 +125,7 @@ def _address(drive: Drive, asked: Asked, readable: frozenset[int], writable: fro
     if closed[0] in other:
         yield wrong, f"it may only be {'written' if reading else 'read'}"
     else:
-        yield f"{wrong}: the map does not list it as such", _meant(drive, asked.address, asked.quantity, allowed)
+        yield f"{wrong}: the map does not list it as such", _meant(drive, first, asked.quantity, allowed)
 
 
 def _meant(drive: Drive, address: int, count: int, allowed: frozenset[int]) -> str:

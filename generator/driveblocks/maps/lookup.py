@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from driveblocks.maps import view
-from driveblocks.maps.form import address_text, span_text
+from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.model import (
     Area,
     Bit,
@@ -23,6 +23,9 @@ from driveblocks.maps.model import (
 Found = Section | Register | Area | Bit | Fault | ErrorCode | Function | Setting | Frame
 
 _ADDRESS = re.compile(r"(?:0X)?([0-9A-F]{1,4})H?")
+
+_TABLE = re.compile(r"(COIL|DISCRETE|INPUT) ([0-9A-F]{1,4})H?")
+"""An address of another table than the holding registers, as maps write it."""
 
 _DECIMAL = re.compile(r"[1-9][0-9]{3,4}")
 """An address as some PLCs want it, in decimal: 4096 is 1000H, unless there is a 4096H. Fewer digits are a code, too."""
@@ -45,6 +48,8 @@ def find(drive: Drive, word: str) -> list[Match]:
     """Everything that a word may mean, best first; regardless of case. Empty when nothing fits."""
     upper = word.upper()
     found = [*_by_id(drive, upper)] if word else []
+    if match := _TABLE.fullmatch(upper):
+        return [*_at_address(drive, SPACES[match[1].lower()] + int(match[2], 16), spelled=True)]
     number = _number(upper)
     if number is not None:
         address = upper.startswith("0X") or len(upper.rstrip("H")) == 4

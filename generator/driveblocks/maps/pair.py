@@ -1,6 +1,6 @@
 """Values of 32 bits, which two registers hold: how a condition on one is one on each of its words."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +14,14 @@ def words(row: Register, value: int) -> tuple[int, int]:
     """The words of a value in the order of their registers."""
     high, low = value >> 16 & 0xFFFF, value & 0xFFFF
     return (low, high) if row.order == "low_first" else (high, low)
+
+
+def number_of(row: Register, carried: Sequence[int]) -> int:
+    """The number that one word or two carry, in the order of their registers."""
+    high_first = carried if row.order != "low_first" else tuple(reversed(carried))
+    raw = sum((word & 0xFFFF) << 16 * place for place, word in enumerate(reversed(high_first)))
+    bits = 16 * len(carried)
+    return raw - (1 << bits) if row.signed and raw >> bits - 1 else raw
 
 
 def places(row: Register, address: int) -> tuple[int, int]:

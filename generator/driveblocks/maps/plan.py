@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
-from driveblocks.maps.form import Span, space_of
+from driveblocks.maps.form import SPACES, Span, space_of
 from driveblocks.maps.model import Drive, Limit
 from driveblocks.modbus.layout import Dialect
 
@@ -68,6 +68,13 @@ def holding(spans: Iterable[Span]) -> tuple[Span, ...]:
 def used(drive: Drive) -> frozenset[int]:
     """The functions that a drive block may use: those that the map lists, but for those of coils that are not sent."""
     return frozenset(function.code for function in drive.functions if function.sent or function.code not in OF_BITS)
+
+
+def start_of(drive: Drive | None, function: int) -> int:
+    """What is added to the address in a request of a function: its table's, where the map has rows of that."""
+    table = {1: "coil", 2: "discrete", 4: "input", 5: "coil", 15: "coil"}.get(function, "holding")
+    rows = drive.registers() if drive else ()
+    return SPACES[table] if any(space_of(row.address.first) == table for _, row in rows) else 0
 
 
 def reads_by(drive: Drive, address: int) -> int:

@@ -40,7 +40,7 @@ class Poll:
 
     @property
     def looks(self) -> tuple[int, int]:
-        """By what its reply can be told from others: the function and the length."""
+        """What distinguishes its reply from others: the function and the length."""
         return self.function, self.data
 
     def characters(self, *, ascii_mode: bool = False) -> int:

@@ -255,6 +255,8 @@ class Row:
     signed: bool = False
     pair: bool = False
     """Its value has 32 bits."""
+    kind: str = ""
+    """The type of its number."""
 
 
 def decoders(drive: Drive) -> Iterator[Row]:
@@ -270,7 +272,8 @@ def scales(drive: Drive) -> Iterator[Row]:
     for section, row in drive.registers():
         if row.scale is not None and row.unit is not None:
             named = _register(drive, section, row, UNIT_NAMES[row.unit])
-            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed, pair=row.words is not None)
+            pair, kind = row.words is not None, "DINT" if row.signed else "UDINT" if row.words else "UINT"
+            yield replace(named, unit=row.unit, scale=row.scale, signed=row.signed, pair=pair, kind=kind)
 
 
 def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row:

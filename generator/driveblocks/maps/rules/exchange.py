@@ -5,7 +5,8 @@ from decimal import Decimal
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, Quantity, Register
-from driveblocks.maps.plan import dialect
+from driveblocks.maps.pair import number_of
+from driveblocks.maps.plan import dialect, start_of
 from driveblocks.maps.problem import Report
 from driveblocks.modbus.request import READS
 
@@ -76,7 +77,7 @@ def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fie
     if request.function not in READS or request.address is None or reply.error is not None:
         return
     for offset, word in enumerate(reply.values):
-        row = drive.register_at(request.address + offset)
+        row = drive.register_at(request.address + start_of(drive, request.function) + offset)
         if row is None or not row.values or row.masks:
             continue
         number = adu.number(word, row.signed)
@@ -91,12 +92,13 @@ def _quantity(drive: Drive, frame: Frame, quantity: Quantity, carrier: adu.Field
         wrong = f"a quantity of {address_text(quantity.register)}, which has no scale"
         report.miss(quantity.at, wrong, "add the scale that this frame proves, or remove the quantity")
         return
-    index = quantity.register - carrier.address if carrier.address is not None else -1
-    if not 0 <= index < len(frame.means.values):
+    start = start_of(drive, carrier.function)
+    index = quantity.register - start - carrier.address if carrier.address is not None else -1
+    if not 0 <= index <= len(frame.means.values) - row.size:
         wrong = f"the frame carries no word of {address_text(quantity.register)}"
         report.miss(quantity.place("register"), wrong, "name a register whose value it carries")
         return
-    raw = adu.number(frame.means.values[index] & 0xFFFF, row.signed)
+    raw = number_of(row, frame.means.values[index : index + row.size])
     due = Decimal(raw) * row.scale.factor
     if due != quantity.value:
         wrong = f"{quantity.value} {quantity.unit}, but {raw} x {row.scale.factor} is {due}"

@@ -3,7 +3,7 @@
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Drive, Frame, PlcTable, Register
-from driveblocks.maps.plan import READ_WORDS, dialect
+from driveblocks.maps.plan import READ_WORDS, dialect, start_of
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import exchange
 from driveblocks.maps.rules.access import carried
@@ -146,8 +146,9 @@ def _registers(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -
     use = "r" if fields.function in READS else "w"
     words = fields.words if fields.words is not None else 1
     for offset in range(min(words, READ_WORDS)):
-        row = carried(drive, fields.address + offset, use, frame.means.place("address"), report)
-        if row is not None and use == "w" and offset < len(fields.values):
+        address = fields.address + start_of(drive, fields.function) + offset
+        row = carried(drive, address, use, frame.means.place("address"), report)
+        if row is not None and row.words is None and use == "w" and offset < len(fields.values):
             _value(row, fields.values[offset], frame, report)
 
 
