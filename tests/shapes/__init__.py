@@ -19,7 +19,7 @@ FILE = Path(__file__).with_name("shapes.diff")
 @cache
 def texts() -> dict[str, str]:
     """The maps by name."""
-    return {name: case.text for name, case in bad.edits(FILE, _skeleton)}
+    return {name: case.text for name, case in bad.edits(FILE, on_skeleton)}
 
 
 @cache
@@ -28,6 +28,6 @@ def shapes() -> dict[str, Drive]:
     return {name: loads(text, f"{name}.yaml") for name, text in texts().items()}
 
 
-def _skeleton(_: str) -> list[str]:
+def on_skeleton(_: str) -> list[str]:
     """The lines of the skeleton, without the first, which is for editors."""
     return skeleton().split("\n")[1:]

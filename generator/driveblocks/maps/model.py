@@ -791,10 +791,19 @@ class Reference(Entry):
     """How the speed reference is given."""
 
     register: Address = fact("reference register", "0001H")
-    means: Literal["frequency", "percent_of_maximum"] = fact("what the word is", "frequency")
+    means: Literal["frequency", "percent_of_maximum", "fraction_of_full_scale"] = fact(
+        "what the word is; a fraction has its own count of full scale, a percentage has that of its register's scale",
+        "frequency",
+    )
     source: English = fact("where the manual says so", "section (I), 0001H")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     maximum: Id | None = fact("parameter that holds the 100 % value", "P0.04", optional=True)
+    full_scale: Number | None = fact("fraction_of_full_scale: the word that is 100 %", "4000H", optional=True)
+    full_scale_hz: Factor | None = fact(
+        "fraction_of_full_scale: what 100 % is in Hz, where no parameter holds it and the manual gives it for good",
+        "50",
+        optional=True,
+    )
     negative_reverses: bool = fact(
         "a negative reference turns the motor the other way", "true", optional=True, default=False
     )
@@ -827,7 +836,7 @@ class InCommand(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class OwnMaximum(Entry):
-    """The register that holds the drive's own maximum frequency; its row has the unit Hz and a scale."""
+    """The register of the drive's own maximum frequency, or of what 100 % is; its row has the unit Hz and a scale."""
 
     register: Address = fact("the register", "0303H")
     source: English = fact("where the manual says so", "table of parameters, E1-04")
@@ -955,7 +964,8 @@ class Operation(Entry):
         optional=True,
     )
     own_maximum: OwnMaximum | None = fact(
-        "the register of the drive's own maximum frequency, where its scale is known, too",
+        "the register of the drive's own maximum frequency, or of what 100 % of the reference is, where its scale is "
+        "known, too",
         "{register: 0303H, source: ...}",
         optional=True,
     )

@@ -13,7 +13,7 @@ from pathlib import Path
 from driveblocks.desk.words import Refused
 from driveblocks.maps.model import Drive
 from driveblocks.plc.controller import Controller
-from driveblocks.render.drive import MEASURES
+from driveblocks.render.drive import MEASURES, drive_block
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -61,7 +61,7 @@ class Named:
 
     def told(self) -> list[str]:
         """What it is set to, in lines."""
-        full = " (100 %)" if self.drive.operation.reference.means == "percent_of_maximum" else ""
+        full = " (100 %)" if drive_block(self.drive).ordering.percent else ""
         given = dict(self.scales)
         scales = [f"{name}={given.get(name, _usual(name))}" for name in open_scales(self.drive)]
         text = ", ".join((f"{self.drive.prefix} at unit {self.unit}: maximum {self.maximum_hz} Hz{full}", *scales))

@@ -271,8 +271,11 @@ def _valid(drive: Drive, one: Measured) -> str:
 def _reference(drive: Drive) -> dict[str, str]:
     """When the errors of a reference are so that depend on what the map knows of its scale."""
     row = drive.register_at(drive.operation.reference.register)
-    scaled = row is not None and row.scale is not None
-    percent = scaled and drive.operation.reference.means == "percent_of_maximum"
+    spec = drive.operation.reference
+    scaled = (row is not None and row.scale is not None) or spec.full_scale is not None
+    percent = scaled and (
+        spec.means == "percent_of_maximum" or (spec.means.endswith("full_scale") and not spec.full_scale_hz)
+    )
     usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
     return {
         "scale_known": "TRUE" if scaled else f"({usable})",

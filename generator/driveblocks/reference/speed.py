@@ -53,6 +53,9 @@ class SpeedReference:
             raise ValueError("the map does not list the reference register")
         self.factor = Fraction(row.scale.factor) if row.scale else None
         self.percent = self.spec.means == "percent_of_maximum" and row.scale is not None
+        if self.spec.means == "fraction_of_full_scale":
+            self.percent = self.spec.full_scale_hz is None
+            self.factor = Fraction(100 if self.percent else self.spec.full_scale_hz or 1) / (self.spec.full_scale or 1)
         self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
 
     @property

@@ -451,11 +451,13 @@ class Referred:
     source: str
     register: int
     percent: bool
+    """It is a part of FullScaleHz, which is 100 %."""
     maximum: str
     """What is 100 %."""
-    scale: Scale | None
+    scaled: bool
+    """How many counts there are is known."""
     ratio: Fraction
-    """Counts per hertz, or per the whole of a percentage."""
+    """Counts per hertz, or of 100 %."""
     exact: bool
     """A REAL holds it."""
     verify: tuple[Condition, ...]
@@ -470,17 +472,20 @@ def reference(drive: Drive) -> Referred:
     spec = drive.operation.reference
     row = drive.register_at(spec.register)
     assert row is not None  # noqa: S101  (a checked map lists its reference register)
-    percent = spec.means == "percent_of_maximum"
+    percent = spec.means == "percent_of_maximum" or (spec.full_scale is not None and spec.full_scale_hz is None)
     ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)
+    if spec.full_scale is not None:
+        ratio = spec.full_scale / Fraction(spec.full_scale_hz or 1)
+    scaled = row.scale is not None or spec.full_scale is not None
     highest, why = (
         (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
     )
     return Referred(
         source=source_of(drive, spec.source),
         register=spec.register,
-        percent=percent and row.scale is not None,
+        percent=percent and scaled,
         maximum=spec.maximum or "the maximum frequency",
-        scale=row.scale,
+        scaled=scaled,
         ratio=ratio,
         exact=is_real(ratio),
         verify=spec.verify,

@@ -337,7 +337,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         != {by},
         pair=reference.pair,
         reference=reference.register,
-        scaled=reference.scale is not None,
+        scaled=reference.scaled,
         percent=reference.percent,
         maximum=reference.maximum,
     )

@@ -144,7 +144,9 @@ def _plain(word: str) -> str:
 
 
 def _reference(reference: Reference) -> str:
-    maximum = f", 100 % is {reference.maximum}" if reference.maximum else ""
+    count = f", {address_text(reference.full_scale)} is 100 %" if reference.full_scale is not None else ""
+    maximum = f"{count}, 100 % is {reference.maximum}" if reference.maximum else count
+    maximum += f", which is {reference.full_scale_hz} Hz" if reference.full_scale_hz else ""
     reverse = ", negative turns the other way" if reference.negative_reverses else ""
     verify = f"; trusted only after reading {listed(map(condition, reference.verify))}" if reference.verify else ""
     meaning = _plain(reference.means)

@@ -21,6 +21,8 @@ from driveblocks.simulator.refusal import codes, refuses_beyond
 
 MEASURES = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
 
+MOST_TIMES = 32_000
+"""Largest numerator of a reference: a word times it has 32 bits."""
 MOST_PER = 10_000
 """Largest denominator of a reference in thousandths of a hertz: 3 counts per Hz are 1000/3 of them each."""
 
@@ -225,6 +227,9 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()
     if reference.means == "percent_of_maximum":
         times, per = 1000 * habits.maximum_hz, int(100 / factor)
+    elif reference.full_scale is not None:
+        milli = Fraction(1000 * (reference.full_scale_hz or habits.maximum_hz)) / reference.full_scale
+        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
     verify = tuple(of_condition(each) for each in reference.verify)
     if row is not None and row.words:
         high, low = places(row, reference.register)

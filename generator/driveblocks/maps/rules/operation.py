@@ -1,5 +1,6 @@
 """Rules on how the speed reference is given, and on what the pins of the drive block show."""
 
+from decimal import Decimal
 from typing import get_args
 
 from driveblocks.maps.form import address_text
@@ -27,6 +28,9 @@ _UNITS: dict[Measure, Unit] = {
     "output_power": "kW",
 }  # fmt: skip
 """What each pin shows its value in."""
+_PARTS = {"percent_of_maximum": "percentage", "fraction_of_full_scale": "fraction"}
+_LEAST_HZ, _MOST_HZ = Decimal("0.1"), Decimal(10_000)
+"""What 100 % can be."""
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -89,6 +93,7 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
     if "PID" in f"{row.name} {row.text_zh}":
         wrong = f"{address_text(reference.register)} is called `{row.name}`, which is no speed reference"
         report.add(reference.place("register"), wrong, "name the register that takes the frequency")
+    _full_scale(reference, row, report)
     unit = "Hz" if reference.means == "frequency" else "%"
     if row.unit not in (None, unit):
         wrong = f"the reference means {reference.means}, but {address_text(reference.register)} has the unit {row.unit}"
@@ -99,6 +104,30 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
         wrong = f"the scale of {address_text(reference.register)} has a condition that nobody verifies"
         report.miss(reference.place("verify"), wrong, "repeat the condition of `when` under `verify`")
     _maximum(drive, reference, report)
+
+
+def _full_scale(reference: Reference, row: Register, report: Report) -> None:
+    """Note a fraction whose full scale is missing or does not fit its register, and a full scale of what is none."""
+    where, count = address_text(reference.register), reference.full_scale
+    if reference.means != "fraction_of_full_scale":
+        for key in ("full_scale", "full_scale_hz"):
+            if getattr(reference, key) is not None:
+                wrong = f"`{key}` belongs to a `fraction_of_full_scale`, not to a {reference.means}"
+                report.add(reference.place(key), wrong, "remove it, or correct `means`")
+        return
+    highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
+    if count is None:
+        wrong = "the reference is a fraction, but nothing says which word is full scale"
+        report.miss(reference.at, wrong, "add `full_scale`, such as 4000H")
+    elif not 0 < count <= highest:
+        wrong = f"the full scale {count} does not fit {where}, which holds at most {highest}"
+        report.add(reference.place("full_scale"), wrong, "correct it, or `signed` or `range` of the register")
+    if reference.full_scale_hz is not None and not _LEAST_HZ <= reference.full_scale_hz <= _MOST_HZ:
+        wrong = f"a full scale of {reference.full_scale_hz} Hz"
+        report.add(reference.place("full_scale_hz"), wrong, f"write {_LEAST_HZ} to {_MOST_HZ}")
+    if row.scale is not None:
+        wrong = f"{where} has a scale, and `full_scale` says what a word of it means"
+        report.add(reference.place("full_scale" if count is not None else "means"), wrong, "keep one of them")
 
 
 def _reverses(drive: Drive, reference: Reference, row: Register, report: Report) -> None:
@@ -119,10 +148,13 @@ def _reverses(drive: Drive, reference: Reference, row: Register, report: Report)
 
 def _maximum(drive: Drive, reference: Reference, report: Report) -> None:
     if reference.maximum is None:
-        if reference.means == "percent_of_maximum":
-            wrong = "the reference is a percentage, but nothing says of what"
+        if reference.means in _PARTS and reference.full_scale_hz is None:
+            wrong = f"the reference is a {_PARTS[reference.means]}, but nothing says of what"
             report.miss(reference.at, wrong, "add `maximum` with the id of that parameter")
         return
+    if reference.full_scale_hz is not None:
+        wrong = "a parameter holds what 100 % is, or it is given for good"
+        report.add(reference.place("full_scale_hz"), wrong, "remove it, or `maximum`")
     of_form(drive, reference, reference.maximum, report, "maximum")
     ids = {row.id for _, row in drive.registers()} | {setting.id for setting in drive.settings}
     if reference.maximum not in ids:

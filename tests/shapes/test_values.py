@@ -1,0 +1,77 @@
+"""References and measures that no shipped drive has: made-up maps, words typed by hand, and motors that turn."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import pytest
+from tests.maps import bad
+from tests.shapes import on_skeleton
+
+from driveblocks.maps.collection import Source
+from driveblocks.maps.load import loads
+from driveblocks.maps.model import Drive
+from driveblocks.output.units import units
+from driveblocks.reference.speed import SpeedReference
+from driveblocks.render.text import languages
+from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.testing import runner
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.language.lint import lint_sources
+
+FILE = Path(__file__).with_name("values.diff")
+CONCERNED = re.compile(r"_Test(Reference|Motor|Scales|Standstill|Command)")
+
+
+@cache
+def drives() -> Mapping[str, Drive]:
+    """The maps by name."""
+    return {name: loads(case.text, f"{name}.yaml") for name, case in bad.edits(FILE, on_skeleton)}
+
+
+@pytest.mark.parametrize("name", drives())
+def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
+    found = units([Source(Path(f"{name}.yaml"), drives()[name])], languages(["en"], "utf-8"))
+    blocks = {each.path: each for unit in found for each in unit.blocks}
+    assert [str(problem) for problem in lint_sources([(each.path, each.text) for each in blocks.values()])] == []
+    unit = next(each for each in found if each.suite.name == name)
+    made = tuple(each for each in unit.suite.programs if CONCERNED.search(each.path))
+    some = replace(unit, suite=replace(unit.suite, programs=made), blocks=tuple(blocks.values()))
+    assert len(made) > 4
+    assert runner.run([some], [EmbeddedEngine()]).passed
+
+
+@pytest.mark.parametrize(
+    ("name", "pins", "word"),
+    [
+        # 4000H is what P2.00 says
+        ("fraction", (50.0, 50.0, 50.0), 0x4000),
+        ("fraction", (25.0, 50.0, 50.0), 0x2000),
+        ("fraction", (25.0, 50.0, 100.0), 0x1000),
+        ("fraction", (60.0, 50.0, 50.0), 0x4000),
+        # 20000 is 60 Hz for good
+        ("given", (60.0, 100.0, 0.0), 20000),
+        ("given", (30.0, 100.0, 0.0), 10000),
+        ("given", (30.0, 15.0, 0.0), 5000),
+        ("given", (90.0, 100.0, 0.0), 30000),
+    ],
+)
+def test_the_word_of_a_frequency(name: str, pins: tuple[float, float, float], word: int) -> None:
+    found = SpeedReference(drives()[name]).encode(*pins)
+    assert (found.result, found.value) == ("OK", word)
+
+
+@pytest.mark.parametrize(("name", "word", "hertz"), [("fraction", 0x2000, 25.0), ("given", 10000, 30.0)])
+def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
+    drive = SimulatedDrive(drives()[name], 1)
+    drive.reply(bytes.fromhex("01 06 10 01") + word.to_bytes(2, "big"))
+    drive.reply(bytes.fromhex("01 06 10 00 00 01"))
+    drive.step(10_000)
+    assert drive.hertz == hertz
+
+
+def test_a_full_scale_that_no_parameter_holds_needs_no_pin() -> None:
+    assert SpeedReference(drives()["fraction"]).encode(25.0, 50.0).result == "NO_FULL_SCALE"
+    assert SpeedReference(drives()["given"]).encode(25.0, 50.0).result == "OK"
