@@ -14,6 +14,7 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import Drive
 from driveblocks.output.units import units
+from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
@@ -70,6 +71,19 @@ def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
     drive.reply(bytes.fromhex("01 06 10 00 00 01"))
     drive.step(10_000)
     assert drive.hertz == hertz
+
+
+@pytest.mark.parametrize(("hertz", "word"), [(50.0, 0xB1E0), (25.0, 0xD8F0), (0.0, 0), (60.0, 0xB1E0)])
+def test_a_run_in_reverse_has_a_negative_word(hertz: float, word: int) -> None:
+    reference = SpeedReference(drives()["signed"])
+    assert reference.encode(hertz, 50.0, reverse=True).value == word
+    assert SpeedReference(drives()["fraction"]).encode(25.0, 50.0, 50.0, reverse=True).value == 0x2000
+
+
+def test_the_command_block_alone_cannot_reverse_by_a_sign() -> None:
+    """It knows no reference, so that its RunReverse is a stop and an error."""
+    told = Commands(drives()["signed"]).step(Pins(run_reverse=True))
+    assert (told.value, told.result, told.stopping) == (3, "NOT_ABLE", True)
 
 
 def test_a_full_scale_that_no_parameter_holds_needs_no_pin() -> None:

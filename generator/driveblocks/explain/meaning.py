@@ -161,7 +161,7 @@ def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:
             if _writes(step, address, word):
                 yield Line("command", "", f"{does}, write {turn} of {len(command.first) + 1}", "", None)
         if _writes(command, address, word):
-            yield Line("command", "", does, "", None)
+            yield Line("command", "", does + " with a negative reference" * command.negative, "", None)
 
 
 def _writes(one: Command | Step, address: int, word: int) -> bool:

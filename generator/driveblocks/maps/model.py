@@ -776,9 +776,20 @@ class Command(Entry):
         "section 3 says that writing 0 stops the motor by its ramp",
         optional=True,
     )
+    negative: bool = fact(
+        "run_reverse of a drive without such a command: it writes what run_forward does, and the reference is negative",
+        "true",
+        optional=True,
+        default=False,
+    )
     source: English = fact("where the manual says so", "section (I), 0000H")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
     note: English | None = fact("what else a person must know", "bits 2 to 7 are terminals and are kept", optional=True)
+
+    @property
+    def written_as(self) -> Does:
+        """The command whose words it writes: its own, or the run forward that a negative reference turns round."""
+        return "run_forward" if self.negative else self.does
 
     @property
     def writes(self) -> tuple["Command | Step", ...]:
@@ -969,6 +980,11 @@ class Operation(Entry):
         "{register: 0303H, source: ...}",
         optional=True,
     )
+
+    @property
+    def by_sign(self) -> bool:
+        """Whether a negative reference is what reverses a run."""
+        return any(command.negative for command in self.commands)
 
     @property
     def in_one_word(self) -> bool:

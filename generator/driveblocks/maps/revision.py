@@ -9,8 +9,10 @@ from driveblocks.maps.model import Drive, Entry, Worded
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
-    "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale full_scale_hz",
+    "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
+    "full_scale_hz",
     "()": "never without one_of visible_when twins",
+    "False": "negative",
 }
 """Keys that the format has learned since the first numbers were printed, by what they are when they are left out."""
 _LEFT_OUT = re.compile(

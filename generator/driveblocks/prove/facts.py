@@ -277,7 +277,17 @@ def _reference(drive: Drive) -> dict[str, str]:
         spec.means == "percent_of_maximum" or (spec.means.endswith("full_scale") and not spec.full_scale_hz)
     )
     usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
+    signed = row is not None and row.signed
+    by_sign = drive.operation.by_sign
+    negative = "({word} AND WORD#16#8000) <> WORD#16#0000"
+    word_sign = f"(Value = WORD#16#0000) OR (({negative.format(word='Value')}) = {'Reverse' if by_sign else 'FALSE'})"
+    sent = negative.format(word="Control.SentWord")
+    reverses = f"(Control.SentWord = WORD#16#0000) OR (({sent}) = (Control.Send.Order = GO_REVERSE))"
+    given = f"(Speed.Value = WORD#16#0000) OR (({negative.format(word='Speed.Value')}) = Speed.Reverse)"
     return {
+        "word_sign": word_sign if signed else "TRUE",
+        "given_sign": given if by_sign else "TRUE",
+        "sent_sign": reverses if by_sign else "TRUE",
         "scale_known": "TRUE" if scaled else f"({usable})",
         "no_scale": "FALSE" if scaled else f"(ErrorID = 15) AND NOT ({usable})",
         "no_full_scale": "TRUE" if percent else "NOT ((FullScaleHz >= 0.0) AND (FullScaleHz <= 0.0))",

@@ -61,7 +61,7 @@ class Commands:
 
     def __init__(self, drive: Drive) -> None:
         """Take the commands from the map. Raises ValueError if it has no stop, or a command of several writes."""
-        self.known: dict[str, Command] = {one.does: one for one in drive.operation.commands}
+        self.known: dict[str, Command] = {one.does: one for one in drive.operation.commands if not one.negative}
         if "stop" not in self.known:
             raise ValueError("the map has no stop command")
         if not drive.operation.in_one_word:

@@ -56,6 +56,7 @@ class SpeedReference:
         if self.spec.means == "fraction_of_full_scale":
             self.percent = self.spec.full_scale_hz is None
             self.factor = Fraction(100 if self.percent else self.spec.full_scale_hz or 1) / (self.spec.full_scale or 1)
+        self.by_sign = any(command.negative for command in drive.operation.commands)
         self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
 
     @property
@@ -63,11 +64,14 @@ class SpeedReference:
         """The reference register."""
         return self.spec.register
 
-    def encode(self, hertz: float, maximum: float, full: float = 0.0, scale: float = 0.0) -> Encoded:
+    def encode(
+        self, hertz: float, maximum: float, full: float = 0.0, scale: float = 0.0, *, reverse: bool = False
+    ) -> Encoded:
         """The word for a frequency in Hz.
 
         `maximum` is a limit in Hz; `full`, in Hz, is what 100 % means in the drive, and a second limit; where the
         reference is no fraction of it, 0 is none. `scale` is in counts per Hz if the map has none.
+        `reverse` makes the word negative, where that is the direction.
         """
         asked, most, whole, counts = map(_exact, (hertz, maximum, full, scale))
         if asked is None:
@@ -80,7 +84,11 @@ class SpeedReference:
             return _refused("NO_SCALE")
         limit = min(most, whole) if whole else most
         found = self._counted(self._counts(min(asked, limit), whole, counts), asked > limit)
-        return replace(found, hertz=float(min(asked, limit))) if found.result == "OK" else found
+        if found.result != "OK":
+            return found
+        sign = -1 if reverse and self.by_sign else 1
+        near = frozenset(sign * word & 0xFFFF for word in found.near)
+        return replace(found, value=sign * found.value & 0xFFFF, near=near, hertz=float(min(asked, limit)))
 
     def _counts(self, hertz: Fraction, whole: Fraction, counts: Fraction | None) -> Fraction:
         if self.factor is None:

@@ -377,7 +377,7 @@ class Commanded:
 
 def command(drive: Drive) -> Commanded:
     """What commands write."""
-    commands = {one.does: one for one in drive.operation.commands}
+    commands = {one.does: one for one in drive.operation.commands if not one.negative}
     stop = commands["stop"]
     keeps = _keeps(drive, stop.register)
     told: dict[str, Told] = {does: _told(one, stop, keeps) for does, one in commands.items()}
@@ -461,6 +461,8 @@ class Referred:
     exact: bool
     """A REAL holds it."""
     verify: tuple[Condition, ...]
+    signed: bool
+    """A negative word reverses."""
     highest: int
     highest_why: str
     pair: str | None
@@ -489,6 +491,7 @@ def reference(drive: Drive) -> Referred:
         ratio=ratio,
         exact=is_real(ratio),
         verify=spec.verify,
+        signed=drive.operation.by_sign,
         highest=highest,
         highest_why=f"{why} ends here",
         pair=(row.order or "high_first") if row.words else None,

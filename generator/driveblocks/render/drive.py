@@ -233,6 +233,8 @@ class Ordering:
     reference: int
     scaled: bool
     percent: bool
+    signed: bool
+    """A negative reference reverses."""
     maximum: str
 
 
@@ -339,6 +341,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         reference=reference.register,
         scaled=reference.scaled,
         percent=reference.percent,
+        signed=reference.signed,
         maximum=reference.maximum,
     )
 

@@ -158,7 +158,8 @@ def _command(drive: Drive, command: Command) -> Iterator[tuple[str, ...]]:
     for number, step in enumerate(command.first, 1):
         yield f"{_plain(command.does)}, {number}", *_written(drive, step), _waits(step)
     name = f"{_plain(command.does)}{f', {len(command.first) + 1}' if command.first else ''}"
-    yield name, *_written(drive, command), both(both(command.because, command.note), f"({command.source})")
+    sign = "with a negative reference" if command.negative else None
+    yield name, *_written(drive, command), both(both(sign, both(command.because, command.note)), f"({command.source})")
 
 
 def _written(drive: Drive, one: Command | Step) -> tuple[str, ...]:

@@ -51,8 +51,11 @@ def moves(drive: Drive) -> tuple[Move, ...]:
 
     A step that waits for a state makes the next write act in that state only. Another step that the next write of
     its register contradicts makes an edge or a pulse of it; one that nothing contradicts must still be there.
+    A run that a negative reference turns round is no move of its own.
     """
-    found = dict.fromkeys(move for command in drive.operation.commands for move in _path(command))
+    found = dict.fromkeys(
+        move for command in drive.operation.commands if not command.negative for move in _path(command)
+    )
     return tuple(sorted(found, key=lambda move: EFFECTS.index(move.effect)))
 
 

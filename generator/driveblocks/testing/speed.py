@@ -30,6 +30,8 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
     table = _table(program, model)
     for case in dict.fromkeys(_cases(model)):
         _row(table, model, case)
+    for case in dict.fromkeys(_cases(model)) if model.by_sign else ():
+        _row(table, model, case, reverse=True)
     yield program
 
 
@@ -42,6 +44,9 @@ def _table(program: Script, model: SpeedReference) -> Table:
     if model.factor is None:
         table.column("Scale", "REAL", USUAL_SCALE, "ReferenceScale")
         pins += ", ReferenceScale := Scale"
+    if model.by_sign:
+        table.column("Reverse", "BOOL", False, "Reverse")
+        pins += ", Reverse := Reverse"
     table.column("WantedError", "UINT", 0, "ErrorID that Encode must give")
     table.column("WantedLimited", "BOOL", False, "whether the reference is clamped")
     table.column("WantedHz", "REAL", 0.0, "AskedHz that it must give, Hz")
@@ -58,17 +63,21 @@ def _table(program: Script, model: SpeedReference) -> Table:
     return table
 
 
-def _row(table: Table, model: SpeedReference, case: Case) -> None:
+def _row(table: Table, model: SpeedReference, case: Case, *, reverse: bool = False) -> None:
     about, hertz, maximum, full, scale = case
-    found = model.encode(hertz, maximum, full, scale)
+    found = model.encode(hertz, maximum, full, scale, reverse=reverse)
     if found.at_the_end or (len(found.results) > 1 and not _exact(model, hertz, scale)):
         return  # beside the end of the word, or half a count below zero: single precision decides which side it is on
+    if reverse and 0 in found.near and len(found.near) > 1:
+        return  # 0 and -1 are no neighbours as words
     near = {found.value} if _exact(model, hertz, scale) else found.near
     values = {"Hertz": hertz, "Maximum": maximum, "Full": full} | ({"Scale": scale} if model.factor is None else {})
     says = f"{found.value}{', limited' if found.limited else ''}" if found.result == "OK" else WORDS[found.result]
     words = f"{about}: {hertz:.9g} Hz of {maximum:.9g} Hz, {full:.9g} Hz is all" + (
         f", {scale:.9g} per Hz" if model.factor is None else ""
     )
+    if model.by_sign:
+        values["Reverse"], words = reverse, f"{words}{', in reverse' if reverse else ''}"
     wanted = {"WantedError": NUMBERS[found.result], "WantedLimited": found.limited, "WantedHz": found.hertz}
     bounds = {"Lowest": min(near) & 0xFFFF, "Highest": max(near) & 0xFFFF}
     table.row(f"{words}: {says}", values | wanted | bounds)

@@ -24,7 +24,9 @@ def check(drive: Drive, report: Report) -> None:
     for command in commands:
         _command(drive, command, report)
         last = meaning.acting(command)[-1]
-        if last.value is not None:
+        if command.negative:
+            _negative(drive, command, seen.get("run_forward"), report)
+        elif last.value is not None:
             other = words.setdefault(frozenset(meaning.image(meaning.acting(command)).items()), command)
             if other is not command:
                 wrong = f"`{command.does}` and `{other.does}` write the same value {last.value}"
@@ -36,6 +38,24 @@ def check(drive: Drive, report: Report) -> None:
             wrong = f"there is no command `{does}`"
             report.miss(drive.operation.place("commands"), wrong, "a drive that cannot run or stop is of no use")
     path.check(drive, report)
+
+
+def _negative(drive: Drive, command: Command, forward: Command | None, report: Report) -> None:
+    """Note a run in reverse by a negative reference that is none, or that no negative reference turns round."""
+    place = command.place("negative")
+    if command.does != "run_reverse":
+        wrong = f"`{command.does}` with a negative reference"
+        report.add(place, wrong, "`negative` is of `run_reverse` alone; remove it")
+        return
+    if not drive.operation.reference.negative_reverses:
+        wrong = "a run in reverse by a negative reference, but nothing says that a negative reference reverses"
+        report.miss(place, wrong, "add `negative_reverses: true` to the reference, or remove `negative`")
+    ways = [
+        [(one.register, one.value, one.set, one.clear) for one in each.writes] for each in (command, forward) if each
+    ]
+    if any(way != ways[0] for way in ways):
+        wrong = "a run in reverse by a negative reference, but it writes something else than `run_forward`"
+        report.add(place, wrong, "write what `run_forward` does, or remove `negative`")
 
 
 def _releases(drive: Drive, command: Command, report: Report) -> None:

@@ -130,7 +130,7 @@ def field_value(field: Bit, bits: dict[int, bool]) -> Value | None:
 
 def check(drive: Drive, command: Command, report: Report) -> None:
     """Note a command that the register calls something else, and one that it does not call so without a reason."""
-    due, said = _DUE[command.does], [part for one in _merged(acting(command)) for part in _said(drive, one)]
+    due, said = _DUE[command.written_as], [part for one in _merged(acting(command)) for part in _said(drive, one)]
     contrary = [one for one in said if _contrary(due, one, said)]
     taken = [one for one in said if _taken(due, one, said)]
     for one in contrary or taken:

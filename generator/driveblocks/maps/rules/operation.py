@@ -140,6 +140,9 @@ def _reverses(drive: Drive, reference: Reference, row: Register, report: Report)
     elif row.range is not None and row.range.min >= 0:
         wrong = f"a negative reference, but the range of {where} starts at {row.range.min}"
         report.add(place, wrong, "correct the range, or remove `negative_reverses`")
+    elif row.range is not None and drive.operation.by_sign and row.range.min != -row.range.max:
+        wrong = f"a negative reference reverses, but {where} holds {row.range.min} to {row.range.max}"
+        report.add(row.place("range"), wrong, "both ends are the same number; correct one, or leave the range out")
     if not any(command.does in ("run_reverse", "jog_reverse") for command in drive.operation.commands):
         wrong = "a negative reference reverses, but no command does, and no block sends a negative reference"
         right = "add the command `run_reverse`, or say it in the `note` of the register instead"

@@ -78,7 +78,7 @@ def words(drive: Drive, command: Command) -> Iterator[tuple[Write, Image]]:
 
 def _contrary(command: Command, other: Command) -> bool:
     """Whether another motion is one that a command must not even pass through."""
-    return command.does not in MOVES or command.does.endswith("forward") != other.does.endswith("forward")
+    return command.does not in MOVES or command.written_as.endswith("forward") != other.written_as.endswith("forward")
 
 
 def _starts(drive: Drive) -> list[Image]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import meaning_words, polls
 from driveblocks.simulator.move import MOTIONS
+from driveblocks.testing.scenes.drive import ORDERS
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,11 @@ class Ability:
     def can(self, does: str) -> bool:
         """Whether it has a command."""
         return any(one.does == does for one in self.drive.operation.commands)
+
+    def order(self, does: str) -> int:
+        """Number of the motion that the drive is commanded for one: a negative reference turns a run forward round."""
+        found = next((one.written_as for one in self.drive.operation.commands if one.does == does), does)
+        return ORDERS[found]
 
     def shows(self, what: str) -> bool:
         """Whether its status shows something."""

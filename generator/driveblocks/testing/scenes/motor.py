@@ -21,7 +21,6 @@ PINS = {
     "jog_forward": "JogForward",
     "jog_reverse": "JogReverse",
 }
-ORDERS = {"run_forward": 5, "run_reverse": 6, "jog_forward": 7, "jog_reverse": 8}
 RUNNING: Shows = {"Running": True, "Reason": "RUNS", "StopConfirmed": False, "Error": False, "CommOk": True}
 STANDS: Shows = {"StopConfirmed": True, "Running": False, "Seen.Driven": False, "OutputFrequencyHz": 0.0}
 NOTHING_STARTED: Shows = {"Seen.Starts": 0, "Seen.Runs": 0, "Seen.Driven": False}
@@ -70,7 +69,7 @@ def starts(can: Ability) -> Iterator[Scene]:
     yield scene("a reference that is none", POWER, *_no_reference())
     yield scene("forward and reverse together", POWER, run(), *_both())
     if can.can("run_reverse"):
-        yield scene("from forward to reverse", POWER, run(), *_turns_round())
+        yield scene("from forward to reverse", POWER, run(), *_turns_round(can))
     yield scene("a start before the stop is confirmed", POWER, run(), *_too_early())
     yield scene("a short touch of the run pin", POWER, *_touch())
 
@@ -119,11 +118,11 @@ def _motion(can: Ability, does: str) -> Iterator[Step]:
     sent = next(one.register for one in can.drive.operation.commands if one.does == does)
     own = sent != can.drive.operation.reference.register
     yield Step("it ramps up", {}, f"Motor.Running AND ({pace})", 1000, {
-        "Seen.Order": ORDERS[does], "Slots[0].Once": own, "Slots[0].Begins": own,
+        "Seen.Order": can.order(does), "Slots[0].Once": own, "Slots[0].Begins": own,
     })  # fmt: skip
     until = f"ABS(Seen.Milli) >= {round(1000 * hertz) - 200}" if jog else "Motor.AtSpeed"
     shows: Shows = {
-        "Running": True, "Seen.Starts": 1, "Seen.Order": ORDERS[does], "Error": False, "ZeroSpeed": False,
+        "Running": True, "Seen.Starts": 1, "Seen.Order": can.order(does), "Error": False, "ZeroSpeed": False,
         f"ABS(Seen.Milli {opposite} {round(1000 * hertz)}) <= 200": True,
     }  # fmt: skip
     yield Step("it reaches its speed", {}, until, 3000, shows)
@@ -213,7 +212,7 @@ def _both() -> Iterator[Step]:
     })  # fmt: skip
 
 
-def _turns_round() -> Iterator[Step]:
+def _turns_round(can: Ability) -> Iterator[Step]:
     pins: Shows = {"RunForward": False, "RunReverse": True}
     yield Step("it stops", pins, "Motor.StopConfirmed", 3000, STANDS)
     yield Step("and waits for a new edge", ms=500, shows={"Seen.Starts": 1, "Reason": "HELD"})
@@ -223,7 +222,7 @@ def _turns_round() -> Iterator[Step]:
         {"RunReverse": True},
         "Motor.AtSpeed",
         3000,
-        {"Seen.Order": 6, "ABS(Seen.Milli + 30000) <= 200": True},
+        {"Seen.Order": can.order("run_reverse"), "ABS(Seen.Milli + 30000) <= 200": True},
     )
 
 
