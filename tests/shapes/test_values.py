@@ -57,14 +57,20 @@ def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
         ("given", (30.0, 100.0, 0.0), 10000),
         ("given", (30.0, 15.0, 0.0), 5000),
         ("given", (90.0, 100.0, 0.0), 30000),
+        # r/min of a motor with 2, 1 and 3 pole pairs
+        ("turns", (50.0, 50.0, 0.0, 2.0), 1500),
+        ("turns", (50.0, 50.0, 0.0, 1.0), 3000),
+        ("turns", (60.0, 50.0, 0.0, 3.0), 1000),
     ],
 )
-def test_the_word_of_a_frequency(name: str, pins: tuple[float, float, float], word: int) -> None:
+def test_the_word_of_a_frequency(name: str, pins: tuple[float, ...], word: int) -> None:
     found = SpeedReference(drives()[name]).encode(*pins)
     assert (found.result, found.value) == ("OK", word)
 
 
-@pytest.mark.parametrize(("name", "word", "hertz"), [("fraction", 0x2000, 25.0), ("given", 10000, 30.0)])
+@pytest.mark.parametrize(
+    ("name", "word", "hertz"), [("fraction", 0x2000, 25.0), ("given", 10000, 30.0), ("turns", 900, 30.0)]
+)
 def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
     drive = SimulatedDrive(drives()[name], 1)
     drive.reply(bytes.fromhex("01 06 10 01") + word.to_bytes(2, "big"))
@@ -74,6 +80,11 @@ def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
 
 
 @pytest.mark.parametrize(("hertz", "word"), [(50.0, 0xB1E0), (25.0, 0xD8F0), (0.0, 0), (60.0, 0xB1E0)])
+@pytest.mark.parametrize("pairs", [0, 101])
+def test_no_speed_without_pole_pairs(pairs: float) -> None:
+    assert SpeedReference(drives()["turns"]).encode(25.0, 50.0, 0.0, pairs).result == "NO_SCALE"
+
+
 def test_a_run_in_reverse_has_a_negative_word(hertz: float, word: int) -> None:
     reference = SpeedReference(drives()["signed"])
     assert reference.encode(hertz, 50.0, reverse=True).value == word

@@ -76,6 +76,8 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
     word = address_text(block.ordering.reference)
     missing = f"required: the manual gives no scale of {word}"
     yield "ReferenceScale", MAP_HAS if block.ordering.scaled or block.ordering.percent else missing
+    turns = f"required: {word} is in r/min" if block.ordering.in_rpm else "no use: the reference is not in r/min"
+    yield "PolePairs", turns
     for shows, (_, _, setting) in MEASURES.items():
         measure = block.showing.measures.get(shows)
         if measure is None:

@@ -139,6 +139,7 @@ def _swapped(drive: Drive) -> dict[str, str]:
         "prefix": drive.prefix,
         "full": f"required: what {first.maximum} says" if first.percent else "no use",
         "scale": "required" if first.unscaled else "no use",
+        "pairs": "required" if first.in_rpm else "no use",
         "reset": "yes" if first.has_reset else "no",
         "cannot": ", ".join(words for does, words in ABILITIES.items() if not can(drive, does)) or "nothing",
         "units": f"{unit.min} to {unit.max}",

@@ -802,8 +802,9 @@ class Reference(Entry):
     """How the speed reference is given."""
 
     register: Address = fact("reference register", "0001H")
-    means: Literal["frequency", "percent_of_maximum", "fraction_of_full_scale"] = fact(
-        "what the word is; a fraction has its own count of full scale, a percentage has that of its register's scale",
+    means: Literal["frequency", "percent_of_maximum", "fraction_of_full_scale", "speed"] = fact(
+        "what the word is; a fraction has its own count of full scale, a percentage has that of its register's scale; "
+        "a speed in r/min needs `PolePairs` of `VFD_Settings`",
         "frequency",
     )
     source: English = fact("where the manual says so", "section (I), 0001H")

@@ -277,6 +277,8 @@ def _reference(drive: Drive) -> dict[str, str]:
         spec.means == "percent_of_maximum" or (spec.means.endswith("full_scale") and not spec.full_scale_hz)
     )
     usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
+    if scaled and spec.means == "speed":
+        scaled, usable = False, "(PolePairs >= 1) AND (PolePairs <= 100)"
     signed = row is not None and row.signed
     by_sign = drive.operation.by_sign
     negative = "({word} AND WORD#16#8000) <> WORD#16#0000"

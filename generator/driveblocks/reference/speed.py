@@ -16,6 +16,9 @@ BEYOND = Fraction(stored(1.0e30))
 LEAST_MAXIMUM, MOST_MAXIMUM = Fraction(stored(0.1)), Fraction(10_000)
 """A maximum in Hz outside of these is not set, or a mistake."""
 
+MOST_PAIRS = 100
+"""Pole pairs of a motor."""
+
 MOST_COUNTS = 1_000_000
 """Counts per Hz; a word ends at 65535, so more is a mistake, and what it gives, clamped, would be full speed."""
 
@@ -56,6 +59,7 @@ class SpeedReference:
         if self.spec.means == "fraction_of_full_scale":
             self.percent = self.spec.full_scale_hz is None
             self.factor = Fraction(100 if self.percent else self.spec.full_scale_hz or 1) / (self.spec.full_scale or 1)
+        self.turns = self.spec.means == "speed" and row.scale is not None
         self.by_sign = any(command.negative for command in drive.operation.commands)
         self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
 
@@ -70,7 +74,8 @@ class SpeedReference:
         """The word for a frequency in Hz.
 
         `maximum` is a limit in Hz; `full`, in Hz, is what 100 % means in the drive, and a second limit; where the
-        reference is no fraction of it, 0 is none. `scale` is in counts per Hz if the map has none.
+        reference is no fraction of it, 0 is none. `scale` is in counts per Hz if the map has none; of a speed in
+        r/min it is the number of pole pairs.
         `reverse` makes the word negative, where that is the direction.
         """
         asked, most, whole, counts = map(_exact, (hertz, maximum, full, scale))
@@ -81,6 +86,8 @@ class SpeedReference:
         if whole is None or not (LEAST_MAXIMUM <= whole <= MOST_MAXIMUM or (whole == 0 and not self.percent)):
             return _refused("NO_FULL_SCALE")
         if self.factor is None and (counts is None or not 0 < counts <= MOST_COUNTS):
+            return _refused("NO_SCALE")
+        if self.turns and (counts is None or not 1 <= counts <= MOST_PAIRS):
             return _refused("NO_SCALE")
         limit = min(most, whole) if whole else most
         found = self._counted(self._counts(min(asked, limit), whole, counts), asked > limit)
@@ -94,6 +101,8 @@ class SpeedReference:
         if self.factor is None:
             assert counts is not None  # noqa: S101  (refused before)
             return hertz * counts
+        if self.turns:
+            return hertz * 60 / (counts or 1) / self.factor
         return (hertz / whole * 100 if self.percent else hertz) / self.factor
 
     def _counted(self, counts: Fraction, limited: bool) -> Encoded:

@@ -461,6 +461,8 @@ class Referred:
     exact: bool
     """A REAL holds it."""
     verify: tuple[Condition, ...]
+    in_rpm: bool
+    """It counts in r/min, which are 60 per Hz of a motor with one pole pair."""
     signed: bool
     """A negative word reverses."""
     highest: int
@@ -478,6 +480,8 @@ def reference(drive: Drive) -> Referred:
     ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)
     if spec.full_scale is not None:
         ratio = spec.full_scale / Fraction(spec.full_scale_hz or 1)
+    in_rpm = spec.means == "speed" and row.scale is not None
+    ratio *= 60 if in_rpm else 1
     scaled = row.scale is not None or spec.full_scale is not None
     highest, why = (
         (row.range.max, "the range of the register") if row.range else (32767 if row.signed else 65535, "the word")
@@ -491,6 +495,7 @@ def reference(drive: Drive) -> Referred:
         ratio=ratio,
         exact=is_real(ratio),
         verify=spec.verify,
+        in_rpm=in_rpm,
         signed=drive.operation.by_sign,
         highest=highest,
         highest_why=f"{why} ends here",

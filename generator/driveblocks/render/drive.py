@@ -233,6 +233,8 @@ class Ordering:
     reference: int
     scaled: bool
     percent: bool
+    in_rpm: bool
+    """The reference is in r/min."""
     signed: bool
     """A negative reference reverses."""
     maximum: str
@@ -341,6 +343,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         reference=reference.register,
         scaled=reference.scaled,
         percent=reference.percent,
+        in_rpm=reference.in_rpm,
         signed=reference.signed,
         maximum=reference.maximum,
     )

@@ -37,6 +37,7 @@ class Motor:
     has_reset: bool
     second_hand: bool
     unscaled: bool
+    in_rpm: bool
     percent: bool
     maximum: str
     checked: int
@@ -57,6 +58,7 @@ def motor(drive: Drive) -> Motor:
         has_reset="fault_reset" in ordering.can,
         second_hand=own.second_hand,
         unscaled=not ordering.scaled,
+        in_rpm=ordering.in_rpm,
         percent=ordering.percent,
         maximum=ordering.maximum,
         checked=own.checked,

@@ -21,7 +21,7 @@ _NAMES = {
     "output_power": r"output power",
 }
 _AT_FAULT = " at fault"
-RPM_PER_HERTZ = 30
+RPM_OF_ONE_PAIR = 60
 """Of a motor with four poles without slip."""
 
 

@@ -16,6 +16,8 @@ class Habits:
 
     maximum_hz: int = 50
     jog_hz: int = 5
+    pole_pairs: int = 2
+    """Of its motor: so many hertz are one turn in a second."""
     ramp: int = 10
     """Up, and down to a stop."""
     quick_ramp: int = 50

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from driveblocks.maps.model import Drive
-from driveblocks.simulator.copies import RPM_PER_HERTZ, Copy
+from driveblocks.simulator.copies import RPM_OF_ONE_PAIR, Copy
 from driveblocks.simulator.face import Situation
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.memory import Memory
@@ -118,7 +118,7 @@ class Machine:
             return self._code if copy.shows == "fault" else self.last_fault
         if copy.shows not in ("asked", "speed"):
             return self._measure(Gauge(copy.register, copy.shows, copy.milli, copy.signed))
-        milli = self._asked() if copy.shows == "asked" else RPM_PER_HERTZ * self.motor.shaft
+        milli = self._asked() if copy.shows == "asked" else RPM_OF_ONE_PAIR * self.motor.shaft // self.habits.pole_pairs
         return _counts(milli if copy.signed else abs(milli), copy.milli)
 
     @property

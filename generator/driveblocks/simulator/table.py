@@ -227,6 +227,9 @@ def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
     times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()
     if reference.means == "percent_of_maximum":
         times, per = 1000 * habits.maximum_hz, int(100 / factor)
+    elif reference.means == "speed" and row is not None and row.scale:
+        milli = Fraction(1000 * factor) * habits.pole_pairs / 60
+        times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()
     elif reference.full_scale is not None:
         milli = Fraction(1000 * (reference.full_scale_hz or habits.maximum_hz)) / reference.full_scale
         times, per = milli.limit_denominator(max(1, int(MOST_TIMES / milli))).as_integer_ratio()

@@ -41,7 +41,10 @@ def _table(program: Script, model: SpeedReference) -> Table:
     table.column("Maximum", "REAL", USUAL_MAXIMUM, "MaximumHz")
     table.column("Full", "REAL", USUAL_MAXIMUM if model.percent else 0.0, "FullScaleHz")
     pins = "SpeedReferenceHz := Hertz, MaximumHz := Maximum, FullScaleHz := Full"
-    if model.factor is None:
+    if model.turns:
+        table.column("Pairs", "UINT", 0, "PolePairs")
+        pins += ", PolePairs := Pairs"
+    elif model.factor is None:
         table.column("Scale", "REAL", USUAL_SCALE, "ReferenceScale")
         pins += ", ReferenceScale := Scale"
     if model.by_sign:
@@ -71,10 +74,10 @@ def _row(table: Table, model: SpeedReference, case: Case, *, reverse: bool = Fal
     if reverse and 0 in found.near and len(found.near) > 1:
         return  # 0 and -1 are no neighbours as words
     near = {found.value} if _exact(model, hertz, scale) else found.near
-    values = {"Hertz": hertz, "Maximum": maximum, "Full": full} | ({"Scale": scale} if model.factor is None else {})
+    values = {"Hertz": hertz, "Maximum": maximum, "Full": full} | _scale(model, scale)
     says = f"{found.value}{', limited' if found.limited else ''}" if found.result == "OK" else WORDS[found.result]
     words = f"{about}: {hertz:.9g} Hz of {maximum:.9g} Hz, {full:.9g} Hz is all" + (
-        f", {scale:.9g} per Hz" if model.factor is None else ""
+        f", {scale:.9g} per Hz" if model.factor is None else f", {scale:.9g} pole pairs" if model.turns else ""
     )
     if model.by_sign:
         values["Reverse"], words = reverse, f"{words}{', in reverse' if reverse else ''}"
@@ -83,9 +86,16 @@ def _row(table: Table, model: SpeedReference, case: Case, *, reverse: bool = Fal
     table.row(f"{words}: {says}", values | wanted | bounds)
 
 
+def _scale(model: SpeedReference, scale: float) -> dict[str, float | int]:
+    """The pin that says how the reference counts, where the map does not."""
+    if model.turns:
+        return {"Pairs": int(min(max(scale, 0), 65535))}
+    return {"Scale": scale} if model.factor is None else {}
+
+
 def _exact(model: SpeedReference, hertz: float, scale: float) -> bool:
     """Whether REAL holds the counts, and them and a half, exactly, so that one answer is right."""
-    if model.factor is not None or model.percent:
+    if model.factor is not None or model.percent or model.turns:
         return False
     if not 0 < scale < LARGEST_EXACT or not abs(hertz) < LARGEST_EXACT:
         return False
@@ -118,6 +128,8 @@ def _limited(model: SpeedReference) -> Iterator[tuple[str, float, float, float]]
             yield from _at(model, 50.0, scale)
         for scale in (0.0, -1.0, -9.0e29, 2.0e30):
             yield "bad scale" if scale else "scale not set", 10.0, 50.0, scale
+    for pairs in (0.0, 1.0, 2.0, 3.0, 100.0, 101.0, 65535.0) if model.turns else ():
+        yield "pole pairs" if pairs else "pole pairs not set", 10.0, 50.0, pairs
     for hertz in (0.0, 0.25, 0.5, 1.0):
         yield "a low maximum", hertz, 0.5, USUAL_SCALE
     for maximum in (0.0, -1.0, 0.099, 0.1, 10000.0, 10001.0, 1.0e30, -2.0e30, 2.0e30):
@@ -146,4 +158,6 @@ def _step(model: SpeedReference, maximum: float, scale: float) -> Fraction:
     """Hz per count."""
     if model.factor is None:
         return 1 / Fraction(scale)
+    if model.turns:
+        return model.factor * Fraction(scale) / 60
     return model.factor * Fraction(maximum) / 100 if model.percent else model.factor

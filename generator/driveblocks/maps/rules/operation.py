@@ -94,11 +94,12 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
         wrong = f"{address_text(reference.register)} is called `{row.name}`, which is no speed reference"
         report.add(reference.place("register"), wrong, "name the register that takes the frequency")
     _full_scale(reference, row, report)
-    unit = "Hz" if reference.means == "frequency" else "%"
+    unit = {"frequency": "Hz", "speed": "r/min"}.get(reference.means, "%")
     if row.unit not in (None, unit):
         wrong = f"the reference means {reference.means}, but {address_text(reference.register)} has the unit {row.unit}"
-        other = f"blocks command Hz or %: a reference in {row.unit} has no block; look for one of these in the manual"
-        report.add(reference.place("means"), wrong, "correct one of them" if row.unit in ("Hz", "%") else other)
+        other = f"blocks command Hz, % or r/min: a reference in {row.unit} has no block; look for one in the manual"
+        known_unit = row.unit in ("Hz", "%", "r/min")
+        report.add(reference.place("means"), wrong, "correct one of them" if known_unit else other)
     when = row.scale.when if row.scale else None
     if when is not None and when not in reference.verify:
         wrong = f"the scale of {address_text(reference.register)} has a condition that nobody verifies"

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
+from driveblocks.simulator.habits import Habits
 from driveblocks.testing import bench
 from driveblocks.testing.scenes.ability import Ability
 from driveblocks.testing.scenes.drive import counts_per_hertz, environment, name
@@ -234,6 +235,7 @@ SCALES = {
 
 def _plant(drive: Drive, more: More) -> str:
     scales = {"ReferenceScale": counts_per_hertz(drive), **SCALES}
+    pairs = [("PolePairs", str(Habits().pole_pairs))]
     return (
         environment()
         .get_template("Plant.st.j2")
@@ -243,7 +245,7 @@ def _plant(drive: Drive, more: More) -> str:
             checked=checked(drive),
             ascii=flag("rtu" not in drive.serial.mode.modes),
             scan=SCAN_MS,
-            scales=[(key, real(value)) for key, value in scales.items()],
+            scales=[*((key, real(value)) for key, value in scales.items()), *pairs],
             other=more.other,
             calls=more.calls,
             after=more.after,
