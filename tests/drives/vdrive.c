@@ -58,6 +58,13 @@ static int vd_measure(const VDrive *d, const VGauge *g) {
     case M_OUTPUT_VOLTAGE: milli = 10 * h->motor_volts * share * d->driven; break;
     case M_DC_BUS_VOLTAGE: milli = 1000LL * h->bus_volts; break;
     case M_OUTPUT_POWER: milli = h->kilowatts * d->load * share * d->driven / 10; break;
+    case M_OUTPUT_SPEED: milli = 60 * (g->sign ? shown : output) / h->pole_pairs; break;
+    case M_OUTPUT_TORQUE: milli = 1000LL * d->load * d->driven; break;
+    case M_RELATIVE_POWER: milli = 10LL * d->load * share * d->driven; break;
+    case M_DRIVE_TEMPERATURE: milli = 1000LL * h->drive_degrees; break;
+    case M_MOTOR_TEMPERATURE: milli = 1000LL * h->motor_degrees; break;
+    case M_OPERATING_TIME: milli = 1000LL * h->hours; break;
+    case M_ENERGY: milli = 1000LL * h->kilowatt_hours; break;
   }
   return (int)(milli / g->milli) & 0xFFFF;
 }

@@ -79,16 +79,27 @@ def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
     assert drive.hertz == hertz
 
 
-@pytest.mark.parametrize(("hertz", "word"), [(50.0, 0xB1E0), (25.0, 0xD8F0), (0.0, 0), (60.0, 0xB1E0)])
 @pytest.mark.parametrize("pairs", [0, 101])
 def test_no_speed_without_pole_pairs(pairs: float) -> None:
     assert SpeedReference(drives()["turns"]).encode(25.0, 50.0, 0.0, pairs).result == "NO_SCALE"
 
 
+@pytest.mark.parametrize(("hertz", "word"), [(50.0, 0xB1E0), (25.0, 0xD8F0), (0.0, 0), (60.0, 0xB1E0)])
 def test_a_run_in_reverse_has_a_negative_word(hertz: float, word: int) -> None:
     reference = SpeedReference(drives()["signed"])
     assert reference.encode(hertz, 50.0, reverse=True).value == word
     assert SpeedReference(drives()["fraction"]).encode(25.0, 50.0, 50.0, reverse=True).value == 0x2000
+
+
+def test_what_a_drive_shows_beside_its_frequency() -> None:
+    """At 20 Hz of 50 Hz, two pole pairs, half of the load; the scales of the map."""
+    drive = SimulatedDrive(drives()["measured"], 1)
+    drive.keypad_run(20.0, reverse=True)
+    drive.step(10_000)
+    shown = [
+        int.from_bytes(drive.word(address).to_bytes(2, "big"), "big", signed=True) for address in range(0x2003, 0x200A)
+    ]
+    assert shown == [-600, 500, 200, 40, 500, 100, 120]
 
 
 def test_the_command_block_alone_cannot_reverse_by_a_sign() -> None:

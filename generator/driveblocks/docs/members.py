@@ -15,12 +15,15 @@ MAP_HAS = "no use: the map has the scale"
 NOT_SHOWN = "no use: the drive does not show it"
 SAYS = {
     "ReferenceScale": "scale of the reference, where the manual gives none",
-    **{setting: f"scale of `{name}{unit}`, where the manual gives none" for name, unit, setting in MEASURES.values()},
+    **{key: f"scale of `{name}{unit}`, where the manual gives none" for name, unit, key in MEASURES.values() if key},
     "OutputVoltageV": "output voltage", "DcBusVoltageV": "voltage of the DC bus", "OutputPowerKW": "output power",
+    "OutputSpeedRpm": "output speed, without its sign", "OutputTorquePercent": "torque, of the rated torque",
+    "RelativePowerPercent": "output power, of the rated power", "DriveTemperatureDegC": "temperature of the drive",
+    "MotorTemperatureDegC": "temperature of the motor", "OperatingTimeH": "operating hours", "EnergyKWh": "energy",
     **{f"{name}Valid": f"`{name}{unit}` is fresh, and its scale known" for name, unit, _ in MEASURES.values()},
 }  # fmt: skip
 """Where a comment leans on the line above it."""
-ZEROS = {"KeepWord": "all of them 0", **dict.fromkeys(SCALES, "not set")}
+ZEROS = {"KeepWord": "all of them 0", "PolePairs": "not set", **dict.fromkeys(SCALES, "not set")}
 _ZERO = re.compile(r"; 0(?: or 65535)?: (?P<zero>[^;]+)")
 _UNITS = re.compile(r",? (?:ms|Hz|A|V|kW)(?=;|$)|^(?:ms|Hz|A|V|kW)$")
 _ABILITIES = {
@@ -80,6 +83,8 @@ def _settings(drive: Drive) -> Iterator[tuple[str, str]]:
     yield "PolePairs", turns
     for shows, (_, _, setting) in MEASURES.items():
         measure = block.showing.measures.get(shows)
+        if not setting:
+            continue
         if measure is None:
             yield setting, NOT_SHOWN
         elif measure.scale:
@@ -103,6 +108,8 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     for name, shows in _AT_FAULT.items():
         if shows not in found:
             yield name, "always 0: the drive does not show it"
+    if not any(one.shows == "limit" for one in drive.operation.status):
+        yield "LimitActive", "always FALSE: the drive does not show it"
     commands = {one.does for one in drive.operation.commands}
     for name, does in _ABILITIES.items():
         yield name, "TRUE" if does in commands else "FALSE"

@@ -19,13 +19,16 @@ RANGES = {
 }
 """What the type alone does not say."""
 BOUNDS = {"USINT": "0 to 255", "UINT": "0 to 65535", "REAL": "0.0 to 1.0E6"}
-UNITS = {"Hz": "Hz", "Ms": "ms", "A": "A", "V": "V", "KW": "kW"}
+UNITS = {
+    "Hz": "Hz", "Ms": "ms", "A": "A", "V": "V", "KW": "kW", "Rpm": "r/min", "Percent": "%", "DegC": "°C", "H": "h",
+    "KWh": "kWh",
+}  # fmt: skip
 SCALES = {
     "ReferenceScale": "counts/Hz", "FrequencyScale": "Hz/count", "CurrentScale": "A/count", "VoltageScale": "V/count",
     "DcVoltageScale": "V/count", "PowerScale": "kW/count",
 }  # fmt: skip
 _MUST = "required: "
-_UNIT = re.compile(r"[a-z](Hz|Ms|A|V|KW)$")
+_UNIT = re.compile(r"[a-z](Hz|Ms|A|V|KWh?|Rpm|Percent|DegC|H)$")
 _SAID = re.compile(r"^required: |, [\d.]+ to [\d.]+(?= Hz| ms|;)|,? (?:ms|Hz|A|V|kW)(?=$|;)")
 """What has a column of its own: whether it is required, its range, its unit."""
 SAYS = {"SpeedReferenceHz": "requested speed"}

@@ -33,10 +33,14 @@ Symbol = Annotated[str, form.SYMBOL]
 Access = Literal["r", "w", "rw"]
 Language = Literal["en", "zh", "cs", "da", "de", "es", "fi", "fr", "it", "ja", "ko", "nl", "pl", "pt", "ru", "sv", "tr"]
 """A language of manuals, by ISO 639-1."""
-Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm"]
-Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warning", "fault"]
+Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm", "kWh"]
+Shows = Literal["running", "reverse", "at_speed", "zero_speed", "ready", "warning", "fault", "limit"]
 """What a status word can show on a pin of the drive block."""
-Measure = Literal["output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power"]
+Measure = Literal[
+    "output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power",
+    "output_speed", "output_torque", "relative_power", "drive_temperature", "motor_temperature", "operating_time",
+    "energy",
+]  # fmt: skip
 """What a register can show on a pin of the drive block."""
 OpenScale = Literal["FrequencyScale", "CurrentScale", "VoltageScale", "DcVoltageScale", "PowerScale"]
 """A scale of a measure in `VFD_Settings`."""
@@ -883,7 +887,8 @@ class Measured(Entry):
 
     shows: Measure = fact("the pin", "output_current")
     register: Address = fact(
-        "the register; without a scale the pin needs a setting; a signed output frequency is shown without its sign",
+        "the register; without a scale the pin needs a setting, which only the first five measures have; a signed output "
+        "frequency or speed is shown without its sign",
         "0022H",
     )
     source: English = fact("where the manual says so", "section (II), U1-03")

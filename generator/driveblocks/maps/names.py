@@ -10,7 +10,7 @@ MAX_LENGTH = 31
 
 UNIT_NAMES = {
     "Hz": "Hz", "A": "A", "V": "V", "kW": "KW", "W": "W", "%": "Percent", "r/min": "Rpm", "Nm": "Nm", "s": "S",
-    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm",
+    "ms": "Ms", "h": "H", "°C": "DegC", "kHz": "KHz", "Ohm": "Ohm", "kWh": "KWh",
 }  # fmt: skip
 """A unit as the last part of a name."""
 

@@ -21,7 +21,7 @@ from structured_text.language.writing import word
 
 PINS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed", "warning": "Warning",
-    "fault": "Fault",
+    "fault": "Fault", "limit": "Diagnosis.LimitActive",
 }  # fmt: skip
 """What a drive can show -> the pin."""
 MOTIONS = ("run_forward", "run_reverse", "jog_forward", "jog_reverse")

@@ -85,9 +85,7 @@ class SpeedReference:
             return _refused("NO_MAXIMUM")
         if whole is None or not (LEAST_MAXIMUM <= whole <= MOST_MAXIMUM or (whole == 0 and not self.percent)):
             return _refused("NO_FULL_SCALE")
-        if self.factor is None and (counts is None or not 0 < counts <= MOST_COUNTS):
-            return _refused("NO_SCALE")
-        if self.turns and (counts is None or not 1 <= counts <= MOST_PAIRS):
+        if not self._scaled(counts):
             return _refused("NO_SCALE")
         limit = min(most, whole) if whole else most
         found = self._counted(self._counts(min(asked, limit), whole, counts), asked > limit)
@@ -96,6 +94,13 @@ class SpeedReference:
         sign = -1 if reverse and self.by_sign else 1
         near = frozenset(sign * word & 0xFFFF for word in found.near)
         return replace(found, value=sign * found.value & 0xFFFF, near=near, hertz=float(min(asked, limit)))
+
+    def _scaled(self, counts: Fraction | None) -> bool:
+        """Whether it is known what a count is."""
+        if self.factor is not None and not self.turns:
+            return True
+        least, most = (1, MOST_PAIRS) if self.turns else (0, MOST_COUNTS)
+        return counts is not None and counts > 0 and least <= counts <= most
 
     def _counts(self, hertz: Fraction, whole: Fraction, counts: Fraction | None) -> Fraction:
         if self.factor is None:

@@ -42,13 +42,22 @@ MEASURES = {
     "output_voltage": ("OutputVoltage", "V", "VoltageScale"),
     "dc_bus_voltage": ("DcBusVoltage", "V", "DcVoltageScale"),
     "output_power": ("OutputPower", "KW", "PowerScale"),
+    "output_speed": ("OutputSpeed", "Rpm", ""),
+    "output_torque": ("OutputTorque", "Percent", ""),
+    "relative_power": ("RelativePower", "Percent", ""),
+    "drive_temperature": ("DriveTemperature", "DegC", ""),
+    "motor_temperature": ("MotorTemperature", "DegC", ""),
+    "operating_time": ("OperatingTime", "H", ""),
+    "energy": ("Energy", "KWh", ""),
 }
-"""What a register can show -> the pin, its unit, and the setting that replaces a scale."""
+"""What a register can show -> the pin, its unit, and the setting that replaces a scale, where there is one."""
+UNSIGNED = ("output_frequency", "output_speed")
+"""What is shown without its sign, which is the direction."""
 PINNED = ("output_frequency", "output_current")
 """The measures that are outputs of the block; the rest are members of Diagnosis."""
 STATUS = {
     "running": "Running", "reverse": "Reverse", "at_speed": "AtSpeed", "zero_speed": "ZeroSpeed",
-    "warning": "Warning", "fault": "Fault",
+    "warning": "Warning", "fault": "Fault", "limit": "Diagnosis.LimitActive",
 }  # fmt: skip
 """What a drive can show -> the pin or variable."""
 
@@ -488,7 +497,7 @@ def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
         function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
         when=told.holds(scale.when) if scale and scale.when else None,
         signed=row.signed,
-        magnitude=row.signed and one.shows == "output_frequency",
+        magnitude=row.signed and one.shows in UNSIGNED,
     )
 
 

@@ -15,7 +15,7 @@ from driveblocks.render import constants, expression, results
 from structured_text.language import writing
 from structured_text.language.fingerprint import body, fingerprint, stream
 
-ABI = 2
+ABI = 3
 """Version of the shared types; blocks of one ABI number fit together."""
 
 WIDE = 80

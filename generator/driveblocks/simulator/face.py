@@ -116,6 +116,7 @@ def _facts(drive: Drive, measured: frozenset[int], situation: Situation, state: 
         fact("at_speed", wanted=situation.at_speed),
         fact("ready", wanted=situation.ready),
         fact("warning", wanted=situation.warning),
+        fact("limit", wanted=False),
     )
     return tuple(each for each in facts if each.any)
 

@@ -17,7 +17,7 @@ class Habits:
     maximum_hz: int = 50
     jog_hz: int = 5
     pole_pairs: int = 2
-    """Of its motor: so many hertz are one turn in a second."""
+    """Of its motor: at 50 Hz it turns at 3000 r/min divided by them."""
     ramp: int = 10
     """Up, and down to a stop."""
     quick_ramp: int = 50
@@ -60,5 +60,12 @@ class Habits:
     """Output voltage at the maximum frequency."""
     kilowatts: int = 4
     """Output power at the maximum frequency, at a load of 100 %."""
+    drive_degrees: int = 40
+    """Temperature of its heat sink, degrees C."""
+    motor_degrees: int = 50
+    hours: int = 100
+    """How long it has run."""
+    kilowatt_hours: int = 12
+    """What it has taken."""
     turn_us: int = 5000
     """From the end of a request to the start of its reply, for the line to wait."""

@@ -153,8 +153,21 @@ class Machine:
             "output_voltage": 10 * habits.motor_volts * share * driven,
             "dc_bus_voltage": 1000 * habits.bus_volts,
             "output_power": habits.kilowatts * self.load * share * driven // 10,
+            "output_speed": self._turns(signed=gauge.signed),
+            "output_torque": 1000 * self.load * driven,
+            "relative_power": 10 * self.load * share * driven,
+            "drive_temperature": 1000 * habits.drive_degrees,
+            "motor_temperature": 1000 * habits.motor_degrees,
+            "operating_time": 1000 * habits.hours,
+            "energy": 1000 * habits.kilowatt_hours,
         }[gauge.shows]
         return _counts(milli, gauge.milli, gauge.shift or 0)
+
+    def _turns(self, *, signed: bool) -> int:
+        """The speed of the motor in thousandths of r/min."""
+        output = self._shown_output()
+        milli = RPM_OF_ONE_PAIR * abs(output) // self.habits.pole_pairs
+        return -milli if signed and output < 0 else milli
 
     # ------------------------------------------------------------ time
 

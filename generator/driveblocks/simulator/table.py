@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import lru_cache
+from typing import get_args
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive, Reference
+from driveblocks.maps.model import Drive, Measure, Reference
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import Words, dialect, most, plan
 from driveblocks.modbus.layout import Dialect
@@ -19,7 +20,7 @@ from driveblocks.simulator.pattern import WORD, Pattern, of_condition
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.refusal import codes, refuses_beyond
 
-MEASURES = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
+MEASURES = get_args(Measure)
 
 MOST_TIMES = 32_000
 """Largest numerator of a reference: a word times it has 32 bits."""

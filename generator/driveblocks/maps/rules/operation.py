@@ -25,9 +25,12 @@ from driveblocks.maps.rules.unique import unique
 
 _UNITS: dict[Measure, Unit] = {
     "output_frequency": "Hz", "output_current": "A", "output_voltage": "V", "dc_bus_voltage": "V",
-    "output_power": "kW",
+    "output_power": "kW", "output_speed": "r/min", "output_torque": "%", "relative_power": "%",
+    "drive_temperature": "°C", "motor_temperature": "°C", "operating_time": "h", "energy": "kWh",
 }  # fmt: skip
 """What each pin shows its value in."""
+_SETTINGS = ("output_frequency", "output_current", "output_voltage", "dc_bus_voltage", "output_power")
+"""What a setting can replace the scale of."""
 _PARTS = {"percent_of_maximum": "percentage", "fraction_of_full_scale": "fraction"}
 _LEAST_HZ, _MOST_HZ = Decimal("0.1"), Decimal(10_000)
 """What 100 % can be."""
@@ -78,6 +81,9 @@ def _measured(drive: Drive, measured: Measured, report: Report) -> None:
     elif row is not None and row.unit not in (None, unit):
         wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has the unit {row.unit}"
         report.add(place, wrong, "name another register, or correct its `unit`")
+    elif row is not None and measured.shows not in _SETTINGS and not (row.unit and row.scale):
+        wrong = f"`{measured.shows}` is shown in {unit}, but {address_text(measured.register)} has no unit with a scale"
+        report.miss(place, wrong, "add both to the register where the manual gives them; else leave the measure out")
     elif row is not None and (
         _other(measured.shows, row, get_args(Measure)) or term.wanted(row.name or "", row.zh or "")
     ):

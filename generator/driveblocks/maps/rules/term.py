@@ -46,6 +46,14 @@ _SHOWN: dict[str, tuple[str, ...]] = {
     "output_voltage": ("output voltage", "motor voltage", "输出电压"),
     "dc_bus_voltage": ("dc ", "bus voltage", "dc-bus", "母线", "直流"),
     "output_power": ("power", "功率"),
+    "output_speed": ("speed", "r/min", "rpm", "转速"),
+    "output_torque": ("torque", "转矩", "力矩"),
+    "relative_power": ("power", "功率"),
+    "drive_temperature": ("temperature", "heat sink", "heatsink", "温度"),
+    "motor_temperature": ("temperature", "温度"),
+    "operating_time": ("time", "hours", "时间"),
+    "energy": ("energy", "kwh", "consumption", "电量", "能耗"),
+    "limit": ("limit", "限"),
 }
 """What manuals call that which a pin of the drive block shows."""
 _WANTED = ("set ", "setting", "reference", "command", "target", "设定", "给定", "指令", "目标")

@@ -277,6 +277,13 @@ def _gauge(gauge: Gauge) -> str:
         "output_voltage": "(Share MOD 101) * 4000",
         "dc_bus_voltage": "540000",
         "output_power": "(Share MOD 101) * 20",
+        "output_speed": "30 * Seen.Milli" if gauge.signed else "30 * ABS(Seen.Milli)",
+        "output_torque": "10 * Live",
+        "relative_power": "(Share MOD 101) * 500",
+        "drive_temperature": "40000",
+        "motor_temperature": "50000",
+        "operating_time": "100000",
+        "energy": "12000",
     }[gauge.shows]
     counts = f"{milli} / {gauge.milli}"
     if gauge.shift is not None:

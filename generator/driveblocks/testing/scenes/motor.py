@@ -53,7 +53,17 @@ def stand(shows: Shows | None = None, ms: int = 4000) -> Step:
 
 # ---------------------------------------------------------------- starts
 
-_MEASURES = ("OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower")
+_MEASURES = (
+    "OutputFrequency", "OutputCurrent", "OutputVoltage", "DcBusVoltage", "OutputPower", "OutputSpeed", "OutputTorque",
+    "RelativePower", "DriveTemperature", "MotorTemperature", "OperatingTime", "Energy",
+)  # fmt: skip
+_MORE = {
+    "output_speed": ("OutputSpeed", "Rpm", 900.0), "output_torque": ("OutputTorque", "Percent", 50.0),
+    "relative_power": ("RelativePower", "Percent", 30.0), "drive_temperature": ("DriveTemperature", "DegC", 40.0),
+    "motor_temperature": ("MotorTemperature", "DegC", 50.0), "operating_time": ("OperatingTime", "H", 100.0),
+    "energy": ("Energy", "KWh", 12.0),
+}  # fmt: skip
+"""What else a drive can show -> its member of Diagnosis, its unit, and the value at 30 Hz of the simulated motor."""
 _UNMEASURED: Shows = {f"Motor.Diagnosis.{each}Valid": False for each in _MEASURES}
 
 
@@ -152,6 +162,9 @@ def _measured(can: Ability, *, jog: bool) -> Shows:
         found["DcBusVoltageV"] = 540.0
     if can.measures("output_power"):
         found["OutputPowerKW"] = 1.2
+    for what, (name, unit, value) in _MORE.items():
+        found[f"{name}{unit}"] = value if can.measures(what) else 0.0
+        found[f"{name}Valid"] = can.measures(what)
     for name, what in (
         ("OutputCurrent", "output_current"),
         ("DcBusVoltage", "dc_bus_voltage"),
