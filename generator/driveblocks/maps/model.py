@@ -887,8 +887,8 @@ class Measured(Entry):
 
     shows: Measure = fact("the pin", "output_current")
     register: Address = fact(
-        "the register; without a scale the pin needs a setting, which only the first five measures have; a signed output "
-        "frequency or speed is shown without its sign",
+        "the register; without a scale the pin needs a setting, which only the first five measures have; a signed "
+        "output frequency or speed is shown without its sign",
         "0022H",
     )
     source: English = fact("where the manual says so", "section (II), U1-03")
