@@ -10,7 +10,7 @@ from lxml import etree
 from tests import shipped
 from tests.commands.test_page_commands import commands
 from tests.prove import agreement, mutants
-from tests.shapes import texts
+from tests.shapes import texts, values
 
 from driveblocks.cli import app
 from driveblocks.maps import catalog, collection
@@ -156,14 +156,17 @@ def test_some_of_them_are_judged(change: str, found: bool) -> None:
     assert mutants.judged(one) if found else mutants.equivalent(one)
 
 
-MAPS = [pytest.param(name, marks=() if name == "pulse" else pytest.mark.long) for name in (*texts(), "new")]
+MAPS = [
+    pytest.param(name, marks=() if name in ("pulse", "signed") else pytest.mark.long)
+    for name in (*texts(), "signed", "new")
+]
 
 
 @pytest.mark.parametrize("name", MAPS)
 def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
-    """Paths of states, pulses, several registers and active-low bits; and what `driveblocks new` writes."""
+    """Paths, pulses, several registers, active-low bits, a direction by sign; and what `driveblocks new` writes."""
     path = tmp_path / f"{name}.yaml"
-    path.write_text(texts()[name] if name in texts() else skeleton(), "utf-8")
+    path.write_text((texts() | values()).get(name) or skeleton(), "utf-8")
     (source,) = collection.read(catalog.chosen([str(path)]))
     made = dict(prover.texts([source]))[name]
     found = prover.proved(name, made, rules.family(facts(source.drive)))

@@ -19,7 +19,13 @@ FILE = Path(__file__).with_name("shapes.diff")
 @cache
 def texts() -> dict[str, str]:
     """The maps by name."""
-    return {name: case.text for name, case in bad.edits(FILE, on_skeleton)}
+    return {name: case.text for name, case in bad.edits(FILE, _skeleton)}
+
+
+@cache
+def values() -> dict[str, str]:
+    """Maps whose commands are plain, and whose references and measures are not, by name."""
+    return {name: case.text for name, case in bad.edits(FILE.with_name("values.diff"), _skeleton)}
 
 
 @cache
@@ -28,6 +34,6 @@ def shapes() -> dict[str, Drive]:
     return {name: loads(text, f"{name}.yaml") for name, text in texts().items()}
 
 
-def on_skeleton(_: str) -> list[str]:
+def _skeleton(_: str) -> list[str]:
     """The lines of the skeleton, without the first, which is for editors."""
     return skeleton().split("\n")[1:]

@@ -7,8 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from tests.maps import bad
-from tests.shapes import on_skeleton
+from tests.shapes import values
 
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
@@ -22,14 +21,13 @@ from driveblocks.testing import runner
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 
-FILE = Path(__file__).with_name("values.diff")
 CONCERNED = re.compile(r"_Test(Reference|Motor|Scales|Standstill|Command)")
 
 
 @cache
 def drives() -> Mapping[str, Drive]:
     """The maps by name."""
-    return {name: loads(case.text, f"{name}.yaml") for name, case in bad.edits(FILE, on_skeleton)}
+    return {name: loads(text, f"{name}.yaml") for name, text in values().items()}
 
 
 @pytest.mark.parametrize("name", drives())
