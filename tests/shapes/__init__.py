@@ -25,13 +25,20 @@ def texts() -> dict[str, str]:
 @cache
 def values() -> dict[str, str]:
     """Maps whose commands are plain, and whose references and measures are not, by name."""
-    return {name: case.text for name, case in bad.edits(FILE.with_name("values.diff"), _skeleton)}
+    return {name: case.text for name, case in bad.edits(FILE.with_name("values.diff"), _base)}
 
 
 @cache
 def shapes() -> dict[str, Drive]:
     """The drives by name."""
     return {name: loads(text, f"{name}.yaml") for name, text in texts().items()}
+
+
+def _base(name: str) -> list[str]:
+    """The skeleton, or the drive that coils command."""
+    if name != "coils":
+        return _skeleton(name)
+    return (bad.FOLDER / "coils.yaml").read_text(encoding="utf-8").split("\n")[1:]
 
 
 def _skeleton(_: str) -> list[str]:

@@ -15,10 +15,13 @@ from driveblocks.maps.model import Drive
 from driveblocks.output.units import units
 from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
+from driveblocks.render.library import MASTERS, programs
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.testing import runner
+from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source as Text
 from structured_text.language.lint import lint_sources
 
 CONCERNED = re.compile(r"_Test(Reference|Motor|Scales|Standstill|Command)")
@@ -27,12 +30,21 @@ CONCERNED = re.compile(r"_Test(Reference|Motor|Scales|Standstill|Command)")
 @cache
 def drives() -> Mapping[str, Drive]:
     """The maps by name."""
-    return {name: loads(text, f"{name}.yaml") for name, text in values().items()}
+    high_first = values()["pair_signed"]
+    low_first = high_first.replace("0000H-0001H, words: 2,", "0000H-0001H, words: 2, order: low_first,")
+    texts = {**values(), "low_first": low_first.replace("PSG", "PSL", 1)}
+    return {name: loads(text, f"{name}.yaml") for name, text in texts.items()}
+
+
+@cache
+def built(name: str) -> list[Unit]:
+    """The blocks and programs of one."""
+    return list(units([Source(Path(f"{name}.yaml"), drives()[name])], languages(["en"], "utf-8")))
 
 
 @pytest.mark.parametrize("name", drives())
 def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
-    found = units([Source(Path(f"{name}.yaml"), drives()[name])], languages(["en"], "utf-8"))
+    found = built(name)
     blocks = {each.path: each for unit in found for each in unit.blocks}
     assert [str(problem) for problem in lint_sources([(each.path, each.text) for each in blocks.values()])] == []
     unit = next(each for each in found if each.suite.name == name)
@@ -59,6 +71,13 @@ def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
         ("turns", (50.0, 50.0, 0.0, 2.0), 1500),
         ("turns", (50.0, 50.0, 0.0, 1.0), 3000),
         ("turns", (60.0, 50.0, 0.0, 3.0), 1000),
+        ("turns_signed", (25.0, 50.0, 0.0, 2.0), 1500),
+        # 0.05 r/min, and 65000 at most
+        ("pair_turns", (50.0, 50.0, 0.0, 1.0), 60000),
+        ("pair_turns", (60.0, 60.0, 0.0, 1.0), 65000),
+        # 20000 is 50 Hz, and 24000 the most
+        ("pair_signed", (25.0, 50.0, 0.0), 10000),
+        ("pair_signed", (70.0, 100.0, 0.0), 24000),
     ],
 )
 def test_the_word_of_a_frequency(name: str, pins: tuple[float, ...], word: int) -> None:
@@ -75,6 +94,49 @@ def test_the_frequency_of_a_word(name: str, word: int, hertz: float) -> None:
     drive.reply(bytes.fromhex("01 06 10 00 00 01"))
     drive.step(10_000)
     assert drive.hertz == hertz
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "hertz"),
+    [
+        ("pair_turns", "00 00 75 30", 50.0),
+        ("pair_signed", "00 00 27 10", 25.0),
+        ("pair_signed", "FF FF D8 F0", -25.0),
+        ("low_first", "D8 F0 FF FF", -25.0),
+    ],
+)
+def test_the_frequency_of_a_pair(name: str, words: str, hertz: float) -> None:
+    drive = SimulatedDrive(drives()[name], 1)
+    drive.reply(bytes.fromhex("01 10 00 00 00 02 04" + words))
+    drive.reply(bytes.fromhex("01 05 00 00 FF 00"))
+    drive.step(10_000)
+    assert drive.hertz == hertz
+
+
+@pytest.mark.parametrize(
+    ("name", "sent", "words"),
+    [
+        ("pair_turns", 0xEA60, (0x0000, 0xEA60)),
+        ("pair_signed", 0x2710, (0x0000, 0x2710)),
+        ("pair_signed", 0xD8F0, (0xFFFF, 0xD8F0)),
+        ("low_first", 0x2710, (0x2710, 0x0000)),
+        ("low_first", 0xD8F0, (0xD8F0, 0xFFFF)),
+    ],
+)
+def test_the_words_of_a_reference_of_32_bits(name: str, sent: int, words: tuple[int, int]) -> None:
+    orders = next(each for unit in built(name) for each in unit.blocks if each.path.endswith("_Orders.st"))
+    block = EmbeddedEngine().build([Text(orders.path, orders.text)]).instance(Path(orders.path).stem)
+    block["Order"], block["ReferenceWord"] = 10, sent
+    block.scan()
+    assert (block["Value"], block["Second"], block["Quantity"]) == (*words, 2)
+
+
+def test_no_program_for_a_foreign_master_where_it_takes_coils_or_pairs() -> None:
+    """Nor is there a command block for coils: it gives words."""
+    for name, has in {"turns_signed": True, "pair_signed": False}.items():
+        english = languages(["en"], "utf-8")
+        assert [bool(list(programs(each, drives()[name], english))) for each in MASTERS] == [has, has]
+        assert any(each.path.endswith("_Command.st") for unit in built(name) for each in unit.blocks) == has
 
 
 @pytest.mark.parametrize("pairs", [0, 101])

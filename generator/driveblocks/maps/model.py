@@ -994,8 +994,8 @@ class Operation(Entry):
 
     @property
     def in_one_word(self) -> bool:
-        """Whether each command is one write."""
-        return not any(command.first for command in self.commands)
+        """Whether each command is one write of a word."""
+        return not any(command.first or form.is_bit(command.register) for command in self.commands)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -30,7 +30,7 @@ SENT = dict(
     zip((*MOTIONS, "fault_reset"), ("GO_FORWARD", "GO_REVERSE", "JOG_AHEAD", "JOG_BACK", "RESET_FAULT"), strict=True)
 )
 """What the control calls a command."""
-ALL = 0xFFFF
+ALL, SIGN = 0xFFFF, 0x8000
 ON = 0xFF00
 """What sets a coil."""
 NEAR = (
@@ -128,7 +128,12 @@ def _written(drive: Drive) -> str:
         return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
     row = drive.register_at(drive.operation.reference.register)
     high = 1 if row is not None and row.order == "low_first" else 0
-    pair, is_ = f"(Slot.Ask[1].Quantity = 2) AND (Slot.Ask[1].Words[{high}] = {word(0)})", _is_reference(drive)
+    above, below, is_ = f"Slot.Ask[1].Words[{high}]", f"Slot.Ask[1].Words[{1 - high}]", _is_reference(drive)
+    zero = f"({above} = {word(0)})"
+    if drive.operation.by_sign:
+        negative = f"({below} AND {word(SIGN)}) <> {word(0)}"
+        zero = f"({zero} AND NOT ({negative}) OR ({above} = {word(ALL)}) AND ({negative}))"
+    pair = f"(Slot.Ask[1].Quantity = 2) AND {zero}"
     return f"({codes}) AND (({is_}) AND {pair} OR NOT ({is_}) AND (Slot.Ask[1].Quantity = 1))"
 
 
@@ -279,8 +284,8 @@ def _reference(drive: Drive) -> dict[str, str]:
     usable = "(ReferenceScale > 0.0) AND (ReferenceScale <= 1.0E6)"
     if scaled and spec.means == "speed":
         scaled, usable = False, "(PolePairs >= 1) AND (PolePairs <= 100)"
-    signed = row is not None and row.signed
     by_sign = drive.operation.by_sign
+    signed = row is not None and row.signed and (by_sign or not row.words)
     negative = "({word} AND WORD#16#8000) <> WORD#16#0000"
     word_sign = f"(Value = WORD#16#0000) OR (({negative.format(word='Value')}) = {'Reverse' if by_sign else 'FALSE'})"
     sent = negative.format(word="Control.SentWord")

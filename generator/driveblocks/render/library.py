@@ -51,6 +51,8 @@ BYTES = "plcopen"
 """The platform without an adapter: the program gives and takes the bytes."""
 MASTERS: dict[str, Callable[[Drive], dict[str, object]]] = {"codesys": channels, "siemens": master}
 """Platforms with a Modbus master of their own -> what the template of a program for it needs."""
+HOLDING = 3
+"""The function that reads holding registers (MODBUS Application Protocol V1.1b3, 6.3)."""
 LEAST_S = 60
 """Seconds between two stores in a memory that wears out; at this pace 100,000 of them take 69 days."""
 BOXES = (("Adu", 256), ("Chars", 513))
@@ -123,9 +125,16 @@ def first_motor(platform: str, drive: Drive) -> File:
 
 def programs(platform: str, drive: Drive, languages: list[Language]) -> Iterator[File]:
     """Beside the first motor: where the PLC itself is the master and owns the frames, a program for such a drive."""
-    if platform in MASTERS and drive.operation.in_one_word:
+    if platform in MASTERS and _by_words(drive):
         values = {**MASTERS[platform](drive), **_texts_of(languages)}
         yield File(platform, f"{drive.prefix}_Master", render(f"{platform}/Master.st.j2", **values))
+
+
+def _by_words(drive: Drive) -> bool:
+    """Whether a motor takes no more than holding registers that are read, and single words that are written."""
+    block = drive_block(drive)
+    read = all(each.read.function == HOLDING for each in block.reading.reads)
+    return read and drive.operation.in_one_word and not block.ordering.pair
 
 
 def _line_types(languages: list[Language]) -> Iterator[File]:

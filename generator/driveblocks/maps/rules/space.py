@@ -10,7 +10,7 @@ from driveblocks.maps.polls import fast_words, slow_words
 from driveblocks.maps.problem import Place, Report
 
 STOPS = ("stop", "quick_stop", "coast_stop", "jog_stop")
-WORD = 0xFFFF
+WORD, SIGNED = 0xFFFF, 0x7FFF
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -106,6 +106,9 @@ def _written(drive: Drive, report: Report) -> None:
     elif row is not None and row.words and (row.range is None or row.range.max > WORD):
         wrong = f"{where} has 32 bits, and nothing says that its reference ends at {WORD} or below"
         report.miss(row.place("range"), wrong, "add `range`; blocks send no higher reference")
+    elif row is not None and row.words and row.range and operation.by_sign and row.range.max > SIGNED:
+        wrong = f"a negative reference reverses, and that of {where} ends at {row.range.max}"
+        report.add(row.place("range"), wrong, f"write {SIGNED} or below at both ends; blocks send no higher one")
 
 
 def _functions(drive: Drive, report: Report) -> None:

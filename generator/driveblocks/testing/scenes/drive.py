@@ -149,7 +149,8 @@ def _reference(made: Table, at: dict[int, int]) -> Context:
     times, per = _reduced(given.times, given.per)
     number = f"INT_TO_DINT(WORD_TO_INT({kept}))" if given.signed else f"UINT_TO_DINT(WORD_TO_UINT({kept}))"
     if given.above is not None:
-        above = f"UINT_TO_DINT(WORD_TO_UINT(Kept[{at[given.above]}]))"
+        kind = "INT" if given.signed else "UINT"
+        above = f"{kind}_TO_DINT(WORD_TO_{kind}(Kept[{at[given.above]}]))"
         number = f"UINT_TO_DINT(WORD_TO_UINT({kept})) + {above} * 65536"
     return {
         "place": at[given.register],
