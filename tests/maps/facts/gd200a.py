@@ -97,6 +97,8 @@ output_frequency | 3000H
 dc_bus_voltage | 3002H
 output_voltage | 3003H
 output_current | 3004H
+output_speed | 3005H
+relative_power | 3006H
 fault code | 2102H
 """
 
