@@ -8,7 +8,7 @@ from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import EFFECTS, Move
 from driveblocks.simulator.pattern import Pattern
 from driveblocks.simulator.refusal import REASONS
-from driveblocks.simulator.table import MEASURES, Table
+from driveblocks.simulator.table import MEASURES, Limit, Table
 
 HABITS = [field.name for field in fields(Habits) if field.name not in {"scale", "scales"}]
 WATCHDOGS = ("trip", "stop", "coast")
@@ -77,6 +77,12 @@ def _state(table: Table, name: str | None) -> int:
     return -1 if name is None else table.states.index(name)
 
 
+def _limit(limit: Limit) -> list[int]:
+    """Of one register: a drive with values of 32 bits has no twin in C."""
+    assert limit.above is None
+    return [limit.register, limit.low, limit.high, limit.signed]
+
+
 def _table(name: str, drive: SimulatedDrive) -> str:
     table = drive.table
     moves, needs = _moves(table)
@@ -90,7 +96,7 @@ def _table(name: str, drive: SimulatedDrive) -> str:
         "readable": ("VSpan", [astuple(span) for span in table.readable]),
         "writable": ("VSpan", [astuple(span) for span in table.writable]),
         "parameters": ("VSpan", [astuple(span) for span in table.storage.areas]),
-        "limits": ("VLimit", [astuple(limit) for limit in table.limits]),
+        "limits": ("VLimit", [_limit(limit) for limit in table.limits]),
         "moves": ("VMove", moves),
         "needs": ("VNeed", needs),
         "named": ("VNamed", named),
