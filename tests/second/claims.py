@@ -18,6 +18,8 @@ QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
+PATH_US = {"ATV312": 2_000_000}
+"""How much longer that takes where a start has four writes, three of which wait for a state."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 FOLLOW_US = 7_500_000
@@ -44,6 +46,7 @@ AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
 """Pins with which no block alone serves a drive, or not in full control."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = alike({
+    "ATV312": (True, False, True, True, True),  # CMD, page 12
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139

@@ -26,6 +26,7 @@ MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
 BY_TERMINALS = alike(
     {
+        "ATV312": {"CHCF": 2, "CD1": 1},
         "CHF": {"run": 1},
         "GD200A": {"P00_01": 1},
         "JSCC": {"F0_04": 1},
@@ -37,6 +38,7 @@ BY_TERMINALS = alike(
 )
 OWN_SPEED = alike(
     {
+        "ATV312": {"FR1": 1},
         "CHF": {"speed": 0},
         "GD200A": {"P00_06": 0},
         "JSCC": {"F0_08": 1},
@@ -74,6 +76,7 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "comm_action": ("ramp", "quick", "coast"), "comm_trips": BOTH, "fed_by": ("own", "any"),
     "busy_refuses": ("parameters", "writes", "all"),
     # families
+    "ATV312.disable_stops": ("Stt", "ramp"), "ATV312.reset_to": ("disabled", "ready"), "ATV312.reached_at_rest": BOTH,
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
@@ -181,7 +184,7 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if like in ("GD200A", "PF4"):
+        if like in ("ATV312", "GD200A", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"

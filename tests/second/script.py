@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from tests.second.atv312 import Atv312, Atv312Options
 from tests.second.chf import Chf, ChfOptions
 from tests.second.drive import Drive
 from tests.second.frames import ascii_, ascii_opened, opened, rtu
@@ -12,7 +13,7 @@ from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
     "sn": (Sn300g5, Sn300g5Options), "jscc": (Jscc, JsccOptions), "chf": (Chf, ChfOptions),
-    "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
+    "atv": (Atv312, Atv312Options), "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
     "pf4m": (Pf4m, LaterOptions), "pf400": (Pf400, LaterOptions), "pf525": (Pf525, LaterOptions),
 }  # fmt: skip
 WORDS = {
@@ -20,13 +21,19 @@ WORDS = {
     "jscc": {"go": "w1001=FA w1000=1", "back": "w1001=FA w1000=2", "halt": "w1000=3", "where": "r2001+1 r2000+1"},
     "chf": {"go": "w2000=1388 w1000=1", "back": "w2000=1388 w1000=2", "halt": "w1000=5", "where": "r1001+1 r3000+1"},
     "gd": {"go": "w2001=9C4 w2000=1", "back": "w2001=9C4 w2000=2", "halt": "w2000=5", "where": "r2100+1 r3000+1"},
+    "atv": {
+        "go": "w2136=FA w2135=0 w2135=6 w2135=7 w2135=F",
+        "back": "w2136=FA w2135=0 w2135=6 w2135=7 w2135=80F",
+        "halt": "w2135=7",
+        "where": "rC86+1 rC82+1",
+    },
     "pf": {"go": "w2001=FA w2000=12", "back": "w2001=FA w2000=22", "halt": "w2000=1", "where": "r2100+1 r2103+1"},
 }
 WORDS["pf4m"] = WORDS["pf"]
 for _name in ("pf40p", "pf400", "pf525"):
     WORDS[_name] = WORDS["pf"] | {"go": "w2001=9C4 w2000=12", "back": "w2001=9C4 w2000=22"}
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
-POLLED = {"sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
+POLLED = {"atv": b"\x0c\x81\0\1", "sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
 """Of the others it is 2100H."""
 KEYS = ("start", "stop", "reset", "local")
 SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False),

@@ -16,7 +16,7 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
-PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "gd": "GD200A", "pf": "PF4"}
+PREFIX = {"atv": "ATV312", "sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "gd": "GD200A", "pf": "PF4"}
 SETTINGS: dict[str, dict[str, Any]] = {
     "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},
     "gd": {}, "pf": {"comm_us": None},
