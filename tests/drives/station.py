@@ -14,8 +14,8 @@ from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
-FAMILIES = ("ATV312", "CHF", "GD200A", "JSCC", "PF4", "SN300G5")
-RTU_ONLY = ("ATV312", "PF4", "SN300G5")
+FAMILIES = ("CHF", "GD200A", "JSCC", "PF4", "SN300G5")
+RTU_ONLY = ("PF4", "SN300G5")
 """Drives without MODBUS ASCII."""
 MADE_UP = ("CIA", "PRO", "PUL", "TWO", "LOW")
 PINS = ("CommOk", "Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed", "StopOverdue", "Fault")

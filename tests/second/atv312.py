@@ -167,8 +167,8 @@ class Atv312(Drive):
             self.at = "fault"
         elif self.at == "fault":
             self.at = self.o.reset_to
-        if self.inhibited:
-            self.at = "disabled" if self.at in ("on", "enabled") else self.at
+        if self.inhibited and self.at in ("on", "enabled"):
+            self.at, self.commanded = "disabled", None  # no run command is left in that state: page 10
 
     def press(self, key: Literal["start", "stop", "reset", "local"], now_us: int) -> None:
         """As for every drive; the STOP key leads to switch on disabled: page 8."""

@@ -19,7 +19,10 @@ QUIET_US = 2_000_000
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
 PATH_US = {"ATV312": 2_000_000}
-"""How much longer that takes where a start has four writes, three of which wait for a state."""
+"""How much longer that takes where a start has four writes, three of which wait for a state (BBV51701, page 10).
+
+Each waits for a read, which comes once in a round of eight drives.
+"""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 FOLLOW_US = 7_500_000
@@ -50,6 +53,7 @@ ABLE = alike({
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
+    "MX2": (True, False, False, False, True),  # coils 0001H to 0004H, I585 page 6-27
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 })  # fmt: skip
@@ -144,7 +148,7 @@ class Claims:
         after another restart its pins are those of the scan before.
         """
         claim, pins = self.claims[index], self.bench.pins[index]
-        writes = body[1] in (6, 16)
+        writes = body[1] in (5, 6, 16)
         self._kept(index, body)
         shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
         if shared and not writes and index + 1 not in self.bench.deaf:
@@ -322,7 +326,9 @@ class Claims:
             one, many = bench.models[index], len(bench.models) > 3
             if one.local or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - claim.edge_us > START_US * (2 if one.o.late_per_1000 and many else 1):
+            elif not ignores and now - claim.edge_us > self._start_us(index) * (
+                2 if one.o.late_per_1000 and many else 1
+            ):
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
@@ -452,6 +458,9 @@ class Claims:
         shaft = self.judge.units[index].shaft
         since = self.bench.now - 1000 * int(self.bench.number("StatusAgeMs", index)) - 1_000_000
         return all(abs(hz - asked) > 1.0 for at, hz in shaft if at >= since)
+
+    def _start_us(self, index: int) -> int:
+        return START_US + PATH_US.get(self.bench.types[index], 0)
 
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""

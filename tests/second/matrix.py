@@ -15,6 +15,7 @@ from typing import Any
 
 from tests.second import pairs
 from tests.second.bench import Second
+from tests.second.claims import PATH_US
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.pf4 import VARIANTS, alike
@@ -30,6 +31,7 @@ BY_TERMINALS = alike(
         "CHF": {"run": 1},
         "GD200A": {"P00_01": 1},
         "JSCC": {"F0_04": 1},
+        "MX2": {"A002": 1},
         "PF4": {"P036": 1},
         "PF4M": {"run": 1},
         "PF525": {"P046": 2},
@@ -42,6 +44,7 @@ OWN_SPEED = alike(
         "CHF": {"speed": 0},
         "GD200A": {"P00_06": 0},
         "JSCC": {"F0_08": 1},
+        "MX2": {"A001": 2},
         "PF4": {"P038": 0},
         "PF4M": {"P108": 0},
         "PF525": {"P047": 1},
@@ -77,6 +80,9 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "busy_refuses": ("parameters", "writes", "all"),
     # families
     "ATV312.disable_stops": ("Stt", "ramp"), "ATV312.reset_to": ("disabled", "ready"), "ATV312.reached_at_rest": BOTH,
+    "MX2.run_acts": ("once", "always"), "MX2.reset_acts": ("rise", "fall"), "MX2.reset_cuts": BOTH,
+    "MX2.reset_keeps_coils": BOTH, "MX2.reset_deaf_us": (0, 1_000_000), "MX2.volts": (1, 10), "MX2.half_pairs": BOTH,
+    "MX2.way_while_running": ("turns", "next start"), "MX2.coil_13": ("running", "tripped"),
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
@@ -184,7 +190,7 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if like in ("ATV312", "GD200A", "PF4"):
+        if like in ("ATV312", "GD200A", "MX2", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
@@ -240,7 +246,7 @@ class Run:
     def at_speed(self, index: int = 0) -> bool:
         """Wait until the motor truly is."""
         b = self.bench
-        return b.wait(lambda: self._state_of(index) == "at speed", START_MS)
+        return b.wait(lambda: self._state_of(index) == "at speed", START_MS + PATH_US.get(b.types[index], 0) // 1000)
 
     def reach(self) -> None:
         """From power-up to the state. Raises NotReached."""

@@ -8,12 +8,14 @@ from tests.second.drive import Drive
 from tests.second.frames import ascii_, ascii_opened, opened, rtu
 from tests.second.gd200a import Gd200a, Gd200aOptions
 from tests.second.jscc import Jscc, JsccOptions
+from tests.second.mx2 import Mx2, Mx2Options
 from tests.second.pf4 import LaterOptions, Pf4, Pf4m, Pf4Options, Pf40p, Pf400, Pf525
 from tests.second.sn300g5 import Sn300g5, Sn300g5Options
 
 KINDS: dict[str, tuple[Any, Any]] = {
     "sn": (Sn300g5, Sn300g5Options), "jscc": (Jscc, JsccOptions), "chf": (Chf, ChfOptions),
-    "atv": (Atv312, Atv312Options), "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
+    "atv": (Atv312, Atv312Options), "mx": (Mx2, Mx2Options),
+    "pf": (Pf4, Pf4Options), "gd": (Gd200a, Gd200aOptions), "pf40p": (Pf40p, LaterOptions),
     "pf4m": (Pf4m, LaterOptions), "pf400": (Pf400, LaterOptions), "pf525": (Pf525, LaterOptions),
 }  # fmt: skip
 WORDS = {
@@ -33,7 +35,7 @@ WORDS["pf4m"] = WORDS["pf"]
 for _name in ("pf40p", "pf400", "pf525"):
     WORDS[_name] = WORDS["pf"] | {"go": "w2001=9C4 w2000=12", "back": "w2001=9C4 w2000=22"}
 """25 Hz forward and in reverse, a stop, and what proves standstill, of each family."""
-POLLED = {"atv": b"\x0c\x81\0\1", "sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
+POLLED = {"mx": b"\x10\0\0\3", "atv": b"\x0c\x81\0\1", "sn": b"\0\x10\0\1", "jscc": b"\x20\1\0\1", "chf": b"\x10\1\0\1"}
 """Of the others it is 2100H."""
 KEYS = ("start", "stop", "reset", "local")
 SWITCHES = {"off": ("power", False), "on": ("power", True), "close": ("terminal", True), "open": ("terminal", False),
