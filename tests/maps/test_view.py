@@ -17,6 +17,8 @@ from driveblocks.maps.model import Drive, Entry
 from driveblocks.maps.shape import keys_of
 
 EXAMPLE = Path(__file__).with_name("example.yaml")
+COILS = Path(__file__).parent / "bad/coils.yaml"
+"""A good map of coils, from which the bad ones of their rules are made."""
 
 _TEXT = {"type": "string"}
 _COUNT = {"type": "integer", "minimum": 0}
@@ -76,7 +78,7 @@ def seen(drive: Drive) -> dict[str, Any]:
     return seen
 
 
-@pytest.mark.parametrize("path", [EXAMPLE, *catalog.shipped()], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", [EXAMPLE, COILS, *catalog.shipped()], ids=lambda path: path.stem)
 def test_every_map_has_the_published_shape(path: Path) -> None:
     jsonschema.validate(view.of_drive(load(path), path.stem), SHAPE)
 
@@ -84,6 +86,16 @@ def test_every_map_has_the_published_shape(path: Path) -> None:
 def _register(seen: dict[str, Any], address: int) -> dict[str, Any]:
     (found,) = (register for register in seen["registers"] if register["address"] == address)
     return dict(found)
+
+
+def test_an_address_is_what_is_sent_and_its_table_is_beside_it() -> None:
+    seen = view.of_drive(load(COILS), "coils")
+    places = {(one.get("space", "holding"), one["address"]) for one in seen["registers"]}
+    assert {space for space, _ in places} == {"holding", "input", "coil"}
+    for command in seen["operation"]["commands"]:
+        assert (command["space"], command["register"]) in places
+        for step in command.get("first", ()):
+            assert (step["space"], step["register"]) in places
 
 
 def test_a_range_comes_out_as_one_register_each(seen: dict[str, Any]) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 from typing import Any
 
-from driveblocks.maps.form import Span
+from driveblocks.maps.form import ADDRESS, ADDRESSES, Span, space_of, wire
 from driveblocks.maps.model import Bit, Drive, Entry, ErrorCode, Named, Register, Section
 from driveblocks.maps.revision import revision
 from driveblocks.maps.shape import keys_of
@@ -61,7 +61,7 @@ def of_row(section: Section, row: Register) -> Iterator[Plain]:
     )
     for address, id_ in zip(row.address, ids(row), strict=True):
         yield {
-            "address": address,
+            "address": wire(address),
             "id": id_,
             "name": row.name or ("Not used" if row.unused else ""),
             "name_zh": row.zh or "",
@@ -131,16 +131,30 @@ def plain(value: Any) -> Any:
 def _entry(entry: Entry) -> Plain:
     """An entry under the keys of the map; what it omits is omitted again, but for true and false.
 
-    A named entry has the manual's wording as `name_zh` and the corrected one as `text_zh`.
+    A named entry has the manual's wording as `name_zh` and the corrected one as `text_zh`. An address is what is sent
+    for it; `space` is its table where that is not the holding registers.
     """
     cls: type = type(entry)
     said = {key: value for key in keys_of(cls) if (value := getattr(entry, key)) not in (None, ())}
+    said |= _placed(cls, said)
     if isinstance(entry, Named):
         first = {key: said.pop(key) for key in _FIRST if key in said}
         names = {"name": said.pop("name"), "name_zh": said.pop("zh", ""), "text_zh": entry.text_zh or ""}
         said.pop("zh_used", None)
         said = {**first, **names, **said}
     return {key: plain(value) for key, value in said.items()}
+
+
+def _placed(cls: type, said: Plain) -> Plain:
+    """The addresses of an entry as they are sent, and their table, which is one."""
+    found = {key: said[key] for key, one in keys_of(cls).items() if key in said and one.shape in (ADDRESS, ADDRESSES)}
+    spans = [value if isinstance(value, Span) else Span(value, value) for value in found.values()]
+    tables = {space_of(span.first) for span in spans} - {"holding"}
+    sent = {
+        key: Span(wire(value.first), wire(value.last)) if isinstance(value, Span) else wire(value)
+        for key, value in found.items()
+    }
+    return sent | ({"space": tables.pop()} if tables else {})
 
 
 def _without(entry: Entry, *keys: str) -> Plain:
