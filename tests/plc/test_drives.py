@@ -171,6 +171,7 @@ def test_what_a_simulated_drive_shows_at_its_most_fits_a_word_at_the_finest_scal
         most = {
             "output_frequency": called.HIGHEST_HZ, "output_current": habits.amperes, "output_power": habits.kilowatts,
             "output_voltage": habits.motor_volts, "dc_bus_voltage": habits.bus_volts,
+            "output_speed": 60 * called.HIGHEST_HZ // habits.pole_pairs, "relative_power": 100,
         }  # fmt: skip
         for shows, gauge in gauges.items():
             assert made.word(gauge.register) * gauge.milli == 1000 * most[shows], (drive.prefix, shows)
