@@ -1,9 +1,11 @@
 """On a real port only reads and the maps' stops are sent, judged by the bytes, whatever the program wants."""
 
 import pytest
+from tests.maps import bad
 from tests.plc.desk import EXAMPLE, ONE, Desk
 from tests.simulator.talk import MAPS
 
+from driveblocks.maps import load
 from driveblocks.maps.model import Drive
 from driveblocks.modbus.frame import seal
 from driveblocks.plc.guard import STOPS, Guard, stop_request, stops
@@ -76,6 +78,22 @@ def test_the_stop_of_a_map_stops_its_drive(family: str) -> None:
     assert (drive.reply(request) or b"")[:6] == request[:6]
     drive.step(5000)
     assert drive.mode == "standstill"
+
+
+def test_of_a_drive_that_coils_command_only_the_stop_of_its_coil_is_sent() -> None:
+    coils = load.load(bad.FOLDER / "coils.yaml")
+    assert stop_request(5, coils) == bytes.fromhex("05 05 00 00 00 00")
+    guard = Guard({5: coils})
+    assert guard.passes(rtu("05 05 00 00 00 00"))
+    for text in (
+        "05 05 00 00 FF 00",
+        "05 05 00 01 00 00",
+        "05 05 00 00 00 01",
+        "05 06 00 00 00 00",
+        "05 0F 00 00 00 01 01 00",
+    ):
+        assert not guard.passes(rtu(text)), text
+    assert guard.dropped["write to coil 0000H of unit 5"] == 1
 
 
 def test_no_word_of_a_motion_is_a_stop() -> None:

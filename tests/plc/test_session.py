@@ -5,7 +5,8 @@ import signal
 from collections.abc import Callable
 
 import pytest
-from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk
+from tests.maps import bad
+from tests.plc.desk import BOX, EXAMPLE, ONE, SCAN_US, Desk, Line
 from tests.simulator.talk import MAPS
 
 from driveblocks.desk import ending
@@ -13,8 +14,12 @@ from driveblocks.desk.clock import VirtualClock
 from driveblocks.desk.ending import Ending
 from driveblocks.desk.port import AGAIN_US, DevicePort
 from driveblocks.desk.script import Setting
-from driveblocks.plc.ask import CHATTER_US, REPLY_US
+from driveblocks.desk.wire import Wire
+from driveblocks.maps import load
+from driveblocks.plc.ask import CHATTER_US, REPLY_US, Speech
+from driveblocks.plc.gate import Gate
 from driveblocks.plc.pace import Pace
+from driveblocks.plc.stopper import Stopper
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -404,3 +409,16 @@ def test_an_ending_keeps_its_first_reason() -> None:
     assert not ending.hurry
     ending.ask("SIGTERM")
     assert (ending.reason, ending.hurry) == ("Ctrl-C", False)
+
+
+def test_a_drive_that_coils_command_is_stopped_and_its_standstill_read() -> None:
+    """Coils, and a frequency of two registers, which are read in one request."""
+    coils = load.load(bad.FOLDER / "coils.yaml")
+    drive, clock = SimulatedDrive(coils, 5), VirtualClock()
+    drive.keypad_run(20)
+    drive.step(5000)
+    line = Line(Wire([drive], 19200, 10, ascii_mode=False), clock)
+    stopper = Stopper(Gate(line, clock), clock, Ending(), Speech(ascii_mode=False, character_us=521.0))
+    assert stopper.stop({5: coils}) == {5: ""}
+    assert drive.mode == "standstill"
+    assert {frame[:6].hex() for frame in line.sent} == {"050500000000", "0501000e0001", "050310000002"}

@@ -1,11 +1,12 @@
 """What a drive allows on the wire, derived from its map: words per frame, readable and writable addresses."""
 
 import re
+import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import ceil
 
-from driveblocks.maps.form import SPACES, Span, space_of
+from driveblocks.maps.form import SPACES, Span, space_of, wire
 from driveblocks.maps.model import Drive, Limit
 from driveblocks.modbus.layout import Dialect
 
@@ -14,6 +15,9 @@ READ_WORDS, WRITE_WORDS = 125, 123
 
 OF_BITS = frozenset({1, 2, 5})
 """Functions of coils and discrete inputs, which only a drive block sends, where its map has some."""
+
+COIL_ON = 0xFF00
+"""What is written to a coil that becomes 1 (6.5)."""
 
 READ_OVERHEAD, WRITE_OVERHEAD = 1, 5
 """Data bytes beside the words: byte count of a read reply; address, quantity and byte count of a 10H request."""
@@ -80,6 +84,19 @@ def start_of(drive: Drive | None, function: int) -> int:
 def reads_by(drive: Drive, address: int) -> int:
     """The function that reads a register: 04H a holding register, too, where the drive has no 03H."""
     return {"coil": 1, "discrete": 2, "input": 4}.get(space_of(address), 3 if 3 in used(drive) else 4)
+
+
+def read_request(unit: int, drive: Drive, span: Span) -> bytes:
+    """A read of addresses of one table, without checksum."""
+    return bytes([unit, reads_by(drive, span.first)]) + struct.pack(">HH", wire(span.first), len(span))
+
+
+def write_request(unit: int, drive: Drive, address: int, word: int) -> bytes:
+    """A write of one register or coil, without checksum."""
+    function, at = writes_by(drive, address), wire(address)
+    if function == 16:
+        return struct.pack(">BBHHBH", unit, function, at, 1, 2, word)
+    return struct.pack(">BBHH", unit, function, at, word if function == 6 else COIL_ON * word)
 
 
 def writes_by(drive: Drive, address: int) -> int:

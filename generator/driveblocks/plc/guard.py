@@ -3,8 +3,9 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
+from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import plan
+from driveblocks.maps.plan import COIL_ON, write_request
 from driveblocks.modbus import frame, layout
 from driveblocks.simulator.pattern import of_write
 
@@ -14,7 +15,7 @@ STOPS = frozenset({"stop", "coast_stop", "quick_stop", "jog_stop"})
 
 
 def stops(drive: Drive) -> Iterator[tuple[int, int]]:
-    """The register and word of every stop of a map; bits that a stop keeps are 0."""
+    """The register and word, or the coil and its value, of every stop of a map; bits that a stop keeps are 0."""
     for command in drive.operation.commands:
         if command.does in STOPS:
             yield command.register, of_write(command).value
@@ -23,15 +24,15 @@ def stops(drive: Drive) -> Iterator[tuple[int, int]]:
 def stop_request(unit: int, drive: Drive) -> bytes:
     """The stop of a drive as a request without checksum."""
     command = next(each for each in drive.operation.commands if each.does == "stop")
-    place, word = command.register.to_bytes(2, "big"), of_write(command).value.to_bytes(2, "big")
-    if 6 in plan(drive).functions:
-        return bytes([unit, 6]) + place + word
-    return bytes([unit, 16]) + place + b"\0\1\2" + word
+    return write_request(unit, drive, command.register, of_write(command).value)
 
 
 def writes(request: layout.Layout) -> tuple[int, int] | None:
-    """Register and word of a request that writes just one; None for any other."""
+    """Register and word of a request that writes just one, or a coil and its value; None for any other."""
     address, words = request.number("address"), request.words
+    if request.function == 5 and address is not None:
+        value = request.number("value")
+        return (SPACES["coil"] + address, value // COIL_ON) if value in (0, COIL_ON) else None
     if address is None or request.function not in WRITES or len(words) != 1 or not request.agrees:
         return None
     return address, words[0]
@@ -72,4 +73,4 @@ class Guard:
             return ""
         if write is None:
             return f"function {function:02X}H to unit {unit}"
-        return f"write to {write[0]:04X}H of unit {unit}"
+        return f"write to {address_text(write[0])} of unit {unit}"

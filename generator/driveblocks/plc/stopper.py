@@ -2,13 +2,15 @@
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.ending import Ending
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import plan
-from driveblocks.modbus.layout import granted
+from driveblocks.maps.pair import whole
+from driveblocks.maps.plan import read_request
+from driveblocks.modbus.layout import granted, reply_size
 from driveblocks.plc.ask import Asker, Last, Speech
 from driveblocks.plc.gate import Gate
 from driveblocks.plc.guard import stop_request
-from driveblocks.simulator.pattern import Pattern, of_condition
+from driveblocks.simulator.pattern import of_condition
 
 WITHIN_US = 10_000_000
 """How long it is tried where no drive block gives the time to standstill."""
@@ -58,22 +60,21 @@ class Stopper:
 
     def _moves(self, unit: int, drive: Drive) -> str:
         """Why standstill is not proved; empty if it is."""
-        function = 3 if 3 in plan(drive).functions else 4
         patterns = [of_condition(each) for each in drive.operation.standstill.all]
-        words = {register: self._read(unit, function, register) for register in {each.register for each in patterns}}
-        if None in words.values():
-            return "stop acknowledged, its status is not answered"
+        words: dict[int, int] = {}
+        for value in sorted({whole(drive, each.register) for each in patterns}):
+            read = self._read(unit, drive, value)
+            if not read:
+                return "stop acknowledged, its status is not answered"
+            words |= zip(value, read, strict=True)
         return (
             ""
-            if all(_holds(each, words) for each in patterns)
+            if all(each.holds(words[each.register]) for each in patterns)
             else "stop acknowledged, its status does not prove standstill"
         )
 
-    def _read(self, unit: int, function: int, register: int) -> int | None:
-        reply = self._asker.ask(bytes([unit, function, *register.to_bytes(2, "big"), 0, 1]), 5)
-        words = granted(reply, "reply").words if reply else ()
-        return words[0] if len(words) == 1 else None
-
-
-def _holds(pattern: Pattern, words: dict[int, int | None]) -> bool:
-    return pattern.holds(words[pattern.register] or 0)
+    def _read(self, unit: int, drive: Drive, value: tuple[int, ...]) -> tuple[int, ...]:
+        """The registers of a value, or a coil; none if they are not answered."""
+        request = read_request(unit, drive, Span(value[0], value[-1]))
+        reply = self._asker.ask(request, reply_size(request))
+        return granted(reply, "reply").values(len(value)) if reply else ()

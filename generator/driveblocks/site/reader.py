@@ -7,14 +7,14 @@ from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import Port
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import dialect, most
+from driveblocks.maps.plan import dialect, most, read_request
 from driveblocks.maps.polls import identity_read
-from driveblocks.modbus.layout import take
+from driveblocks.modbus.layout import reply_size, take
 from driveblocks.plc.ask import Asker, Speech
 from driveblocks.plc.guard import Guard
 from driveblocks.simulator.pattern import of_condition
 from driveblocks.simulator.refusal import codes
-from driveblocks.site.register import function, rows, spans
+from driveblocks.site.register import rows, spans
 from driveblocks.site.saved import Word
 
 TRIES = 5
@@ -126,11 +126,10 @@ class Reader:
 
     def _answer(self, span: Span) -> tuple[int, ...] | str:
         """The words of a run; why there are none."""
-        code, count = function(self._drive), len(span)
-        body = bytes([self._unit, code]) + span.first.to_bytes(2, "big") + count.to_bytes(2, "big")
-        dialect = self._dialect
-        lengths = [3 + 2 * count, 3] + [4 + 2 * count] * dialect.two_byte_count + [6] * (dialect.address is not None)
-        functions = (code + dialect.added & 0xFF, *([dialect.function] if dialect.function is not None else []))
+        body, count = read_request(self._unit, self._drive, span), len(span)
+        dialect, size = self._dialect, reply_size(body)
+        lengths = [size, 3] + [size + 1] * dialect.two_byte_count + [6] * (dialect.address is not None)
+        functions = (body[1] + dialect.added & 0xFF, *([dialect.function] if dialect.function is not None else []))
         answer: tuple[int, ...] | str = SILENT
         for _ in range(TRIES):
             reply = self._asker.ask(body, *lengths, functions=functions)
@@ -140,8 +139,8 @@ class Reader:
                 if found.number("reason") == self._busy:
                     self._clock.sleep_until(self._clock.now_us() + BUSY_US)
                     continue
-            elif found is not None and len(found.words) == count:
-                answer = found.words
+            elif found is not None and (carried := found.values(count)):
+                answer = carried
             if answer != SILENT:
                 self._good = span
                 return answer

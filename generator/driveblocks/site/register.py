@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Drive, Register
-from driveblocks.maps.plan import group, plan
+from driveblocks.maps.pair import is_first, number_of, whole
+from driveblocks.maps.plan import group
 from driveblocks.simulator.pattern import of_condition
 
 
@@ -68,16 +69,13 @@ def spans(drive: Drive, wanted: list[int], most: int) -> list[Span]:
     found: list[Span] = []
     for address in sorted(wanted):
         same = bool(found) and group(drive, address) == group(drive, found[-1].last)
-        if same and address == found[-1].last + 1 and len(found[-1]) < most:
+        begun = whole(drive, address)[0] < address  # the second word of a value, which no run leaves alone
+        room = begun or sum(map(len, found[-1:])) + len(whole(drive, address)) <= most
+        if same and address == found[-1].last + 1 and room:
             found[-1] = Span(found[-1].first, address)
         else:
             found.append(Span(address, address))
     return found
-
-
-def function(drive: Drive) -> int:
-    """The function that reads."""
-    return 3 if 3 in plan(drive).functions else 4
 
 
 def value(row: Row, word: int, words: Mapping[int, int]) -> tuple[str, str]:
@@ -87,7 +85,10 @@ def value(row: Row, word: int, words: Mapping[int, int]) -> tuple[str, str]:
         return str(word), ""
     if one.bits or one.masks:
         return f"{word:04X}H", ""
-    number = word - 0x10000 if one.signed and word & 0x8000 else word
+    rest = range(row.address + 1, row.address + one.size)
+    if not is_first(one, row.address) or any(each not in words for each in rest):
+        return str(word), ""  # half a value
+    number = number_of(one, [word, *(words[each] for each in rest)])
     named = next((each.name for each in one.values if each.value == number), None)
     if named is not None:
         return f"{number} {named}", ""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from driveblocks.desk.words import Refused
-from driveblocks.maps.form import address_text
+from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import revision
 from driveblocks.site.register import rows, unread, value
@@ -17,6 +17,7 @@ from structured_text.visible import file_name
 COLUMNS = ("address", "id", "name", "word", "value", "unit", "default")
 _HEAD = re.compile(r"# map: (?P<map>\S+), revision (?P<revision>[0-9A-F]{8})")
 _UNIT = re.compile(r"# unit: (?P<unit>[0-9]{1,3})")
+_PLACE = re.compile("(?:(coil|discrete|input) )?([0-9A-F]{4})H")
 _WORD = re.compile(r"[0-9]{1,5}")
 
 Word = int | str
@@ -74,13 +75,14 @@ def read(path: Path) -> Saved:
         if line.startswith("#") or line == ",".join(COLUMNS):
             continue
         cells = next(csv.reader([line]), [])
-        found = re.fullmatch("([0-9A-F]{4})H", cells[0]) if len(cells) == len(COLUMNS) else None
+        found = _PLACE.fullmatch(cells[0]) if len(cells) == len(COLUMNS) else None
         if found is None:
             wrong.append(f"{name}:{number}:1: is no row; write {', '.join(COLUMNS)}")
         elif _WORD.fullmatch(cells[3]) and int(cells[3]) > 0xFFFF:
             wrong.append(f"{name}:{number}:1: {cells[3]} is no word; write 0 to 65535")
         else:
-            words[int(found[1], 16)] = int(cells[3]) if _WORD.fullmatch(cells[3]) else cells[3]
+            address = SPACES[found[1] or "holding"] + int(found[2], 16)
+            words[address] = int(cells[3]) if _WORD.fullmatch(cells[3]) else cells[3]
     if wrong:
         raise Refused("\n".join(wrong))
     return Saved(name, head["map"], int(unit["unit"]), words, head["revision"])

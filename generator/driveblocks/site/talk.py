@@ -4,12 +4,14 @@ from dataclasses import dataclass, replace
 
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import dialect
+from driveblocks.maps.plan import dialect, read_request
 from driveblocks.modbus.frame import opened, seal
-from driveblocks.modbus.layout import Dialect, take
+from driveblocks.modbus.layout import Dialect, reply_size, take
 from driveblocks.modbus.scan import pieces
 from driveblocks.site.found import Fault, Line, Trouble, Way
-from driveblocks.site.register import function
+
+CHECKSUM = 2
+"""Bytes of a CRC."""
 
 SETTLE_US = 20_000
 """Silence before each request, at least."""
@@ -77,11 +79,11 @@ class Talk:
 
     def read(self, span: Span, timeout_us: int, settle_us: int | None = None) -> Reply:
         """A read, once, after silence. Raises EndedError where somebody else speaks."""
-        way, code, spoken = self.way, function(self.drive), dialect(self.drive)
-        body = bytes([self.unit, code]) + span.first.to_bytes(2, "big") + len(span).to_bytes(2, "big")
+        way, spoken = self.way, dialect(self.drive)
+        body = read_request(self.unit, self.drive, span)
         request = seal(way.mode, body)
         self._silence(max(SETTLE_US, int(4 * way.character_us)) if settle_us is None else settle_us)
-        whole = len(seal(way.mode, bytes(3 + 2 * len(span))))
+        whole = len(seal(way.mode, bytes(reply_size(body))))
         heard = self.line.exchange(request, timeout_us, 0 if settle_us is None else whole)
         echo = heard.data.startswith(request)
         found = judged(heard.data.removeprefix(request), way, body, spoken, echo=echo)
@@ -128,9 +130,11 @@ def _meant(frame: bytes, body: bytes, spoken: Dialect) -> Reply:
         return Reply(trouble="foreign", unit=frame[0])
     if layout.refusal:
         return Reply(refused=layout.number("reason") or 0, unit=frame[0])
-    if body and (layout.function != body[1] or not layout.fits or len(layout.words) != asked):
+    if not body:
+        return Reply(layout.words, unit=frame[0])
+    if layout.function != body[1] or not layout.fits or not layout.values(asked):
         return Reply(trouble="family", unit=frame[0], strange=True)
-    return Reply(layout.words, unit=frame[0])
+    return Reply(layout.values(asked), unit=frame[0])
 
 
 def _frames(data: bytes, way: Way, spoken: Dialect) -> tuple[list[bytes], bool]:
@@ -145,4 +149,4 @@ def _begun(data: bytes, way: Way, body: bytes) -> bool:
     """Whether bytes are the beginning of a reply that is cut off."""
     if way.mode == "ascii":
         return data[:1] == b":" and not data.endswith(b"\n")
-    return bool(body) and data[:2] == body[:2] and len(data) < 5 + 2 * body[5]
+    return bool(body) and data[:2] == body[:2] and len(data) < reply_size(body) + CHECKSUM

@@ -6,12 +6,12 @@ A PLC could read from the simulator that a drive has stopped whose motor turns.
 from collections.abc import Callable, Mapping
 
 from driveblocks.desk.clock import Clock
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import dialect, plan
+from driveblocks.maps.plan import dialect, plan, read_request
 from driveblocks.modbus import layout, scan
 from driveblocks.modbus.envelope import open_
 from driveblocks.modbus.frame import seal
-from driveblocks.modbus.request import READS
 from driveblocks.stand.link import Link
 
 LISTEN_US = 3_000_000
@@ -84,9 +84,8 @@ class Neighbours:
 
 def _question(unit: int, drive: Drive) -> bytes:
     """A read of one word that the map knows."""
-    allowed = plan(drive)
-    function = next((each for each in READS if each in allowed.functions), 3)
-    return bytes([unit, function]) + allowed.readable[0].first.to_bytes(2, "big") + b"\0\1"
+    first = plan(drive).readable[0].first
+    return read_request(unit, drive, Span(first, first))
 
 
 def _refusal(unit: int) -> str:
