@@ -272,13 +272,14 @@ def _shown(drive: Drive, made: Table, numbers: tuple[int, ...]) -> list[Context]
 
 
 def _gauge(gauge: Gauge) -> str:
+    shaft = "Seen.Milli" if gauge.signed else "ABS(Seen.Milli)"
     milli = {
-        "output_frequency": "Seen.Milli" if gauge.signed else "ABS(Seen.Milli)",
+        "output_frequency": shaft,
         "output_current": "Live",
         "output_voltage": "(Share MOD 101) * 4000",
         "dc_bus_voltage": "540000",
         "output_power": "(Share MOD 101) * 20",
-        "output_speed": "30 * Seen.Milli" if gauge.signed else "30 * ABS(Seen.Milli)",
+        "output_speed": f"30 * ({shaft} MOD 10000001)",
         "output_torque": "10 * Live",
         "relative_power": "(Share MOD 101) * 500",
         "drive_temperature": "40000",
