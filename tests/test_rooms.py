@@ -40,7 +40,7 @@ MOST = {
     # written; simulator, reference, testing, prove, render and explain: the same, shown and tried
     # maps: fractions of a full scale, a direction by the sign of the reference, speeds in r/min, and their rules
     # simulator, reference, render, prove, testing, show, docs: the same, and more measures
-    # maps, modbus, plc, site: requests by the table of their address, for the end of a run, commissioning and parameters
+    # maps, modbus, plc, site: requests by the table of their address, to end a run, commission and save parameters
     "maps": 8215, "output": 845,
     # desk: why a run ends and what ends it, and words of the command line that several commands share, came from plc
     # desk: why a port refuses a rate or a format is said once, for what only listens, too
