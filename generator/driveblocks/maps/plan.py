@@ -8,16 +8,13 @@ from math import ceil
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
 from driveblocks.maps.model import Drive, Limit
-from driveblocks.modbus.layout import Dialect
+from driveblocks.modbus.layout import COIL_ON, Dialect
 
 READ_WORDS, WRITE_WORDS = 125, 123
 """MODBUS Application Protocol V1.1b3, 6.3 and 6.12: registers that fit into a PDU of 253 bytes."""
 
 OF_BITS = frozenset({1, 2, 5})
 """Functions of coils and discrete inputs, which only a drive block sends, where its map has some."""
-
-COIL_ON = 0xFF00
-"""What is written to a coil that becomes 1 (6.5)."""
 
 READ_OVERHEAD, WRITE_OVERHEAD = 1, 5
 """Data bytes beside the words: byte count of a read reply; address, quantity and byte count of a 10H request."""

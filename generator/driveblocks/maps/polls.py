@@ -7,6 +7,7 @@ from driveblocks.maps.form import Span, address_text, is_bit
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, plan, reads_by
+from driveblocks.modbus.layout import bytes_of
 
 MOST_POLLS = 12
 MOST_WORDS = 16
@@ -36,7 +37,7 @@ class Poll:
     @property
     def data(self) -> int:
         """Data bytes of its reply."""
-        return (self.words + 7) // 8 if is_bit(self.address) else WORD * self.words
+        return bytes_of(self.words) if is_bit(self.address) else WORD * self.words
 
     @property
     def looks(self) -> tuple[int, int]:

@@ -27,8 +27,10 @@ _COUNTED = {*((function, "reply") for function in (1, 2, 3, 4)), (15, "request")
 _WORDS = frozenset({3, 4, 16})
 """Functions whose counted bytes are registers."""
 
-OF_BITS = frozenset({1, 2})
+_READ_BITS = frozenset({1, 2})
 """Reads of coils and discrete inputs, eight to a byte."""
+COIL_ON = 0xFF00
+"""What is written to a coil that becomes 1 (MODBUS Application Protocol V1.1b3, 6.5)."""
 
 KNOWN = frozenset({1, 2, 3, 4, 5, 6, 7, 8, 15, 16})
 
@@ -125,19 +127,20 @@ class Layout:
     def values(self, count: int) -> tuple[int, ...]:
         """What a reply to a read of `count` carries: registers, or coils, each 0 or 1; none if they are not as many."""
         data = self.part("data")
-        if self.refusal or data is None or self.body[1] not in OF_BITS:
+        if self.refusal or data is None or self.body[1] not in _READ_BITS:
             return self.words if len(self.words) == count else ()
         bits = tuple(byte >> bit & 1 for byte in data.data for bit in range(8))
-        return bits[:count] if len(data.data) == _bytes_of(count) else ()
+        return bits[:count] if len(data.data) == bytes_of(count) else ()
 
 
 def reply_size(request: bytes) -> int:
     """Bytes of the reply to a read, without checksum."""
     count = int.from_bytes(request[4:6], "big")
-    return 3 + (_bytes_of(count) if request[1] in OF_BITS else 2 * count)
+    return 3 + (bytes_of(count) if request[1] in _READ_BITS else 2 * count)
 
 
-def _bytes_of(bits: int) -> int:
+def bytes_of(bits: int) -> int:
+    """Bytes that a number of coils takes."""
     return (bits + 7) // 8
 
 

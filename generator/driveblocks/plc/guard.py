@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 
 from driveblocks.maps.form import SPACES, address_text
 from driveblocks.maps.model import Drive
-from driveblocks.maps.plan import COIL_ON, write_request
+from driveblocks.maps.plan import write_request
 from driveblocks.modbus import frame, layout
 from driveblocks.simulator.pattern import of_write
 
@@ -32,7 +32,7 @@ def writes(request: layout.Layout) -> tuple[int, int] | None:
     address, words = request.number("address"), request.words
     if request.function == 5 and address is not None:
         value = request.number("value")
-        return (SPACES["coil"] + address, value // COIL_ON) if value in (0, COIL_ON) else None
+        return (SPACES["coil"] + address, value // layout.COIL_ON) if value in (0, layout.COIL_ON) else None
     if address is None or request.function not in WRITES or len(words) != 1 or not request.agrees:
         return None
     return address, words[0]

@@ -14,6 +14,7 @@ from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render.context import reply, word_input
 from driveblocks.render.decoded import Decoded
 from driveblocks.render.drive import MEASURES
@@ -31,8 +32,6 @@ SENT = dict(
 )
 """What the control calls a command."""
 ALL, SIGN = 0xFFFF, 0x8000
-ON = 0xFF00
-"""What sets a coil."""
 NEAR = (
     "AtSpeed = (Running AND Diagnosis.OutputFrequencyValid AND (OutputFrequencyHz >= Speed.AskedHz - REAL#0.5) "
     "AND (OutputFrequencyHz <= Speed.AskedHz + REAL#0.5))"
@@ -101,7 +100,7 @@ def _frames(drive: Drive, one: Command, stop: Command, ask: str) -> Iterator[str
         keep = 0 if write.value is not None else _kept(drive, write)
         before = image.get(write.register, 0) & ~_mask(write.clear)
         image[write.register] = write.value if write.value is not None else before | _mask(write.set)
-        value = word(ON * image[write.register] if is_bit(write.register) else image[write.register])
+        value = word(COIL_ON * image[write.register] if is_bit(write.register) else image[write.register])
         held = f"({ask}.Words[0] AND {word(ALL ^ keep)}) = {value}" if keep else f"{ask}.Words[0] = {value}"
         by = _by(drive, write.register) if ask == "Slot.Ask[1]" else ""
         yield f"({ask}.Address = {word(write.register)}) AND ({held}){by}"

@@ -60,7 +60,7 @@ class SpeedReference:
             self.percent = self.spec.full_scale_hz is None
             self.factor = Fraction(100 if self.percent else self.spec.full_scale_hz or 1) / (self.spec.full_scale or 1)
         self.turns = self.spec.means == "speed" and row.scale is not None
-        self.by_sign = any(command.negative for command in drive.operation.commands)
+        self.by_sign = drive.operation.by_sign
         self.highest = row.range.max if row.range else 0x7FFF if row.signed else 0xFFFF
 
     @property

@@ -22,14 +22,13 @@ from driveblocks.maps.polls import (
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
+from driveblocks.modbus.layout import COIL_ON
 from driveblocks.render import context
 from driveblocks.render.constants import ORDERS, STOPS
 from driveblocks.render.context import Word, word_input
 from driveblocks.render.decoded import Call, Decoded
 from driveblocks.render.expression import Test
 
-ON = 0xFF00
-"""What sets a coil; 0 clears it (MODBUS Application Protocol V1.1b3, 6.5)."""
 CONSTANTS = {
     "stop": "RAMP_STOP", "quick_stop": "QUICK_STOP", "coast_stop": "COAST_STOP", "jog_stop": "JOG_STOP",
     "run_forward": "GO_FORWARD", "run_reverse": "GO_REVERSE", "jog_forward": "JOG_AHEAD", "jog_reverse": "JOG_BACK",
@@ -391,7 +390,7 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
             before = image.get(write.register, 0) & ~context.bits_of(write.clear)
             image[write.register] = before | context.bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
-        bits = image[write.register] and ON if is_bit(write.register) else image[write.register]
+        bits = image[write.register] and COIL_ON if is_bit(write.register) else image[write.register]
         yield Write(write.register, bits, keep, hold, moves and write is one, writes_by(drive, write.register))
 
 

@@ -13,8 +13,6 @@ SHORT = 6
 TABLES = {1: "coil", 2: "discrete", 4: "input", 5: "coil"}
 """The tables of functions that are not of holding registers."""
 READS = (1, 2, 3, 4)
-ON = 0xFF00
-"""What sets a coil (MODBUS Application Protocol V1.1b3, 6.5)."""
 
 
 class Refused(Exception):  # noqa: N818  (a refusal is an answer, no error of the program)
@@ -73,9 +71,9 @@ def _granted(machine: Machine, request: bytes, *, everyone: bool) -> bytes:
 def _written(machine: Machine, function: int, number: int, request: bytes) -> Iterator[int]:
     """The words that a request writes; of a coil 1 or 0. Raises Refused."""
     if function == 5:
-        if number not in (0, ON):
+        if number not in (0, layout.COIL_ON):
             raise Refused("value")
-        yield number // ON
+        yield number // layout.COIL_ON
     elif function == 6:
         yield number
     elif not 1 <= number <= machine.table.most.write or request[6] != 2 * number:
@@ -94,7 +92,7 @@ def _table(machine: Machine, function: int) -> str:
 def _packed(bits: list[int]) -> bytes:
     """Coils as bytes, the first as the lowest bit of the first one (6.1)."""
     number = sum(bit << place for place, bit in enumerate(bits))
-    return number.to_bytes((len(bits) + 7) // 8, "little")
+    return number.to_bytes(layout.bytes_of(len(bits)), "little")
 
 
 def _read(machine: Machine, first: int, number: int) -> list[int]:

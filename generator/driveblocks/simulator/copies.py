@@ -22,7 +22,7 @@ _NAMES = {
 }
 _AT_FAULT = " at fault"
 RPM_OF_ONE_PAIR = 60
-"""Of a motor with four poles without slip."""
+"""In a hertz, of a motor with one pole pair without slip."""
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
 from driveblocks.maps.model import Condition, Drive
+from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import Pattern, of_condition
@@ -279,7 +280,7 @@ def _gauge(gauge: Gauge) -> str:
         "output_voltage": "(Share MOD 101) * 4000",
         "dc_bus_voltage": "540000",
         "output_power": "(Share MOD 101) * 20",
-        "output_speed": f"30 * ({shaft} MOD 10000001)",
+        "output_speed": f"{RPM_OF_ONE_PAIR // Habits().pole_pairs} * ({shaft} MOD 10000001)",
         "output_torque": "10 * Live",
         "relative_power": "(Share MOD 101) * 500",
         "drive_temperature": "40000",

@@ -9,6 +9,7 @@ from typing import Any
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
 from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words
+from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
 from driveblocks.simulator.pattern import of_write
@@ -213,7 +214,7 @@ def _write(one: Command, step: int, *, several: bool) -> Shows:
     value = f"(TheOrders.Value AND {word(pattern.mask)})"
     found: Shows = {
         "Register": word(pattern.register),
-        value: word(0xFF00 * pattern.value if is_bit(pattern.register) else pattern.value),
+        value: word(COIL_ON * pattern.value if is_bit(pattern.register) else pattern.value),
         "Moves": last and one.does in MOTIONS,
     }
     more: Shows = {"Last": len(one.first), "HoldMs": 0 if last else one.first[step].for_ms or 0}
