@@ -4,6 +4,7 @@ import re
 from functools import cache
 
 from tests.blocks.library import sources
+from tests.line.drives import KINDS
 from tests.line.vline import PARAMETER, STOP, Bench, Config, Drive, line_sources
 from tests.line.walk import walk
 
@@ -11,6 +12,7 @@ from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.embedded.library import EmbeddedLibrary
 
 SEEDS = (*range(14), 21, 29)
+COILS = next(index for index, kind in enumerate(KINDS) if kind.stop_function == 5)
 
 
 def long_dead(bench: Bench) -> None:
@@ -192,6 +194,13 @@ def no_motor(bench: Bench) -> None:
     bench.run(100)
 
 
+def reads_a_coil(bench: Bench) -> None:
+    """A parameter that is a coil."""
+    bench.ready().ask(0, PARAMETER, 1, 0x0020, quantity=1)
+    bench.run(100)
+    assert bench.answer(0, PARAMETER) == "OK"
+
+
 TOURS = (
     (falls_silent, Config(drives=8, turn_ms=400, longest_ms=400)),
     (long_dead, Config(drives=8)),
@@ -207,6 +216,7 @@ TOURS = (
     (own_stops, Config(drives=1)),
     (stalls, Config(drives=2)),
     (no_motor, Config(drives=2)),
+    (reads_a_coil, Config(drives=1, kind=COILS)),
 )
 """What chance seldom finds."""
 
