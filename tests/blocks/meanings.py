@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from tests.blocks.library import Blocks, scan
 
-from driveblocks.maps.model import Drive, Register
+from driveblocks.maps.model import Drive, Register, Section
 from driveblocks.reference import fault, naming, register, standstill, text
 from driveblocks.reference.naming import name_of
 
@@ -61,9 +61,11 @@ def scaled(drive: Drive) -> Iterator[Register]:
 
 
 def assert_scale(blocks: Blocks, drive: Drive, row: Register, some: Iterable[int] = range(0, 0x10000, 257)) -> None:
-    """The nearest REAL to the exact value, within the last place that one operation may cost."""
-    for word in (*EDGES, *some):
-        value = blocks.call(scale_name(drive, row), {"Raw": word})
+    """The nearest REAL to the exact value, within the last place that one operation may cost; of words or of pairs."""
+    pairs = [high << 16 | low for high in EDGES for low in EDGES] if row.words == 2 else []
+    for word in (*EDGES, *some, *pairs):
+        pins = {"High": word >> 16, "Low": word & 0xFFFF} if row.words == 2 else {"Raw": word}
+        value = blocks.call(scale_name(drive, row), pins)
         exact = register.exact(row, word)
         assert isinstance(value, float)
         assert abs(value - exact) <= abs(exact) / 2**23, (f"{row.address.first:04X}H", word, value, float(exact))
@@ -143,9 +145,14 @@ def assert_code_texts(blocks: Blocks, drive: Drive) -> None:
             assert_text(blocks, f"{drive.prefix}_ErrorText{language}", {"Code": code}, text.error(drive, code))
 
 
+def registers(drive: Drive) -> Iterator[tuple[Section, Register]]:
+    """The holding registers: coils and inputs, whose addresses are theirs too, have no texts to ask for."""
+    return ((section, row) for section, row in drive.registers() if row.address.last <= 0xFFFF)
+
+
 def assert_bit_texts(blocks: Blocks, drive: Drive) -> None:
     """Texts of the bits of every register, in its languages; an address without bits has none."""
-    rows = [row.address.first for _, row in drive.registers() if any(bit.name for bit in row.bits)]
+    rows = [row.address.first for _, row in registers(drive) if any(bit.name for bit in row.bits)]
     for language in spoken(drive) if rows else ():
         for address in codes(rows):
             for bit in range(17):
@@ -156,7 +163,7 @@ def assert_bit_texts(blocks: Blocks, drive: Drive) -> None:
 
 def assert_value_texts(blocks: Blocks, drive: Drive) -> None:
     """Texts of the values of every register, in its languages."""
-    rows = {row.address.first: row for _, row in drive.registers() if row.values}
+    rows = {row.address.first: row for _, row in registers(drive) if row.values}
     for language in spoken(drive) if rows else ():
         for address in codes(rows):
             listed = rows[address].values if address in rows else ()

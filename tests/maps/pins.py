@@ -17,9 +17,13 @@ Plain = Any
 READS = (3, 4)
 
 
+TABLES = {"": 0, "coil": 2 << 16, "discrete": 4 << 16, "input": 6 << 16}
+
+
 def number(text: str) -> int:
-    """0026H -> 38, 500 -> 500."""
-    return int(text[:-1], 16) if text.endswith("H") else int(text)
+    """0026H -> 38, 500 -> 500; what is in another table than the holding registers is apart from them."""
+    table, _, text = text.rpartition(" ")
+    return TABLES[table] + (int(text[:-1], 16) if text.endswith("H") else int(text))
 
 
 def span(text: str, digit: Callable[[str], int]) -> range:

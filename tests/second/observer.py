@@ -130,6 +130,8 @@ class Watch:
     stop_since: int | None = None
     others_since: int | None = None
     most_hz: float = 0.0
+    before_hz: float = 0.0
+    """What that was when it was last driven."""
     lowered_at: int = 0
     turned_since: int | None = None
     left_us: int | None = None
@@ -233,13 +235,15 @@ class Observer:
         """Not faster than asked, and not the other way round; a jog has a speed of its own."""
         watch, figures = self.watches[unit], self.figures
         if not watch.driven or not wish(pins).runs:
-            watch.most_hz = 0.0
+            watch.before_hz, watch.most_hz = watch.most_hz or watch.before_hz, 0.0
             return
         asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)
         assert isinstance(asked, float)
         assert isinstance(limit, float)
         most = min(asked, limit) if limit else asked
-        if most >= watch.most_hz:
+        if truth.itself and not watch.most_hz:  # without its supply it has heard of no other reference
+            watch.most_hz, watch.lowered_at = max(most, watch.before_hz), now_us
+        elif most >= watch.most_hz:
             watch.most_hz, watch.lowered_at = most, now_us
         elif now_us - watch.lowered_at > self.figures.follow_us + int(RAMP_US * (watch.most_hz - most)):
             watch.most_hz = most

@@ -7,6 +7,7 @@ from tests.second import pairs
 from tests.second.events import AIMED, EVENTS
 from tests.second.matrix import JOGS, MODES, STATES, Cell
 from tests.second.pf4 import VARIANTS
+from tests.second.station import NEWER
 
 SIZE = 120
 """Cells of the sample."""
@@ -25,9 +26,12 @@ def aimed() -> list[tuple[Cell, int]]:
 
 
 def varied(found: list[tuple[Cell, int]]) -> list[tuple[Cell, int]]:
-    """The cells of the PowerFlex 4, each for one of its variants."""
-    alike = [each for each in found if each[0].family == "PF4"]
-    return [(replace(cell, family=VARIANTS[at % len(VARIANTS)]), seed) for at, (cell, seed) in enumerate(alike)]
+    """The cells of the PowerFlex 4, each for one of its variants, and those of SN300G5, each for a newer family."""
+    return [
+        (replace(cell, family=others[at % len(others)]), seed)
+        for family, others in (("PF4", VARIANTS), ("SN300G5", NEWER))
+        for at, (cell, seed) in enumerate(each for each in found if each[0].family == family)
+    ]
 
 
 def sample() -> list[tuple[Cell, int]]:

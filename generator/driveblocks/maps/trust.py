@@ -78,13 +78,14 @@ def rung(drive: Drive) -> str:
 
 
 def heard(drive: Drive) -> list[str]:
-    """One line for each group and document whose facts were not read in the maker's own words."""
+    """One line for each group and document whose facts were not read in the maker's own words; all faults are one."""
     lines = []
     for group, facts in rungs(drive).items():
         for document in dict.fromkeys(facts.values()):
             how = trust(drive, document)
             if how != "read":
-                names = ", ".join(name.replace("_", " ") for name, one in facts.items() if one == document)
+                named = [name.replace("_", " ") for name, one in facts.items() if one == document]
+                names = f"all {len(facts)}" if group == "faults" and len(named) == len(facts) > 1 else ", ".join(named)
                 title = f"{document.title}, {document.publisher}" if document else "the manual as others wrote it down"
                 lines.append(f"{group}, {words(how)} ({title}): {names}")
     return lines

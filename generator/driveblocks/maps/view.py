@@ -22,7 +22,7 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         "drive": stem,
         "revision": f"{revision(drive):08X}",
         **{key: plain(getattr(drive, key)) for key in ("format", "prefix", "vendor", "family", "manual")},
-        **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents")},
+        **{key: plain(getattr(drive, key)) for key in ("id_forms", "documents", "numbering")},
         "registers": [one for section, row in drive.registers() for one in of_row(section, row)],
         "sections": [_without(section, "registers") for section in drive.sections],
         "areas": plain(drive.areas),
@@ -178,4 +178,5 @@ def _limits(drive: Drive) -> Plain:
     cls: type = type(drive.limits)
     said = {key: limit for key in keys_of(cls) if (limit := getattr(drive.limits, key)) is not None}
     numbers = {key: limit.value for key, limit in said.items()}
-    return {**numbers, "sources": {key: limit.source for key, limit in said.items()}}
+    documents = {key: limit.document for key, limit in said.items() if limit.document}
+    return {**numbers, "sources": {key: limit.source for key, limit in said.items()}, "documents": documents}

@@ -236,7 +236,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         holds = _any(_holds(drive, each) for each in one.any)
         said.append(f"({_any(Decoded(drive).holds(each) for each in one.any)}) = ({holds})")
         if one.shows in PINS:
-            pins.append(f"{PINS[one.shows]} = ({holds})")
+            pins.append(f"{PINS[one.shows]} = ({'Running AND ' * (one.shows == 'at_speed')}({holds}))")
     tolerant = any(each.kind == "two_byte_count" for each in drive.tolerances)
     told = [
         f"Slot.TwoByteCount = {tolerant}".upper(),
@@ -256,7 +256,7 @@ def _shown(drive: Drive) -> dict[str, str]:
         "said": _every(said),
         "pins": _every(pins),
         "told": _every(told),
-        "at_speed": "TRUE" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
+        "at_speed": "(Running OR NOT AtSpeed)" if "at_speed" in {one.shows for one in drive.operation.status} else NEAR,
         "unchecked": f"(ManualChecked <> {checked(drive)})" if second_hand(drive) else "FALSE",
         "other_maximum": "(Reads.SettingsRead AND NOT SameMaximum)" if drive.operation.own_maximum else "FALSE",
         "valid": _every(_valid(drive, one) for one in drive.operation.measures),

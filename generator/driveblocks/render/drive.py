@@ -6,7 +6,7 @@ from functools import lru_cache
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Command, Condition, Drive, Scale, State, UnitAddress
+from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
@@ -78,9 +78,9 @@ class Write:
 
 @dataclass(frozen=True)
 class Wait:
-    """The state that a write of an order waits for; `says` is TRUE in it."""
+    """The state that a write of some orders waits for; `says` is TRUE in it."""
 
-    order: int
+    orders: list[int]
     step: int
     state: State
     says: str
@@ -284,7 +284,7 @@ def drive_block(drive: Drive) -> Block:
     """All that the drive block of a family is made of."""
     told = Decoded(drive)
     reading = _reading(drive)
-    waits = list(_waits(drive, told))
+    waits = _waits(drive, told)
     return Block(reading, _showing(drive, reading.number, told), _ordering(drive, waits), _own(drive))
 
 
@@ -316,7 +316,9 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
     return Showing(
         shown=STATUS,
         status={one.shows: [_condition(drive, each) for each in one.any] for one in operation.status},
-        says={one.shows: [told.holds(each) for each in one.any] for one in operation.status},
+        says={
+            one.shows: [told.holds(each) for each in one.any] for one in sorted(operation.status, key=_running_first)
+        },
         verify=[_condition(drive, each) for each in operation.reference.verify],
         verified=[told.holds(each) for each in operation.reference.verify],
         measures={one.shows: _measure(drive, one, told) for one in operation.measures},
@@ -325,6 +327,11 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         own_maximum=_own_maximum(drive),
         decoders=told.used,
     )
+
+
+def _running_first(one: Status) -> bool:
+    """A key: a drive that stands may say that its reference is reached, which is shown only while it runs."""
+    return one.shows != "running"
 
 
 def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
@@ -394,14 +401,17 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
         yield Write(write.register, bits, keep, hold, moves and write is one, writes_by(drive, write.register))
 
 
-def _waits(drive: Drive, told: Decoded) -> Iterator[Wait]:
-    """The state that a write but the last of a command waits for, where it waits for one."""
+def _waits(drive: Drive, told: Decoded) -> list[Wait]:
+    """The state that a write but the last of a command waits for, where it waits for one; alike in several, once."""
     states = {one.name: one for one in drive.operation.states}
+    found: dict[tuple[int, str], Wait] = {}
     for command in drive.operation.commands:
         for number, step in enumerate(command.first):
             if step.until is not None:
                 state = states[step.until]
-                yield Wait(ORDERS[command.does], number, state, told.holds(state))
+                wait = found.setdefault((number, state.name), Wait([], number, state, told.holds(state)))
+                wait.orders.append(ORDERS[command.does])
+    return list(found.values())
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:

@@ -1,6 +1,6 @@
 """The Jinja environment: strict, no escaping, and the few functions that templates may call."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
 from itertools import chain
@@ -59,6 +59,7 @@ def environment() -> jinja2.Environment:
         oldest=oldest,
         taken=taken,
         turns=turns,
+        ordered=ordered,
         either=either,
         condition=condition,
         holds=expression.holds,
@@ -85,7 +86,8 @@ def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
     made = environment().get_template(template)
     said = body(made.render(**context, fingerprint=""))
-    return writing.aligned(made.render(**context, fingerprint=fingerprint(stream(said)) if said else ""))
+    text = writing.aligned(made.render(**context, fingerprint=fingerprint(stream(said)) if said else ""))
+    return writing.folded(text) if template.endswith(".st.j2") else text
 
 
 @jinja2.pass_context
@@ -146,6 +148,11 @@ def oldest(ages: Iterable[str]) -> str:
 def turns(numbers: Sequence[int]) -> str:
     """Whether a drive block's polls have come to one of these turns of their round."""
     return " OR ".join(f"(Turn = {number})" for number in numbers) if len(numbers) > 1 else f"Turn = {numbers[0]}"
+
+
+def ordered(orders: Sequence[int], names: Mapping[int, str]) -> str:
+    """Whether the command in hand is one of these orders."""
+    return either([f"(Control.Sent = {names[each]})" for each in orders])
 
 
 def either(tests: Sequence[str]) -> str:

@@ -80,12 +80,17 @@ def face(drive: Drive, measured: frozenset[int], situation: Situation, state: st
 
 
 def _waiting(drive: Drive, words: Words, facts: tuple[Fact, ...]) -> Words:
-    """The words of a drive that goes through states and is in none: the bit that says so, unless it says more."""
+    """The words of a drive that goes through states and is in none: the bit that says so, unless it says more.
+
+    A map may have that as a state, too, in which a drive is after power-up.
+    """
+    states = [Fact(False, ((of_condition(each),),)) for each in drive.operation.states]
+    told = [fact for fact in facts if fact not in states]
     for register in dict.fromkeys(each.register for each in drive.operation.states):
         row = drive.register_at(register)
         for bit in (each.bit.first for each in (row.bits if row else ()) if _DISABLED.match(each.name or "")):
             made = {**words, register: words.get(register, 0) | 1 << bit}
-            if all(fact.shown(made) == fact.shown(words) for fact in facts):
+            if all(fact.shown(made) == fact.shown(words) for fact in told):
                 return made
     return words
 

@@ -12,6 +12,7 @@ MOST = 120
 
 _BESIDE = re.compile(r"( *)(\S.*;) (\(\*.*\*\))")
 _PIECES = re.compile(r"(?:'(?:\$.|[^$'])*'|[^\s'])+")
+_JOINTS = re.compile(r"(?<=,) (?=\S)| (?=(?:AND|OR) )")
 _DECLARED = re.compile(r"  (\w+ : [^;]*;) +(\(\*.*\*\))")
 
 
@@ -78,6 +79,10 @@ def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]
 def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
     """A statement on as many lines as it needs; a blank in a text is no place to break."""
     pieces = _PIECES.findall(statement) if "'" in statement else statement.split()
+    return _filled(pieces, indent, width)
+
+
+def _filled(pieces: list[str], indent: str, width: int) -> list[str]:
     whole = indent + " ".join(pieces)
     if len(whole) <= width:
         return [whole]
@@ -126,3 +131,14 @@ def _above(line: str) -> str:
     """A statement with its comment, the comment above where both are too long for one line."""
     match = _BESIDE.fullmatch(line) if len(line) > MOST else None
     return f"{match[1]}{match[3]}\n{match[1]}{match[2]}" if match else line
+
+
+def folded(text: str) -> str:
+    """A program in which a long line is broken after commas, before AND and OR; not one with a text or comment."""
+    return "\n".join(itertools.chain.from_iterable(map(_folded, text.split("\n"))))
+
+
+def _folded(line: str) -> list[str]:
+    if len(line) <= MOST or "'" in line or "(*" in line:
+        return [line]
+    return _filled(_JOINTS.split(line.lstrip()), line[: -len(line.lstrip())], MOST)

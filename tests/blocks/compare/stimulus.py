@@ -19,7 +19,7 @@ from structured_text.language.types import Kind
 SCENARIO = 0.75
 LANDMARK = 0.2
 HANGING_TOGETHER, ON_ITS_OWN = 1500, 200
-LARGE = 32767
+MIDDLE, LARGE = 512, 32767
 CHANGE = 0.8
 CHANGE_OF_ARRAY = 0.3
 
@@ -53,7 +53,7 @@ def landmarks(pou: Pou) -> int:
 
 
 def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
-    """Each arm of a CASE, or each input at each literal of the text with small or large others; each BOOL alone TRUE.
+    """Each arm of a CASE, or each input at each literal of the text with small to large others; each BOOL alone TRUE.
 
     The REALs are all alike, once at each power of ten.
     """
@@ -66,7 +66,7 @@ def _landmarks(pou: Pou, draws: Draws) -> Iterator[Inputs]:
     elif len(wholes) <= 5:
         for pin, value in ((pin, value) for pin in wholes for value in pou.whole):
             if pin.span[0] <= value <= pin.span[1]:
-                for rest in (0, 1, 2, draws.whole(0, 20), LARGE):
+                for rest in (0, 1, 2, draws.whole(0, 20), MIDDLE, LARGE):
                     yield {**{each.path: min(rest, each.span[1]) for each in wholes}, pin.path: value}
     if reals:
         for power in range(5):

@@ -17,7 +17,6 @@ from tests.native.exhaustive import (
     words,
 )
 from tests.native.exhaustive.bench import Bench
-from tests.shipped import drives
 
 from driveblocks.maps.model import Drive
 from driveblocks.render.results import code
@@ -38,11 +37,14 @@ RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM", "NO_FULL_SCALE"
 def text() -> str:
     """The whole driver after its prelude."""
     shared = [_part("scans"), scan.table(SCANS), _part("checksums"), _part("permissions"), permissions.table()]
-    families = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
-    families += [_family(drive) for drive in drives().values()]
-    rows = [f'    {{"{prefix}", {prefix}_standstill, {prefix}_sweep, {prefix}_patterns}},' for prefix in drives()]
+    parts = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
+    parts += [_family(drive) for drive in standstills.families().values()]
+    rows = [
+        f'    {{"{prefix}", {prefix}_standstill, {prefix}_sweep, {prefix}_patterns}},'
+        for prefix in standstills.families()
+    ]
     table = ["static const Family FAMILIES[] = {", *rows, "    {NULL, NULL, NULL, NULL},", "};"]
-    return "\n".join([*shared, *families, *table, _part("main")])
+    return "\n".join([*shared, *parts, *table, _part("main")])
 
 
 def _part(name: str) -> str:

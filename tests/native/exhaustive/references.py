@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tests.blocks.library import NAMES
 from tests.native.exhaustive.bench import Bench, Finding
-from tests.shipped import drives
+from tests.native.exhaustive.standstills import families
 
 from driveblocks.maps.model import Drive
 from driveblocks.reference.single import nearest, stored
@@ -120,7 +120,7 @@ def _parts() -> Iterator[tuple[int, int, int]]:
 
 def words(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """Every word of each reference register is reached: by the REAL that is nearest to it and those beside."""
-    for prefix, drive in drives().items():
+    for prefix, drive in families().items():
         model = SpeedReference(drive)
         counts = range(0, model.highest + 1, 29 if short else 1)
         pins = [*itertools.chain.from_iterable(_around(model, count) for count in counts)]
@@ -165,7 +165,7 @@ def _patterns(bench: Bench, prefix: str, pins: list[Patterns]) -> tuple[Finding,
 
 def rules(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """The driver's rule against the reference model, at the limits, beside halves and at random."""
-    for prefix, drive in drives().items():
+    for prefix, drive in families().items():
         pins = [*_tried(SpeedReference(drive), 100 if short else 4000)]
         for bench in benches:
             yield _ruled(bench, SpeedReference(drive), prefix, pins)

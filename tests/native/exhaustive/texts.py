@@ -3,7 +3,7 @@
 from array import array
 from collections.abc import Callable, Iterator, Sequence
 
-from tests.blocks.meanings import TEXTS
+from tests.blocks.meanings import TEXTS, registers, spoken
 from tests.native.exhaustive.bench import Bench, Finding, Trial, judged
 from tests.native.exhaustive.scan import Call
 from tests.shipped import drives
@@ -22,11 +22,11 @@ FindPlace = Callable[[Drive, int, int], text.Texts | None]
 
 
 def _valued(drive: Drive) -> list[int]:
-    return [row.address.first for _, row in drive.registers() if row.values]
+    return [row.address.first for _, row in registers(drive) if row.values]
 
 
 def _bitwise(drive: Drive) -> list[int]:
-    return [row.address.first for _, row in drive.registers() if any(bit.name for bit in row.bits)]
+    return [row.address.first for _, row in registers(drive) if any(bit.name for bit in row.bits)]
 
 
 PLACES: tuple[tuple[str, FindPlace, Callable[[Drive], list[int]]], ...] = (
@@ -36,10 +36,15 @@ PLACES: tuple[tuple[str, FindPlace, Callable[[Drive], list[int]]], ...] = (
 """Texts that go by address and number: the end of the name, the reference model, and the addresses that have any."""
 
 
+def _speaking(language: str) -> Iterator[tuple[str, Drive]]:
+    """The drives that have texts in a language."""
+    return ((prefix, drive) for prefix, drive in drives().items() if language in spoken(drive))
+
+
 def _calls() -> Iterator[Call]:
     for language in TEXTS:
         yield Call(f"MB_ResultText{language}", text=True)
-        for prefix, drive in drives().items():
+        for prefix, drive in _speaking(language):
             yield Call(f"{prefix}_FaultText{language}", text=True)
             yield Call(f"{prefix}_ErrorText{language}", text=True)
             for kind, _, addresses in PLACES:
@@ -63,7 +68,7 @@ def code_texts(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     codes = [*range(300), *range(300, 0x10000, 97), 0xFFFF] if short else range(0x10000)
     for language in TEXTS:
         yield from judged(benches, iter([_coded(f"MB_ResultText{language}", KNOWN_RESULTS.get, codes)]))
-        for prefix, drive in drives().items():
+        for prefix, drive in _speaking(language):
             faults, errors = _known(drive)
             yield from judged(benches, iter([_coded(f"{prefix}_FaultText{language}", faults, codes)]))
             yield from judged(benches, iter([_coded(f"{prefix}_ErrorText{language}", errors, codes)]))
@@ -82,7 +87,7 @@ def _coded(function: str, find: Find, codes: Sequence[int]) -> Trial:
 def place_texts(benches: Sequence[Bench], short: bool) -> Iterator[Finding]:
     """Every address with every number below 17; where an address or its neighbour has texts, with all 65536 numbers."""
     for language in TEXTS:
-        for prefix, drive in drives().items():
+        for prefix, drive in _speaking(language):
             for kind, find, addresses in PLACES:
                 if known := addresses(drive):
                     call = Call(f"{prefix}_{kind}{language}", 2, text=True)

@@ -39,6 +39,7 @@ JOGS: tuple[Does, ...] = ("jog_forward", "jog_reverse")
 MOVES: tuple[Does, ...] = ("run_forward", "run_reverse", *JOGS)
 _MOTION = _set(FORWARD, REVERSE, RUN, JOG)
 _STOPS = _set(STOP, COAST, QUICK)
+_KINDS: dict[Does, str] = {"quick_stop": QUICK, "coast_stop": COAST}
 _STILL = _set(STOP, COAST, RESET)
 _TURNING = _set(FORWARD, REVERSE, JOG)
 _DUE: dict[Does, _Due] = {
@@ -137,7 +138,7 @@ def check(drive: Drive, command: Command, report: Report) -> None:
         calls = "but the register calls it" if contrary else "but it clears what the register calls"
         wrong = f"`{command.does}`, {calls} {one}"
         report.add(one.place, wrong, "correct the value or bit, or the register's table")
-    if contrary or taken or _passed(drive, command, due, report):
+    if contrary or taken or _passed(drive, command, due, report) or _exchanged(drive, command, said, report):
         return
     doubt = _doubt(due, said, _ended(drive, command, said))
     if command.because is not None and doubt is None:
@@ -172,6 +173,19 @@ def _passed(drive: Drive, command: Command, due: _Due, report: Report) -> bool:
                 report.add(said.place, wrong, "correct the value or bit, or the register's table")
                 found = True
     return found
+
+
+def _exchanged(drive: Drive, command: Command, said: list[_Said], report: Report) -> bool:
+    """Note a stop that is called by the kind of another, which is not called so itself: no reason excuses that."""
+    for other in drive.operation.commands if command.does in ("stop", *_KINDS) else ():
+        kind = _KINDS.get(other.does, "")
+        words = [part for one in _merged(acting(other)) for part in _said(drive, one)]
+        if other.does != command.does and kind in _all(said) - _all(words):
+            called = f"what the register calls {_DUE[other.does].called}, and `{other.does}` does not"
+            place = command.place(key(command, bool(command.set)))
+            report.add(place, f"`{command.does}` writes {called}", "exchange them, or correct the register's table")
+            return True
+    return False
 
 
 def _said(drive: Drive, one: Write) -> Iterator[_Said]:

@@ -16,7 +16,7 @@ _TERMS: dict[str, tuple[str, ...]] = {
     RUN: ("run", "start", "turn", "rotat", "move", "运行", "运转", "启动", "起动", "旋转"),
     JOG: ("jog", "inch", "creep", "crawl", "点动", "寸动"),
     STOP: ("stop", "halt", "off", "ramp down", "ramp to zero", "停", "急停"),
-    COAST: ("coast", "free", "freewheel", "自由", "惯性"),
+    COAST: ("coast", "free", "freewheel", "enable voltage", "voltage enable", "自由", "惯性"),
     QUICK: ("quick", "fast", "rapid", "emergency", "快速", "迅速", "紧急", "急停"),
     RESET: ("reset", "clear", "acknowledge", "ack", "复位", "清除", "消除"),
 }
@@ -60,9 +60,10 @@ _WANTED = ("set ", "setting", "reference", "command", "target", "设定", "给�
 """Words for a value that is asked for, and not measured."""
 _NEGATIONS = re.compile(
     r"\b(no|not|never|without|don't)\b(?!\.)|(disabl|prohibit|inhibit|forbid|prevent|block|ignor|cancel|invalid)"
+    r"|\benable voltage|\bvoltage enable"
     r"|\b(active|true|on) low\b|\blow[ -]active\b|\binverted\b|[不非未]|禁止|无效|取消|解除|低电平有效|低有效"
 )
-"""A name that holds one of these says the contrary of its terms."""
+"""A name that holds one of these says the contrary of its terms: without voltage a motor coasts (CiA 402)."""
 
 
 def _pattern() -> re.Pattern[str]:

@@ -152,7 +152,7 @@ def _reference(made: Table, at: dict[int, int]) -> Context:
     if given.above is not None:
         kind = "INT" if given.signed else "UINT"
         above = f"{kind}_TO_DINT(WORD_TO_{kind}(Kept[{at[given.above]}]))"
-        number = f"UINT_TO_DINT(WORD_TO_UINT({kept})) + {above} * 65536"
+        number = f"UINT_TO_DINT(WORD_TO_UINT({kept})) + ({above} MOD {2**15 // times}) * 65536"  # no overflow below
     return {
         "place": at[given.register],
         "number": number,

@@ -131,7 +131,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     } | _nothing_waits()))  # fmt: skip
     run = _command(drive, "run_forward")
     reference = drive.operation.reference.register
-    yield Step("it runs as ever", {"RunForward": True}, "Motor.AtSpeed", 3000, RUNNING | {
+    yield Step("it runs as ever", {"RunForward": True}, "Motor.Running", 3000, {
         "Seen.Starts": 1, "Seen.LastRegister = " + word(mark(run.register)): True,
     })  # fmt: skip
     yield Step("what the line knows then", ms=20, shows=_slot(known(drive) | {
@@ -140,6 +140,7 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
         "StopConfirmed": False, "ProvedStill": False,
         "EndsByAnswer": False,
     } | _nothing_waits()))  # fmt: skip
+    yield Step("up to its speed", {}, "Motor.AtSpeed", 3000, RUNNING | {"Seen.Starts": 1})
     yield Step("another speed", {"SpeedReferenceHz": 35.0}, "ABS(Seen.Milli - 35000) <= 200", 2000, _slot({
         "Once": False, "Begins": False, "Ask[1].Address": word(reference),
     }))  # fmt: skip
