@@ -5,7 +5,7 @@ from decimal import Decimal
 import pytest
 from tests.shapes import shapes
 from tests.simulator.shapes import shape
-from tests.simulator.talk import Talk, talk
+from tests.simulator.talk import MAPS, Talk, talk
 
 from driveblocks.simulator.habits import Habits
 
@@ -178,9 +178,11 @@ def test_a_direction_beside_the_start_acts_at_once() -> None:
     assert one.drive.mode == "standstill"
 
 
-@pytest.mark.parametrize(("name", "word", "mask"), [("cia402", 0x40, 0x6F), ("profidrive", 0x40, 0x47)])
+@pytest.mark.parametrize(
+    ("name", "word", "mask"), [("cia402", 0x40, 0x6F), ("profidrive", 0x40, 0x47), ("ATV312", 0x40, 0x4F)]
+)
 def test_a_drive_of_states_that_is_in_none_says_that_switching_on_is_disabled(name: str, word: int, mask: int) -> None:
-    drive = shapes()[name]
+    drive = (shapes() | MAPS)[name]
     one = talk(drive)
     register = drive.operation.states[0].register
     assert one.drive.word(register) & mask == word
