@@ -73,6 +73,14 @@ SPECIAL: dict[str, dict[str, Pin]] = {
     **{
         f"{prefix}_Request": {"Address": 0x2100, "Quantity": 1} for prefix in ("PF4", "PF400", "PF40P", "PF4M", "PF525")
     },
+    "ATV312_Request": {"Address": 0x0C81, "Quantity": 6},
+    "ATV312_CanRead": {"Address": 0x0C81, "Quantity": 6},
+    "ATV312_CanWrite": {"Address": 0x2135, "Quantity": 1},
+    "ATV312_BitTextEn": {"Address": 0x0C81},
+    "MX2_Request": {"Address": 0x1000, "Quantity": 3},
+    "MX2_CanRead": {"Address": 0x1000, "Quantity": 3},
+    "MX2_CanWrite": {"Address": 0x0000, "Quantity": 2},
+    "MX2_ValueTextEn": {"Address": 0x0002},
     "GD200A_CanRead": {"Address": 0x2100, "Quantity": 2},
     "GD200A_CanWrite": {"Address": 0x2000, "Quantity": 1},
     "GD200A_ValueTextEn": {"Address": 0x2000},

@@ -6,12 +6,13 @@ Each judge raises AssertionError, or KeyError where a block, pin or function is 
 import itertools
 from collections.abc import Callable, Iterator
 from functools import cache
+from types import ModuleType
 from typing import Any
 
 from tests.blocks import asking, driving, meanings, permissions, vectors
 from tests.blocks.library import Blocks
 from tests.blocks.test_reply import assert_by_chance
-from tests.maps import test_facts
+from tests.maps import test_facts, test_facts_of_coils_and_charts
 from tests.maps.facts.powerflex_sisters import SISTERS
 from tests.shipped import drives
 
@@ -27,9 +28,14 @@ NAMES = {
     "CHF": ("chf", "CH"),
     "GD200A": ("gd200a", "GD"),
     "PF4": ("powerflex_4", "PF"),
+    "ATV312": ("altivar_312", "ATV"),
+    "MX2": ("mx2", "MX"),
     **{name: (name, name) for name in SISTERS},
 }
 """What the module of facts calls each drive: in its table, and as a global."""
+FACTS = {
+    key: test_facts_of_coils_and_charts if key in ("altivar_312", "mx2") else test_facts for key, _ in NAMES.values()
+}
 
 EXCHANGE = ("CanRead", "CanWrite", "Request")
 
@@ -105,21 +111,27 @@ _JUDGES: dict[str, Judge] = {
 def facts(drive: Drive) -> None:
     """The tests of typed facts with this map in place of the shipped one. Raises what the first red test raises."""
     key, name = NAMES[drive.prefix]
-    before = test_facts.DRIVES[key]
-    test_facts.DRIVES[key] = drive
-    setattr(test_facts, name, drive)
+    module = FACTS[key]
+    before = drives()[drive.prefix]
+    _put(module, key, name, drive)
     try:
         for test, arguments in _tests(key):
             test(**arguments)
     finally:
-        test_facts.DRIVES[key] = before
-        setattr(test_facts, name, before)
+        _put(module, key, name, before)
+
+
+def _put(module: ModuleType, key: str, name: str, drive: Drive) -> None:
+    """A drive in the place of the shipped one."""
+    setattr(module, name, drive)
+    if hasattr(module, "DRIVES"):
+        module.DRIVES[key] = drive
 
 
 def _tests(key: str) -> Iterator[tuple[Callable[..., None], dict[str, Any]]]:
     """Every test of facts with its arguments, but those of other drives."""
     others = {other for other, _ in NAMES.values()} - {key}
-    for name, test in vars(test_facts).items():
+    for name, test in vars(FACTS[key]).items():
         if not name.startswith("test_") or any(name.startswith(f"test_{other}_") for other in others):
             continue
         for arguments in _arguments(test):

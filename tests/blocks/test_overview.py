@@ -89,8 +89,10 @@ WORST: dict[str, dict[str, Value]] = {
     "MB_BuildWriteMultiple": {**WRITE, "Quantity": 123},
     "MB_ParseReply": OPEN,
     **{f"{prefix}_Reply": OPEN for prefix in drives()},
+    "ATV312_Request": {**WRITE, "Address": 0x0C1E, "Quantity": 4},
     "GD200A_Request": {**WRITE, "Address": 0x2000, "Quantity": 15},
     "JSCC_Request": {**WRITE, "Address": 0x0000},
+    "MX2_Request": {**WRITE, "Address": 0x144D, "Quantity": 5},
     "SN300G5_Request": {**WRITE, "Address": 0x0106, "Quantity": 16},
     "SN300G5_FaultNumber": dict.fromkeys(
         (*(f"FaultContents{n}Word" for n in (1, 2, 3)), "CPFContents1Word", "CPFContents2Word"), 0xFFFF
@@ -99,9 +101,11 @@ WORST: dict[str, dict[str, Value]] = {
 }
 """Pins with which a block turns as often as it can."""
 
-SLACK = {"MB_AsciiDecode": 1, "SN300G5_FaultNumber": 32, "GD200A_Request": 1}
+SLACK = {
+    "MB_AsciiDecode": 1, "SN300G5_FaultNumber": 32, "GD200A_Request": 1, "ATV312_Request": 23, "MX2_Request": 11,
+}  # fmt: skip
 """Turns that the stated bound has to spare: the LRC is not summed with itself; bits that no fault has are masked;
-no 16 registers that can be written are side by side."""
+no more registers that can be written are side by side."""
 
 
 @functools.cache

@@ -112,6 +112,8 @@ def test_required_pins_are_those_without_which_nothing_starts() -> None:
             "CHF": always | {"FullScaleHz"},
             "JSCC": always | {"ReferenceScale"},
             "GD200A": always,
+            "ATV312": always,
+            "MX2": always,
             "PF4": always,
             "SN300G5": always,
         }
@@ -264,7 +266,7 @@ def test_what_the_manual_leaves_open_is_at_the_top_with_its_count(family: str) -
     count = len(re.findall(r"^\| (?!---|the manual does)", rows_, re.MULTILINE))
     assert f"**{count} things**" in top
     assert text.index("Find out before the first start") < text.index("## In this order")
-    assert "terminals" in top
+    assert "terminals" in top or family == "ATV312", "whose line has a socket"
     assert all(f"- {each.what}" in top for each in drive.absent if "serial" in each.about)
     keypad = text.partition("\n## Keypad and wiring\n")[2].partition("\n## ")[0]
     assert "(#find-out-before-the-first-start)" in keypad
@@ -444,7 +446,13 @@ def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> No
         story.run(2000)
     # the frequency may come before the status: not at speed, and not yet in fault
     slow = replace(story.columns[0], at_speed=False)
-    assert [each for each in story.columns if each != slow] == drawn(timing.fault_and_reset(drive))
+    shown = [each for each in story.columns if each != slow]
+    if any(one.does == "fault_reset" and one.first for one in drive.operation.commands):
+        # the picture draws a reset as one write; between those of several, a read may show a proof that is older
+        told = iter(replace(each, sends=()) for each in shown)
+        assert all(replace(each, sends=()) in told for each in drawn(timing.fault_and_reset(drive)))
+    else:
+        assert shown == drawn(timing.fault_and_reset(drive))
     assert story.drive.hertz == 0
 
 

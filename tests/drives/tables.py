@@ -122,7 +122,7 @@ def _numbers(drive: SimulatedDrive) -> dict[str, int]:
     first, last = table.fault_bits or (1, 0)
     dialect = table.dialect
     return {
-        "functions": sum(1 << code for code in table.functions),
+        "functions": sum(1 << code for code in table.functions if code < 32),
         "most_read": table.most.read,
         "most_write": table.most.write,
         "broadcast": -1 if table.broadcast is None else table.broadcast,

@@ -43,8 +43,9 @@ class Event(NamedTuple):
 
 
 def drives() -> list[SimulatedDrive]:
-    """Every family with habits of all kinds, and every shape with two."""
-    made = [(drive, habits) for drive in MAPS.values() for habits in HABITS]
+    """Every family of single registers with habits of all kinds, and every shape with two."""
+    singles = [drive for drive in MAPS.values() if not any(row.words for _, row in drive.registers())]
+    made = [(drive, habits) for drive in singles for habits in HABITS]
     made += [(shape(name), habits) for name in SHAPES for habits in HABITS[:2]]
     return [SimulatedDrive(drive, 1 + index % 3, habits) for index, (drive, habits) in enumerate(made)]
 

@@ -36,6 +36,12 @@ RIGHT = {
         ("run_forward", "Start"), ("run_forward", "Forward command"), ("run_reverse", "Reverse command"),
         ("stop", "Stop"), ("fault_reset", "Clear faults"),
     },
+    # all other bits are 0: without voltage (bit 1) the motor coasts, with it alone it stops quickly
+    "ATV312": {
+        ("quick_stop", "Enable voltage"), ("coast_stop", "No quick stop"), ("coast_stop", "Stop command"),
+        ("coast_stop", "Injection stop"), ("coast_stop", "Fast stop"),
+    },
+    "MX2": {("run_forward", "Run"), ("run_reverse", "Run"), ("stop", "Stop"), ("fault_reset", "Trip reset")},
     "SN300G5": {("run_forward", "Run forward"), ("run_reverse", "Run reverse")},
     "NW7": {
         ("run_forward", "Turn"), ("jog_forward", "Creep"), ("stop", "Ramp down"), ("coast_stop", "Let go"),

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from tests.drives.bench import RUNS, Bench
-from tests.second import chf, gd200a, jscc, pf4, sn300g5
+from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
@@ -15,9 +15,11 @@ from tests.second.station import IN_SEEN, library, name_of
 
 from structured_text.engines.engine import Library, Value
 
-KIND = {"CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "PF4": "pf", "SN300G5": "sn"}
+KIND = {"ATV312": "atv", "CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "MX2": "mx", "PF4": "pf", "SN300G5": "sn"}
 KIND |= {name: name.lower() for name in pf4.VARIANTS}
-MODELS = pf4.alike({"CHF": chf, "GD200A": gd200a, "JSCC": jscc, "PF4": pf4, "SN300G5": sn300g5})
+MODELS = pf4.alike(
+    {"ATV312": atv312, "CHF": chf, "GD200A": gd200a, "JSCC": jscc, "MX2": mx2, "PF4": pf4, "SN300G5": sn300g5}
+)
 STORES = {family: module.stores for family, module in MODELS.items()}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""

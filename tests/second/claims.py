@@ -12,12 +12,25 @@ from tests.second.observer import MOVES, RUN, STOPPING, any_of, both, wish
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
+    from tests.second.bench import Second
     from tests.second.judge import Judge
 
+READS_FEED = ("MX2",)
+"""Drives whose watchdog any good frame feeds, so that no reference is sent for it alone (SJ700, page 4-129)."""
 QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
+PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
+"""Rounds of the line by which a start of several writes is longer; a drive gets one write and one read in a round.
+
+MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
+page 10), which is two reads of three: of any five in a row at least three.
+"""
+CODE_ROUNDS = {"ATV312": 9}
+"""Rounds in which the code of a fault is read once: three registers take turns beside the status."""
+EXCHANGE_US = 50_000
+"""A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 FOLLOW_US = 7_500_000
@@ -44,9 +57,11 @@ AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
 """Pins with which no block alone serves a drive, or not in full control."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = alike({
+    "ATV312": (True, False, True, True, True),  # CMD, page 12
     "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
     "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
     "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
+    "MX2": (True, False, False, False, True),  # coils 0001H to 0004H, I585 page 6-27
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 })  # fmt: skip
@@ -72,6 +87,16 @@ LATE_ECHOES = 2
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
+
+
+def round_us(bench: "Second") -> int:
+    """A round of the line: two exchanges of each drive, a write and a read."""
+    return 2 * len(bench.types) * max(EXCHANGE_US, 2000 * max(bench.ms, bench.was_ms))
+
+
+def path_us(bench: "Second", index: int) -> int:
+    """How much longer a start of this drive takes than one by one write."""
+    return PATH_ROUNDS.get(bench.types[index], 0) * round_us(bench)
 
 
 @dataclass(slots=True)
@@ -141,7 +166,7 @@ class Claims:
         after another restart its pins are those of the scan before.
         """
         claim, pins = self.claims[index], self.bench.pins[index]
-        writes = body[1] in (6, 16)
+        writes = body[1] in (5, 6, 16)
         self._kept(index, body)
         shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
         if shared and not writes and index + 1 not in self.bench.deaf:
@@ -250,7 +275,7 @@ class Claims:
     def _period(self, index: int) -> int:
         """How often the reference is to be sent again, in us; 0: never."""
         refresh = int(self.bench.number("RefreshMs", index)) or USUAL_MS
-        watchdog = int(self.bench.number("WatchdogMs", index))
+        watchdog = 0 if self.bench.types[index] in READS_FEED else int(self.bench.number("WatchdogMs", index))
         every = 0 if refresh == OFF else refresh
         return 1000 * (watchdog // 3 if watchdog and (not every or every > watchdog // 3) else every)
 
@@ -317,9 +342,12 @@ class Claims:
         if claim.edge_us is not None:
             ignores = bench.models[index].o.ignores
             one, many = bench.models[index], len(bench.models) > 3
-            if one.local or one.fault is not None or (not ignores and not self.willing(index)):
+            others = one.local or one.by in ("keypad", "terminals")  # an MX2 does not show by whom it runs
+            if others or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - claim.edge_us > START_US * (2 if one.o.late_per_1000 and many else 1):
+            elif not ignores and now - claim.edge_us > self._start_us(index) * (
+                2 if one.o.late_per_1000 and many else 1
+            ):
                 self._once(index, "starts", bad=True)
             elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
@@ -450,6 +478,9 @@ class Claims:
         since = self.bench.now - 1000 * int(self.bench.number("StatusAgeMs", index)) - 1_000_000
         return all(abs(hz - asked) > 1.0 for at, hz in shaft if at >= since)
 
+    def _start_us(self, index: int) -> int:
+        return START_US + path_us(self.bench, index)
+
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
@@ -487,7 +518,8 @@ class Claims:
         claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
-        old = claim.fault_us is not None and now - claim.fault_us > CALM_US // 2 and shown
+        most = max(CALM_US // 2, CODE_ROUNDS.get(bench.types[index], 0) * round_us(bench))
+        old = claim.fault_us is not None and now - claim.fault_us > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 

@@ -10,13 +10,16 @@ from tests.second.drive import RUNS, STOPS, Fault
 from tests.second.pf4 import alike
 
 Does = Callable[[Second, Random], None]
-FAULT: dict[str, Fault] = alike({"CHF": 3, "GD200A": 4, "JSCC": 1, "PF4": 12, "SN300G5": "OC"})
-STATUS = alike({"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010})
+FAULT: dict[str, Fault] = alike({"ATV312": 9, "CHF": 3, "GD200A": 4, "JSCC": 1, "MX2": 3, "PF4": 12, "SN300G5": "OC"})
+STATUS = alike(
+    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
+)
 PARAMETER = alike({
-    "CHF": 0x0007, "GD200A": 0x0004, "JSCC": 0x0012, "PF4": 0x0025, "PF4M": 0x012D, "PF525": 0x002D, "SN300G5": 0x0200,
+    "ATV312": 9001, "CHF": 0x0007, "GD200A": 0x0004, "JSCC": 0x0012, "MX2": 0x144D, "PF4": 0x0025, "PF4M": 0x012D,
+    "PF525": 0x002D, "SN300G5": 0x0200,
 })  # fmt: skip
 """Before two that its manual lists."""
-WRITES = alike({"CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0})
+WRITES = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
 ABSENT = 29

@@ -42,6 +42,10 @@ def ascii_(body: bytes) -> bytes:
 @lru_cache(maxsize=1 << 16)
 def runs(kind: str, body: bytes) -> bool:
     """Whether a request without checksum makes a drive of this make run or jog."""
+    if kind == "ATV312":
+        return body[1:4] == b"\x06\x21\x35" and body[5] & 15 == 15  # CMD: enable operation, page 12
+    if kind == "MX2":
+        return body[1:5] == b"\x05\0\0\xff"  # the run coil, I585 page 6-11
     if kind.startswith("PF"):
         return body[1:4] == b"\x06\x20\0" and bool(body[5] & 6)  # 2000H: start and jog, page C-4
     if kind == "GD200A":

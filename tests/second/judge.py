@@ -54,17 +54,21 @@ SHAFT = 700
 """Scans of which the frequency is remembered."""
 SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
     {
+        "ATV312": lambda one, now: bool(one.LIVE[3206](one, now) & 16),  # ETI: bit 4
         "CHF": lambda one, now: one.LIVE[0x1001](one, now) in (1, 2),  # 1001H: 1 forward, 2 reverse
         "JSCC": lambda one, now: bool(one.LIVE[0x2001](one, now) & 3),  # 2001H: bits 0 and 1
         "GD200A": lambda one, now: one.LIVE[0x2100](one, now) in (1, 2),  # 2100H: 1 forward, 2 reverse
+        "MX2": lambda one, now: one.SHOWN[0x0F](one, now),  # coil 000FH
         "PF4": lambda one, now: bool(one.LIVE[0x2100](one, now) & 2),  # 2100H: bit 1
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
     }
 )
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
-STATUS = alike({"CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "PF4": 0x2100, "SN300G5": 0x0010})
-RAM_ONLY = alike({"CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "PF4": 0, "SN300G5": 0})
+STATUS = alike(
+    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
+)
+RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
 

@@ -15,10 +15,11 @@ from typing import Any
 
 from tests.second import pairs
 from tests.second.bench import Second
+from tests.second.claims import path_us
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
 from tests.second.pf4 import VARIANTS, alike
-from tests.second.station import FAMILIES, RTU_ONLY, SIZES, types_of
+from tests.second.station import ALONE, FAMILIES, RTU_ONLY, SIZES, types_of
 
 from structured_text.engines.engine import Library
 
@@ -26,9 +27,11 @@ MODES = ("full control", "jog", "SpeedOnly", "MonitorOnly")
 STATES = ("standstill", "starting", "at speed", "ramping down", "coasting", "tripped", "local")
 BY_TERMINALS = alike(
     {
+        "ATV312": {"CHCF": 2, "CD1": 1},
         "CHF": {"run": 1},
         "GD200A": {"P00_01": 1},
         "JSCC": {"F0_04": 1},
+        "MX2": {"A002": 1},
         "PF4": {"P036": 1},
         "PF4M": {"run": 1},
         "PF525": {"P046": 2},
@@ -37,9 +40,11 @@ BY_TERMINALS = alike(
 )
 OWN_SPEED = alike(
     {
+        "ATV312": {"FR1": 1},
         "CHF": {"speed": 0},
         "GD200A": {"P00_06": 0},
         "JSCC": {"F0_08": 1},
+        "MX2": {"A001": 2},
         "PF4": {"P038": 0},
         "PF4M": {"P108": 0},
         "PF525": {"P047": 1},
@@ -74,6 +79,11 @@ OPTIONS: dict[str, tuple[Any, ...]] = {
     "comm_action": ("ramp", "quick", "coast"), "comm_trips": BOTH, "fed_by": ("own", "any"),
     "busy_refuses": ("parameters", "writes", "all"),
     # families
+    "ATV312.disable_stops": ("Stt", "ramp"), "ATV312.reset_to": ("disabled", "ready"), "ATV312.reached_at_rest": BOTH,
+    "ATV312.leaves": ("at once", "at standstill"), "MX2.coast_runs": BOTH,
+    "MX2.run_acts": ("once", "always"), "MX2.reset_acts": ("rise", "fall"), "MX2.reset_cuts": BOTH,
+    "MX2.reset_keeps_coils": BOTH, "MX2.reset_deaf_us": (0, 1_000_000), "MX2.volts": (1, 10), "MX2.half_pairs": BOTH,
+    "MX2.way_while_running": ("turns", "next start"), "MX2.coil_13": ("running", "tripped"),
     "CHF.stop_ends_jog": BOTH, "CHF.jog_stop_ends_run": BOTH, "CHF.standby_in_coast": BOTH,
     "CHF.reserved_rows": BOTH, "CHF.two_byte_count": BOTH, "CHF.jogs_from_run": BOTH,
     "JSCC.commands_readable": BOTH, "JSCC.fault_word": (8, 9, 12), "JSCC.stop_resets": BOTH,
@@ -90,9 +100,13 @@ LINE = (
 
 
 @cache
-def rows() -> list[pairs.Row]:
-    """Rows of all pairs of options."""
-    return pairs.rows(OPTIONS)
+def rows(family: str = "") -> list[pairs.Row]:
+    """Rows of all pairs of options, without those of drives that are never on a line with this one.
+
+    So a new family changes no row of the others, and a cell that once failed keeps its own.
+    """
+    apart = {*ALONE} - {family}
+    return pairs.rows({name: values for name, values in OPTIONS.items() if name.partition(".")[0] not in apart})
 
 
 class NotReached(Exception):  # noqa: N818  (no error: there is no such state)
@@ -147,7 +161,7 @@ class Run:
         """Draw options and times by name and seed, and power up."""
         self.cell, self.seed = cell, seed
         self.chance = Random(f"{cell} {seed}")
-        self.row = row = self.chance.choice(rows())
+        self.row = row = self.chance.choice(rows(self.cell.family))
         second = self.chance.choice([each for each in EVENTS if each not in (*LONG, cell.event)])
         self.second = second if seed % 2 else ""
         self.events = [each for each in (cell.event, self.second) if each]
@@ -181,7 +195,7 @@ class Run:
         given["late_us"] = 25_000
         if self.cell.state == "coasting":
             given["stop_mode"] = "coast"
-        if like in ("GD200A", "PF4"):
+        if like in ("ATV312", "GD200A", "MX2", "PF4"):
             given["busy_refuses"] = "parameters"  # their manuals have no code of a busy drive
         if not self.by_bus:
             given["settings_act"] = "at once"
@@ -237,7 +251,7 @@ class Run:
     def at_speed(self, index: int = 0) -> bool:
         """Wait until the motor truly is."""
         b = self.bench
-        return b.wait(lambda: self._state_of(index) == "at speed", START_MS)
+        return b.wait(lambda: self._state_of(index) == "at speed", START_MS + path_us(b, index) // 1000)
 
     def reach(self) -> None:
         """From power-up to the state. Raises NotReached."""
@@ -282,7 +296,8 @@ class Run:
             return
         self.start()
         if state == "starting":
-            moved = b.wait(lambda: self.state() == "starting" and abs(self.one.motor.hz(b.now)) > 1, START_MS)
+            most = START_MS + path_us(b, 0) // 1000
+            moved = b.wait(lambda: self.state() == "starting" and abs(self.one.motor.hz(b.now)) > 1, most)
         else:
             moved = self.at_speed()
         if not moved:

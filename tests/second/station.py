@@ -18,13 +18,15 @@ BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer
 IN_SEEN = 6
 """Drives whose pins `Seen` has bits for; those of the others, and the contact's, are in `More`."""
 SIZES = (1, 3, 8)
-FAMILIES = (*first.FAMILIES, *VARIANTS)
-RTU_ONLY = (*first.RTU_ONLY, *VARIANTS)
+NEWER = ("ATV312", "MX2")
+ALONE = (*NEWER, *VARIANTS)
+FAMILIES = (*first.FAMILIES, *ALONE)
+RTU_ONLY = (*first.RTU_ONLY, *ALONE)
 
 
 def types_of(family: str, number: int, *, ascii_: bool) -> tuple[str, ...]:
-    """A line of mixed drives; some have no MODBUS ASCII. A variant has none beside it."""
-    if family in VARIANTS:
+    """A line of mixed drives; some have no MODBUS ASCII. Of a variant or a newer family there is one."""
+    if family in ALONE:
         return (family, *types_of("CHF", number - 1, ascii_=False))
     others = [each for each in first.FAMILIES if not ascii_ or each not in RTU_ONLY]
     at = others.index(family)

@@ -16,13 +16,17 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
-PREFIX = {"sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "gd": "GD200A", "pf": "PF4"}
+PREFIX = {
+    "atv": "ATV312", "sn": "SN300G5", "jscc": "JSCC", "chf": "CHF", "gd": "GD200A", "mx": "MX2", "pf": "PF4",
+}  # fmt: skip
 SETTINGS: dict[str, dict[str, Any]] = {
     "sn": {"settings": {"H5_05": 0}, "key_cuts_line": False}, "jscc": {"reference_milli_hz": 10}, "chf": {},
-    "gd": {}, "pf": {"comm_us": None},
+    "gd": {}, "pf": {"comm_us": None}, "atv": {"comm_us": None, "code_after_reset": "zero"}, "mx": {"reset_deaf_us": 0},
 }  # fmt: skip
-"""The maps' drives have no watchdog unless asked, and 0.01 Hz where the manual gives no scale."""
-CODES: dict[str, tuple[str | int, int]] = {"sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5), "gd": (4, 4), "pf": (12, 12)}
+"""The maps' drives have no watchdog unless asked, forget a fault, and have 0.01 Hz where the manual gives no scale."""
+CODES: dict[str, tuple[str | int, int]] = {
+    "atv": (3, 3), "sn": ("OC", 7), "jscc": (3, 3), "chf": (5, 5), "gd": (4, 4), "mx": (3, 3), "pf": (12, 12),
+}  # fmt: skip
 
 
 class Pair:
@@ -91,6 +95,21 @@ STOP = {"sn": 0, "jscc": 3, "chf": 5, "gd": 5, "pf": 1}
 LOOK = {"sn": (r("0010"), r("0021"), r("0014", 5)), "jscc": (r("2000", 2), r("3000")),
         "chf": (r("1001"), r("3000"), r("5000")), "gd": (r("2100"), r("3000"), r("2102")),
         "pf": (r("2103"), r("2101"))}  # fmt: skip
+OWN = {
+    # a path of words; and coils beside a pair of registers
+    "atv": {
+        "go": [w("atv", "2136", 250), *(w("atv", "2135", each) for each in (0x0000, 0x0006, 0x0007, 0x000F))],
+        "back": [w("atv", "2136", 250), *(w("atv", "2135", each) for each in (0x0000, 0x0006, 0x0007, 0x080F))],
+        "halt": [w("atv", "2135", 7)], "slower": [w("atv", "2136", 50)], "look": [r("0C82"), r("1BD1"), r("2135")],
+    },
+    "mx": {
+        "go": ["01100000000204000009c4", "010500010000", "01050000ff00"],
+        "back": ["01100000000204000009c4", "01050001ff00", "01050000ff00"],
+        "halt": ["010500000000"], "slower": ["01100000000204000001f4"],
+        "look": ["0101000e0003", "010100170001", r("1000", 2), r("0011"), r("0000", 2)],
+    },
+}  # fmt: skip
+"""Words of drives that are not run by a reference and one word."""
 AGREED = [
     "", "go 1000 look 3000 look halt 1000 look 3000 look", "back 4000 look go 1000 look 1500 look 5000 look",
     "go 4000 slower 500 look 4000 look", "go 4000 trip look 1000 look halt 9000 cure look",
@@ -110,6 +129,10 @@ ALONE = {
     "gd": [r("0005"), w("gd", "0005", 7), r("0005"), r("8005"), r("4000"), w("gd", "3000", 1), w("gd", "4000", 1),
            "010400000001", "010800001234", "01102000000204000103e8",
            r("2000", 2), r("2102"), r("3001")],
+    "atv": [r("0C20"), w("atv", "0C20", 400), r("4000"), w("atv", "0C82", 1), w("atv", "4000", 1), "010400000001",
+            "010300000000", "01032136001e", r("2138"), r("2135", 2), "0110213600020400640000"],
+    "mx": [r("4000"), w("mx", "4000", 1), "010400000001", "010300000000", "010300000011", "01050000ff00",
+           "010500000001", "010100000000", "010100000004", "010110000001", "010800001234", r("0900"), r("1204")],
     "pf": [r("2102"), r("4000"), w("pf", "2100", 1), w("pf", "4000", 1), "010400000001", "010300000000", r("2001"),
            w("pf", "0069", 1), r("0069"), r("2100", 2)],
 }  # fmt: skip
@@ -117,13 +140,17 @@ ALONE = {
 
 def steps(kind: str, text: str) -> list[str]:
     """The words of AGREED as steps."""
+    short = OWN.get(kind) or _short(kind)
+    return [step for word in text.split() for step in short.get(word, [word])]
+
+
+def _short(kind: str) -> dict[str, list[str]]:
     speed, full, command = RUN[kind]
     ahead, back = WAYS.get(kind, (1, 2))
-    short = {
+    return {
         "go": [w(kind, speed, full), w(kind, command, ahead)], "back": [w(kind, speed, full), w(kind, command, back)],
         "halt": [w(kind, command, STOP[kind])], "slower": [w(kind, speed, full // 5)], "look": list(LOOK[kind]),
     }  # fmt: skip
-    return [step for word in text.split() for step in short.get(word, [word])]
 
 
 @pytest.mark.parametrize("kind", PREFIX)
@@ -161,6 +188,10 @@ DIFFER = [
     ("gd", "", "010300000000", "0183 03", "a number of words that no frame may have: page 143"),
     ("gd", "", "010300000011", "0183 03", "the same, above 16: page 132"),
     ("pf", "", r("0068"), "010302 0001", "A104 is the unit address, which the map's drive has elsewhere"),
+    ("atv", "", r("0C81"), "010302 0660", "bits that no condition of the map names: page 13"),
+    ("mx", "", "010100000021", "0181 03", "01H reads 32 coils at most: I585 page 6-5"),
+    ("mx", "", "0105000eff00", "0185 23", "a coil that is read-only; the map has no reason for that code: page 6-18"),
+    ("mx", "", "011000000002040000138d", "0190 21", "above the maximum frequency: page 6-18"),
     ("chf", "go 4000", w("chf", "0005", 1), "010650010006", "some are not changed while it runs: line 312"),
     ("chf", "go 4000 010610000003 4000", r("3000"), "010302 09c4", "open: whether a jog ends a run"),
     ("chf", "go 4000 trip cure 010610000007", r("1001"), "010302 0003", "open: whether it is reset while it coasts"),

@@ -165,6 +165,19 @@ def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
         assert b.shows("StopConfirmed")
 
 
+@pytest.mark.parametrize("family", ["ATV312", "PF4", "MX2", "SN300G5"])
+def test_a_drive_that_stands_with_its_reference_reached_is_not_at_speed(family: str) -> None:
+    """An Altivar says so in operation enabled while it stands: 0627H, "Normal stop", on page 10 of BBV51701."""
+    b = Second(family, pins={"SpeedReferenceHz": 25.0})
+    b.wait(lambda: b.shows("Ready"), 9000)
+    ignore(b, RUNS)
+    b.put(0, RunForward=True)
+    for _ in range(150):
+        b.scan()
+        assert not b.shows("AtSpeed")
+        assert b.reason() != "RUNS"
+
+
 HELD = {
     "its fault register, 0, came twice, and passed for status and frequency": (
         "PF4, full control, replies doubled, ramping down", 300,

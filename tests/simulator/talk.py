@@ -8,8 +8,11 @@ from tests.shipped import drives
 
 from driveblocks.maps import nodes
 from driveblocks.maps.decode import decode
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Drive, Frame, Step
+from driveblocks.maps.plan import read_request, write_request
 from driveblocks.maps.problem import Report
+from driveblocks.modbus.layout import reply_size
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
@@ -43,18 +46,18 @@ class Talk:
 
     def read(self, address: int) -> int:
         """One register."""
-        reply = self.drive.reply(bytes([1, 3, *address.to_bytes(2, "big"), 0, 1]))
+        request = read_request(1, self.map, Span(address, address))
+        reply = self.drive.reply(request)
         assert reply is not None
-        assert reply[:3] == b"\x01\x03\x02", reply.hex(" ")
+        assert reply[:3] == bytes([1, request[1], reply_size(request) - 3]), reply.hex(" ")
         return int.from_bytes(reply[3:], "big")
 
     def write(self, address: int, word: int) -> bytes | None:
-        """One register, by the function that the map has for it."""
-        place, data = address.to_bytes(2, "big"), (word & 0xFFFF).to_bytes(2, "big")
-        single = 6 in self.drive.table.functions
-        request = b"\x01\x06" + place + data if single else b"\x01\x10" + place + b"\0\x01\x02" + data
+        """One register or coil, by the function that the map has for it."""
+        request = write_request(1, self.map, address, word & 0xFFFF)
         reply = self.drive.reply(request)
-        assert reply is None or not single or reply[:2] != b"\x01\x06" or reply[2:4] != place or reply == request
+        single = request[1] != 16
+        assert reply is None or not single or reply[:4] != request[:4] or reply == request
         return reply
 
     def put(self, write: Command | Step) -> None:
@@ -67,8 +70,9 @@ class Talk:
         assert self.write(write.register, word) is not None
 
     def command(self, does: str) -> None:
-        """The last word of a command."""
-        self.put(next(each for each in self.map.operation.commands if each.does == does))
+        """The words of a command."""
+        for write in next(each for each in self.map.operation.commands if each.does == does).writes:
+            self.put(write)
 
     def hertz(self, hz: float) -> None:
         """The speed reference, on the map's scale, or of a drive whose scale is 0.01 Hz or 0.01 % of 50 Hz."""
@@ -78,7 +82,11 @@ class Talk:
             hz *= 2
         elif row and row.scale:
             hz *= 0.01 / float(row.scale.factor)
-        self.write(reference.register, round(hz * 100))
+        if row and row.words:
+            place = reference.register.to_bytes(2, "big")
+            self.drive.reply(b"\x01\x10" + place + b"\0\2\4" + round(hz * 100).to_bytes(4, "big"))
+        else:
+            self.write(reference.register, round(hz * 100))
 
     def at(self, hz: float, does: str = "run_forward") -> "Talk":
         """Give a reference, run, and wait until it is reached."""
@@ -96,6 +104,8 @@ def talk(family: str | Drive, habits: Habits | None = None, **words: int) -> Tal
 
 
 PREPARED = {
+    "MX2 read_trip_request": (Habits(), {0x12: 4, 0x14: 1234, 0x15: 300, 0x16: 2840}),
+    "ATV312 read_limits_request": (Habits(), {0x0C1E: 40, 0x0C1F: 600, 0x0C20: 500}),
     # 0026H holds 589, 0027H 0: the manual gives no scale, so one count is one volt here
     "SN300G5 read_dc_bus_request": (Habits(bus_volts=589, scales={0x26: Decimal(1)}), {}),
     "JSCC read_frequency_rtu_request": (Habits(), {}),
@@ -125,6 +135,9 @@ def prepared(prefix: str, request: Frame, reply: Frame) -> SimulatedDrive:
     """A drive that stands as that of the example did."""
     habits, words = PREPARED.get(f"{prefix} {request.id}", (Habits(), {}))
     drive = SimulatedDrive(MAPS[prefix], body(request)[0], habits, words=words)
+    place = (MAPS[prefix].faults.present or 0) - (request.means.address or 0)
+    if place in range(len(reply.means.values)) and reply.means.values[place]:
+        drive.trip(reply.means.values[place])
     if 500 in reply.means.values:  # 50.0 Hz
         drive.keypad_run(50)
         drive.step(5000)

@@ -17,6 +17,8 @@ CODES = sisters({
     "SN300G5": (0x01, 0x02, 0x03, 0x21, 0x22, 0x22, 0x24),
     "JSCC": (1, 2, 3, 3, 2, None, 6),
     "CHF": (2, 4, 5, 5, 4, None, 8),
+    "ATV312": (1, 2, 3, 3, 2, None, None),  # M page 15
+    "MX2": (1, 2, 3, 3, 2, None, None),  # I585 page 6-18; of 21H to 23H the simulated drive knows nothing
     "GD200A": (1, 2, 4, 4, 2, 8, None),
     "PF4": (1, 2, 3, 3, 2, None, None),  # its manual has none: those of the standard
 })  # fmt: skip

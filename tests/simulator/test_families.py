@@ -7,9 +7,16 @@ from tests.simulator.talk import MAPS, Talk, body, pairs, prepared, talk
 from driveblocks.maps.model import Frame
 from driveblocks.simulator.habits import Habits
 
-STATUS = sisters({"SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100})
-FREQUENCY = sisters({"SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103})
-COUNTS_PER_HZ = sisters({"SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10, "PF400": 100, "PF525": 100})
+STATUS = sisters({
+    "ATV312": 0x0C86, "MX2": 0x2000E, "SN300G5": 0x0010, "JSCC": 0x2001, "CHF": 0x1001, "GD200A": 0x2100, "PF4": 0x2100,
+})  # fmt: skip
+FREQUENCY = sisters({
+    "ATV312": 0x0C82, "MX2": 0x1001, "SN300G5": 0x0021, "JSCC": 0x2000, "CHF": 0x3000, "GD200A": 0x3000, "PF4": 0x2103,
+})  # fmt: skip
+COUNTS_PER_HZ = sisters({
+    "ATV312": 10, "MX2": 100, "SN300G5": 100, "JSCC": 10, "CHF": 100, "GD200A": 100, "PF4": 10, "PF400": 100,
+    "PF525": 100,
+})  # fmt: skip
 """0.01 Hz by 000FH bit 0; 0.1 Hz by JSCC's example and PF4's words; CHF's manual has none, so that of `Habits`."""
 WORDS = sisters(
     {
@@ -23,6 +30,17 @@ WORDS = sisters(
         "GD200A": {"stands": 3, "ramps": 1, "runs": 1, "reverse": 2, "fault": 4, "warning": 3},
         # bit 0 ready, 1 active, 3 rotating forward, 6 alarm, 7 faulted, 8 at reference, A commanded by comm
         "PF4": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x441},
+        # bit 4 motor running, bits D and E controlled via Modbus; its state word, 0C81H, is in test_shapes.py
+        "ATV312": {
+            "stands": 0x4000,
+            "ramps": 0x4010,
+            "runs": 0x4010,
+            "reverse": 0x4010,
+            "fault": 0x4000,
+            "warning": 0x4000,
+        },
+        # coil 000FH: in operation
+        "MX2": {"stands": 0, "ramps": 1, "runs": 1, "reverse": 1, "fault": 0, "warning": 0},
         # bit 6 is not used
         "PF525": {"stands": 0x401, "ramps": 0x40B, "runs": 0x50B, "reverse": 0x503, "fault": 0x480, "warning": 0x401},
     }
@@ -31,9 +49,10 @@ every_family = pytest.mark.parametrize("family", sorted(MAPS))
 
 
 def assert_shows(one: Talk, family: str, what: str, hz: float) -> None:
-    """Check status and output frequency."""
+    """Check status and output frequency, which may be signed."""
     assert one.read(STATUS[family]) == WORDS[family][what]
-    assert one.read(FREQUENCY[family]) == round(hz * COUNTS_PER_HZ[family])
+    counts = one.read(FREQUENCY[family])
+    assert min(counts, 0x10000 - counts) == round(hz * COUNTS_PER_HZ[family])
 
 
 @every_family
@@ -102,10 +121,12 @@ def test_the_code_of_a_fault_is_shown_where_the_map_says(family: str) -> None:
     # SN300G5: 12H is EF4, bit 1 of 0015H; the others show the number
     where = sisters(
         {
+            "ATV312": (0x1BD1, 18),
             "SN300G5": (0x0015, 2),
             "JSCC": (0x3000, 18),
             "CHF": (0x5000, 18),
             "GD200A": (0x2102, 18),
+            "MX2": (0x0011, 18),
             "PF4": (0x2101, 18),
         }
     )[family]
@@ -129,7 +150,8 @@ def test_a_warning_is_shown_where_there_is_one(family: str) -> None:
 
 @pytest.mark.parametrize(("prefix", "request_", "reply"), pairs(), ids=lambda each: getattr(each, "id", each))
 def test_replies_are_those_that_the_manual_prints(prefix: str, request_: Frame, reply: Frame) -> None:
-    assert prepared(prefix, request_, reply).reply(body(request_)) == body(reply)
+    drive = prepared(prefix, request_, reply)
+    assert drive.reply(body(request_)) == body(reply)
 
 
 def test_enter_stores_and_illegal_data_is_refused_as_printed() -> None:
