@@ -62,6 +62,16 @@ STATUS = {
 
 
 @dataclass(frozen=True)
+class Wait:
+    """The state that the next write waits for: bits of a word, which is one of `waits`, and what they are in it."""
+
+    name: str
+    place: int
+    mask: int
+    value: int
+
+
+@dataclass(frozen=True)
 class Write:
     """One write of a command: its register, the bits that it sets, and those that pass through."""
 
@@ -70,20 +80,11 @@ class Write:
     keep: int
     hold: int
     """How long the next write waits, ms."""
+    wait: Wait | None
     moves: bool
     """With it the motor may begin to turn."""
     function: int
     """By what it is written."""
-
-
-@dataclass(frozen=True)
-class Wait:
-    """The state that a write of some orders waits for; `says` is TRUE in it."""
-
-    orders: list[int]
-    step: int
-    state: State
-    says: str
 
 
 @dataclass(frozen=True)
@@ -227,7 +228,8 @@ class Ordering:
     stop_constants: dict[int, str]
     longest: int
     """Writes of the longest order."""
-    waits: list[Wait]
+    waits: list[str]
+    """The words of the states that writes wait for."""
     can: dict[str, Command]
     keeps: dict[int, int]
     write: int
@@ -284,8 +286,7 @@ def drive_block(drive: Drive) -> Block:
     """All that the drive block of a family is made of."""
     told = Decoded(drive)
     reading = _reading(drive)
-    waits = _waits(drive, told)
-    return Block(reading, _showing(drive, reading.number, told), _ordering(drive, waits), _own(drive))
+    return Block(reading, _showing(drive, reading.number, told), _ordering(drive), _own(drive))
 
 
 def _reading(drive: Drive) -> Reading:
@@ -334,7 +335,7 @@ def _running_first(one: Status) -> bool:
     return one.shows != "running"
 
 
-def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
+def _ordering(drive: Drive) -> Ordering:
     commands = {one.does: one for one in drive.operation.commands}
     written = [(one, list(_writes(drive, one, commands["stop"]))) for one in commands.values()]
     orders = {ORDERS[one.does]: writes for one, writes in written if one.does in ORDERS}
@@ -347,7 +348,7 @@ def _ordering(drive: Drive, waits: list[Wait]) -> Ordering:
         stop_names={STOPS[does]: does.replace("_", " ") for does in STOPS},
         stop_constants={STOPS[does]: CONSTANTS[does] for does in STOPS},
         longest=max(map(len, orders.values())),
-        waits=waits,
+        waits=[word_input(drive, each).name for each in _awaited(drive)],
         can={str(does): one for does, one in commands.items()},
         keeps=context.kept(drive),
         write=by,
@@ -389,8 +390,9 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
     kept = context.kept(drive)
     image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
     holds = [*(step.for_ms or 0 for step in one.first), 0]
+    waits = [*(_wait(drive, step.until) for step in one.first), None]
     moves = one.does in ORDERS and one.does != "fault_reset"
-    for write, hold in zip(one.writes, holds, strict=True):
+    for write, hold, wait in zip(one.writes, holds, waits, strict=True):
         if write.value is not None:
             image[write.register] = write.value
         else:
@@ -398,20 +400,25 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
             image[write.register] = before | context.bits_of(write.set)
         keep = 0 if write.value is not None else kept.get(write.register, 0)
         bits = image[write.register] and COIL_ON if is_bit(write.register) else image[write.register]
-        yield Write(write.register, bits, keep, hold, moves and write is one, writes_by(drive, write.register))
+        last = moves and write is one
+        yield Write(write.register, bits, keep, hold, wait, last, writes_by(drive, write.register))
 
 
-def _waits(drive: Drive, told: Decoded) -> list[Wait]:
-    """The state that a write but the last of a command waits for, where it waits for one; alike in several, once."""
-    states = {one.name: one for one in drive.operation.states}
-    found: dict[tuple[int, str], Wait] = {}
-    for command in drive.operation.commands:
-        for number, step in enumerate(command.first):
-            if step.until is not None:
-                state = states[step.until]
-                wait = found.setdefault((number, state.name), Wait([], number, state, told.holds(state)))
-                wait.orders.append(ORDERS[command.does])
-    return list(found.values())
+def _awaited(drive: Drive) -> list[int]:
+    """The registers of the states that writes wait for."""
+    steps = [step for one in drive.operation.commands for step in one.first]
+    return sorted({_state(drive, step.until).register for step in steps if step.until is not None})
+
+
+def _state(drive: Drive, name: str) -> State:
+    return next(one for one in drive.operation.states if one.name == name)
+
+
+def _wait(drive: Drive, name: str | None) -> Wait | None:
+    if name is None:
+        return None
+    state = _state(drive, name)
+    return Wait(name, _awaited(drive).index(state.register), state.mask or 0xFFFF, state.equals)
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:

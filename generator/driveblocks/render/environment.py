@@ -59,7 +59,6 @@ def environment() -> jinja2.Environment:
         oldest=oldest,
         taken=taken,
         turns=turns,
-        ordered=ordered,
         either=either,
         condition=condition,
         holds=expression.holds,
@@ -148,11 +147,6 @@ def oldest(ages: Iterable[str]) -> str:
 def turns(numbers: Sequence[int]) -> str:
     """Whether a drive block's polls have come to one of these turns of their round."""
     return " OR ".join(f"(Turn = {number})" for number in numbers) if len(numbers) > 1 else f"Turn = {numbers[0]}"
-
-
-def ordered(orders: Sequence[int], names: Mapping[int, str]) -> str:
-    """Whether the command in hand is one of these orders."""
-    return either([f"(Control.Sent = {names[each]})" for each in orders])
 
 
 def either(tests: Sequence[str]) -> str:

@@ -191,7 +191,8 @@ def _orders(drive: Drive) -> Iterator[Row]:
         for step in range(len(one.writes)):
             words = does.replace("_", " ") + (f", write {step + 1}" if one.first else "")
             number = {"StepNumber": step} if several else {}
-            yield [words, {"Order": numbers[does]} | number, _write(one, step, several=several)]
+            shown = _write(one, step, several=several) | _awaited(drive, one, step)
+            yield [words, {"Order": numbers[does]} | number, shown]
             yield none
     reference = word(drive.operation.reference.register)
     shows: Shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
@@ -205,6 +206,17 @@ def _orders(drive: Drive) -> Iterator[Row]:
 def _several(drive: Drive) -> bool:
     """Whether a command has several writes."""
     return any(one.first for one in drive.operation.commands)
+
+
+def _awaited(drive: Drive, one: Command, step: int) -> Shows:
+    """The state that the write after this one waits for; nothing is said where the block has no such outputs."""
+    if not any(step.until for command in drive.operation.commands for step in command.first):
+        return {}
+    until = one.first[step].until if step < len(one.first) else None
+    state = next((each for each in drive.operation.states if each.name == until), None)
+    if state is None:
+        return {"Awaits": False}
+    return {"Awaits": True, "StateMask": word(state.mask or 0xFFFF), "StateWord": word(state.equals)}
 
 
 def _write(one: Command, step: int, *, several: bool) -> Shows:
