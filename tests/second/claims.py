@@ -27,8 +27,8 @@ PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
 MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
 page 10), which is two reads of three: of any five in a row at least three.
 """
-CODE_ROUNDS = {"ATV312": 9}
-"""Rounds in which the code of a fault is read once: three registers take turns beside the status."""
+CODE_ROUNDS = {"ATV312": 9, "PF525": 12}
+"""Rounds in which the code of a fault is read once: three or four registers take turns beside status and frequency."""
 EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000

@@ -399,7 +399,7 @@ class Run:
         b, one = self.bench, self.one
         if one.by == "keypad":
             one.press("stop", b.now)
-            b.wait(lambda: not one.motor.hz(b.now), 9000)
+            b.wait(lambda: not one.output, 9000)  # which lasts to the end of its ramp: no other key acts before
         if one.local:
             one.press("local", b.now)
         if one.cut:

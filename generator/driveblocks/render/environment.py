@@ -1,6 +1,6 @@
 """The Jinja environment: strict, no escaping, and the few functions that templates may call."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from functools import cache
 from itertools import chain

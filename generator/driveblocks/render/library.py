@@ -29,10 +29,10 @@ LINE_BLOCKS = (
     "MB_Listen", "MB_Promise", "MB_Foreign", "MB_Stop", "MB_LineRequest",
 )  # fmt: skip
 CONTROL_BLOCKS = (
-    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_LineFacts", "VFD_Set", "VFD_Usual", "VFD_IsScale", "VFD_Scaled",
-    "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset", "VFD_Start",
-    "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control", "VFD_ReadParameter",
-    "VFD_WriteParameter", "VFD_Store",
+    "VFD_HardStop", "VFD_Next", "VFD_Link", "VFD_Unit", "VFD_LineFacts", "VFD_Set", "VFD_Usual", "VFD_IsScale",
+    "VFD_Scaled", "VFD_ScaledSigned", "VFD_Diagnose", "VFD_Identity", "VFD_Pins", "VFD_Run", "VFD_FaultReset",
+    "VFD_Start", "VFD_FirstStop", "VFD_StopRound", "VFD_Steady", "VFD_Send", "VFD_Why", "VFD_Control",
+    "VFD_ReadParameter", "VFD_WriteParameter", "VFD_Store",
 )  # fmt: skip
 DEVICE = ("MB_Device", "MB_Float")
 """What is for a meter or a sensor; the block needs some of those."""
