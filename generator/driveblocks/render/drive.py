@@ -63,12 +63,23 @@ STATUS = {
 
 @dataclass(frozen=True)
 class Wait:
-    """The state that the next write waits for: bits of a word, which is one of `waits`, and what they are in it."""
+    """The state that the next write waits for: bits of a word, and what they are in it."""
 
     name: str
-    place: int
+    number: str
+    """At the end of the names of mask and value, where states are in several words."""
     mask: int
     value: int
+
+
+@dataclass(frozen=True)
+class Output:
+    """An output of Orders, and what it is while nothing is awaited."""
+
+    name: str
+    kind: str
+    means: str
+    none: str
 
 
 @dataclass(frozen=True)
@@ -228,8 +239,9 @@ class Ordering:
     stop_constants: dict[int, str]
     longest: int
     """Writes of the longest order."""
-    waits: list[str]
-    """The words of the states that writes wait for."""
+    awaited: list[Output]
+    reached: str
+    """TRUE when the state that the next write waits for is there."""
     can: dict[str, Command]
     keeps: dict[int, int]
     write: int
@@ -348,7 +360,8 @@ def _ordering(drive: Drive) -> Ordering:
         stop_names={STOPS[does]: does.replace("_", " ") for does in STOPS},
         stop_constants={STOPS[does]: CONSTANTS[does] for does in STOPS},
         longest=max(map(len, orders.values())),
-        waits=[word_input(drive, each).name for each in _awaited(drive)],
+        awaited=list(_awaited(drive)),
+        reached=_reached(drive),
         can={str(does): one for does, one in commands.items()},
         keeps=context.kept(drive),
         write=by,
@@ -404,21 +417,39 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
         yield Write(write.register, bits, keep, hold, wait, last, writes_by(drive, write.register))
 
 
-def _awaited(drive: Drive) -> list[int]:
-    """The registers of the states that writes wait for."""
-    steps = [step for one in drive.operation.commands for step in one.first]
-    return sorted({_state(drive, step.until).register for step in steps if step.until is not None})
-
-
 def _state(drive: Drive, name: str) -> State:
     return next(one for one in drive.operation.states if one.name == name)
+
+
+def _state_words(drive: Drive) -> dict[int, tuple[str, str]]:
+    """The registers of the states that writes wait for: the name of the word, and what tells one from another."""
+    steps = [step for one in drive.operation.commands for step in one.first]
+    registers = sorted({_state(drive, step.until).register for step in steps if step.until is not None})
+    return {each: (word_input(drive, each).name, str(at or "")) for at, each in enumerate(registers)}
+
+
+def _awaited(drive: Drive) -> Iterator[Output]:
+    words = _state_words(drive)
+    if words:
+        yield Output("Awaits", "BOOL", "the next write waits for a state of the drive", "FALSE")
+    for word, number in words.values():
+        yield Output(f"StateMask{number}", "WORD", f"... the bits of {word} that show it", "WORD#16#0000")
+        yield Output(f"StateWord{number}", "WORD", "... and what they are then", "WORD#16#0000")
+
+
+def _reached(drive: Drive) -> str:
+    tests = [
+        f"((Reads.{word} AND Orders.StateMask{number}) = Orders.StateWord{number})"
+        for word, number in _state_words(drive).values()
+    ]
+    return f"NOT Orders.Awaits OR (Reads.StatesRead AND {' AND '.join(tests)})" if tests else "TRUE"
 
 
 def _wait(drive: Drive, name: str | None) -> Wait | None:
     if name is None:
         return None
     state = _state(drive, name)
-    return Wait(name, _awaited(drive).index(state.register), state.mask or 0xFFFF, state.equals)
+    return Wait(name, _state_words(drive)[state.register][1], state.mask or 0xFFFF, state.equals)
 
 
 def _places(drive: Drive, reads: tuple[Poll, ...]) -> Iterator[Word]:
