@@ -116,7 +116,7 @@ def refreshed(job: Job) -> Iterator[Row | list[str]]:
     found = {each: each.run(job.line) for each in refresh.setups()}
     varied = {each: each.run(job.line, JITTER) for each in refresh.setups()}
     shares = [
-        ("as it stands", {each: ms / each.formula() for each, ms in found.items()}),
+        ("as it is", {each: ms / each.formula() for each, ms in found.items()}),
         ("silence in whole ms", {each: ms / each.formula(whole=True) for each, ms in found.items()}),
         (
             f"the same, scans that vary by {JITTER} %",
@@ -202,7 +202,7 @@ SUMS = (
     "{ratio:.2f} of `WorstStopMs` at most",
     "{late_lone_stops:.0f} of {lone_stops:.0f} lone ones over `StopAloneMs`",
     "{requests:.0f} requests: {false_timeouts:.0f} false timeouts, {short_silences:.0f} short silences",
-    "{parameters:.0f} parameters and the fault resets: {unasked:.0f} that must not leave",
+    "{parameters:.0f} parameters and the fault resets: {unasked:.0f} that must not be sent",
     "{wrong_readings:.0f} of {readings:.0f} readings wrong, {false_acks:.0f} false acknowledgements",
     "{virtual_hours:.0f} h of bus",
 )

@@ -71,3 +71,15 @@ def test_a_motor_turns_both_ways(name: str) -> None:
     assert len(made) == 3
     some = replace(unit.suite, programs=made)
     assert runner.run([Unit(some, tuple(blocks.values()))], [EmbeddedEngine()]).passed
+
+
+def test_states_in_two_words_are_awaited_apart() -> None:
+    altivar = drive("atv12")
+    first, second = altivar.operation.states
+    states = (first, replace(second, register=altivar.operation.measures[0].register))
+    ordering = drive_block(replace(altivar, operation=replace(altivar.operation, states=states))).ordering
+    assert [one.name for one in ordering.awaited] == ["Awaits", "StateMask", "StateWord", "StateMask1", "StateWord1"]
+    assert re.findall(r"Reads\.(\w+) AND Orders\.(\w+)\) = Orders\.(\w+)", ordering.reached) == [
+        ("StatusWordFrequencyWord", "StateMask", "StateWord"), ("EstimatedMotorFrequencyWord", "StateMask1", "StateWord1"),
+    ]  # fmt: skip
+    assert [write.wait and write.wait.number for write in ordering.orders[5]] == ["", "1", None]
