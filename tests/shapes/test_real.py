@@ -80,6 +80,7 @@ def test_states_in_two_words_are_awaited_apart() -> None:
     ordering = drive_block(replace(altivar, operation=replace(altivar.operation, states=states))).ordering
     assert [one.name for one in ordering.awaited] == ["Awaits", "StateMask", "StateWord", "StateMask1", "StateWord1"]
     assert re.findall(r"Reads\.(\w+) AND Orders\.(\w+)\) = Orders\.(\w+)", ordering.reached) == [
-        ("StatusWordFrequencyWord", "StateMask", "StateWord"), ("EstimatedMotorFrequencyWord", "StateMask1", "StateWord1"),
-    ]  # fmt: skip
+        ("StatusWordFrequencyWord", "StateMask", "StateWord"),
+        ("EstimatedMotorFrequencyWord", "StateMask1", "StateWord1"),
+    ]
     assert [write.wait and write.wait.number for write in ordering.orders[5]] == ["", "1", None]
