@@ -98,8 +98,8 @@ def test_a_single_is_stored_as_it_is(number: float) -> None:
 
 
 @given(st.floats(min_value=-3.4e38, max_value=3.4e38))
-def test_a_double_is_rounded_as_struct_rounds(number: float) -> None:
-    assert stored(number) == struct.unpack("f", struct.pack("f", number))[0]
+def test_a_double_is_rounded_as_its_exact_value_is(number: float) -> None:
+    assert stored(number) == nearest(Fraction(number))
 
 
 @given(st.fractions(min_value=-70000, max_value=70000))

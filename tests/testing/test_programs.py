@@ -66,7 +66,7 @@ def test_every_check_is_numbered_and_named_in_a_comment_at_its_place(all_program
     for program in all_programs:
         lines = program.text.split("\n")
         for number, check in enumerate(program.checks, 1):
-            near = " ".join(lines[check.line - 1 : check.line + 3])
+            near = " ".join(lines[program.line(check) - 1 : program.line(check) + 3])
             ranges = re.findall(r"\(\* (\d+)(?: to (\d+))?:", near)
             assert any(int(first) <= number <= int(last or first) for first, last in ranges), (program.name, number)
 

@@ -4,6 +4,7 @@ import re
 import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
@@ -40,6 +41,7 @@ class Plan:
     writable: tuple[Span, ...]
 
 
+@lru_cache
 def plan(drive: Drive) -> Plan:
     """Derive the plan of a checked map."""
     functions = {function.code: function for function in drive.functions}

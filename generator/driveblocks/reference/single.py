@@ -1,11 +1,13 @@
-"""REAL: numbers of IEEE 754 single precision, as exact fractions and back."""
+"""REAL: numbers of IEEE 754 single precision, from doubles, and from exact fractions."""
 
+import struct
 from fractions import Fraction
-from math import inf, isinf, isnan
+from math import copysign, inf
 
 PRECISION = 24
 SMALLEST_EXPONENT = -126
 LARGEST = Fraction((2**PRECISION - 1) * 2 ** (128 - PRECISION))
+_REAL = struct.Struct("f")
 
 
 def nearest(value: Fraction) -> float:
@@ -23,4 +25,8 @@ def nearest(value: Fraction) -> float:
 
 def stored(number: float) -> float:
     """What a REAL variable holds after a number was assigned to it."""
-    return number if isnan(number) or isinf(number) else nearest(Fraction(number))
+    try:
+        (held,) = _REAL.unpack(_REAL.pack(number))
+    except OverflowError:
+        return copysign(inf, number)
+    return float(held)

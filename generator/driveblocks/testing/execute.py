@@ -119,8 +119,8 @@ class _Run:
             self._add(check, ERROR, why)
 
     def _add(self, check: Check, status: str, message: str = "", expected: str = "", actual: str = "") -> None:
-        words = f"{len(self.outcomes) + 1}: {check.words}"
-        self.outcomes.append(Outcome(words, status, message, expected, actual, self.path, check.line, check.scene))
+        words, line = f"{len(self.outcomes) + 1}: {check.words}", self.program.line(check)
+        self.outcomes.append(Outcome(words, status, message, expected, actual, self.path, line, check.scene))
 
 
 def _by_stage(program: Program) -> list[list[Check]]:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby
+from typing import NamedTuple
 
 from driveblocks.testing.harness import PER_SCAN
 from structured_text.language.writing import comment, flowing, paragraph, remarked
@@ -20,8 +21,7 @@ _COUNTERS = [
 ]
 
 
-@dataclass(frozen=True)
-class Probe:
+class Probe(NamedTuple):
     """A call of one of the harness's blocks: VFD_Check + `block`, its pins, and what it looks at in words."""
 
     block: str
@@ -78,30 +78,57 @@ class Stage:
     scene: str = ""
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(NamedTuple):
     """One check of a program as reports show it; `scene` where it is one of a scene's."""
 
     words: str
     probe: Probe
     stage: int
     line: int
+    """Of the program without its head."""
     scene: str = ""
 
 
 @dataclass(frozen=True)
-class Program:
-    """A finished program: the place of its file, its text, and its checks by number, from 1."""
+class Body:
+    """A program but for its head, and its checks by number, from 1."""
 
-    folder: str
-    name: str
-    title: str
     text: str
     checks: tuple[Check, ...]
     scans: tuple[int, ...]
     """Most scans of each stage."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A finished program: the place of its file, its head of some lines, and the rest."""
+
+    folder: str
+    name: str
+    title: str
+    head: list[str]
+    body: Body
     group: str = ""
     """What it is about, in the words of a user, together with other programs."""
+
+    @property
+    def text(self) -> str:
+        """All of it."""
+        return "\n".join([*self.head, self.body.text])
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Its checks by number, from 1."""
+        return self.body.checks
+
+    @property
+    def scans(self) -> tuple[int, ...]:
+        """Most scans of each stage."""
+        return self.body.scans
+
+    def line(self, check: Check) -> int:
+        """Where a check is in the text."""
+        return len(self.head) + check.line
 
     @property
     def stages(self) -> int:
@@ -147,24 +174,38 @@ class Script:
     stages: list[Stage] = field(default_factory=list)
     plant: str = ""
     """Lines that run in every scan, before the stages: what the stages of scenes wait for."""
+    bodies: list[Body] = field(default_factory=list)
+    """What it prints below the heads, once it is finished; copies of it for other drives have it in common."""
 
     def stage(self, words: str, *items: Item, source: str = "") -> None:
         """Add a stage; one with more checks than a scan may have becomes several."""
         room = PER_SCAN - _count(self.tail)
         part: list[Item] = []
+        checks = 0
         for item in items:
-            if isinstance(item, Probe) and _count(part) == room:
-                self.stages.append(Stage(words, source, part))
-                part = []
+            if isinstance(item, Probe):
+                if checks == room:
+                    self.stages.append(Stage(words, source, part))
+                    part, checks = [], 0
+                checks += 1
             part.append(item)
         self.stages.append(Stage(words, source, part))
 
     def programs(self) -> Iterator[Program]:
         """The finished programs: one, or several with a number after the name; none without stages."""
-        chunks = list(_chunks(self.stages))
-        for number, chunk in enumerate(chunks, 1):
-            name = f"{self.name}{number}" if len(chunks) > 1 else self.name
-            yield _Printer(self, name, chunk).program()
+        if not self.bodies:
+            self.bodies += [_Printer(self, chunk).body() for chunk in _chunks(self.stages)]
+        for number, body in enumerate(self.bodies, 1):
+            name = f"{self.name}{number}" if len(self.bodies) > 1 else self.name
+            yield Program(self.folder, name, self.title, self._head(name), body)
+
+    def _head(self, name: str) -> list[str]:
+        pace = "Stage by stage, each some scans long." if self.plant else "One case per scan."
+        run = f"In a cyclic task until Done; it has passed when Failures is 0 and Checks is not. {pace}"
+        lines = [f"(* {name}: {comment(self.title)}", "   " + "-" * 97]
+        for label, text in (("Source", self.source), ("Run", run)):
+            lines += paragraph(f"   {label:<9}", text)
+        return [*lines, "   Made by  DriveBlocks; written by the generator from the drive's map. *)", f"PROGRAM {name}"]
 
 
 def _chunks(stages: Sequence[Stage]) -> Iterator[list[Stage]]:
@@ -184,19 +225,23 @@ def _chunks(stages: Sequence[Stage]) -> Iterator[list[Stage]]:
 
 
 def _count(items: Sequence[Item]) -> int:
-    return sum(isinstance(item, Probe) for item in items)
+    return len(_probes(items))
+
+
+def _probes(items: Sequence[Item]) -> list[Probe]:
+    return [item for item in items if isinstance(item, Probe)]
 
 
 class _Printer:
-    """Prints one program and notes on which line each check is."""
+    """Prints the body of a program and notes on which line each check is."""
 
-    def __init__(self, script: Script, name: str, stages: list[Stage]) -> None:
-        self.script, self.name, self.stages = script, name, stages
+    def __init__(self, script: Script, stages: list[Stage]) -> None:
+        self.script, self.stages = script, stages
+        self.last = _probes(script.tail)
         self.lines: list[str] = []
         self.checks: list[Check] = []
 
-    def program(self) -> Program:
-        self._head()
+    def body(self) -> Body:
         self._declarations()
         self.lines += ["", "  Report.InScan := 0;"]
         if self.script.defaults:
@@ -208,22 +253,12 @@ class _Printer:
         self.lines += ["  ELSE", "    Done := TRUE;", "  END_CASE;"]
         self._tail()
         text = "\n".join([*self.lines, "END_PROGRAM", ""])
-        script = self.script
         scans = tuple(stage.span.scans if stage.span else 1 for stage in self.stages)
-        return Program(script.folder, self.name, script.title, text, tuple(self.checks), scans)
-
-    def _head(self) -> None:
-        pace = "Stage by stage, each some scans long." if self.script.plant else "One case per scan."
-        run = f"In a cyclic task until Done; it has passed when Failures is 0 and Checks is not. {pace}"
-        self.lines += [f"(* {self.name}: {comment(self.script.title)}", "   " + "-" * 97]
-        for label, text in (("Source", self.script.source), ("Run", run)):
-            self.lines += paragraph(f"   {label:<9}", text)
-        self.lines += ["   Made by  DriveBlocks; written by the generator from the drive's map. *)"]
-        self.lines += [f"PROGRAM {self.name}"]
+        return Body(text, tuple(self.checks), scans)
 
     def _declarations(self) -> None:
-        items = [item for stage in self.stages for item in stage.items] + self.script.tail
-        blocks = {item.block: None for item in items if isinstance(item, Probe)}
+        items = [item for stage in self.stages for item in stage.items]
+        blocks = dict.fromkeys(item.block for item in (*_probes(items), *self.last))
         rows = [
             ("Report", "VFD_Report", "what the checks have found"),
             *((f"Check{block}", f"VFD_Check{block}", "counts and notes a check") for block in blocks),
@@ -234,7 +269,7 @@ class _Printer:
 
     def _stage(self, index: int, stage: Stage) -> None:
         first = len(self.checks) + 1
-        last = first + _count(stage.items) + _count(self.script.tail) - 1
+        last = first + _count(stage.items) + len(self.last) - 1
         numbers = f"{first}" if first == last else f"{first} to {last}"
         words = f"{numbers}: {stage.words}" + (f"; {stage.source}" if stage.source else "")
         label = f"    {index}: "
@@ -244,9 +279,7 @@ class _Printer:
             self._span(stage, stage.span, index)
         else:
             self._items(stage, stage.items, index, "      ")
-        for item in self.script.tail:
-            if isinstance(item, Probe):
-                self.checks.append(Check(f"{stage.words}: {item.words}", item, index, place))
+        self.checks += [Check(f"{stage.words}: {item.words}", item, index, place) for item in self.last]
 
     def _span(self, stage: Stage, span: Span, index: int) -> None:
         """What begins it, then what ends it with its checks."""
@@ -254,7 +287,7 @@ class _Printer:
         if begins:
             self.lines += [f"      IF WaitedMs = {SCAN_MS} THEN", *flowing(begins, "        "), "      END_IF;"]
         self.lines += [*flowing([f"Next := {span.over};"], "      "), "      IF Next THEN"]
-        self._items(stage, [item for item in stage.items if isinstance(item, Probe)], index, "        ")
+        self._items(stage, _probes(stage.items), index, "        ")
         self.lines.append("      END_IF;")
 
     def _items(self, stage: Stage, items: Sequence[Item], index: int, indent: str) -> None:
@@ -263,8 +296,9 @@ class _Printer:
             if isinstance(item, str):
                 run.append(item)
                 continue
-            self.lines += flowing(run, indent)
-            run = []
+            if run:
+                self.lines += flowing(run, indent)
+                run = []
             words = f"{stage.words}: {item.words}"
             self.checks.append(Check(words, item, index, len(self.lines) + 1, stage.scene))
             self.lines += remarked(item.call, f"{len(self.checks)}: {item.words}", indent)

@@ -62,7 +62,10 @@ def paragraph(lead: str, text: str, end: str = "", width: int = WIDTH) -> list[s
     whole = comment(text) + end
     if whole and len(lead) + len(whole) <= width:
         return [lead + whole]  # as most are
-    return textwrap.wrap(whole, width, initial_indent=lead, subsequent_indent=" " * len(lead))
+    later, words = " " * len(lead), whole.split()
+    if "-" in whole or max(map(len, words), default=width) > width - len(lead):
+        return textwrap.wrap(whole, width, initial_indent=lead, subsequent_indent=later)
+    return _filled(words, lead, later, width)  # what that does, too, where a line ends at blanks alone
 
 
 def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]:
@@ -79,19 +82,19 @@ def flowing(statements: list[str], indent: str, width: int = WIDTH) -> list[str]
 def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
     """A statement on as many lines as it needs; a blank in a text is no place to break."""
     pieces = _PIECES.findall(statement) if "'" in statement else statement.split()
-    return _filled(pieces, indent, width)
-
-
-def _filled(pieces: list[str], indent: str, width: int) -> list[str]:
     whole = indent + " ".join(pieces)
-    if len(whole) <= width:
-        return [whole]
-    lines = [indent]
-    for piece in pieces:
-        if lines[-1].strip() and len(lines[-1]) + 1 + len(piece) > width:
-            lines.append(f"{indent}  {piece}")
+    return [whole] if len(whole) <= width else _filled(pieces, indent, f"{indent}  ", width)
+
+
+def _filled(pieces: list[str], lead: str, later: str, width: int) -> list[str]:
+    """As many pieces to a line as fit, one at least; the first line starts with `lead`, others with `later`."""
+    first, *others = pieces
+    lines = [lead + first]
+    for piece in others:
+        if len(lines[-1]) + 1 + len(piece) > width:
+            lines.append(later + piece)
         else:
-            lines[-1] += f" {piece}" if lines[-1].strip() else piece
+            lines[-1] += f" {piece}"
     return lines
 
 
@@ -141,4 +144,5 @@ def folded(text: str) -> str:
 def _folded(line: str) -> list[str]:
     if len(line) <= MOST or "'" in line or "(*" in line:
         return [line]
-    return _filled(_JOINTS.split(line.lstrip()), line[: -len(line.lstrip())], MOST)
+    start = line[: -len(line.lstrip())]
+    return _filled(_JOINTS.split(line.lstrip()), start, f"{start}  ", MOST)

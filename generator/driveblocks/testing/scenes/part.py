@@ -5,6 +5,7 @@ What they are given in one call, no drive shows at will, and a restart in the mi
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from itertools import pairwise
@@ -52,18 +53,32 @@ def parts() -> dict[str, Any]:
 
 
 def scripts(drive: Drive, stem: str) -> Iterator[Script]:
-    """A program of each block: it is called first in each scan, with what the stage before has set."""
-    for block, part in (parts() | family.parts(drive)).items():
+    """A program of each block."""
+    own = (_filled(block, part) for block, part in family.parts(drive).items())
+    for part in (*_shared(), *own):
+        block = part.name
         one = bench.script(drive, stem, f"Part{block.partition('_')[2]}", f"{block}, called by itself")
-        text = f"{part['inputs']} {part['calls']}"
-        used = [name for name in VARIABLES if re.search(rf"\b{name}\b", text) or name == "Given"]
-        blanks = {f".{name}": f"Not{name}" for name in used if f"Not{name}" in VARIABLES}
-        for name in (*used, *blanks.values()):
-            one.variables[name] = VARIABLES[name]
-        one.variables[_instance(block)] = (block, "under test")
-        one.defaults = _call(block, part["inputs"])
-        one.stages = [stage for scene in _scenes(block, part) for stage in _stages(*scene, blanks)]
-        yield one
+        yield replace(part, folder=one.folder, name=one.name, title=one.title, source=one.source)
+
+
+@cache
+def _shared() -> list[Script]:
+    """Those of the blocks that every drive has, without a head."""
+    return [_filled(block, part) for block, part in parts().items()]
+
+
+def _filled(block: str, part: Mapping[str, Any]) -> Script:
+    """The block is called first in each scan, with what the stage before has set."""
+    one = Script("", block, "", "")
+    text = f"{part['inputs']} {part['calls']}"
+    used = [name for name in VARIABLES if re.search(rf"\b{name}\b", text) or name == "Given"]
+    blanks = {f".{name}": f"Not{name}" for name in used if f"Not{name}" in VARIABLES}
+    for name in (*used, *blanks.values()):
+        one.variables[name] = VARIABLES[name]
+    one.variables[_instance(block)] = (block, "under test")
+    one.defaults = _call(block, part["inputs"])
+    one.stages = [stage for scene in _scenes(block, part) for stage in _stages(*scene, blanks)]
+    return one
 
 
 def _instance(block: str) -> str:
