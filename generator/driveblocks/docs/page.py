@@ -7,6 +7,7 @@ from math import ceil
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import Member, members
 from driveblocks.docs.pins import Pin, pins
+from driveblocks.export import CANONICAL
 from driveblocks.export.ladder import diagram
 from driveblocks.export.part import Part
 from driveblocks.maps import conduct, plan, trust
@@ -24,7 +25,7 @@ from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.render.text import ENGLISH
 from structured_text.language.checker import check
 from structured_text.language.parser import parse
-from structured_text.language.tree import Checked, FunctionBlock, TypeDecl, VarKind
+from structured_text.language.tree import Checked, FunctionBlock, TypeDecl, Unit, VarKind
 
 FOLDER = "docs"
 STATES = "drive_states.svg"
@@ -69,17 +70,17 @@ def documents(
     drives: list[Drive],
     own: Mapping[str, Own] | None = None,
     *,
-    linked: bool = True,
-    targets: Collection[str] = (),
+    targets: Collection[str] = (CANONICAL,),
+    units: Sequence[Unit] = (),
 ) -> dict[str, str]:
     """The overview, every page and every picture, path below the output folder -> text.
 
-    `own`: prefix -> what is special about a family here; `linked` see `overview`; `targets` are those that are built,
-    whose pages a drive's leads to.
+    `own`: prefix -> what is special about a family here; `targets` are those that are built, whose pages and files
+    others lead to; `units` are the trees of the files, where those are there already.
     """
-    checked = check([parse("\n".join(file.text for file in files), "library")])
+    checked = check(units or [parse("\n".join(file.text for file in files), "library")])
     return {
-        "README.md": overview(files, drives, checked, abilities(drives), linked=linked),
+        "README.md": overview(files, drives, checked, abilities(drives), linked=CANONICAL in targets),
         **pages(drives, checked, own or {}, [one for one in PLATFORMS if one in targets]),
     }
 

@@ -1,7 +1,7 @@
 """XML as this project writes it: an element to a line, and text exactly as it was given."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 _MARKS = {"&": "&amp;", "<": "&lt;", ">": "&gt;"}
 _TEXT = str.maketrans(_MARKS)
@@ -16,9 +16,16 @@ class Element:
     attributes: Mapping[str, str]
     content: "tuple[Element, ...]" = ()
     text: str = ""
+    printed: dict[str, list[str]] = field(default_factory=dict, compare=False, repr=False)
+    """Its lines by their indent, once they are asked for: many files have the same elements."""
 
     def lines(self, indent: str = "") -> list[str]:
         """One element to a line, but for one that is alone in another; a text keeps its own lines."""
+        if indent not in self.printed:
+            self.printed[indent] = self._lines(indent)
+        return self.printed[indent]
+
+    def _lines(self, indent: str) -> list[str]:
         head = self.tag + "".join(f' {name}="{value.translate(_VALUE)}"' for name, value in self.attributes.items())
         inner: list[str] = []
         for each in self.content:

@@ -22,20 +22,13 @@ WRITERS: dict[str, Writer] = {
 }
 
 
-def files(shelf: Callable[[], Shelf], targets: Collection[str]) -> dict[str, str]:
-    """The files of some targets; the shelf is made if one needs it.
-
-    Raises ExportError with everything that they cannot say.
-    """
-    writers = [writer for target, writer in WRITERS.items() if target in targets]
-    if not writers:
-        return {}
+def files(shelf: Shelf, targets: Collection[str]) -> dict[str, str]:
+    """The files of some targets. Raises ExportError with everything that they cannot say."""
     made: dict[str, str] = {}
     problems: list[Problem] = []
-    stock = shelf()
-    for writer in writers:
+    for writer in (writer for target, writer in WRITERS.items() if target in targets):
         try:
-            made |= writer(stock)
+            made |= writer(shelf)
         except ExportError as error:
             problems += error.problems
     if problems:

@@ -42,15 +42,16 @@ def files(
         )
         for source in sources
     }
-    linked = CANONICAL in targets
     drives = {source.path.stem: source.drive for source in sources}
-    texts = documents(made, [*drives.values()], own, linked=linked, targets=targets)
+    stock = shelf(made, drives, languages)
+    units = [part.unit for part in stock.parts]
+    texts = documents(made, [*drives.values()], own, targets=targets, units=units)
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
         texts |= {file.path: file.text for file in library.adapter("linux", languages)}
         texts |= programs(sources, languages)
-    return texts | target.files(lambda: shelf(made, drives, languages), targets)
+    return texts | target.files(stock, targets)
 
 
 @dataclass(frozen=True)

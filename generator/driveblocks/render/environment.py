@@ -6,7 +6,6 @@ from functools import cache
 from itertools import chain
 
 import jinja2
-from jinja2.runtime import Context
 
 from driveblocks.maps import form
 from driveblocks.maps.model import Condition
@@ -21,6 +20,8 @@ ABI = 3
 WIDE = 80
 """Characters of an expression that still fits on one line."""
 
+_PRINT = "#" * 8
+"""In place of the hash of the body in its head, until the body is rendered."""
 _RULE = "   " + "-" * 97
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 
@@ -83,21 +84,18 @@ def _kept() -> jinja2.BytecodeCache | None:
 
 def render(template: str, **context: object) -> str:
     """The text of one template. Raises jinja2.UndefinedError for a name that the context lacks."""
-    made = environment().get_template(template)
-    said = body(made.render(**context, fingerprint=""))
-    text = writing.aligned(made.render(**context, fingerprint=fingerprint(stream(said)) if said else ""))
+    text = environment().get_template(template).render(**context)
+    if _PRINT in text:
+        text = text.replace(_PRINT, fingerprint(stream(body(text))))
+    text = writing.aligned(text)
     return writing.folded(text) if template.endswith(".st.j2") else text
 
 
-@jinja2.pass_context
 def head(  # noqa: PLR0913  (the parts of every head)
-    context: Context, name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
+    name: str, title: str, *, purpose: str, call: str, loops: str, source: str = ""
 ) -> str:
-    """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs.
-
-    The hash of the body is that of the context, which is known once the body is rendered.
-    """
-    hashed = f"{context['fingerprint']}, a hash of its tokens, which is the same in every form of this block"
+    """The comment at the top of a block: what it is for, where its facts come from, how to call it, what it costs."""
+    hashed = f"{_PRINT}, a hash of its tokens, which is the same in every form of this block"
     parts = [("Purpose", purpose), ("Source", source), ("Call", call), ("Loops", loops), ("Body", hashed)]
     return _comment(f"{name}: {title}", [(label, text) for label, text in parts if text])
 
