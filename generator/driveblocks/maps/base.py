@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from driveblocks.maps import catalog, nodes, source
+from driveblocks.maps import catalog
 from driveblocks.maps.model import Drive, Manual, Text
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import Place, Report
@@ -33,17 +33,23 @@ def asked(root: Node | None) -> Node | None:
     return root.entries["base"][1] if isinstance(root, Entries) and "base" in root.entries else None
 
 
-def whole(root: Entries, file: Path, sister: Drive, report: Report) -> Entries:
-    """A map together with what it takes over from its base, which is the checked map `sister` in `file`."""
-    at = root.entries["base"][1].at
-    taken = nodes.parse(source.read(file), Report(str(file)))
-    assert taken is not None  # noqa: S101  (it was checked)
-    base = _moved(taken, at)
+class Sister(NamedTuple):
+    """The map of a base: its file, what is in it, and what was made of that."""
+
+    file: Path
+    nodes: Node
+    drive: Drive
+
+
+def whole(root: Entries, of: Sister, report: Report) -> Entries:
+    """A map together with what it takes over from its base."""
+    at, file = root.entries["base"][1].at, of.file
+    base = _moved(of.nodes, at)
     for path in _paths(root):
         base = _cut(base, path.text.split(DEEPER), EntryOf(Drive)) or _missed(base, path, file, report)
     assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
-    own = _Own(_word("document", file.stem, at), sister.family.en)
-    entries = base.entries | {"documents": _documents(base, file, sister)}
+    own = _Own(_word("document", file.stem, at), of.drive.family.en)
+    entries = base.entries | {"documents": _documents(base, file, of.drive)}
     made = _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
     return Entries(made.entries | {"documents": _named(made, _rows(root))}, made.at)
 

@@ -1,6 +1,7 @@
 """Load a map: file -> text -> nodes -> model -> rules, with every mistake of the file in one MapError."""
 
 import re
+from functools import lru_cache
 from pathlib import Path
 
 from driveblocks.maps import base, check, nodes, numbering, pair, source
@@ -56,7 +57,23 @@ def _based(root: Node | None, report: Report, path: Path | None) -> Node | None:
         wrong = f"there is no map {name}.yaml beside this one, nor among those that come with DriveBlocks"
         report.add(asked.at, wrong, "name the file of the map of a sister model, without its ending")
         return None
-    if base.asked(nodes.parse(source.read(file), Report(str(file)))):
+    text = source.read(file)
+    taken = _nodes(file, text)
+    if base.asked(taken):
         report.add(asked.at, f"{file.name} has a base itself", f"take the base of {file.name}")
         return None
-    return base.whole(root, file, load(file), report)
+    sister = _sister(file, text)
+    assert taken is not None  # noqa: S101  (it was checked)
+    return base.whole(root, base.Sister(file, taken, sister), report)
+
+
+@lru_cache(8)
+def _nodes(file: Path, text: str) -> Node | None:
+    """What is in the file of a base, of which several maps of a library may be made."""
+    return nodes.parse(text, Report(str(file)))
+
+
+@lru_cache(8)
+def _sister(file: Path, text: str) -> Drive:  # noqa: ARG001  (with another text it is another map)
+    """The checked map of a base. Raises MapError."""
+    return load(file)
