@@ -9,13 +9,13 @@ import os
 import sys
 from collections.abc import Iterable
 from contextlib import suppress
-from typing import Any, TextIO
-
-from rich.console import Console, ConsoleOptions, RenderableType
-from rich.segment import Segment
-from rich.text import Text
+from typing import TYPE_CHECKING, Any, TextIO
 
 from structured_text.visible import visible
+
+if TYPE_CHECKING:  # what prints no table does not load rich
+    from rich.console import Console, ConsoleOptions, RenderableType
+    from rich.segment import Segment
 
 NARROWEST = 60
 """Columns below which tables would lose text; a narrower terminal breaks the lines itself."""
@@ -62,28 +62,30 @@ def give_up_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-class _Console(Console):
-    """A console that makes texts visible before it colours them and computes their width."""
-
-    def render_str(self, text: str, **options: Any) -> Text:
-        """A text, or one in a cell of a table."""
-        return super().render_str(visible(text), **options)
-
-    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
-        """Anything; a text that has its colours already comes here only."""
-        if isinstance(renderable, Text):
-            renderable = renderable.copy()
-            renderable.plain = visible(renderable.plain)
-        return super().render(renderable, options)
-
-
-def terminal() -> Console:
+def terminal() -> "Console":
     """Standard output as rich has it; `is_terminal` says whether it is one."""
+    from rich.console import Console
+    from rich.text import Text
+
+    class Visible(Console):
+        """A console that makes texts visible before it colours them and computes their width."""
+
+        def render_str(self, text: str, **options: Any) -> Text:
+            """A text, or one in a cell of a table."""
+            return super().render_str(visible(text), **options)
+
+        def render(self, renderable: "RenderableType", options: "ConsoleOptions | None" = None) -> "Iterable[Segment]":
+            """Anything; a text that has its colours already comes here only."""
+            if isinstance(renderable, Text):
+                renderable = renderable.copy()
+                renderable.plain = visible(renderable.plain)
+            return super().render(renderable, options)
+
     beneath = sys.stdout.stream if isinstance(sys.stdout, Shown) else sys.stdout
-    return _Console(file=beneath, markup=False, emoji=False, highlight=False)
+    return Visible(file=beneath, markup=False, emoji=False, highlight=False)
 
 
-def write(*pieces: RenderableType) -> None:
+def write(*pieces: "RenderableType") -> None:
     """Print text and tables as wide as the terminal or COLUMNS, or 80 columns where neither is known.
 
     Text is printed as it is: no markup, no emoji names, no colouring by guess. What does not go to a terminal has no

@@ -3,8 +3,8 @@
 import re
 from collections import deque
 from collections.abc import Mapping, Sequence
+from html import escape
 from typing import Protocol
-from xml.sax.saxutils import escape
 
 from structured_text.engines.engine import Value
 
@@ -80,7 +80,7 @@ class Timing:
             'font-size="13" fill="#222">',
             _MARK,
             f'<rect width="{width}" height="{height}" fill="#fff"/>',
-            f'<text x="10" y="20">{escape(self._port)}</text>',
+            f'<text x="10" y="20">{escape(self._port, quote=False)}</text>',
             *self._grid(height),
         ]
         for place, (name, changes) in enumerate(self._changes.items()):
@@ -112,7 +112,7 @@ class Timing:
             last = y
         most = "" if high in (0.0, 1.0) else f"{high:g}"
         return [
-            f'<text x="10" y="{top + 26}">{escape(name)}</text>',
+            f'<text x="10" y="{top + 26}">{escape(name, quote=False)}</text>',
             f'<text x="{self._left - 6}" y="{top + 16}" text-anchor="end">{most}</text>',
             f'<polyline fill="none" stroke="#05c" stroke-width="1.5" points="{" ".join(points)}"/>',
         ]

@@ -1,7 +1,8 @@
 """Pictures as SVG that read on light and on dark pages; the same content gives the same text."""
 
 from dataclasses import dataclass, field
-from xml.sax.saxutils import escape
+
+from driveblocks.export.element import escaped
 
 STYLE = """text { font: 13px system-ui, sans-serif; fill: #24292f }
 .head { font-weight: 600 }
@@ -51,7 +52,7 @@ class Canvas:
     def text(self, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> None:
         """A line of text; x is its start, middle or end."""
         attributes = (f' class="{kind}"' if kind else "") + (f' text-anchor="{anchor}"' if anchor != "start" else "")
-        self.body.append(f'<text x="{x:g}" y="{y:g}"{attributes}>{escape(words)}</text>')
+        self.body.append(f'<text x="{x:g}" y="{y:g}"{attributes}>{escaped(words)}</text>')
 
     def box(self, x: float, y: float, width: float, height: float, kind: str = "box") -> None:
         """A rectangle."""
@@ -80,5 +81,5 @@ class Canvas:
         """The text of the file."""
         size = f'width="{self.width}" height="{self.height}" viewBox="0 0 {self.width} {self.height}"'
         page = f'<rect class="page" x="0.5" y="0.5" width="{self.width - 1}" height="{self.height - 1}" rx="6"/>'
-        head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escape(self.title)}</title>"]
+        head = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img">', f"<title>{escaped(self.title)}</title>"]
         return "\n".join([*head, f"<style>{STYLE}</style>", page, *self.body, "</svg>"]) + "\n"

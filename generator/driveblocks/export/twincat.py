@@ -10,9 +10,9 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from uuid import UUID, uuid5
-from xml.sax.saxutils import escape, quoteattr
 
 from driveblocks import __version__
+from driveblocks.export.element import escaped
 from driveblocks.export.part import WHOLE, Library, Part, Shelf
 from driveblocks.export.problem import ExportError
 from driveblocks.export.wide import wide
@@ -158,7 +158,7 @@ def _project(name: str, items: list[Item], linked: Sequence[Item] = ()) -> str:
         *(_linked(item) for item in linked),
         "  </ItemGroup>",
         "  <ItemGroup>",
-        *(f"    <Folder Include={quoteattr(folder)} />" for folder in folders),
+        *(f'    <Folder Include="{escaped(folder)}" />' for folder in folders),
         "  </ItemGroup>",
         "  <ItemGroup>",
         *(_reference(name) for name in LIBRARIES),
@@ -170,15 +170,15 @@ def _project(name: str, items: list[Item], linked: Sequence[Item] = ()) -> str:
 
 def _compiled(item: Item) -> str:
     path = item.path.replace("/", "\\")
-    return f"    <Compile Include={quoteattr(path)}>\n      <SubType>Code</SubType>\n    </Compile>"
+    return f'    <Compile Include="{escaped(path)}">\n      <SubType>Code</SubType>\n    </Compile>'
 
 
 def _linked(item: Item) -> str:
     """A file of the library, which stays where it is."""
     path = item.path.replace("/", "\\")
-    where = quoteattr(f"..\\{LIBRARY}\\{path}")
-    inner = f"      <SubType>Code</SubType>\n      <Link>{escape(path)}</Link>\n"
-    return f"    <Compile Include={where}>\n{inner}    </Compile>"
+    where = escaped(f"..\\{LIBRARY}\\{path}")
+    inner = f"      <SubType>Code</SubType>\n      <Link>{escaped(path)}</Link>\n"
+    return f'    <Compile Include="{where}">\n{inner}    </Compile>'
 
 
 def _reference(name: str) -> str:

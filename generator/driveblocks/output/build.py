@@ -15,7 +15,6 @@ from driveblocks.output import manifest, transaction
 from driveblocks.output.manifest import Manifest, Refused, State
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
-from driveblocks.testing.suite import programs
 
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
@@ -47,6 +46,8 @@ def files(
     units = [part.unit for part in stock.parts]
     texts = documents(made, [*drives.values()], own, targets=targets, units=units)
     if CANONICAL in targets:
+        from driveblocks.testing.suite import programs
+
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
         texts |= {file.path: file.text for file in library.adapter("linux", languages)}
