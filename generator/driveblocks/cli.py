@@ -1,5 +1,6 @@
 """The `driveblocks` command: every sub-command is the `run` of one module of `driveblocks.commands`."""
 
+import gc
 import importlib
 import pkgutil
 import sys
@@ -24,6 +25,7 @@ for _module in pkgutil.iter_modules(commands.__path__):
 
 def main() -> None:
     """Run the command line; the exit status is 0 for good, 1 for a failed test, 2 for bad input, 130 for Ctrl-C."""
+    gc.set_threshold(20_000)  # maps, trees and texts live to the end: looking for rings among them takes a tenth
     console.use_safe_utf8()
     try:
         sys.exit(app.main(standalone_mode=False))
