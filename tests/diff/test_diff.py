@@ -114,6 +114,26 @@ def test_what_only_a_person_reads_is_no_change_of_what_a_drive_does() -> None:
         assert (change.kind, change.where) == (kind, f"operation, command {command['does']}")
 
 
+def test_an_address_has_its_table_and_a_span_its_form() -> None:
+    drive = view.of_drive(load(catalog.resolve("mx2")), "omron_mx2")
+    other = copy.deepcopy(drive)
+    other["operation"]["commands"][2]["register"] = 2
+    del other["operation"]["status"][0]["any"][0]["space"]
+    other["fault_report"]["registers"][0]["last"] = 0x0013
+    reserved = next(each for each in other["registers"] if each["address"] == 0x0011)
+    reserved["access"] = "rw"
+    drive["registers"][0]["name"] = other["registers"][0]["name"] = ""
+    other["registers"][0]["access"] = "r"
+    assert [str(each) for each in facts.compared(drive, other)] == [
+        "coil 0000H: access rw, now r",
+        "coil Reserved coil: access r, now rw",
+        "fault_report: registers 0011H, now 0011H-0013H",
+        "operation, command stop: register coil 0000H, now coil 0002H",
+        "operation, status running, any coil 000EH: is gone",
+        "operation, status running, any 000EH: is new",
+    ]
+
+
 def diff(*arguments: str) -> Result:
     return CliRunner().invoke(app, ["diff", *arguments])
 

@@ -10,9 +10,13 @@ from click.testing import CliRunner
 from tests.maps.test_base import BASE
 
 from driveblocks.cli import app
-from driveblocks.maps.load import loads
+from driveblocks.maps import catalog
+from driveblocks.maps.form import Span
+from driveblocks.maps.load import load, loads
 from driveblocks.maps.model import Drive
+from driveblocks.maps.numbering import named
 from driveblocks.maps.problem import MapError
+from driveblocks.plc.drives import Named
 
 RULES: dict[str, tuple[str, Callable[[int], str]]] = {
     "1": ("first: 1, proof: request", lambda address: str(address + 1)),
@@ -78,3 +82,19 @@ def test_a_register_is_shown_with_its_number(tmp_path: Path) -> None:
     file.write_text(numbered("4xxxx"), encoding="utf-8")
     shown = CliRunner().invoke(app, ["show", file.as_posix(), "1001H"])
     assert re.search(r"^ *number +44098$", shown.stdout, re.MULTILINE)
+
+
+@pytest.mark.parametrize(("name", "told"), [("4xxxx", "44097-44098"), ("hexadecimal", "1001H-1002H")])
+def test_registers_are_named_as_the_map_writes_their_numbers(name: str, told: str) -> None:
+    assert named(loads(numbered(name), "map"), Span(0x1000, 0x1001)) == told
+    assert named(loads(BASE, "map"), Span(0x1000, 0x1001)) == "1000H-1001H"
+
+
+def test_the_simulator_says_numbers_where_the_manual_has_them() -> None:
+    shown = CliRunner().invoke(app, ["show", "mx2", "coil 0001H"]).stdout
+    assert re.search(r"^ *address +coil 0001H = 1$", shown, re.MULTILINE)
+    assert re.search(r"^ *number +coil 0002H$", shown, re.MULTILINE)
+    path = catalog.resolve("mx2")
+    told = " ".join(line.strip() for line in Named(path, load(path), 1).told())
+    assert "reads 0 until written (the manual's numbers): 0002H-0006H, 0011H," in told
+    assert ", coil 0002H-0003H, " in told

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from driveblocks.diff.change import Change, Kind
-from driveblocks.maps.form import address_text
+from driveblocks.maps.form import SPACES, Span, address_text, bits_text, span_text
 
 KNOWN_BY = ("id", "does", "code", "value", "bit", "name", "what", "where", "address", "register", "measure", "shows")
 """By what an entry of a list is found again, the surest first."""
@@ -22,14 +22,32 @@ WORDS = {
 """Keys that a person reads, or that are seen in the names of blocks and pins."""
 OWN = {"drive", "revision", "format", "prefix"}
 """What every version has of its own, or what is compared with its blocks."""
-ADDRESSES = {"address", "register", "first", "last"}
+ADDRESSES = {"address", "register", "stored", "ram", "base", "read"}
+BITS = {"bit", "set", "clear", "present_bits"}
+"""Keys of spans that are no addresses."""
 
 
 def compared(old: dict[str, Any], new: dict[str, Any]) -> Iterator[Change]:
     """What differs between two maps as `maps.view` shows them."""
     for key in dict.fromkeys((*old, *new)):
         if key not in OWN:
-            yield from _value((key,), old.get(key), new.get(key))
+            yield from _value((key,), *(_readable(each.get(key)) for each in (old, new)))
+
+
+def _readable(value: Any, key: str = "") -> Any:
+    """The same with addresses and spans as a map writes them, each address with its table."""
+    if isinstance(value, list):
+        return [_readable(each, key) for each in value]
+    if not isinstance(value, dict):
+        return value
+    ends = [value[end] for end in ("first", "last") if isinstance(value.get(end), int)]
+    if len(ends) == len(value) == 2:
+        return bits_text(Span(*ends)) if key in BITS else span_text(Span(*ends))
+    places = [each for each in (*ADDRESSES, *(("first", "last") if len(ends) == 2 else ())) if each in value]
+    space = str(value["space"]) if places and value.get("space") in SPACES else "holding"
+    rest = {name: _readable(one, name) for name, one in value.items() if space == "holding" or name != "space"}
+    told = {each: address_text(SPACES[space] + value[each]) for each in places if isinstance(value[each], int)}
+    return rest | told
 
 
 def _value(path: tuple[str, ...], old: Any, new: Any) -> Iterator[Change]:
@@ -75,10 +93,11 @@ def _name(entry: dict[str, Any], key: str) -> str | None:
 
 
 def _named(list_: str, entry: dict[str, Any]) -> str:
-    """An entry of a list as a person calls it: by its id or number, and by its name."""
-    word = SINGULAR.get(list_, list_)
+    """An entry of a list as a person calls it: by its id or number, and by its name; a coil is called one."""
+    table, _, number = str(entry.get("address", "")).rpartition(" ")
+    word = table or SINGULAR.get(list_, list_)
     known = next((key for key in KNOWN_BY if _name(entry, key) is not None), "")
-    found = [_shown(known, entry[known])] if known else []
+    found = [number if known == "address" else _shown(known, entry[known])] if known else []
     if known != "name" and entry.get("name"):
         found.append(str(entry["name"]))
     return " ".join([word, *found])
@@ -99,8 +118,6 @@ def _change(path: tuple[str, ...], old: Any, new: Any) -> Change:
 def _shown(key: str, value: Any) -> str:
     if value is None:
         return "not said"
-    if key in ADDRESSES and isinstance(value, int):
-        return address_text(value)
     if isinstance(value, dict):
         return ", ".join(f"{name} {_shown(name, one)}" for name, one in value.items())
     if isinstance(value, list):

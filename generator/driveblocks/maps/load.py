@@ -33,11 +33,12 @@ def loads(text: str, name: str) -> Drive:
 
 def _loaded(text: str, report: Report, path: Path | None = None) -> Drive:
     before = len(report.problems)
-    root = numbering.wired(numbering.spaced(_based(nodes.parse(text, report), report, path)), report)
+    written = numbering.spaced(_based(nodes.parse(text, report), report, path))
+    root = numbering.wired(written, report)
     drive: Drive | None = decode(Drive, root, report) if root is not None else None
     report.partial = len(report.problems) > before
     if drive is not None:
-        drive = pair.apart(drive)
+        drive = numbering.noted(pair.apart(drive), written)
         check.check(drive, report)
     report.raise_if_any()
     assert drive is not None  # noqa: S101  (a map that was not built has left a problem)

@@ -1260,6 +1260,8 @@ class Numbering(Entry):
     )
     source: English = fact("where the manual says so", "section 5")
     document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    hexadecimal: bool = field(default=False, compare=False, repr=False)
+    """Whether the rows of the map write numbers so; the loader sees it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -2,8 +2,10 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 
 from driveblocks.maps import form
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive
 from driveblocks.maps.nodes import Entries, Items, Node, Scalar
 from driveblocks.maps.problem import Place, Report
@@ -39,6 +41,28 @@ def wired(root: Node | None, report: Report) -> Node | None:
         return form.address_text(number - least)
 
     return _wired(EntryOf(Drive), root, address)
+
+
+def named(drive: Drive, span: Span) -> str:
+    """A span of addresses as the manual names it: by its numbers where it numbers registers, written as in the map."""
+    one = drive.numbering
+    if one is None:
+        return form.span_text(span)
+    numbers = dict.fromkeys(form.wire(each) + one.first for each in (span.first, span.last))
+    written = "-".join(f"{each:04X}H" if one.hexadecimal else str(each) for each in numbers)
+    return f"{form.address_text(span.first).rpartition(' ')[0]} {written}".lstrip()
+
+
+def noted(drive: Drive, root: Node | None) -> Drive:
+    """The same map, which knows whether this file of it, before `wired`, writes numbers in hexadecimal."""
+    if drive.numbering is None or not isinstance(root, Entries):
+        return drive
+    node: Node = root
+    for key in ("sections", "registers", "address"):
+        node = node.entries[key][1] if isinstance(node, Entries) and key in node.entries else node
+        node = node.items[0] if isinstance(node, Items) and node.items else node
+    written = isinstance(node, Scalar) and node.text.endswith("H")
+    return replace(drive, numbering=replace(drive.numbering, hexadecimal=written))
 
 
 def _wired(shape: Shape, node: Node, address: Addressed) -> Node:

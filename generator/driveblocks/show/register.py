@@ -7,8 +7,9 @@ from rich.padding import Padding
 
 from driveblocks.maps import view
 from driveblocks.maps.conduct import condition
-from driveblocks.maps.form import address_text, bits_text, span_text
+from driveblocks.maps.form import Span, address_text, bits_text, span_text, wire
 from driveblocks.maps.model import Area, Command, Drive, Register, Section, Step, Value
+from driveblocks.maps.numbering import named
 from driveblocks.show.errata import corroborated
 from driveblocks.show.faults import recorded
 from driveblocks.show.layout import OWN, both, card, code_text, listed, listing
@@ -26,8 +27,8 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("name", "(not used)" if row.unused else both(row.name, row.own)),
         ("printed", _printed(row)),
         ("one of", run),
-        ("address", f"{address_text(address)} = {address}"),
-        ("number", str(address + drive.numbering.first) if drive.numbering else None),
+        ("address", f"{address_text(address)} = {wire(address)}"),
+        ("number", named(drive, Span(address, address)) if drive.numbering else None),
         ("use", None if row.unused else _ACCESS[row.access or section.access]),
         ("unit", _unit(row)),
         ("scale", _scale(row)),

@@ -5,8 +5,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 
-from driveblocks.maps.form import Span, address_text
+from driveblocks.maps.form import Span
 from driveblocks.maps.model import Drive, Register
+from driveblocks.maps.numbering import named
 from driveblocks.simulator.habits import Habits
 
 _NAMES = {
@@ -76,7 +77,7 @@ def _factor(row: Register | None, otherwise: Decimal) -> Decimal:
 
 
 def zeros(drive: Drive, known: Iterable[int]) -> str:
-    """The registers of a map that read 0 until somebody writes them, as spans; empty for none."""
+    """The registers of a map that read 0 until somebody writes them, as the manual names them; empty for none."""
     told = {command.register for command in drive.operation.commands} | {drive.operation.reference.register}
     taken, spans = {*known, *told}, list[Span]()
     for section, row in sorted(drive.registers(), key=lambda each: each[1].address.first):
@@ -87,9 +88,4 @@ def zeros(drive: Drive, known: Iterable[int]) -> str:
                 spans[-1] = Span(spans[-1].first, address)
             else:
                 spans.append(Span(address, address))
-    return ", ".join(_written(span) for span in spans)
-
-
-def _written(span: Span) -> str:
-    first = address_text(span.first)
-    return first if span.first == span.last else f"{first}-{address_text(span.last)}"
+    return ", ".join(named(drive, span) for span in spans)
