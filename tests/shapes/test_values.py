@@ -7,17 +7,21 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from tests.shapes import values
 
+from driveblocks.cli import app
+from driveblocks.desk.bus import Bus
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import USES, Drive
 from driveblocks.output.units import units
 from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
 from driveblocks.render.library import MASTERS, programs
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.stand.stand import view
 from driveblocks.testing import runner
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -171,3 +175,72 @@ def test_the_command_block_alone_cannot_reverse_by_a_sign() -> None:
 def test_a_full_scale_that_no_parameter_holds_needs_no_pin() -> None:
     assert SpeedReference(drives()["fraction"]).encode(25.0, 50.0).result == "NO_FULL_SCALE"
     assert SpeedReference(drives()["given"]).encode(25.0, 50.0).result == "OK"
+
+
+def test_what_is_read_at_an_address_is_not_what_was_written_there() -> None:
+    known = drives()["one_place"]
+    rows = [known.register_at(0x1000, use) for use in USES]
+    assert [row.name for row in rows if row] == ["Drive status", "Run command"]
+    drive = SimulatedDrive(known, 1)
+    drive.reply(bytes.fromhex("01 06 10 01 13 88"))
+    drive.reply(bytes.fromhex("01 06 10 00 00 02"))
+    drive.step(10_000)
+    assert drive.hertz == -50.0
+    # status: running, and no bit of the command; no fault, and not the reference
+    assert drive.reply(bytes.fromhex("01 03 10 00 00 02")) == bytes.fromhex("01 03 04 00 01 00 00")
+
+
+@pytest.mark.parametrize(
+    ("frame", "request_", "told"),
+    [
+        ("01 06 10 00 00 01 4C CA", "", "1000H Run command"),
+        ("01 03 10 00 00 01 80 CA", "", "1000H Drive status"),
+        ("01 03 02 00 01 79 84", "01 03 10 00 00 01 80 CA", "Drive status"),
+        ("01 06 10 01 00 01 1D 0A", "", "1001H Speed reference"),
+    ],
+)
+def test_a_register_is_called_by_what_a_frame_does_with_it(
+    frame: str, request_: str, told: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "one_place.yaml"
+    file.write_text(values()["one_place"], encoding="utf-8")
+    asked = ["--request", request_] if request_ else []
+    shown = CliRunner().invoke(app, ["explain", frame, "--drive", str(file), *asked])
+    assert shown.exit_code == 0, shown.stdout
+    assert told in shown.stdout
+    pages = CliRunner().invoke(app, ["show", str(file), "1000H"]).stdout
+    written = pages.index("Run command\n  address")
+    read = pages.index("Drive status\n  address")
+    assert read < pages.index("running: 1000H bit 0") < written < pages.index("run forward: write 1")
+
+
+def test_a_warning_has_its_code_and_its_text(tmp_path: Path) -> None:
+    drive = SimulatedDrive(drives()["warned"], 1)
+    asked, quiet = bytes.fromhex("01 03 20 02 00 01"), bytes.fromhex("01 03 02 00 00")
+    assert drive.reply(asked) == quiet
+    drive.warning = True
+    assert drive.reply(asked) == bytes.fromhex("01 03 02 01 00")
+    drive.trip(1)
+    assert drive.reply(asked) == bytes.fromhex("01 03 02 01 01")
+    drive.warning = False
+    assert drive.reply(asked) == bytes.fromhex("01 03 02 00 01")
+    file = tmp_path / "warned.yaml"
+    file.write_text(values()["warned"], encoding="utf-8")
+
+    def said(*words: str) -> str:
+        return CliRunner().invoke(app, [words[0], *words[1:]]).stdout
+
+    told = said("explain", "01 03 02 14 00 B7 44", "--drive", str(file), "--request", "01 03 20 02 00 01 2E 0A")
+    assert re.search(r"^ fault .*no fault", told, re.MULTILINE)
+    assert re.search(r"^ warning .*Motor overheating$", told, re.MULTILINE)
+    assert "WAR  warning 01H (1)  CE1" in said("show", str(file), "CE1")
+    assert "Warning codes: 2" in said("show", str(file), "faults")
+    assert re.search(r"^warning code +2002H bits 8-F", said("show", str(file)), re.MULTILINE)
+
+
+def test_a_warning_is_seen_in_a_simulation() -> None:
+    known = drives()["warned"]
+    bus = Bus([SimulatedDrive(known, 1)], 9600, 10, ascii_mode=False)
+    bus.drives[0].warning = True
+    (seen,) = view(bus, {1: known}, 0, counted=False).drives
+    assert seen.state == "standstill, warning CE1"

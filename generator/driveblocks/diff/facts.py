@@ -9,7 +9,8 @@ from driveblocks.maps.form import SPACES, Span, address_text, bits_text, span_te
 KNOWN_BY = ("id", "does", "code", "value", "bit", "name", "what", "where", "address", "register", "measure", "shows")
 """By what an entry of a list is found again, the surest first."""
 SINGULAR = {
-    "registers": "register", "faults": "fault", "errors": "error", "commands": "command", "settings": "setting",
+    "registers": "register", "faults": "fault", "warnings": "warning",
+    "errors": "error", "commands": "command", "settings": "setting",
     "frames": "frame", "errata": "erratum", "documents": "document", "notices": "notice", "sections": "section",
     "areas": "area", "functions": "function", "bits": "bit", "enum": "value", "values": "value",
     "tolerances": "tolerance", "status": "status", "measures": "measure",

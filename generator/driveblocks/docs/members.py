@@ -108,6 +108,8 @@ def _diagnosis(drive: Drive) -> Iterator[tuple[str, str]]:
     for name, shows in _AT_FAULT.items():
         if shows not in found:
             yield name, "always 0: the drive does not show it"
+    coded = f"see `{drive.prefix}_WarningText`" if drive.warnings else "always 0: the map has no warning codes"
+    yield "WarningCode", coded
     if not any(one.shows == "limit" for one in drive.operation.status):
         yield "LimitActive", "always FALSE: the drive does not show it"
     commands = {one.does for one in drive.operation.commands}

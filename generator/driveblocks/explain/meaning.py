@@ -47,7 +47,7 @@ def held(drive: Drive | None, address: int | None, word: int | None, *, writing:
     """What a drive's map says of an address and a word."""
     if drive is None or address is None:
         return Held(address, word, word)
-    row = drive.register_at(address)
+    row = drive.register_at(address, "w" if writing else "r")
     if row is not None:
         return _row(drive, row, address, word, writing)
     area = _area(drive, address)
@@ -99,7 +99,12 @@ def _row(drive: Drive, row: Register, address: int, word: int | None, writing: b
     if row.words:
         return replace(known, note="one of two words of a value of 32 bits")
     value = number(word, row.signed) * row.scale.factor if row.scale else None
-    lines = (*_lines(row, word), *_faults(drive, address, word), *(_commands(drive, address, word) if writing else ()))
+    lines = (
+        *_lines(row, word),
+        *_faults(drive, row, address, word),
+        *_warning(drive, row, word),
+        *(_commands(drive, address, word) if writing else ()),
+    )
     note = "; ".join(_notes(drive, row, word, writing))
     return replace(known, value=value, unit=row.unit, note=note, lines=lines)
 
@@ -139,9 +144,9 @@ def _listed(values: tuple[Value, ...], found: int) -> Value | None:
     return next((value for value in values if value.value == found), None)
 
 
-def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
-    row = drive.register_at(address)
-    if not any(address in span for span in drive.faults.registers) or (row and row.values):
+def _faults(drive: Drive, row: Register, address: int, word: int) -> Iterator[Line]:
+    told = any(address in span for span in drive.faults.registers) and row is drive.register_at(address)
+    if not told or row.values:
         return
     word = drive.faults.code_in(address, word)
     fault = next((one for one in drive.faults.codes if one.code == word), None)
@@ -152,6 +157,17 @@ def _faults(drive: Drive, address: int, word: int) -> Iterator[Line]:
     else:
         why = f"code {word:02X}H" + (", which the map does not list" if drive.faults.codes else "; the map has no list")
         yield Line("fault", "", why, "", word)
+
+
+def _warning(drive: Drive, row: Register, word: int) -> Iterator[Line]:
+    """The warning whose code a word holds; none where the values of the register name it."""
+    told = drive.warnings
+    if told is None or drive.register_at(told.register) is not row or row.values:
+        return
+    code = told.code_in(word)
+    found = next((one for one in told.codes if one.code == code), None)
+    name = found.name if found else f"code {code:02X}H, which the map does not list" if code else "no warning"
+    yield Line("warning", (found.id if found else "") or "", name, (found.text_zh if found else "") or "", code)
 
 
 def _commands(drive: Drive, address: int, word: int) -> Iterator[Line]:

@@ -11,7 +11,7 @@ from driveblocks.maps.plan import READ_WORDS, start_of
 from driveblocks.maps.view import error_number
 from driveblocks.modbus import layout
 from driveblocks.modbus.layout import Dialect, Direction, Layout, Part
-from driveblocks.modbus.request import Asked
+from driveblocks.modbus.request import WRITES, Asked
 from driveblocks.show.layout import both
 
 _STANDARD = {
@@ -134,7 +134,7 @@ class Reader:
         meaning: dict[str, Callable[[], str]] = {
             "unit": lambda: "broadcast: all drives" if part.number == 0 else f"unit {part.number}",
             "function": lambda: self._function(one, part.number),
-            "address": lambda: self._address(part.number + self._start(one)),
+            "address": lambda: self._address(part.number + self._start(one), writing=one.function in WRITES),
             "quantity": lambda: self._quantity(one, part.number),
             "byte count": lambda: self._byte_count(one, part.number),
             "reason": lambda: self._reason(part.number, standard=self._foreign(one)),
@@ -156,8 +156,8 @@ class Reader:
         carried = f", {_things(one, number // 2)}" if one.words else ""
         return f"{_bytes(number)}{carried}{', counted in two bytes' if one.two_byte_count else ''}"
 
-    def _address(self, number: int) -> str:
-        named = held(self.drive, number, None, writing=False)
+    def _address(self, number: int, *, writing: bool) -> str:
+        named = held(self.drive, number, None, writing=writing)
         known = named.note if not named.known else "  ".join(filter(None, (named.id, both(named.name, named.zh))))
         return f"{address_text(number)} {known}".rstrip()
 
@@ -192,14 +192,14 @@ class Reader:
 
     def _registers(self, one: Layout, asked: Asked | None) -> Iterator[Held]:
         first = self._first(one, asked)
-        writing = one.function in (6, 16)
+        writing = one.function in WRITES
         for place, word in enumerate(one.words):
             address = first + place if first is not None and wire(first) + place <= 0xFFFF else None
             yield held(self.drive, address, word, writing=writing)
         quantity = one.number("quantity") or 0
         if not one.words and first is not None and one.function in (3, 4, 16) and quantity <= READ_WORDS:
             for address in range(first, first + min(quantity, 0x10000 - wire(first))):
-                yield held(self.drive, address, None, writing=False)
+                yield held(self.drive, address, None, writing=writing)
 
     # ------------------------------------------------------------ what is wrong, what to know
 

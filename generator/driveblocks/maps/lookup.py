@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from driveblocks.maps import view
 from driveblocks.maps.form import SPACES, address_text, span_text
 from driveblocks.maps.model import (
+    USES,
     Area,
     Bit,
     Drive,
@@ -88,9 +89,9 @@ def _by_id(drive: Drive, upper: str) -> Iterator[Match]:
 
 
 def _faults_by_id(drive: Drive, upper: str) -> Iterator[Match]:
-    faults = [fault for fault in drive.faults.codes if (fault.id or "").upper() == upper]
+    faults = [fault for fault in (*drive.faults.codes, *drive.warning_codes) if (fault.id or "").upper() == upper]
     for fault in faults:
-        yield _fault(fault)
+        yield _fault(drive, fault)
     if faults:
         return
     for _, row in drive.registers():
@@ -100,8 +101,7 @@ def _faults_by_id(drive: Drive, upper: str) -> Iterator[Match]:
 
 
 def _at_address(drive: Drive, address: int, *, spelled: bool) -> Iterator[Match]:
-    row = drive.register_at(address)
-    if row is not None:
+    for row in filter(None, dict.fromkeys(drive.register_at(address, use) for use in USES)):
         yield _register(row, address, spelled=spelled)
     for area in drive.areas:
         alias = drive.storage.add if drive.storage.area == area.id else None
@@ -110,9 +110,9 @@ def _at_address(drive: Drive, address: int, *, spelled: bool) -> Iterator[Match]
 
 
 def _by_code(drive: Drive, code: int, *, spelled: bool) -> Iterator[Match]:
-    for fault in drive.faults.codes:
+    for fault in (*drive.faults.codes, *drive.warning_codes):
         if fault.code == code:
-            yield _fault(fault, spelled=spelled)
+            yield _fault(drive, fault, spelled=spelled)
     for error in drive.errors.codes:
         if error.code == code:
             yield Match(error, f"{code:02X}H  error code  {error.name}", spelled=spelled)
@@ -127,8 +127,8 @@ def _register(row: Register, address: int, *, spelled: bool = True) -> Match:
     return Match(row, "  ".join(word for word in words if word), address, spelled)
 
 
-def _fault(fault: Fault, *, spelled: bool = True) -> Match:
-    words = (f"{fault.code:02X}H", fault.id, "fault", fault.name)
+def _fault(drive: Drive, fault: Fault, *, spelled: bool = True) -> Match:
+    words = (f"{fault.code:02X}H", fault.id, drive.kind_of(fault), fault.name)
     return Match(fault, "  ".join(word for word in words if word), spelled=spelled)
 
 
@@ -145,8 +145,9 @@ def _everything(drive: Drive) -> Iterator[tuple[str, str]]:
     for _, row in drive.registers():
         if not row.unused:
             yield row.id or address_text(row.address.first), _words(row)
-    for fault in drive.faults.codes:
-        shown = "  ".join(filter(None, (f"{fault.code:02X}H", fault.id, "fault", fault.name, fault.own)))
+    for fault in (*drive.faults.codes, *drive.warning_codes):
+        kind = drive.kind_of(fault)
+        shown = "  ".join(filter(None, (f"{fault.code:02X}H", fault.id, kind, fault.name, fault.own)))
         yield fault.id or f"{fault.code:02X}H", shown
     for frame in drive.frames:
         yield frame.id, f"{frame.id}  example frame"

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property, reduce
+from itertools import pairwise
 from operator import or_
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from driveblocks.maps import form
 from driveblocks.maps.form import Span
@@ -31,6 +32,9 @@ Ref = Annotated[str, form.REFERENCE]
 Symbol = Annotated[str, form.SYMBOL]
 
 Access = Literal["r", "w", "rw"]
+Use = Literal["r", "w"]
+"""What is done with a register: it is read, or written."""
+USES: tuple[Use, ...] = get_args(Use)
 Language = Literal["en", "zh", "cs", "da", "de", "es", "fi", "fr", "it", "ja", "ko", "nl", "pl", "pt", "ru", "sv", "tr"]
 """A language of manuals, by ISO 639-1."""
 Unit = Literal["Hz", "A", "V", "kW", "W", "%", "r/min", "Nm", "s", "ms", "h", "°C", "kHz", "Ohm", "kWh"]
@@ -583,7 +587,12 @@ class Register(Worded, Entry):
         "the wording to show, where `zh` holds a misprint (needs an erratum)", "输出功率", optional=True
     )
     wording: Str | None = fact(_WORDING, "Zwischenkreisspannung", optional=True)
-    access: Access | None = fact("overrides the section's access", "r", optional=True)
+    access: Access | None = fact(
+        "overrides the section's access; where something else is read at an address than is written, it has a row with "
+        "`r` and one with `w`",
+        "r",
+        optional=True,
+    )
     unused: bool = fact("the manual says that the address is not used", "true", optional=True, default=False)
     unit: Unit | None = fact("unit of the engineering value", "Hz", optional=True)
     scale: Scale | None = fact("factor of the engineering value", "{factor: 0.1, source: ...}", optional=True)
@@ -1009,7 +1018,7 @@ class BitRelation(Entry):
 
 @dataclass(frozen=True, kw_only=True)
 class Fault(Returned):
-    """One fault code."""
+    """One fault code, or one warning code."""
 
     code: Number = fact("the number that the drive reports", "1EH")
     id: Str | None = fact("the drive's short display", "OPR", optional=True)
@@ -1062,6 +1071,30 @@ class Faults(Entry):
         """The code in a word of a register that reports faults."""
         bits = self.present_bits if address == self.present else None
         return word if bits is None else word >> bits.first & (1 << len(bits)) - 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class Warnings(Entry):
+    """Warning codes and the register that reports them."""
+
+    source: English = fact("where the table is", "table of warnings")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+    register: Address = fact("the register that holds the code of the present warning, 0 for none", "2100H")
+    bits: Bits | None = fact(
+        "the bits of it which hold the code, where the others hold something else, such as a fault",
+        "8-F",
+        optional=True,
+    )
+    codes: tuple[Fault, ...] = fact("the codes, in the manual's order", "[{code: 01H, id: CE1, name: ..., zh: ...}]")
+
+    @property
+    def span(self) -> Span:
+        """The bits that hold the code."""
+        return Span(0, 15) if self.bits is None else self.bits
+
+    def code_in(self, word: int) -> int:
+        """The code in a word of the register."""
+        return word >> self.span.first & (1 << len(self.span)) - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -1323,6 +1356,9 @@ class Drive(Entry):
         optional=True,
     )
     faults: Faults = fact("fault codes", "{source: ..., registers: [...], codes: [...]}")
+    warnings: Warnings | None = fact(
+        "warning codes, where a register holds one", "{source: ..., register: 2100H, codes: [...]}", optional=True
+    )
     errors: Errors = fact("error replies", "{form: ..., source: ..., codes: [...]}")
     tolerances: tuple[Tolerance, ...] = fact(
         "departures from the standard that replies are allowed",
@@ -1347,32 +1383,65 @@ class Drive(Entry):
         """Of equal maps the same; that of every fact would take as long as what is kept by map."""
         return hash(self.prefix)
 
+    @property
+    def warning_codes(self) -> tuple[Fault, ...]:
+        """The warnings that have codes."""
+        return self.warnings.codes if self.warnings else ()
+
+    @property
+    def warned(self) -> tuple[int, ...]:
+        """The register that holds the code of a warning, where there is one."""
+        return (self.warnings.register,) if self.warnings else ()
+
+    def kind_of(self, code: Fault) -> Literal["fault", "warning"]:
+        """What a code is of."""
+        return "warning" if any(one is code for one in self.warning_codes) else "fault"
+
     def registers(self) -> Iterator[tuple[Section, Register]]:
         """Every row of every section, in the manual's order."""
         for section in self.sections:
             for register in section.registers:
                 yield section, register
 
-    def row_at(self, address: int) -> tuple[Section, Register] | None:
-        """The row that describes an address, with its section, or None."""
-        firsts, rows = self._by_address
+    def row_at(self, address: int, use: Use = "r") -> tuple[Section, Register] | None:
+        """The row that describes an address, with its section, or None; of two that share it, the one for this use."""
+        firsts, rows = self._by_address[use]
         index = bisect_right(firsts, address) - 1
         found = rows[index] if index >= 0 else None
         return found if found is not None and address in found[1].address else None
 
-    def register_at(self, address: int) -> Register | None:
-        """The row that describes an address, or None."""
-        found = self.row_at(address)
+    def register_at(self, address: int, use: Use = "r") -> Register | None:
+        """The row that describes an address, or None; of two that share it, the one for this use."""
+        found = self.row_at(address, use)
         return found[1] if found is not None else None
+
+    def is_read(self, row: Register) -> bool:
+        """Whether what is read at a row's address is what the row says."""
+        return self.register_at(row.address.first) is row
 
     def rows_in(self, span: Span) -> list[Register]:
         """The rows that describe any address of a span, by address."""
-        firsts, rows = self._by_address
+        firsts, rows = self._by_address["r"]
         low = max(bisect_right(firsts, span.first) - 1, 0)
         high = bisect_right(firsts, span.last)
         return [row for _, row in rows[low:high] if row.address.overlaps(span)]
 
     @cached_property
-    def _by_address(self) -> tuple[list[int], list[tuple[Section, Register]]]:
+    def shared(self) -> frozenset[int]:
+        """The addresses at which something else is read than written: each has a row for reads and one for writes."""
+        return frozenset(address for _, row in self._twins["r"] for address in row.address)
+
+    @cached_property
+    def _twins(self) -> dict[Use, list[tuple[Section, Register]]]:
+        """The rows of `shared`, by their use."""
         rows = sorted(self.registers(), key=lambda pair: pair[1].address)
-        return [row.address.first for _, row in rows], rows
+        pairs = [two for two in pairwise(rows) if two[0][1].address == two[1][1].address]
+        by_use = [{row.access or section.access: (section, row) for section, row in two} for two in pairs]
+        return {use: [one[use] for one in by_use if one.keys() == {"r", "w"}] for use in USES}
+
+    @cached_property
+    def _by_address(self) -> dict[Use, tuple[list[int], list[tuple[Section, Register]]]]:
+        rows = sorted(self.registers(), key=lambda pair: pair[1].address)
+        hidden = {use: {id(row) for _, row in self._twins[use]} for use in USES}
+        kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
+        return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}

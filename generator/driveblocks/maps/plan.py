@@ -100,7 +100,7 @@ def write_request(unit: int, drive: Drive, address: int, word: int) -> bytes:
 
 def writes_by(drive: Drive, address: int) -> int:
     """The function that writes a value: 05H a coil, 10H a pair and what the drive does not let 06H write."""
-    row = drive.register_at(address)
+    row = drive.register_at(address, "w")
     if space_of(address) == "coil":
         return 5
     return 16 if (row is not None and row.words) or 6 not in used(drive) else 6

@@ -81,6 +81,7 @@ def slow_words(drive: Drive) -> frozenset[int]:
         words.add(faults.present)
     elif faults.bits is not None:
         words.update(range(faults.bits.first, faults.bits.last + 1))
+    words.update(drive.warned)
     return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
 
 

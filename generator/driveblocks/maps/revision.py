@@ -10,7 +10,7 @@ from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
     "None": "base numbering document trust differs no_address reply_delay group ram_when present_bits needs full_scale "
-    "full_scale_hz",
+    "full_scale_hz warnings",
     "()": "never without one_of visible_when twins",
     "False": "negative",
 }
@@ -34,8 +34,9 @@ def checked(drive: Drive) -> int:
     These are the commands, the reference, status, standstill, and the scales of what is shown.
     """
     plain = english(drive)
-    registers = [plain.operation.reference.register, *(one.register for one in plain.operation.measures)]
-    scales = [row.scale if row else None for row in map(plain.register_at, registers)]
+    rows = [plain.register_at(plain.operation.reference.register, "w")]
+    rows += [plain.register_at(one.register) for one in plain.operation.measures]
+    scales = [row.scale if row else None for row in rows]
     return int(fingerprint([_facts(plain.operation), _facts(scales)]), 16) % 65535 + 1
 
 

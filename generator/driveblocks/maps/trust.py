@@ -16,6 +16,7 @@ from driveblocks.maps.model import (
     State,
     Status,
     Trust,
+    Use,
 )
 from driveblocks.maps.problem import Place
 
@@ -40,12 +41,21 @@ def taken(value: Any) -> Iterator[tuple[str, Place]]:
 def rungs(drive: Drive) -> dict[str, dict[str, Document | None]]:
     """The document of each fact by its name, by group; None for the manual itself."""
     run, faults = drive.operation, drive.faults
-    motions = {str(one.does): _weakest(drive, one, *(write.register for write in one.writes)) for one in run.commands}
-    shown = {str(one.shows): _weakest(drive, one, *(each.register for each in one.any)) for one in run.status}
-    states = {f"state {one.name}": _weakest(drive, one, one.register) for one in run.states}
-    still = _weakest(drive, run.standstill, *(each.register for each in run.standstill.all))
+    motions = {
+        str(one.does): _weakest(drive, one, *_rows(drive, [each.register for each in one.writes], "w"))
+        for one in run.commands
+    }
+    shown = {
+        str(one.shows): _weakest(drive, one, *_rows(drive, [each.register for each in one.any], "r"))
+        for one in run.status
+    }
+    states = {f"state {one.name}": _weakest(drive, one, *_rows(drive, [one.register], "r")) for one in run.states}
+    still = _weakest(drive, run.standstill, *_rows(drive, [each.register for each in run.standstill.all], "r"))
     return {
-        "commands": {**motions, "reference": _weakest(drive, run.reference, run.reference.register)},
+        "commands": {
+            **motions,
+            "reference": _weakest(drive, run.reference, *_rows(drive, [run.reference.register], "w")),
+        },
         "status": {**shown, **states, "standstill": still},
         "faults": {f"{one.code:02X}H": _named(drive, one.document or faults.document) for one in faults.codes},
     }
@@ -96,11 +106,15 @@ def words(how: Trust) -> str:
     return how.replace("_", " ")
 
 
-def _weakest(drive: Drive, one: Moving, *registers: int) -> Document | None:
+def _rows(drive: Drive, registers: list[int], use: Use) -> Iterator[str | None]:
+    """The documents of the rows of some registers, which are read or written."""
+    pairs = (drive.row_at(each, use) for each in registers)
+    yield from (row.document or section.document for section, row in filter(None, pairs))
+
+
+def _weakest(drive: Drive, one: Moving, *rows: str | None) -> Document | None:
     """The document to trust least of those of a fact and of the rows of its registers."""
-    named = [one.document]
-    for pair in map(drive.row_at, registers):
-        named += [pair[1].document or pair[0].document] if pair else []
+    named = [one.document, *rows]
     return max((_named(drive, each) for each in named), key=lambda each: TRUSTS.index(trust(drive, each)))
 
 

@@ -28,6 +28,8 @@ def of_drive(drive: Drive, stem: str) -> Plain:
         "areas": plain(drive.areas),
         "faults": [{"code": fault.code, "id": "", **_entry(fault)} for fault in drive.faults.codes],
         "fault_report": _without(drive.faults, "codes"),
+        "warnings": [{"code": warning.code, "id": "", **_entry(warning)} for warning in drive.warning_codes],
+        "warning_report": _without(drive.warnings, "codes") if drive.warnings else None,
         "errors": [{"code": None, **_entry(error)} for error in drive.errors.codes],
         "error_reply": _without(drive.errors, "codes"),
         "frames": plain(drive.frames),

@@ -6,6 +6,8 @@ from driveblocks.modbus.layout import Layout
 
 READS = frozenset({3, 4})
 """Functions that read registers."""
+WRITES = frozenset({5, 6, 15, 16})
+"""Functions that write registers or coils."""
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,7 @@ class Named:
 def open_scales(drive: Drive) -> dict[str, int]:
     """The scales that a drive's manual does not give, by their names in VFD_Settings, each with its register."""
     operation, found = drive.operation, dict[str, int]()
-    reference = drive.register_at(operation.reference.register)
+    reference = drive.register_at(operation.reference.register, "w")
     if operation.reference.means == "frequency" and not (reference and reference.scale):
         found[REFERENCE] = operation.reference.register
     shown: dict[str, int] = {each.shows: each.register for each in operation.measures}

@@ -43,7 +43,7 @@ def facts(drive: Drive) -> dict[str, str]:
     """The facts of a family by the names under which the rules have them, as ST."""
     commands: dict[str, Command] = {one.does: one for one in drive.operation.commands}
     stop = commands["stop"]
-    row = drive.register_at(drive.operation.reference.register)
+    row = drive.register_at(drive.operation.reference.register, "w")
     found = {
         "P": drive.prefix,
         "lowest": str(drive.serial.unit.min),
@@ -125,7 +125,7 @@ def _written(drive: Drive) -> str:
     codes = _any(f"Slot.Ask[1].FunctionCode = {code}" for code in sorted(_functions(drive)))
     if len(whole(drive, drive.operation.reference.register)) == 1:
         return f"({codes}) AND (Slot.Ask[1].Quantity = 1)"
-    row = drive.register_at(drive.operation.reference.register)
+    row = drive.register_at(drive.operation.reference.register, "w")
     high = 1 if row is not None and row.order == "low_first" else 0
     above, below, is_ = f"Slot.Ask[1].Words[{high}]", f"Slot.Ask[1].Words[{1 - high}]", _is_reference(drive)
     zero = f"({above} = {word(0)})"
@@ -138,7 +138,7 @@ def _written(drive: Drive) -> str:
 
 def _kept(drive: Drive, write: Command | Step) -> int:
     """The bits of a command register that the manual gives a use, that no command touches and that may be sent."""
-    row = drive.register_at(write.register)
+    row = drive.register_at(write.register, "w")
     used = {bit for entry in (row.bits if row else ()) if not entry.unused for bit in entry.bit}
     writes = [each for one in drive.operation.commands for each in one.writes if each.register == write.register]
     touched = {bit for each in writes for span in (*each.set, *each.clear) for bit in span}
@@ -274,7 +274,7 @@ def _valid(drive: Drive, one: Measured) -> str:
 
 def _reference(drive: Drive) -> dict[str, str]:
     """When the errors of a reference are so that depend on what the map knows of its scale."""
-    row = drive.register_at(drive.operation.reference.register)
+    row = drive.register_at(drive.operation.reference.register, "w")
     spec = drive.operation.reference
     scaled = (row is not None and row.scale is not None) or spec.full_scale is not None
     percent = scaled and (

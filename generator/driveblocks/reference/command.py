@@ -165,7 +165,7 @@ def _kept(drive: Drive) -> Iterable[tuple[int, frozenset[int]]]:
     commands = [one for one in drive.operation.commands if one.value is None]
     for register in {one.register for one in commands}:
         touched = {bit for one in commands if one.register == register for bit in _numbers((*one.set, *one.clear))}
-        yield register, frozenset(_in_use(drive.register_at(register)) - touched)
+        yield register, frozenset(_in_use(drive.register_at(register, "w")) - touched)
 
 
 def _in_use(row: Register | None) -> set[int]:

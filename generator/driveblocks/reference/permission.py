@@ -66,7 +66,7 @@ class Write:
 def _of_reference(drive: Drive) -> Iterator[int]:
     """The reference register, or both of a pair."""
     first = drive.operation.reference.register
-    row = drive.register_at(first)
+    row = drive.register_at(first, "w")
     yield from range(first, first + (row.words or 1 if row else 1))
 
 
@@ -84,7 +84,10 @@ class Judge:
             "LINE_SETTING": {setting.register for setting in drive.settings},
         }
         self._writable = writable(drive)
-        self._rows = {address: row for _, row in _rows(drive) for address in row.address}
+        rows = sorted(
+            (row for _, row in _rows(drive)), key=lambda row: drive.register_at(row.address.first, "w") is row
+        )
+        self._rows = {address: row for row in rows for address in row.address}
         self._areas = frozenset(address for area in drive.areas for address in area.addresses)
         self._bit = drive.storage.add or 0
         self._twins: dict[int, int] = {}

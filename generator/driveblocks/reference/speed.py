@@ -51,7 +51,7 @@ class SpeedReference:
     def __init__(self, drive: Drive) -> None:
         """Take from the map what the reference register counts. Raises ValueError if the map does not list it."""
         self.spec = drive.operation.reference
-        row = drive.register_at(self.spec.register)
+        row = drive.register_at(self.spec.register, "w")
         if row is None:
             raise ValueError("the map does not list the reference register")
         self.factor = Fraction(row.scale.factor) if row.scale else None

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from driveblocks.maps.model import Bit, Drive, ErrorCode, Returned, Worded
+from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Returned, Worded
 
 
 class Texts(NamedTuple):
@@ -29,7 +29,16 @@ def of(entry: Returned | Bit) -> Texts:
 
 def fault(drive: Drive, code: int) -> Texts | None:
     """The text of a fault code, after the drive's own name for it."""
-    found = next((one for one in drive.faults.codes if one.code == code), None)
+    return _displayed(drive.faults.codes, code)
+
+
+def warning(drive: Drive, code: int) -> Texts | None:
+    """The text of a warning code, likewise."""
+    return _displayed(drive.warnings.codes if drive.warnings else (), code)
+
+
+def _displayed(codes: Iterable[Fault], code: int) -> Texts | None:
+    found = next((one for one in codes if one.code == code), None)
     if found is None or not found.id:
         return of(found) if found else None
     return Texts(*(f"{found.id} {each}" for each in of(found)))

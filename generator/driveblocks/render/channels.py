@@ -41,8 +41,8 @@ def channels(drive: Drive) -> dict[str, object]:
     """The requests with the words that matter, and the blocks that make and read them."""
     block = drive_block(drive)
     stop = next(one for one in drive.operation.commands if one.does == "stop")
-    decoders = {one.address_text: one.name for one in context.decoders(drive)}
-    scales = {one.address_text: one.name for one in context.scales(drive)}
+    decoders = {one.address_text: one.name for one in context.decoders(drive) if one.read}
+    scales = {one.address_text: one.name for one in context.scales(drive) if one.read}
     pins = {one.pin for one in block.showing.verify}
     needed = {one.name for one in block.reading.proof} | pins
     reads = [

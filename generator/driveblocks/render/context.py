@@ -257,6 +257,8 @@ class Row:
     """Its value has 32 bits."""
     kind: str = ""
     """The type of its number."""
+    read: bool = True
+    """What is read at its address is this, and nothing else."""
 
 
 def decoders(drive: Drive) -> Iterator[Row]:
@@ -284,6 +286,7 @@ def _register(drive: Drive, section: Section, row: Register, suffix: str) -> Row
         own=row.own,
         note=_elsewhere(row.note or ""),
         source=source_of(drive, row.source or section.source),
+        read=drive.is_read(row),
     )
 
 
@@ -421,7 +424,7 @@ def kept(drive: Drive) -> dict[int, int]:
     writes = [write for one in drive.operation.commands for write in one.writes if write.value is None]
     found = {}
     for register in {one.register for one in writes}:
-        row = drive.register_at(register)
+        row = drive.register_at(register, "w")
         used = bits_of(bit.bit for bit in (row.bits if row else ()) if not bit.unused) & ~(row.barred if row else 0)
         mask = used & ~bits_of(span for one in writes if one.register == register for span in (*one.set, *one.clear))
         if mask:
@@ -474,7 +477,7 @@ class Referred:
 def reference(drive: Drive) -> Referred:
     """How a speed becomes a word."""
     spec = drive.operation.reference
-    row = drive.register_at(spec.register)
+    row = drive.register_at(spec.register, "w")
     assert row is not None  # noqa: S101  (a checked map lists its reference register)
     percent = spec.means == "percent_of_maximum" or (spec.full_scale is not None and spec.full_scale_hz is None)
     ratio = (100 if percent else 1) / Fraction(row.scale.factor if row.scale else 1)

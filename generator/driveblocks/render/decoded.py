@@ -26,7 +26,7 @@ class Decoded:
     def __init__(self, drive: Drive) -> None:
         """None is called yet."""
         self._drive = drive
-        self._decoders = {one.address_text: one for one in context.decoders(drive)}
+        self._decoders = {one.address_text: one for one in context.decoders(drive) if one.read}
         self.used: list[Call] = []
 
     def holds(self, one: Condition | State) -> str:

@@ -149,7 +149,7 @@ class Maximum:
 
 @dataclass(frozen=True)
 class Faulty:
-    """Where the code of the present fault comes from: a word, or the bits of several."""
+    """Where the code of the present fault or warning comes from: a word, or the bits of several."""
 
     word: Word | None
     words: list[Word]
@@ -201,11 +201,15 @@ class Reading:
     proof: list[Word]
     proof_reads: list[int]
     fault: Faulty
+    warned: Faulty | None
+    """Where the code of a warning comes from."""
     fault_reads: list[int]
     fast_reads: list[int]
     state_reads: list[int]
     verify_reads: list[int]
     measure_reads: list[int]
+    young_reads: list[int]
+    """Those of what is shown while they are young: measures, and the code of a warning."""
     several: bool
     """Not all are read by one function."""
     identity: Identified | None
@@ -314,11 +318,13 @@ def _reading(drive: Drive) -> Reading:
         proof=[word_input(drive, each) for each in _proof(drive)],
         proof_reads=sorted({number[each] for each in _proof(drive)}),
         fault=_fault(drive),
+        warned=_warned(drive),
         fault_reads=_fault_reads(drive, number),
         fast_reads=[index for index, read in enumerate(reads, 1) if read.fast],
         state_reads=sorted({number[each.register] for each in operation.states}),
         verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
+        young_reads=sorted({number[each] for each in (*(one.register for one in operation.measures), *drive.warned)}),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
@@ -510,6 +516,14 @@ def _fault(drive: Drive) -> Faulty:
         return Faulty(word_input(drive, drive.faults.present), [], mask, times)
     numbers = context.fault_number(drive)
     return Faulty(None, numbers.words if numbers else [])
+
+
+def _warned(drive: Drive) -> Faulty | None:
+    warnings = drive.warnings
+    if warnings is None:
+        return None
+    word, bits = word_input(drive, warnings.register), warnings.bits
+    return Faulty(word, [], context.bits_of([bits]), 1 << bits.first) if bits else Faulty(word, [])
 
 
 def _fault_reads(drive: Drive, number: dict[int, int]) -> list[int]:

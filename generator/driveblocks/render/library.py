@@ -202,6 +202,9 @@ def _texts(drive: Drive, languages: list[Language]) -> Iterator[tuple[str, Mappi
     for language in languages:
         if text.exists(drive, "Fault", language):
             yield "CodeText", vars(text.fault_texts(drive, language))
+        warnings = text.warning_texts(drive, language)
+        if warnings is not None and text.exists(drive, "Warning", language):
+            yield "CodeText", vars(warnings)
         if text.exists(drive, "Error", language):
             yield "CodeText", vars(text.error_texts(drive, language))
         for one in text.place_texts(drive, language):

@@ -104,7 +104,8 @@ def _spans(addresses: Iterable[int]) -> list[Span]:
 
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
     for _, row in drive.registers():
-        if row.range is not None and not row.words and writable.issuperset(row.address):
+        written = drive.register_at(row.address.first, "w") is row
+        if row.range is not None and not row.words and written and writable.issuperset(row.address):
             yield Ranged(row.address, row.signed, row.range.min, row.range.max)
 
 

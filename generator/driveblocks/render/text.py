@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TypedDict
 
 from driveblocks.maps.form import address_text, space_of
-from driveblocks.maps.model import Bit, Drive, Fault, Returned, Worded
+from driveblocks.maps.model import Bit, Drive, Fault, Faults, Returned, Warnings, Worded
 from driveblocks.maps.revision import english
 from driveblocks.maps.view import error_number
 from driveblocks.render import reasons, results
@@ -64,6 +64,7 @@ def _shown(drive: Drive) -> dict[str, Sequence[Worded]]:
     rows = [row for _, row in drive.registers()]
     return {
         "Fault": drive.faults.codes,
+        "Warning": drive.warning_codes,
         "Error": drive.errors.codes,
         "Bit": [bit for row in rows for bit in row.bits],
         "Value": [value for row in rows for value in row.values],
@@ -149,9 +150,19 @@ def led(fault: Fault, text: str) -> str:
 
 def fault_texts(drive: Drive, language: Language) -> CodeText:
     """Fault codes."""
-    rows = [_row(language, fault.code, led(fault, language.pick(fault)), fault.text_zh) for fault in drive.faults.codes]
-    head = _Head(title="fault codes", source=source_of(drive, drive.faults.source), code_comment="fault code")
-    return CodeText(name=f"{drive.prefix}_FaultText{language.suffix}", rows=rows, **head, **_language(language))
+    return _displayed(drive, language, "fault", drive.faults)
+
+
+def warning_texts(drive: Drive, language: Language) -> CodeText | None:
+    """Warning codes; None where the drive reports none."""
+    return _displayed(drive, language, "warning", drive.warnings) if drive.warnings else None
+
+
+def _displayed(drive: Drive, language: Language, kind: str, told: Faults | Warnings) -> CodeText:
+    rows = [_row(language, one.code, led(one, language.pick(one)), one.text_zh) for one in told.codes]
+    head = _Head(title=f"{kind} codes", source=source_of(drive, told.source), code_comment=f"{kind} code")
+    name = f"{drive.prefix}_{kind.capitalize()}Text{language.suffix}"
+    return CodeText(name=name, rows=rows, **head, **_language(language))
 
 
 def error_texts(drive: Drive, language: Language) -> CodeText:
@@ -225,7 +236,8 @@ def place_texts(drive: Drive, language: Language) -> Iterator[PlaceText]:
 
 
 def _addresses(drive: Drive) -> list[int]:
-    return [row.address.first for _, row in drive.registers() if space_of(row.address.first) == "holding"]
+    firsts = (row.address.first for _, row in drive.registers() if space_of(row.address.first) == "holding")
+    return [*dict.fromkeys(firsts)]
 
 
 def _group(drive: Drive, address: int, kind: str, language: Language) -> Group:

@@ -34,7 +34,7 @@ def page(drive: Drive, match: Match) -> Iterator[RenderableType]:
     """The page of one entry."""
     entry = match.entry
     if isinstance(entry, Register | Bit):
-        yield from _register(drive, match.address)
+        yield from _register(drive, match)
     elif isinstance(entry, Area):
         yield from register.area_page(drive, entry, match.address)
     elif isinstance(entry, Section):
@@ -45,10 +45,11 @@ def page(drive: Drive, match: Match) -> Iterator[RenderableType]:
         yield from _other(drive, entry)
 
 
-def _register(drive: Drive, address: int) -> Iterator[RenderableType]:
+def _register(drive: Drive, match: Match) -> Iterator[RenderableType]:
+    """The row that was found, or the row of a bit."""
     for section, row in drive.registers():
-        if address in row.address:
-            yield from register.page(drive, section, row, address)
+        if row is match.entry or (match.address in row.address and match.entry in row.bits):
+            yield from register.page(drive, section, row, match.address)
 
 
 def _other(drive: Drive, entry: ErrorCode | Function | Setting | Frame) -> Iterator[RenderableType]:

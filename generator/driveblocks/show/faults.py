@@ -6,7 +6,7 @@ from rich.console import RenderableType
 
 from driveblocks.maps import references
 from driveblocks.maps.form import address_text, bits_text, span_text
-from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register
+from driveblocks.maps.model import Bit, Drive, ErrorCode, Fault, Register, Warnings
 from driveblocks.show.errata import corroborated, of_absence, of_erratum, of_notice
 from driveblocks.show.layout import OWN, both, card, code_text, facts, heading, listed, listing
 
@@ -22,24 +22,42 @@ def faults(drive: Drive) -> Iterator[RenderableType]:
     yield facts(
         ("reported in", listed(map(span_text, known.registers))), ("fault bits", relation), ("source", known.source)
     )
-    rows = ((code_text(one.code), one.id or "", one.name, one.own, one.note or "") for one in known.codes)
-    yield listing(("code", "display", "name", OWN, "note"), rows, ("name", OWN, "note"))
+    yield _codes(known.codes)
+    if drive.warnings is not None:
+        yield heading(f"Warning codes: {len(drive.warnings.codes)}")
+        yield facts(("reported in", reported(drive.warnings)), ("source", drive.warnings.source))
+        yield _codes(drive.warnings.codes)
+
+
+def _codes(codes: tuple[Fault, ...]) -> RenderableType:
+    rows = ((code_text(one.code), one.id or "", one.name, one.own, one.note or "") for one in codes)
+    return listing(("code", "display", "name", OWN, "note"), rows, ("name", OWN, "note"))
+
+
+def reported(warnings: Warnings) -> str:
+    """The register, or the bits of it, in which a warning has its code."""
+    return address_text(warnings.register) + (f" bits {bits_text(warnings.bits)}" if warnings.bits else "")
 
 
 def of_fault(drive: Drive, fault: Fault) -> Iterator[RenderableType]:
-    """One fault code with its bits, the registers that report it, and what is recorded about it."""
+    """One fault or warning code with its bits, the registers that report it, and what is recorded about it."""
+    kind = drive.kind_of(fault)
+    if kind == "warning" and drive.warnings is not None:
+        where, source = reported(drive.warnings), drive.warnings.source
+    else:
+        where, source = listed(map(span_text, drive.faults.registers)), drive.faults.source
     bits = [f"{place}  {both(bit.name, bit.own)}" for place, bit in bits_of(drive, fault.id)]
     printed = fault.zh if fault.zh_used else None
     yield card(
-        f"{drive.prefix}  fault {code_text(fault.code)} ({fault.code})  {fault.id or ''}".rstrip(),
+        f"{drive.prefix}  {kind} {code_text(fault.code)} ({fault.code})  {fault.id or ''}".rstrip(),
         ("name", both(fault.name, fault.own)),
         ("printed", listed(text for text in (fault.printed_code, printed) if text)),
         ("bits", "\n".join(bits)),
-        ("reported in", listed(map(span_text, drive.faults.registers))),
+        ("reported in", where),
         ("note", fault.note),
-        ("source", drive.faults.source),
+        ("source", source),
     )
-    yield from recorded(drive, "fault", fault.code)
+    yield from recorded(drive, kind, fault.code)
 
 
 def bits_of(drive: Drive, id_: str | None) -> list[tuple[str, Bit]]:

@@ -22,6 +22,7 @@ from driveblocks.maps.model import (
 )
 from driveblocks.maps.revision import revision
 from driveblocks.maps.trust import counted, heard, second_hand, words
+from driveblocks.show.faults import reported
 from driveblocks.show.layout import both, facts, heading, listed, table
 from driveblocks.show.line import line, settings
 from driveblocks.show.register import value_text
@@ -123,6 +124,8 @@ def _shown(drive: Drive) -> Iterator[RenderableType]:
     for measured in operation.measures:
         made.add_row(_plain(measured.shows), f"{address_text(measured.register)}  ({measured.source})")
     made.add_row("fault code", _fault_code(drive))
+    if drive.warnings is not None:
+        made.add_row("warning code", f"{reported(drive.warnings)}  ({drive.warnings.source})")
     for state in operation.states:
         made.add_row(f"state {state.name}", f"{condition(state)}  ({state.source})")
     yield made

@@ -34,9 +34,9 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("scale", _scale(row)),
         ("signed", "two's complement, -32768 to 32767" if row.signed else None),
         ("range", f"{row.range.min} to {row.range.max} (raw)" if row.range else None),
-        ("commands", "\n".join(_commands(drive, address))),
+        ("commands", "\n".join(_commands(drive, row, address))),
         ("never", "\n".join(f"bits {bits_text(one.bit)} = {one.equals}: {one.why}" for one in row.never)),
-        ("pins", "\n".join(_shows(drive, address))),
+        ("pins", "\n".join(_shows(drive, address)) if drive.is_read(row) else None),
         ("note", row.note),
         ("also says", corroborated(drive, row.corroborated)),
         ("section", both(section.title.en, section.title.own)),
@@ -81,7 +81,9 @@ def _scale(row: Register) -> str | None:
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
 
 
-def _commands(drive: Drive, address: int) -> Iterator[str]:
+def _commands(drive: Drive, row: Register, address: int) -> Iterator[str]:
+    if drive.register_at(row.address.first, "w") is not row:
+        return
     for command in drive.operation.commands:
         does = command.does.replace("_", " ")
         for number, step in enumerate(command.first, 1):
@@ -94,7 +96,7 @@ def _commands(drive: Drive, address: int) -> Iterator[str]:
 
 def value_text(drive: Drive, one: Command | Step) -> str:
     """The word that a command writes, in hexadecimal where its bits have names; nothing where it writes single bits."""
-    row = drive.register_at(one.register)
+    row = drive.register_at(one.register, "w")
     if one.value is None:
         return ""
     return address_text(one.value) if row is not None and row.bits else str(one.value)
@@ -117,6 +119,8 @@ def _shows(drive: Drive, address: int) -> Iterator[str]:
     yield from (one.shows.replace("_", " ") for one in operation.measures if one.register == address)
     if address == drive.faults.present:
         yield "fault code"
+    if address in drive.warned:
+        yield "warning code"
     yield from (f"state {one.name}: {condition(one)}" for one in operation.states if one.register == address)
     for what, told in (("bus in command", operation.commanded_by), ("identity", drive.identity)):
         asked = [condition(one) for one in told.all if one.register == address] if told else []

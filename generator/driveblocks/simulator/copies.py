@@ -46,7 +46,8 @@ def copies(drive: Drive, habits: Habits, known: Iterable[int]) -> tuple[Copy, ..
     usual = _factor(drive.register_at(hertz), habits.scales.get(hertz, habits.scale)) if hertz else habits.scale
     found, taken = [], set(known)
     unscaled = {"asked": usual, "output_frequency": usual, "speed": Decimal(1)}
-    words = {_bits(row): row.address.first for _, row in drive.registers() if row.bits and row.address.first in taken}
+    told = [row for _, row in drive.registers() if row.bits and drive.is_read(row)]
+    words = {_bits(row): row.address.first for row in told if row.address.first in taken}
     for section, row in drive.registers():
         at_fault = (row.name or "").endswith(_AT_FAULT)
         shows, address, same = _shows(row), row.address.first, words.get(_bits(row)) if row.bits else None

@@ -96,6 +96,12 @@ class Machine:
 
     def word(self, address: int) -> int:
         """What a register shows."""
+        if address == self.table.warned:
+            mask, code = self.table.warning
+            return self._word(address) & ~mask | code * self.warning
+        return self._word(address)
+
+    def _word(self, address: int) -> int:
         gauge = self._gauges.get(address)
         if gauge:
             return self._measure(gauge)
@@ -109,7 +115,8 @@ class Machine:
         if bits and bits[0] <= home <= bits[1]:
             place = self._code - 1 - 16 * (home - bits[0])
             return self.memory[home] | (1 << place if 0 <= place < 16 else 0)
-        return self.memory[home] & ~self.table.named.get(home, 0) | self._face().get(home, 0)
+        held = 0 if home in self.table.shared else self.memory[home]
+        return held & ~self.table.named.get(home, 0) | self._face().get(home, 0)
 
     def _copied(self, copy: Copy) -> int:
         if copy.same is not None:

@@ -109,7 +109,13 @@ class Table:
     present: int | None
     present_shift: int
     """How far up its word the code of the present fault is, in bits."""
+    warned: int | None
+    """The register with the code of a warning."""
+    warning: tuple[int, int]
+    """The bits of it that hold the code, and what they are in a warning: its first code, in its place."""
     fault_bits: tuple[int, int] | None
+    shared: frozenset[int]
+    """Registers that show something else than what was written there."""
     copies: dict[int, Copy]
     zeros: str
     """Registers that read 0 until somebody writes them, in words."""
@@ -124,7 +130,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
     broadcast, bits = drive.serial.broadcast, drive.faults.bits
     states = tuple(state.name for state in drive.operation.states)
     named = named_bits(drive, measured)
-    codes_at = {drive.faults.present, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
+    codes_at = {drive.faults.present, *drive.warned, *(range(bits.first, bits.last + 1) if bits else ())} - {None}
     known = {*measured, *named, *codes_at, *plate(drive, habits), dialect(drive).address}
     again = copies(drive, habits, known)
     return Table(
@@ -148,10 +154,20 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         storage=_storage(drive, allowed.writable),
         present=drive.faults.present,
         present_shift=drive.faults.present_bits.first if drive.faults.present_bits else 0,
+        warned=next(iter(drive.warned), None),
+        warning=_warning(drive),
         fault_bits=(bits.first, bits.last) if bits else None,
+        shared=drive.shared,
         copies={each.register: each for each in again},
         zeros=zeros(drive, {*known, *(each.register for each in again)}),
     )
+
+
+def _warning(drive: Drive) -> tuple[int, int]:
+    if drive.warnings is None:
+        return 0, 0
+    span, codes = drive.warnings.span, drive.warnings.codes
+    return sum(1 << bit for bit in span), (codes[0].code if codes else 1) << span.first
 
 
 @lru_cache
@@ -198,7 +214,7 @@ def _limits(drive: Drive) -> tuple[Limit, ...]:
     return tuple(
         Limit(low, row.range.min, row.range.max, row.signed or row.range.min < 0, high if row.words else None)
         for _, row in drive.registers()
-        if row.range
+        if row.range and drive.register_at(row.address.first, "w") is row
         for address in list(row.address)[:: row.size]
         for high, low in [places(row, address) if row.words else (address, address)]
     )
@@ -207,7 +223,7 @@ def _limits(drive: Drive) -> tuple[Limit, ...]:
 def _choices(drive: Drive) -> Iterator[Limit]:
     """A command register whose row lists values takes these; between the lowest and the highest of them, any."""
     for register in dict.fromkeys(command.register for command in drive.operation.commands):
-        row = drive.register_at(register)
+        row = drive.register_at(register, "w")
         if row and row.values and not row.masks and not row.range:
             listed = [each.value for each in row.values]
             yield Limit(register, min(listed), max(listed), signed=False)
@@ -215,14 +231,14 @@ def _choices(drive: Drive) -> Iterator[Limit]:
 
 def _highest(drive: Drive, habits: Habits) -> Iterator[Limit]:
     """A reference in Hz ends at the drive's own maximum, where the manual has its scale and refuses what is beyond."""
-    row = drive.register_at(drive.operation.reference.register)
+    row = drive.register_at(drive.operation.reference.register, "w")
     in_hertz = drive.operation.reference.means == "frequency" and row is not None and not row.range and not row.signed
     if row is not None and in_hertz and row.scale and refuses_beyond(drive):
         yield Limit(row.address.first, 0, int(habits.maximum_hz / Decimal(row.scale.factor)), signed=False)
 
 
 def _reference(drive: Drive, reference: Reference, habits: Habits) -> Set:
-    row = drive.register_at(reference.register)
+    row = drive.register_at(reference.register, "w")
     signed = bool(row and row.signed)
     factor = _factor(drive, habits, reference.register)
     times, per = Fraction(1000 * factor).limit_denominator(MOST_PER).as_integer_ratio()

@@ -10,12 +10,12 @@ from driveblocks.explain.meaning import held
 from driveblocks.explain.page import means
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.modbus.envelope import mode_of
+from driveblocks.modbus.request import WRITES
 from driveblocks.show.layout import facts, table
 from driveblocks.site.ear import FORMS
 from driveblocks.site.found import Way
 from driveblocks.site.traffic import ECHOED, Key, Poll, Role, Said, Traffic, Unit
 
-WRITES = (5, 6, 15, 16)
 MANY = 2
 """Requests too soon after another, from which on there is more to it than one late byte."""
 ODD: dict[Role, str] = {

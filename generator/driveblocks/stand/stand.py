@@ -82,4 +82,5 @@ def _state(drive: SimulatedDrive, known: Drive) -> str:
     if drive.fault:
         names = {each.code: each.id or each.name for each in known.faults.codes}
         return f"fault {drive.fault} {names.get(drive.fault) or ''}".strip()
-    return drive.mode
+    warnings = known.warning_codes
+    return f"{drive.mode}, warning {warnings[0].id or warnings[0].name}" if drive.warning and warnings else drive.mode

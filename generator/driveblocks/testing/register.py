@@ -41,7 +41,8 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 def _decoder(drive: Drive, stem: str, section: Section, row: Register) -> Script:
     address, source = address_text(row.address.first), row.source or section.source
     title = f"register {address}, {row.name}, taken apart"
-    program = bench.script(drive, stem, address_name(row.address.first), title, source)
+    read = drive.is_read(row)
+    program = bench.script(drive, stem, f"{address_name(row.address.first)}{'' if read else 'Written'}", title, source)
     bench.declare(program, Decode=register_block(drive, row))
     outputs = decode(row, 0)
     flags = [name for name, value in outputs.items() if isinstance(value, bool)]

@@ -32,12 +32,14 @@ def scripts(drive: Drive, stem: str, languages: Iterable[Language]) -> Iterator[
     """Programs per kind of text and language that the map has."""
     faults = sorted({fault.code for fault in drive.faults.codes})
     numbers = {reference.error_number(error) for error in drive.errors.codes}
-    rows = [row for _, row in drive.registers() if row.address.first <= LAST]
+    rows = [row for _, row in drive.registers() if row.address.first <= LAST and drive.is_read(row)]
     bits = [bit for row in rows for bit in row.bits if bit.name]
     values = [value for row in rows for value in row.values]
     for language in languages:
         if reference.has(drive, language.suffix, drive.faults.codes):
             yield _codes(drive, stem, language, "Fault", faults)
+        if drive.warnings and reference.has(drive, language.suffix, drive.warnings.codes):
+            yield _codes(drive, stem, language, "Warning", sorted(one.code for one in drive.warnings.codes))
         if reference.has(drive, language.suffix, drive.errors.codes):
             yield _codes(drive, stem, language, "Error", sorted(number for number in numbers if number is not None))
         if bits and reference.has(drive, language.suffix, bits):
@@ -100,9 +102,10 @@ def _bytes(texts: reference.Texts | None, language: Language) -> bytes:
 
 
 def _codes(drive: Drive, stem: str, language: Language, kind: str, codes: list[int]) -> Script:
-    """Codes of faults or errors; and some that are none."""
-    find = reference.fault if kind == "Fault" else reference.error
-    source = drive.faults.source if kind == "Fault" else drive.errors.source
+    """Codes of faults, warnings or errors; and some that are none."""
+    told = {"Fault": drive.faults, "Warning": drive.warnings, "Error": drive.errors}[kind]
+    find = {"Fault": reference.fault, "Warning": reference.warning, "Error": reference.error}[kind]
+    source = told.source if told else ""
     title = f"texts of {kind.lower()} codes"
     program = bench.script(drive, stem, f"{kind}Text{language.suffix}", title, source)
     for code in dict.fromkeys((*codes, 0, min(max(codes, default=0) + 1, 65535), 256, 65535)):
@@ -115,7 +118,7 @@ def _bits(drive: Drive, stem: str, language: Language) -> Script:
     program = bench.script(drive, stem, f"BitText{language.suffix}", "texts of bits")
     for section, row in drive.registers():
         address = row.address.first
-        if address > LAST:
+        if address > LAST or not drive.is_read(row):
             continue
         lowest = {bit.bit.first: bits_text(bit.bit) for bit in row.bits}
         other = next((number for number in range(17) if number not in lowest), 16)
@@ -131,7 +134,7 @@ def _values(drive: Drive, stem: str, language: Language) -> Script:
     program = bench.script(drive, stem, f"ValueText{language.suffix}", "texts of values")
     for section, row in drive.registers():
         address = row.address.first
-        if address > LAST:
+        if address > LAST or not drive.is_read(row):
             continue
         listed = {value.value for value in row.values}
         for number in sorted({*listed, *({min(max(listed) + 1, 65535)} if listed else ())}):

@@ -1,15 +1,15 @@
 """What an address is good for: reading, writing, or nothing."""
 
 from driveblocks.maps.form import Span, address_text
-from driveblocks.maps.model import Area, Drive, Register
+from driveblocks.maps.model import Area, Drive, Register, Use
 from driveblocks.maps.problem import Place, Report
 
 _VERBS = {"r": "read", "w": "written"}
 
 
-def known(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
+def known(drive: Drive, address: int, use: Use, place: Place, report: Report) -> Register | None:
     """The row of an address that is to be read (`r`) or written (`w`); notes what forbids it."""
-    found = drive.row_at(address)
+    found = drive.row_at(address, use)
     if found is None:
         report.miss(place, f"{address_text(address)} is in no register table", "name a listed register")
         return None
@@ -47,7 +47,7 @@ def _stored(drive: Drive, address: int) -> str | None:
     area = next((area for area in drive.areas if address in area.addresses), None)
     if area is not None and (unexplained or area.id == storage.area):
         return f"the area `{area.id}` is stored in EEPROM" + " as far as the manual says" * unexplained
-    row = drive.register_at(address)
+    row = drive.register_at(address, "w")
     if unexplained and row is not None and row.id is not None:
         return f"the parameter {row.id} is stored in EEPROM as far as the manual says"
     return None
@@ -61,7 +61,7 @@ def ram_span(drive: Drive, area: Area) -> Span | None:
     return Span(area.addresses.first + storage.add, area.addresses.last + storage.add)
 
 
-def carried(drive: Drive, address: int, use: str, place: Place, report: Report) -> Register | None:
+def carried(drive: Drive, address: int, use: Use, place: Place, report: Report) -> Register | None:
     """The row of an address that a frame reads or writes, None in an area; notes what forbids it."""
     for area in drive.areas:
         ram = ram_span(drive, area)

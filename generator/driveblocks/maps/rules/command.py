@@ -60,7 +60,7 @@ def _negative(drive: Drive, command: Command, forward: Command | None, report: R
 
 def _releases(drive: Drive, command: Command, report: Report) -> None:
     """Note a stop that keeps a run bit, and a direction that keeps that of the other one."""
-    if not (command.set or command.clear) or drive.register_at(command.register) is None:
+    if not (command.set or command.clear) or drive.register_at(command.register, "w") is None:
         return
     ours = meaning.image(command.writes)
     registers = dict.fromkeys(one.register for one in command.writes)

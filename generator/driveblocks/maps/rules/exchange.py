@@ -87,7 +87,7 @@ def _read_values(drive: Drive, frame: Frame, request: adu.Fields, reply: adu.Fie
 
 
 def _quantity(drive: Drive, frame: Frame, quantity: Quantity, carrier: adu.Fields, report: Report) -> None:
-    row = drive.register_at(quantity.register)
+    row = drive.register_at(quantity.register, "r" if carrier.function in READS else "w")
     if row is None or row.scale is None:
         wrong = f"a quantity of {address_text(quantity.register)}, which has no scale"
         report.miss(quantity.at, wrong, "add the scale that this frame proves, or remove the quantity")

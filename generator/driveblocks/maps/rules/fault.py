@@ -1,7 +1,7 @@
 """Rules on faults, the registers and bits that report them, and on error replies."""
 
-from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorCode, ErrorForm, Fault, Faults, Value
+from driveblocks.maps.form import Span, address_text, bits_text
+from driveblocks.maps.model import Bit, BitRelation, Drive, ErrorCode, ErrorForm, Fault, Faults, Value, Warnings
 from driveblocks.maps.problem import Place, Report
 from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.unique import unique
@@ -25,7 +25,32 @@ def check(drive: Drive, report: Report) -> None:
     _present(drive, report)
     if drive.faults.bits is not None:
         _fault_bits(drive, drive.faults.bits, ids, report)
+    if drive.warnings is not None:
+        _warnings(drive, drive.warnings, report)
     _errors(drive, report)
+
+
+def _warnings(drive: Drive, warnings: Warnings, report: Report) -> None:
+    """Note what hides the code of a warning, or makes it another one."""
+    codes = unique(warnings.codes, "code", "warning code", report, "{:02X}H".format)
+    unique(warnings.codes, "id", "warning", report)
+    count, faults = len(warnings.span), drive.faults
+    if not count:
+        report.add(
+            warnings.place("bits"), f"bits {bits_text(warnings.span)} run backwards", "write the lower bit first"
+        )
+    for code, warning in codes.items():
+        if count and not 1 <= code < 1 << count:
+            wrong = f"warning code {code}"
+            report.add(
+                warning.place("code"), wrong, f"0 means no warning; codes of {count} bits are 1 to {(1 << count) - 1}"
+            )
+    if warnings.register == faults.present and (faults.present_bits or Span(0, 15)).overlaps(warnings.span):
+        wrong = f"{address_text(warnings.register)} holds the code of a fault in the same bits"
+        report.add(warnings.place("register"), wrong, "name the bits of each: `bits`, and `present_bits` of `faults`")
+    row = known(drive, warnings.register, "r", warnings.place("register"), report)
+    if row is not None and row.values:
+        _code_values(row.values, warnings.register, codes, "warning", report)
 
 
 def _fault_registers(drive: Drive, codes: dict[int, Fault], report: Report) -> None:
@@ -40,7 +65,7 @@ def _fault_registers(drive: Drive, codes: dict[int, Fault], report: Report) -> N
         for address in span:
             row = known(drive, address, "r", place, report)
             if row is not None and row.values and codes:
-                _fault_values(row.values, address, codes, report)
+                _code_values(row.values, address, codes, "fault", report)
 
 
 def _present(drive: Drive, report: Report) -> None:
@@ -73,17 +98,17 @@ def _present_bits(faults: Faults, count: int, report: Report) -> None:
             report.add(fault.place("code"), wrong, "correct it, or `present_bits`")
 
 
-def _fault_values(values: tuple[Value, ...], address: int, codes: dict[int, Fault], report: Report) -> None:
+def _code_values(values: tuple[Value, ...], address: int, codes: dict[int, Fault], kind: str, report: Report) -> None:
     for value in values:
-        fault = codes.get(value.value)
-        if value.value and (fault is None or fault.name != value.name or fault.zh != value.zh):
-            wrong = f"value {value.value} `{value.name}` of {address_text(address)} is not in the table of faults"
-            report.miss(value.at, wrong, "a fault register's values and `faults.codes` say the same")
+        known_as = codes.get(value.value)
+        if value.value and (known_as is None or known_as.name != value.name or known_as.zh != value.zh):
+            wrong = f"value {value.value} `{value.name}` of {address_text(address)} is not in the table of {kind}s"
+            report.miss(value.at, wrong, f"a {kind} register's values and `{kind}s.codes` say the same")
     listed = {value.value for value in values}
-    for code, fault in codes.items():
+    for code, one in codes.items():
         if code not in listed:
-            wrong = f"fault {code} is not among the values of {address_text(address)}"
-            report.miss(fault.place("code"), wrong, "list it there too")
+            wrong = f"{kind} {code} is not among the values of {address_text(address)}"
+            report.miss(one.place("code"), wrong, "list it there too")
 
 
 def _fault_bits(drive: Drive, relation: BitRelation, ids: dict[str, Fault], report: Report) -> None:

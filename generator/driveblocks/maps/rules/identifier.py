@@ -14,18 +14,18 @@ LIBRARY = ("MB", "VFD", "LX", "CD", "SI", "TC")
 
 OWN_NAMES = (
     "CanRead", "CanWrite", "Request", "Reply", "Command", "Reference", "Standstill", "FaultNumber", "FaultTextEn",
-    "ErrorTextEn", "BitTextEn", "ValueTextEn", "Drive", "MayWrite", "ParameterAddress", "Store", "Version",
-    "Reads", "Orders", "ParameterGate", "Identity",
+    "WarningTextEn", "ErrorTextEn", "BitTextEn", "ValueTextEn", "Drive", "MayWrite", "ParameterAddress", "Store",
+    "Version", "Reads", "Orders", "ParameterGate", "Identity",
 )  # fmt: skip
 """The blocks that every drive has; texts in other languages end in two other letters."""
 
 OWN = re.compile(
-    r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Error|Bit|Value)Text[A-Z][A-Z]|"
+    r"CanRead|CanWrite|Request|Reply|Command|Reference|Standstill|FaultNumber|(Fault|Warning|Error|Bit|Value)Text[A-Z][A-Z]|"
     r"Drive|MayWrite|ParameterAddress|Store|Version|Reads|Orders|ParameterGate|Identity|"
     r"Test(([0-9A-F]{4}|Reply[0-9A-F]{2})H|Access|Command|FaultNumber|FaultReset|Frames|JogForward|JogReverse|KeepWord|"
     r"Motor\w*|Parameter\w*|Part\w*|"
     r"Reference|Request|ResetStop|Scales|Sequence|Standstill|Tables|Write|Drive|MayWrite|ParameterAddress|Store|Version|"
-    r"(Fault|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
+    r"(Fault|Warning|Error|Bit|Value)Text[A-Z][A-Z])[0-9]*",
     re.IGNORECASE,
 )
 """What a register's block cannot be called: the other blocks of a drive, and its test programs."""

@@ -190,7 +190,7 @@ def _exchanged(drive: Drive, command: Command, said: list[_Said], report: Report
 
 def _said(drive: Drive, one: Write) -> Iterator[_Said]:
     """What the register calls the parts of a write: a value, values of fields, single bits."""
-    row = drive.register_at(one.register)
+    row = drive.register_at(one.register, "w")
     if row is None:
         return
     where = one.place("value"), one.register

@@ -36,7 +36,7 @@ def check(drive: Drive, report: Report) -> None:
 
 def _returned(drive: Drive) -> Iterator[Returned | Bit]:
     """Every entry whose name a block returns as a text."""
-    yield from drive.faults.codes
+    yield from (*drive.faults.codes, *drive.warning_codes)
     yield from drive.errors.codes
     for _, row in drive.registers():
         yield from row.values

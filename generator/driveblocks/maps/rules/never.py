@@ -17,7 +17,7 @@ def check(drive: Drive, report: Report) -> None:
             _possible(never, report)
     for command in drive.operation.commands:
         for one, found in words(drive, command):
-            target = drive.register_at(one.register)
+            target = drive.register_at(one.register, "w")
             word = sum(1 << number for (register, number), on in found.items() if on and register == one.register)
             for never in target.never if target else ():
                 if never.bit and never.holds(word):

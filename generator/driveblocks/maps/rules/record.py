@@ -80,9 +80,10 @@ def _misprints(drive: Drive) -> Iterator[tuple[str, Place]]:
     """Every entry that departs from what is printed, by canonical name."""
     for section in drive.sections:
         yield from _section_misprints(section)
-    for fault in drive.faults.codes:
-        if fault.printed_code is not None or fault.zh_used is not None:
-            yield f"fault {fault.code:02X}H", fault.at
+    for kind, codes in (("fault", drive.faults.codes), ("warning", drive.warning_codes)):
+        for one in codes:
+            if one.printed_code is not None or one.zh_used is not None:
+                yield f"{kind} {one.code:02X}H", one.at
     for error in drive.errors.codes:
         yield from _error_misprints(error)
     for frame in drive.frames:
@@ -144,7 +145,7 @@ def _pairs(drive: Drive) -> Iterator[tuple[Place, str | None, str | None]]:
             yield row.printed.place("id"), row.printed.id, row.id
         for bit in row.bits:
             yield from _bit_pairs(bit)
-    for fault in drive.faults.codes:
+    for fault in (*drive.faults.codes, *drive.warning_codes):
         if fault.printed_code in (str(fault.code), f"{fault.code:02X}H"):
             yield fault.place("printed_code"), fault.printed_code, fault.printed_code
 

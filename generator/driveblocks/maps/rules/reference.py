@@ -6,7 +6,7 @@ from functools import partial
 
 from driveblocks.maps import form
 from driveblocks.maps.form import address_text, bits_text
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import USES, Drive
 from driveblocks.maps.problem import Place, Report
 
 _SINGLE = (
@@ -34,6 +34,7 @@ class Known:
         }
         self.codes: dict[str, set[int | None]] = {
             "fault": {fault.code for fault in drive.faults.codes},
+            "warning": {warning.code for warning in drive.warning_codes},
             "error": {error.code for error in drive.errors.codes},
             "function": {function.code for function in drive.functions},
         }
@@ -86,11 +87,12 @@ class Known:
 
     def _bits(self, name: str) -> list[str]:
         match = _BIT.fullmatch(name)
-        row = self.drive.register_at(int(match[1], 16)) if match else None
-        if match is None or row is None:
+        if match is None:
             return []
         low, high = int(match[2], 16), int(match[3] or match[2], 16)
-        spans = [bit.bit for bit in row.bits if bit.bit.first <= high and low <= bit.bit.last]
+        rows = dict.fromkeys(self.drive.register_at(int(match[1], 16), use) for use in USES)
+        bits = (bit.bit for row in rows if row for bit in row.bits)
+        spans = [span for span in bits if span.first <= high and low <= span.last]
         return [f"bit {match[1]}H.{bits_text(span)}" for span in spans]
 
 

@@ -41,10 +41,20 @@ def _numbering(drive: Drive, one: Numbering, report: Report) -> None:
 
 
 def _addresses(drive: Drive, report: Report) -> None:
-    for earlier, later in overlapping((row.address, row) for _, row in drive.registers()):
+    """Note addresses of two rows, unless one of them is read and the other one written."""
+    used = [(row.access or section.access, row) for section, row in drive.registers()]
+    taken = {
+        id(later): (earlier, later)
+        for use in ("r", "w")
+        for earlier, later in overlapping((row.address, row) for access, row in used if use in access)
+    }
+    for earlier, later in overlapping((row.address, row) for _, row in used):
+        if earlier.address != later.address:
+            taken.setdefault(id(later), (earlier, later))
+    for earlier, later in taken.values():
         wrong = f"address {span_text(later.address)} is taken by line {earlier.at[0]}"
-        right = "one row per address; if the manual misprints it, use the right one and `printed:`"
-        report.add(later.place("address"), wrong, right)
+        right = "one row per address, or one with `access: r` and one with `w`; if the manual misprints it, use the "
+        report.add(later.place("address"), wrong, f"{right}right one and `printed:`")
 
 
 def _spans(row: Register, report: Report) -> None:

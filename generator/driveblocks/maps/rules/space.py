@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.maps.form import address_text, is_bit, space_of
-from driveblocks.maps.model import Condition, Drive, State
+from driveblocks.maps.model import Condition, Drive, State, Use
 from driveblocks.maps.pair import is_first
 from driveblocks.maps.plan import reads_by, used, writes_by
 from driveblocks.maps.polls import fast_words, slow_words
@@ -33,8 +33,8 @@ def check(drive: Drive, report: Report) -> None:
         _functions(drive, report)
 
 
-def _wide(drive: Drive, address: int) -> bool:
-    row = drive.register_at(address)
+def _wide(drive: Drive, address: int, use: Use = "r") -> bool:
+    row = drive.register_at(address, use)
     return row is not None and row.words is not None
 
 
@@ -64,6 +64,8 @@ def _numbers(drive: Drive) -> Iterator[tuple[str, int, Place]]:
     operation, faults = drive.operation, drive.faults
     if faults.present is not None:
         yield "the code of the fault", faults.present, faults.place("present")
+    if drive.warnings is not None:
+        yield "the code of the warning", drive.warnings.register, drive.warnings.place("register")
     if faults.bits is not None:
         yield "the first word of the faults", faults.bits.first, faults.place("bits")
     if operation.own_maximum is not None:
@@ -89,7 +91,7 @@ def _written(drive: Drive, report: Report) -> None:
     for command in operation.commands:
         for write in command.writes:
             where, place = address_text(write.register), write.place("register")
-            if _wide(drive, write.register):
+            if _wide(drive, write.register, "w"):
                 report.add(place, f"`{command.does}` writes {where}, a value of 32 bits", "name a register of 16 bits")
             elif is_bit(write.register) and write.value is None:
                 report.add(write.at, f"{where} is one bit, and has none to set or clear", "write `value: 1`, or 0")
@@ -98,7 +100,7 @@ def _written(drive: Drive, report: Report) -> None:
             wrong = f"`{command.does}` is written by {by[command]:02X}H, and `stop` by {by[stop]:02X}H"
             report.add(command.place("register"), wrong, "the line sends all stops by one function")
     reference = operation.reference
-    row, where = drive.register_at(reference.register), address_text(reference.register)
+    row, where = drive.register_at(reference.register, "w"), address_text(reference.register)
     if space_of(reference.register) != "holding":
         report.add(reference.place("register"), f"the reference is {where}", "name a holding register")
     elif row is not None and row.words and not is_first(row, reference.register):

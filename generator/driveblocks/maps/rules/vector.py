@@ -2,7 +2,7 @@
 
 from driveblocks.maps import adu
 from driveblocks.maps.form import address_text
-from driveblocks.maps.model import Drive, Frame, PlcTable, Register
+from driveblocks.maps.model import Drive, Frame, PlcTable, Register, Use
 from driveblocks.maps.plan import READ_WORDS, dialect, start_of
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import exchange
@@ -143,7 +143,7 @@ def _sub_function(drive: Drive, frame: Frame, fields: adu.Fields, report: Report
 def _registers(drive: Drive, frame: Frame, fields: adu.Fields, report: Report) -> None:
     if fields.address is None or fields.error is not None:
         return
-    use = "r" if fields.function in READS else "w"
+    use: Use = "r" if fields.function in READS else "w"
     words = fields.words if fields.words is not None else 1
     for offset in range(min(words, READ_WORDS)):
         address = fields.address + start_of(drive, fields.function) + offset

@@ -86,6 +86,12 @@ class Ability:
         return found[0], next(code for code in found if code != found[0])
 
     @property
+    def warning(self) -> int:
+        """The code that a warning of the simulated drive has; 0 where the drive has none."""
+        codes = self.drive.warning_codes
+        return codes[0].code if codes else 0
+
+    @property
     def code(self) -> int:
         """The fault that scenes use; 0 where the drive does not say which it has."""
         faults = self.drive.faults

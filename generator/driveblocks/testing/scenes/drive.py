@@ -302,6 +302,10 @@ def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
     if made.present is not None:
         times = f" * {2**made.present_shift}" if made.present_shift else ""
         yield made.present, f"Value := UINT_TO_WORD(Motor.FaultCode{times});"
+    if made.warned is not None:
+        mask, code = made.warning
+        yield made.warned, f"Value := Value AND {word(~mask)};"
+        yield made.warned, f"IF Fate.Warns THEN Value := Value OR {word(code)}; END_IF;"
     if made.fault_bits:
         for code in numbers:
             place, bit = divmod(code - 1, 16)

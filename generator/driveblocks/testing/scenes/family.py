@@ -46,7 +46,7 @@ def _reads(drive: Drive) -> Iterator[Row]:
     yield ["nothing is read", {"Anew": False}, known.shows()]
     for each in numbers:
         yield from known.answered(each)
-    for each in sorted(known.roles["measures"]):
+    for each in sorted(known.roles["measures"] | known.roles["warned"]):
         yield ["again", *known.read(each, 3)]
         yield ["as old as it may be", *known.wait(STALE_MS)]
         yield ["too old", *known.wait(1)]
@@ -135,7 +135,9 @@ class _Known:
         }  # fmt: skip
         more = {"master": "MasterRead", "states": "StatesRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
-        return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["measures"])}
+        return found | {
+            f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["measures"] | roles["warned"])
+        }
 
     def _all(self, role: str) -> bool:
         return all(self.since[each] for each in self.roles[role])
@@ -163,6 +165,7 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
     registers: dict[str, Iterable[int]] = {
         "status": fast_words(drive),
         "measures": [each.register for each in operation.measures],
+        "warned": drive.warned,
         "fault": shown,
         "proof": [each.register for each in operation.standstill.all],
         "verify": [*(each.register for each in operation.reference.verify), *own],
@@ -196,7 +199,7 @@ def _orders(drive: Drive) -> Iterator[Row]:
             yield none
     reference = word(drive.operation.reference.register)
     shows: Shows = {"Register": reference, "Value": word(0x1234), "Moves": False}
-    row = drive.register_at(drive.operation.reference.register)
+    row = drive.register_at(drive.operation.reference.register, "w")
     if row is not None and row.words:
         low = row.order == "low_first"
         shows |= {"Value": word(0x1234 if low else 0), "Second": word(0 if low else 0x1234), "Quantity": 2}

@@ -589,8 +589,8 @@ def silence(can: Ability) -> Iterator[Scene]:
     yield scene("stopped on its keypad", POWER, run(), *_keypad_stop())
     if can.shows("ready"):
         yield scene("an interlock", POWER, *_not_ready())
-    if can.shows("warning"):
-        yield scene("a warning", POWER, run(), *_warning())
+    if can.shows("warning") or can.warning:
+        yield scene("a warning", POWER, run(), *_warning(can))
     yield scene("no supply on purpose", POWER, run(), *_no_supply())
     yield scene("a status that grows old", POWER, run(), *_stale())
 
@@ -717,9 +717,14 @@ def _not_ready() -> Iterator[Step]:
     yield run()
 
 
-def _warning() -> Iterator[Step]:
-    yield Step("it warns and runs on", {"Fate.Warns": True}, "Motor.Warning", 1000, RUNNING | {"Fault": False})
-    yield Step("no more", {"Fate.Warns": False}, "NOT Motor.Warning", 1000, {"Seen.Starts": 1})
+def _warning(can: Ability) -> Iterator[Step]:
+    shown = {"Motor.Diagnosis.WarningCode": 0} if can.warning else {}
+    until, after = ("Motor.Warning", "NOT Motor.Warning") if can.shows("warning") else ("", "")
+    if can.warning:
+        until = f"Motor.Diagnosis.WarningCode = {can.warning}"
+        after = f"({after or 'TRUE'}) AND (Motor.Diagnosis.WarningCode = 0)"
+    yield Step("it warns and runs on", {"Fate.Warns": True}, until, 1000, RUNNING | {"Fault": False})
+    yield Step("no more", {"Fate.Warns": False}, after, 1000, {"Seen.Starts": 1} | shown)
 
 
 def _no_supply() -> Iterator[Step]:
@@ -814,7 +819,7 @@ def _speed_only(can: Ability) -> Iterator[Step]:
 
 def _calm(can: Ability) -> Iterator[Step]:
     """After a stop pin the reference stays 0 for half a second; a pair whose last word is 0 does not show it."""
-    row = can.drive.register_at(can.drive.operation.reference.register)
+    row = can.drive.register_at(can.drive.operation.reference.register, "w")
     if row is not None and row.order == "low_first":
         return
     speeds: Shows = {"SpeedOnly": True, "SpeedReferenceHz": 25.0}

@@ -67,7 +67,7 @@ def _command(drive: Drive, does: str) -> Command:
 
 def _write(drive: Drive, register: int) -> int:
     """What writes a register."""
-    row = drive.register_at(register)
+    row = drive.register_at(register, "w")
     if is_bit(register):
         return 5
     return 6 if any(function.code == 6 for function in drive.functions) and not (row and row.words) else 16
