@@ -9,6 +9,7 @@ for others with the profile `search`; what it finds becomes an example of the su
 """
 
 import functools
+import gc
 import os
 import signal
 import sys
@@ -61,6 +62,13 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("cov_source", None):
         counting.without_engine()
+    gc.set_threshold(100_000, 20, 100)
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage rarely, and never among the tests: most objects are trees that live as long as the process."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.hookimpl(trylast=True)

@@ -141,8 +141,13 @@ class EmbeddedLibrary:
         return self._counters("outcomes_")
 
     def _counters(self, prefix: str) -> dict[str, dict[Any, int]]:
-        found = {name: each for name, each in self.compiler.objects.items() if name.startswith(prefix)}
-        return {name.removeprefix(prefix): dict(sorted(hits.items())) for name, hits in found.items()}
+        objects = self.compiler.objects
+        found = {name: places for name, places in objects.items() if name.startswith(prefix)}
+        counts = objects.get("counts", [])
+        return {
+            name.removeprefix(prefix): {what: counts[at] for what, at in sorted(places.items())}
+            for name, places in found.items()
+        }
 
     # ------------------------------------------------------------ in detail
 

@@ -116,9 +116,7 @@ def counted(scope: Scope, at: int, text: str) -> list[ast.stmt]:
     if not scope.coverage:
         return []
     pen = scope.pen
-    outcome = Outcome(*pen.unit.place(at), text)
-    counters = pen.name(scope.outcomes(outcome))
-    return [pen.increment(pen.item(counters, pen.constant(tuple(outcome))))]
+    return [_count(scope, scope.counter("outcomes", Outcome(*pen.unit.place(at), text)))]
 
 
 def assume(scope: Scope, condition: tree.Expression, truth: bool) -> None:
@@ -141,12 +139,11 @@ def body_of(scope: Scope, statements: list[tree.Statement]) -> list[ast.stmt]:
     for each in statements:
         scope.pen.move(each.at)
         if scope.coverage and not isinstance(each, tree.Empty):
-            written.append(_count(scope))
+            written.append(_count(scope, scope.counter("hits", scope.pen.line)))
         written += scope.statements[type(each)](scope, each)
     return written or [scope.pen.nothing()]
 
 
-def _count(scope: Scope) -> ast.stmt:
+def _count(scope: Scope, place: int) -> ast.stmt:
     pen = scope.pen
-    name = scope.hits(pen.line)
-    return pen.increment(pen.item(pen.name(name), pen.constant(pen.line)))
+    return pen.increment(pen.item(pen.name("counts"), pen.constant(place)))

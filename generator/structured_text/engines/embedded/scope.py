@@ -103,17 +103,14 @@ class Scope:
         self.objects[name] = value
         return name
 
-    def hits(self, line: int) -> str:
-        """The global name of the counters of this source's lines; the line is entered among them."""
-        name = f"hits_{self.pen.unit.path}"
-        self.objects.setdefault(name, {}).setdefault(line, 0)
-        return name
-
-    def outcomes(self, outcome: Outcome) -> str:
-        """The global name of the counters of this source's outcomes of decisions; the outcome is entered among them."""
-        name = f"outcomes_{self.pen.unit.path}"
-        self.objects.setdefault(name, {}).setdefault(outcome, 0)
-        return name
+    def counter(self, kind: str, what: int | Outcome) -> int:
+        """The place in the list `counts` of the counter of a line (`hits`) or an outcome (`outcomes`) of this source."""
+        counts = self.objects.setdefault("counts", [])
+        places: dict[int | Outcome, int] = self.objects.setdefault(f"{kind}_{self.pen.unit.path}", {})
+        if what not in places:
+            places[what] = len(counts)
+            counts.append(0)
+        return places[what]
 
     def note_access(self, name: str, low: int, high: int, offset: ast.expr) -> None:
         """Remember an array access at the place of the pen, for the message if it fails."""
