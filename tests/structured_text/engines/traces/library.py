@@ -19,6 +19,7 @@ from pathlib import Path
 
 from tests.blocks.compare.pou import Pou, shipped
 from tests.blocks.compare.stimulus import landmarks, stimuli
+from tests.blocks.library import alone
 from tests.structured_text.engines.compare.lockstep import alike
 from tests.structured_text.engines.compare.scenarios import Inputs
 from tests.structured_text.engines.traces.trace import SEED, decode, encode
@@ -54,7 +55,7 @@ class Record:
 
 def folders() -> list[str]:
     """The folders of the library, each with a file of its own."""
-    return sorted({pou.folder for pou in shipped().pous.values()})
+    return sorted({each.path.partition("/")[0] for each in alone()} - {"types"})
 
 
 def path_of(folder: str) -> Path:
