@@ -104,7 +104,7 @@ class Scope:
         return name
 
     def counter(self, kind: str, what: int | Outcome) -> int:
-        """The place in the list `counts` of the counter of a line (`hits`) or an outcome (`outcomes`) of this source."""
+        """The place in `counts` of what counts a line (`hits`) or an outcome (`outcomes`) of this source."""
         counts = self.objects.setdefault("counts", [])
         places: dict[int | Outcome, int] = self.objects.setdefault(f"{kind}_{self.pen.unit.path}", {})
         if what not in places:
