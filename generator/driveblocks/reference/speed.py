@@ -5,6 +5,7 @@ The pins are REAL: what they cannot hold exactly is rounded to single precision 
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import lru_cache
 from math import floor, isnan
 
 from driveblocks.maps.model import Drive
@@ -128,6 +129,7 @@ def _refused(result: str) -> Encoded:
     return Encoded(result, results=frozenset({result}))
 
 
+@lru_cache(4096)
 def _exact(number: float) -> Fraction | None:
     """What a REAL pin holds; None where that is no number."""
     held = stored(number)

@@ -268,26 +268,26 @@ class _Printer:
         self.lines += ["VAR_OUTPUT", *_declared(_COUNTERS), "END_VAR", "VAR", *_declared(rows), "END_VAR"]
 
     def _stage(self, index: int, stage: Stage) -> None:
-        first = len(self.checks) + 1
-        last = first + _count(stage.items) + len(self.last) - 1
+        first, probes = len(self.checks) + 1, _probes(stage.items)
+        last = first + len(probes) + len(self.last) - 1
         numbers = f"{first}" if first == last else f"{first} to {last}"
         words = f"{numbers}: {stage.words}" + (f"; {stage.source}" if stage.source else "")
         label = f"    {index}: "
         place = len(self.lines) + 1
         self.lines += paragraph(f"{label}(* ", words, " *)")
         if stage.span:
-            self._span(stage, stage.span, index)
+            self._span(stage, stage.span, index, probes)
         else:
             self._items(stage, stage.items, index, "      ")
         self.checks += [Check(f"{stage.words}: {item.words}", item, index, place) for item in self.last]
 
-    def _span(self, stage: Stage, span: Span, index: int) -> None:
+    def _span(self, stage: Stage, span: Span, index: int, probes: list[Probe]) -> None:
         """What begins it, then what ends it with its checks."""
         begins = [item for item in stage.items if isinstance(item, str)]
         if begins:
             self.lines += [f"      IF WaitedMs = {SCAN_MS} THEN", *flowing(begins, "        "), "      END_IF;"]
         self.lines += [*flowing([f"Next := {span.over};"], "      "), "      IF Next THEN"]
-        self._items(stage, _probes(stage.items), index, "        ")
+        self._items(stage, probes, index, "        ")
         self.lines.append("      END_IF;")
 
     def _items(self, stage: Stage, items: Sequence[Item], index: int, indent: str) -> None:

@@ -1,6 +1,7 @@
 """What a family can do, as far as scenes ask for it."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import meaning_words, polls
@@ -36,7 +37,7 @@ class Ability:
         kinds = {"stop": 1, "quick_stop": 2, "coast_stop": 3}
         return kinds[wanted if self.can(wanted) else "stop"]
 
-    @property
+    @cached_property
     def absent(self) -> frozenset[str]:
         """Pins that say nothing, since the drive shows nothing of the kind."""
         names = [] if self.measures("output_frequency") else ["OutputFrequencyHz", "AtSpeed"]
@@ -44,37 +45,37 @@ class Ability:
             names.append("ZeroSpeed")
         return frozenset(names if self.shows("fault") else [*names, "Fault"])
 
-    @property
+    @cached_property
     def runs_at_once(self) -> bool:
         """Whether a run is one write, in a register of its own."""
         operation = self.drive.operation
         forward = next(one for one in operation.commands if one.does == "run_forward")
         return not forward.first and forward.register != operation.reference.register
 
-    @property
+    @cached_property
     def feeds(self) -> str:
         """What feeds its watchdog, which a drive block takes for the reference unless the map says more."""
         watchdog = self.drive.watchdog
         named = watchdog.feeds if watchdog else None
         return {None: "reference", "any": "read"}.get(named, named or "reference")
 
-    @property
+    @cached_property
     def settings_come_first(self) -> bool:
         """Whether what gives the reference its meaning is in the reads that prove standstill."""
         proof = [range(each.address, each.address + each.words) for each in polls(self.drive) if each.fast]
         return all(any(word in each for each in proof) for word in meaning_words(self.drive))
 
-    @property
+    @cached_property
     def turns(self) -> int:
         """Reads that take turns: each is as many rounds old."""
         return sum(not each.fast for each in polls(self.drive)) or 1
 
-    @property
+    @cached_property
     def motions(self) -> tuple[str, ...]:
         """The motions that the drive can be commanded, of MOTIONS."""
         return tuple(each for each in MOTIONS if self.can(each))
 
-    @property
+    @cached_property
     def codes(self) -> tuple[int, int]:
         """Two faults: numbers that it can show."""
         faults = self.drive.faults
@@ -91,7 +92,7 @@ class Ability:
         codes = self.drive.warning_codes
         return codes[0].code if codes else 0
 
-    @property
+    @cached_property
     def code(self) -> int:
         """The fault that scenes use; 0 where the drive does not say which it has."""
         faults = self.drive.faults

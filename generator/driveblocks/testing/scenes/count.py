@@ -53,7 +53,7 @@ def scripts(drive: Drive, stem: str) -> Iterator[Script]:
 
 def scenes(can: Ability) -> Iterator[Scene]:
     """All scenes of the line's own figures; the first needs a line that was never late."""
-    yield scene("a scan that is later than promised is counted", replace(POWER, brisk=False), *_late_scans())
+    yield scene("a scan that is later than promised is counted", POWER._replace(brisk=False), *_late_scans())
     yield scene("what the line counts", POWER, run(), *_counts())
     yield scene("how late a stop can be", POWER, *_promises(can))
     yield scene("how busy the line is", POWER, *_load(can.drive))

@@ -1,7 +1,6 @@
 """Scenes of one motor: power-up, starts, speeds, stops, faults, and who is in charge."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.pair import whole
@@ -896,6 +895,6 @@ def _wrong_setting() -> Iterator[Step]:
 def _unset() -> Iterator[Step]:
     sets: Shows = {"Pins.Settings.TurnRoundMs": 0, "Pins.Settings.LongestMs": 0, "Pins.KeepsSilence": False}
     yield Step("power-up", sets, "Motor.Ready", 4000, brisk=False)
-    yield replace(run(), brisk=False)
+    yield run()._replace(brisk=False)
     yield Step("the turn-round is learned", ms=1000, shows={"(Motor.Diagnosis.TurnRoundMs <= 60)": True}, brisk=False)
     yield Step("it stops", {"RunForward": False}, "Motor.StopConfirmed", 3000, STANDS)

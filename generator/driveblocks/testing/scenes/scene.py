@@ -1,7 +1,9 @@
 """A scene: what a user does and what happens to the drive, step by step, and what the pins must show."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import NamedTuple
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.revision import checked
@@ -33,8 +35,7 @@ HERTZ = 0.2
 """How near a speed must be."""
 
 
-@dataclass(frozen=True)
-class Step:
+class Step(NamedTuple):
     """What is set, until when it lasts, and what must be so then.
 
     Names without a dot are pins: `sets` of Pins, `shows` of the drive block. Without `until` it lasts `ms`; with it,
@@ -42,10 +43,10 @@ class Step:
     """
 
     words: str
-    sets: Mapping[str, Value] = field(default_factory=dict)
+    sets: Mapping[str, Value] = MappingProxyType({})
     until: str = ""
     ms: int = 3000
-    shows: Mapping[str, Value] = field(default_factory=dict)
+    shows: Mapping[str, Value] = MappingProxyType({})
     brisk: bool | None = None
     """In scans twice as long, of which it takes fewer. None: where it is long, and nothing counts its scans."""
 
@@ -75,8 +76,8 @@ def _hastened(step: Step) -> Step:
         return step
     if step.until:
         counts = any("WaitedMs" in each for each in (step.until, *step.shows))
-        return replace(step, brisk=step.ms >= LONG_MS and not counts)
-    return step if step.ms < WAIT_MS else replace(step, brisk=True, ms=step.ms // 2)
+        return step._replace(brisk=step.ms >= LONG_MS and not counts)
+    return step if step.ms < WAIT_MS else step._replace(brisk=True, ms=step.ms // 2)
 
 
 def _paced(steps: Iterable[Step]) -> Iterator[Step]:
@@ -85,7 +86,7 @@ def _paced(steps: Iterable[Step]) -> Iterator[Step]:
     for step in steps:
         if bool(step.brisk) != brisk:
             pace = {"Pins.ElapsedMs": 2 * SCAN_MS if step.brisk else SCAN_MS}
-            yield replace(step, sets=pace | dict(step.sets))
+            yield step._replace(sets=pace | dict(step.sets))
         else:
             yield step
         brisk = bool(step.brisk)
@@ -124,13 +125,13 @@ def script(  # noqa: PLR0913, PLR0917 - what the head of a program says, its sce
 
 
 def _stage(can: Ability, one: Scene, index: int, step: Step) -> Stage:
-    first, last = index == 1, index == len(one.steps)
+    first, last, absent = index == 1, index == len(one.steps), can.absent
     items: list[Item] = [*_BEGIN, f"Fate.Unit := {can.drive.serial.unit.min};"] if first else []
     items += statements(step.sets)
     until = step.until if can.measures("output_frequency") else step.until.replace("Motor.AtSpeed", _FAST)
     if step.until:
         items.append(bench.is_flag(until, True, f"within {step.ms} ms: {step.until}"))
-    items += checks({key: value for key, value in step.shows.items() if key not in can.absent})
+    items += checks({key: value for key, value in step.shows.items() if key not in absent})
     if last or not (step.until or step.shows):
         pins = "Expected := DWORD#16#00000000, Actual := Watch.Broken"
         items.append(Probe("Bytes", pins, "no rule broken", 4, RULES))
