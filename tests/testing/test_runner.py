@@ -82,7 +82,7 @@ def test_a_map_without_vectors_passes_and_says_what_its_tests_rest_on() -> None:
     done = run(only(unit, "Scales"))
     assert done.passed
     assert UNPROVED in [outcome.words for outcome in done.results[0].outcomes]
-    assert f"{UNPROVED[1:]}." in page.page([unit.suite])
+    assert f"{UNPROVED[1:]}." in page.table(unit.suite)
 
 
 def test_unit_addresses_that_the_standard_reserves_are_sent_where_the_manual_has_them(tmp_path: Path) -> None:

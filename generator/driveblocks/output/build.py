@@ -4,6 +4,7 @@ import os
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from driveblocks.docs.page import Measured, Own, documents
 from driveblocks.export import CANONICAL, TARGETS, target
@@ -15,6 +16,9 @@ from driveblocks.output import manifest, transaction
 from driveblocks.output.manifest import Manifest, Refused, State
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
+
+if TYPE_CHECKING:
+    from driveblocks.testing.suite import Tests
 
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
@@ -31,8 +35,9 @@ def files(
     `measured`: name of a map -> what was found of one drive each, for the page of its block.
     Raises ExportError with everything that a target cannot say.
     """
-    made = [*library.generic(languages)]
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
+    tests = _tests(sources, languages) if CANONICAL in targets else dict[str, str]
+    made = [*library.generic(languages)]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
     own = {
@@ -46,13 +51,16 @@ def files(
     units = [part.unit for part in stock.parts]
     texts = documents(made, [*drives.values()], own, targets=targets, units=units)
     if CANONICAL in targets:
-        from driveblocks.testing.suite import programs
-
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
         texts |= {file.path: file.text for file in library.adapter("linux", languages)}
-        texts |= programs(sources, languages)
-    return texts | target.files(stock, targets)
+    return texts | tests() | target.files(stock, targets)
+
+
+def _tests(sources: list[Source], languages: list[Language]) -> "Tests":
+    from driveblocks.testing.suite import tests  # which other targets do not need
+
+    return tests(sources, languages)
 
 
 @dataclass(frozen=True)

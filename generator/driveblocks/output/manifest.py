@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -102,10 +103,12 @@ def made(
 
 def parents(names: Iterable[str]) -> list[str]:
     """All folders of files, each before those inside it."""
-    found = {str(parent) for name in names for parent in PurePosixPath(name).parents}
+    folders = {PurePosixPath(name.rpartition("/")[0]) for name in names}
+    found = {str(each) for folder in folders for each in (folder, *folder.parents)}
     return sorted(found - {"."})
 
 
+@lru_cache(4096)
 def text_digest(text: str) -> str:
     """What `digest` gives for a file with this text."""
     return hashlib.sha256(text.replace("\r\n", "\n").encode("utf-8")).hexdigest()
@@ -131,10 +134,14 @@ def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, 
     if (there := digest(folder / NAME)) is not None:
         listed[NAME] = there
     given_up = {name.casefold(): name for name in listed if name not in texts}
+    barriers: dict[str, str | None] = {}
     states = {}
     for name in sorted({*texts, *listed}):
         wanted = text_digest(texts[name]) if name in texts else None
-        barrier = barrier_to(folder, name)
+        place = name.rpartition("/")[0]
+        if place not in barriers:
+            barriers[place] = barrier_to(folder, name)
+        barrier = barriers[place]
         if barrier is not None and wanted is not None:
             states[barrier] = State.FOREIGN
         elif barrier is None:

@@ -1,6 +1,6 @@
 """`blocks/tests/README.md`: how to run the test programs on a controller, and what each of them checks."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 from driveblocks.maps.view import UNPROVED
 from driveblocks.testing.harness import PER_SCAN
@@ -28,16 +28,17 @@ with what writes them.
 """
 
 
-def page(suites: Sequence[Suite]) -> str:
-    """The page's text."""
-    return _HEAD + "".join(_table(suite) for suite in suites)
+def page(tables: Iterable[str]) -> str:
+    """The page's text, from the tables of the suites."""
+    return _HEAD + "".join(tables)
 
 
 def _sentence(words: str) -> str:
     return f"{words[:1].upper()}{words[1:]}."
 
 
-def _table(suite: Suite) -> str:
+def table(suite: Suite) -> str:
+    """What a suite checks, and which reasons it does not show."""
     total = sum(len(program.checks) for program in suite.programs)
     lines = [f"\n## {suite.name}: {total} checks\n", *([] if suite.vectors else [f"{_sentence(UNPROVED)}\n"])]
     lines += ["| program | checks | what it checks |", "|---|---:|---|"]

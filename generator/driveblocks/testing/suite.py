@@ -1,7 +1,14 @@
 """All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
 
+import multiprocessing
+import signal
+import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from multiprocessing.connection import Connection
 
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
@@ -74,6 +81,8 @@ GROUPS: dict[str, Callable[[Drive, str], Iterator[Script]]] = {
 
 PAGE = "tests/README.md"
 """The page that lists them."""
+FEW = 32
+"""Most maps of whose drives another process makes the tests: both keep them in memory for a moment."""
 
 
 def shared_suite(languages: Sequence[text.Language]) -> Suite:
@@ -102,17 +111,65 @@ def _finished(group: str, scripts: Iterable[Script]) -> Iterator[Program]:
         yield from (replace(program, group=group) for program in script.programs())
 
 
-def suites(sources: Iterable[Source], languages: Sequence[text.Language]) -> list[Suite]:
-    """The shared suite, then that of each drive."""
-    return [shared_suite(languages), *(drive_suite(source, languages) for source in sources)]
+@dataclass(frozen=True)
+class Shipped:
+    """What is shipped of a suite: the texts of its programs and their parts by path, and its table on the page."""
+
+    texts: dict[str, str]
+    table: str
 
 
-def programs(sources: Iterable[Source], languages: Sequence[text.Language]) -> dict[str, str]:
-    """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take."""
-    made = suites(sources, languages)
+Tests = Callable[[], dict[str, str]]
+"""Gives what `programs` does."""
+
+
+def tests(sources: Sequence[Source], languages: Sequence[text.Language]) -> Tests:
+    """Begin with the test programs: another process makes those of the drives, where one can be split off.
+
+    That is on Linux, for a few maps, while this process has but one thread. Elsewhere they are made when asked for.
+    """
+    if sys.platform != "linux" or len(sources) > FEW or threading.active_count() > 1:
+        return partial(programs, sources, languages)
+    made, end = multiprocessing.Pipe(duplex=False)
+    process = multiprocessing.get_context("fork").Process(target=_send, args=(sources, languages, end), daemon=True)
+    process.start()
+    end.close()
+
+    def asked() -> dict[str, str]:
+        try:
+            return programs(sources, languages, made.recv())
+        except EOFError:  # it was killed, or cannot make one: this process says why
+            return programs(sources, languages)
+
+    return asked
+
+
+def _send(sources: Sequence[Source], languages: Sequence[text.Language], end: Connection) -> None:
+    """Make the suites of some drives; nothing is sent where one cannot be made."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits
+    with suppress(Exception):
+        end.send(_suites(sources, languages))
+
+
+def _suites(sources: Sequence[Source], languages: Sequence[text.Language]) -> list[Shipped]:
+    return [_shipped(drive_suite(source, languages)) for source in sources]
+
+
+def _shipped(suite: Suite) -> Shipped:
+    return Shipped({**suite.parts, **{program.path: program.text for program in suite.programs}}, page.table(suite))
+
+
+def programs(
+    sources: Sequence[Source], languages: Sequence[text.Language], drives: Sequence[Shipped] = ()
+) -> dict[str, str]:
+    """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take.
+
+    `drives` are the suites of the drives, where they are made already.
+    """
+    made = [_shipped(shared_suite(languages)), *(drives or _suites(sources, languages))]
     texts = dict(harness.texts())
     for suite in made:
-        texts |= dict(suite.parts) | {program.path: program.text for program in suite.programs}
+        texts |= suite.texts
     order = "".join(f"{path}\n" for path in texts)
     files = {ROOT + path: content for path, content in (texts | {"order.txt": order}).items()}
-    return files | {PAGE: page.page(made)}
+    return files | {PAGE: page.page(suite.table for suite in made)}
