@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import cache
 from pathlib import Path
+from typing import Protocol
 
 import pytest
 from tests.maps import bad
@@ -212,6 +213,18 @@ class Second:
         return request[:2] + bytes([len(data)]) + data
 
 
+class Model(Protocol):
+    """What a stand asks of a model."""
+
+    heard: list[bytes]
+
+    def step(self) -> None:
+        """A scan."""
+
+    def reply(self, request: bytes) -> bytes:
+        """Without checksums."""
+
+
 RIG = """FUNCTION_BLOCK Rig
 VAR_INPUT
   ElapsedMs : UINT;
@@ -265,13 +278,14 @@ BUILT: dict[str, Library] = {}
 class Stand:
     """A motor on a line with a second model: 20 ms a scan, each request answered in the next but one."""
 
-    def __init__(self, engine: Engine) -> None:
-        """Power up."""
-        if engine.name not in BUILT:
-            blocks = [Text(each.path, each.text) for each in unit().blocks]
-            BUILT[engine.name] = engine.build([*blocks, Text("rig.st", RIG)])
-        self.whole: Instance = BUILT[engine.name].instance("Whole")
-        self.model, self._reply = Second(), b""
+    def __init__(self, engine: Engine, text: str = MAP, model: Model | None = None) -> None:
+        """Power up a motor of a map, with its model."""
+        name = f"{engine.name} {drive(text).prefix}"
+        if name not in BUILT:
+            blocks = [Text(each.path, each.text) for each in unit(text).blocks]
+            BUILT[name] = engine.build([*blocks, Text("rig.st", RIG.replace("COI_", f"{drive(text).prefix}_"))])
+        self.whole: Instance = BUILT[name].instance("Whole")
+        self.model, self._reply = model or Second(), b""
         self.whole["Enable"], self.whole["Hz"] = True, 50.0
 
     def run(self, ms: int, **pins: bool | float) -> list[bytes]:

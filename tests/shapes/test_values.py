@@ -2,13 +2,14 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 from tests.shapes import values
+from tests.shapes.test_coils import Stand
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
@@ -21,10 +22,12 @@ from driveblocks.reference.speed import SpeedReference
 from driveblocks.render.library import MASTERS, programs
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
+from driveblocks.site.register import rows, value
 from driveblocks.stand.stand import view
 from driveblocks.testing import runner
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Engine
 from structured_text.engines.engine import Source as Text
 from structured_text.language.lint import lint_sources
 
@@ -244,3 +247,46 @@ def test_a_warning_is_seen_in_a_simulation() -> None:
     bus.drives[0].warning = True
     (seen,) = view(bus, {1: known}, 0, counted=False).drives
     assert seen.state == "standstill, warning CE1"
+
+
+@dataclass
+class Words:
+    """A drive that stands and answers with these words, and takes every write."""
+
+    words: dict[int, int]
+    heard: list[bytes] = field(default_factory=list)
+
+    def step(self) -> None:
+        """Nothing moves."""
+
+    def reply(self, request: bytes) -> bytes:
+        """Without checksums."""
+        self.heard.append(request)
+        if request[1] == 6:
+            return request
+        first, count = int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
+        data = b"".join(self.words.get(each, 0).to_bytes(2, "big") for each in range(first, first + count))
+        return request[:2] + bytes([len(data)]) + data
+
+
+def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: Path) -> None:
+    text = values()["decimals"]
+    model = Words({0x2003: 1234, 0x2004: 0x0200})
+    stand = Stand(engine, text, model)
+    stand.run(3000)
+    for chosen, amperes in ((0x0200, 12.34), (0x0100, 123.4), (0x00FF, 1234.0)):
+        model.words[0x2004] = chosen
+        stand.run(1000)
+        assert stand.pin("Diagnosis.OutputCurrentValid") is True
+        assert stand.pin("OutputCurrentA") == pytest.approx(amperes, rel=1e-6)
+    model.words[0x2004] = 0x0300
+    stand.run(1000)
+    assert stand.pin("Diagnosis.OutputCurrentValid") is False
+    file = tmp_path / "decimals.yaml"
+    file.write_text(text, encoding="utf-8")
+    frame = ["01 03 02 04 D2 3A D9", "--request", "01 03 20 03 00 01 7F CA"]
+    told = " ".join(CliRunner().invoke(app, ["explain", *frame, "--drive", str(file)]).stdout.split())
+    assert "1234 = 12.34 A; only while 2004H bit 8-F = 2; 123.4 A while 2004H bit 8-F = 1" in told
+    row = next(each for each in rows(drives()["decimals"]) if each.address == 0x2003)
+    assert value(row, 1234, {0x2004: 0x0100}) == ("123.4", "A")
+    assert value(row, 1234, {0x2004: 0x0300}) == ("1234", "A ?")

@@ -192,6 +192,10 @@ def _writes(one: Command | Step, address: int, word: int) -> bool:
 def _notes(drive: Drive, row: Register, word: int, writing: bool) -> Iterator[str]:
     if row.scale is not None and row.scale.when is not None:
         yield f"only while {condition(row.scale.when)}"
+        yield from (
+            f"{number(word, row.signed) * one.factor} {row.unit} while {condition(one.when)}"
+            for one in row.scale.otherwise
+        )
     if row.unit is not None and row.scale is None:
         yield f"in {row.unit}, but the manual gives no scale"
     if row.range is not None and not row.range.holds(number(word, row.signed)):

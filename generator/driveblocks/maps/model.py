@@ -498,6 +498,16 @@ class Condition(Entry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class OtherScale(Entry):
+    """Another factor of a measure, which holds while something else is true: decimals or a unit by a register."""
+
+    factor: Factor = fact("engineering units per count", "0.1")
+    when: Condition = fact("holds only while this is true", "{register: 211FH, bit: 8-F, equals: 1}")
+    source: English = fact("where the manual states or proves it", "table of monitors, 211FH")
+    document: Word | None = fact(_SAYS_SO, "fieldbus_guide", optional=True)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Scale(Entry):
     """Engineering value = raw word x factor, where the manual states or proves it."""
 
@@ -507,12 +517,29 @@ class Scale(Entry):
     when: Condition | None = fact(
         "holds only while this is true", "{register: 000FH, bit: 0, equals: 0}", optional=True
     )
+    otherwise: tuple[OtherScale, ...] = fact(
+        "the other factors of a measure, each with what it holds for; no two conditions may hold at once, and where "
+        "none does the measure is not valid; simulated drives have the first",
+        "[{factor: 0.1, when: {register: 211FH, bit: 8-F, equals: 1}, source: ...}]",
+        optional=True,
+        default=(),
+    )
     needs: Switch | None = fact(
         "holds only while a keypad setting, which then is needed so, has a value: a choice of decimals or of a unit",
         "{setting: H5-05, value: 0}",
         optional=True,
     )
     proof: Word | None = fact("id of the example frame that proves it", "read_frequency_reply", optional=True)
+
+    @property
+    def choices(self) -> tuple[tuple[Condition | None, Decimal], ...]:
+        """Each factor with what it holds for."""
+        return (self.when, self.factor), *((one.when, one.factor) for one in self.otherwise)
+
+    @property
+    def conditions(self) -> tuple[Condition, ...]:
+        """On what the factor depends."""
+        return tuple(when for when, _ in self.choices if when is not None)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -75,7 +75,7 @@ def slow_words(drive: Drive) -> frozenset[int]:
     operation, faults = drive.operation, drive.faults
     words = {each.register for each in operation.measures} | meaning_words(drive)
     rows = map(drive.register_at, words)
-    meaning = [row.scale.when for row in rows if row and row.scale and row.scale.when]
+    meaning = [each for row in rows if row and row.scale for each in row.scale.conditions]
     words |= {each.register for each in meaning}
     if faults.present is not None:
         words.add(faults.present)
@@ -83,6 +83,14 @@ def slow_words(drive: Drive) -> frozenset[int]:
         words.update(range(faults.bits.first, faults.bits.last + 1))
     words.update(drive.warned)
     return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
+
+
+def young_words(drive: Drive) -> frozenset[int]:
+    """What is shown while it is young: measures, what alone says their scale, and the code of a warning."""
+    measured = [one.register for one in drive.operation.measures]
+    rows = map(drive.register_at, measured)
+    meaning = {each.register for row in rows if row and row.scale for each in row.scale.conditions}
+    return frozenset({*measured, *drive.warned, *meaning - meaning_words(drive)})
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from functools import lru_cache
 
 from driveblocks.maps import model, names
@@ -18,6 +19,7 @@ from driveblocks.maps.polls import (
     polls,
     schedule,
     slow_words,
+    young_words,
 )
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
@@ -183,6 +185,11 @@ class Measured:
     scale: Scale | None
     function: str
     when: str | None
+    """What the scale holds for; of several, one of these."""
+    known: str
+    """Whether that was read."""
+    choices: list[tuple[str, Decimal]]
+    """Of several scales, what each holds for and its factor."""
     signed: bool
     magnitude: bool
     """It is shown without its sign, which is the direction: the pins are the same for every family."""
@@ -324,7 +331,7 @@ def _reading(drive: Drive) -> Reading:
         state_reads=sorted({number[each.register] for each in operation.states}),
         verify_reads=sorted({number[each] for each in meaning_words(drive)}),
         measure_reads=sorted({number[one.register] for one in operation.measures}),
-        young_reads=sorted({number[each] for each in (*(one.register for one in operation.measures), *drive.warned)}),
+        young_reads=sorted({number[each] for each in young_words(drive)}),
         several=len({read.function for read in reads}) > 1,
         identity=_identity(drive),
     )
@@ -340,7 +347,7 @@ def _showing(drive: Drive, number: dict[int, int], told: Decoded) -> Showing:
         },
         verify=[_condition(drive, each) for each in operation.reference.verify],
         verified=[told.holds(each) for each in operation.reference.verify],
-        measures={one.shows: _measure(drive, one, told) for one in operation.measures},
+        measures={one.shows: _measure(drive, one, told, number) for one in operation.measures},
         pins={shows: pin_of(shows) for shows in MEASURES},
         commanded_by=_commanded_by(drive, number, told),
         own_maximum=_own_maximum(drive),
@@ -541,10 +548,11 @@ def pin_of(shows: str) -> Pin:
     return Pin(f"{where}{name}{unit}", f"{name}Valid", unit, setting)
 
 
-def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
+def _measure(drive: Drive, one: model.Measured, told: Decoded, number: dict[int, int]) -> Measured:
     row = drive.register_at(one.register)
     assert row is not None  # noqa: S101  (a checked map lists the registers that it measures)
     scale = row.scale if names.UNIT_NAMES.get(row.unit or "") == MEASURES[one.shows][1] else None
+    holds = [told.holds(each) for each in scale.conditions] if scale else []
     shown = pin_of(one.shows)
     high, low = places(row, one.register) if row.words else (one.register, one.register)
     return Measured(
@@ -556,10 +564,22 @@ def _measure(drive: Drive, one: model.Measured, told: Decoded) -> Measured:
         low=word_input(drive, low) if row.words else None,
         scale=scale,
         function=names.block(drive.prefix, names.symbol(row) + MEASURES[one.shows][1]),
-        when=told.holds(scale.when) if scale and scale.when else None,
+        when=" OR ".join(holds) if len(holds) < 2 else f"({' OR '.join(holds)})",
+        known=_known(drive, scale, one.register, number),
+        choices=[(hold, factor) for hold, (_, factor) in zip(holds, scale.choices, strict=True)]
+        if scale and scale.otherwise
+        else [],
         signed=row.signed,
         magnitude=row.signed and one.shows in UNSIGNED,
     )
+
+
+def _known(drive: Drive, scale: Scale | None, register: int, number: dict[int, int]) -> str:
+    """Whether what a scale depends on was read: with what the reference depends on, or by itself; empty: with it."""
+    asked = {each.register for each in scale.conditions} if scale else set()
+    own = sorted({number[each] for each in asked - meaning_words(drive)} - {number[register]})
+    verified = ["Reads.SettingsRead"] if asked & meaning_words(drive) else []
+    return " AND ".join(verified + [f"Reads.Young{each}" for each in own])
 
 
 def _silence(drive: Drive) -> int:

@@ -77,6 +77,9 @@ def _scale(row: Register) -> str | None:
         return None
     when = f"\nonly while {condition(scale.when)}" if scale.when else ""
     when += f"\nonly while {scale.needs.setting} = {scale.needs.value}" if scale.needs else ""
+    when += "".join(
+        f"\none count is {one.factor} {row.unit} while {condition(one.when)}  ({one.source})" for one in scale.otherwise
+    )
     proof = f"\nproved by the example frame {scale.proof}" if scale.proof else ""
     return f"one count is {scale.factor} {row.unit}{when}{proof}\n({scale.source})"
 

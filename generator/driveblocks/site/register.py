@@ -93,7 +93,8 @@ def value(row: Row, word: int, words: Mapping[int, int]) -> tuple[str, str]:
     if named is not None:
         return f"{number} {named}", ""
     scale = one.scale
-    pattern = of_condition(scale.when) if scale and scale.when else None
-    if scale and (pattern is None or (pattern.register in words and pattern.holds(words[pattern.register]))):
-        return f"{number * scale.factor:f}", one.unit or ""
+    for when, factor in scale.choices if scale else ():
+        pattern = of_condition(when) if when else None
+        if pattern is None or (pattern.register in words and pattern.holds(words[pattern.register])):
+            return f"{number * factor:f}", one.unit or ""
     return str(number), f"{one.unit} ?" if one.unit else ""

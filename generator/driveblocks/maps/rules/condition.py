@@ -15,7 +15,7 @@ def check(drive: Drive, report: Report) -> None:
     operation = drive.operation
     conditions = [*operation.standstill.all, *operation.reference.verify]
     conditions += [each for one in (drive.identity, operation.commanded_by) if one for each in one.all]
-    conditions += [row.scale.when for _, row in drive.registers() if row.scale and row.scale.when]
+    conditions += [each for _, row in drive.registers() if row.scale for each in row.scale.conditions]
     for condition in conditions:
         if condition.differs:
             wrong = f"{address_text(condition.register)} may have any other value here"

@@ -88,6 +88,9 @@ def _own_maximum(drive: Drive, maximum: OwnMaximum, report: Report) -> None:
     if row.unit != "Hz" or row.scale is None:
         wrong = f"the drive's own maximum is compared in Hz, but {where} has no unit Hz with a scale"
         report.miss(place, wrong, "add both to the register where the manual gives them; else leave `own_maximum` out")
+    elif row.scale.otherwise:
+        wrong = f"the drive's own maximum, {where}, has several factors"
+        report.add(place, wrong, "leave `own_maximum` out: its user sets `FullScaleHz`")
     elif when is not None and when not in drive.operation.reference.verify:
         wrong = f"the scale of {where} has a condition that nobody verifies"
         report.miss(place, wrong, "repeat the condition of `when` under `verify` of the reference")

@@ -107,7 +107,13 @@ def _reference(drive: Drive, reference: Reference, report: Report) -> None:
         known_unit = row.unit in ("Hz", "%", "r/min")
         report.add(reference.place("means"), wrong, "correct one of them" if known_unit else other)
     when = row.scale.when if row.scale else None
-    if when is not None and when not in reference.verify:
+    if row.scale is not None and row.scale.otherwise:
+        wrong = (
+            f"the reference {address_text(reference.register)} has several factors, and a wrong one is another speed"
+        )
+        right = "keep the one that `verify` asks for, or leave `scale` out: then the user sets `ReferenceScale`"
+        report.add(row.scale.place("otherwise"), wrong, right)
+    elif when is not None and when not in reference.verify:
         wrong = f"the scale of {address_text(reference.register)} has a condition that nobody verifies"
         report.miss(reference.place("verify"), wrong, "repeat the condition of `when` under `verify`")
     _maximum(drive, reference, report)

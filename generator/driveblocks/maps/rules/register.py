@@ -1,8 +1,9 @@
 """Rules on registers, their bits, values, ranges and scales."""
 
 from driveblocks.maps.form import Span, address_text, bits_text, is_bit, span_text
-from driveblocks.maps.model import Bit, Drive, Manual, Numbering, Range, Register, Value
+from driveblocks.maps.model import Bit, Drive, Manual, Numbering, OtherScale, Range, Register, Scale, Value
 from driveblocks.maps.problem import Report
+from driveblocks.maps.rules.condition import exclude
 from driveblocks.maps.rules.name import worded
 from driveblocks.maps.rules.unique import overlapping, unique
 
@@ -171,9 +172,26 @@ def _scale(row: Register, report: Report) -> None:
     if row.unit is None:
         right = "add `unit`, or leave the scale out when the manual gives none"
         report.miss(row.place("scale"), "a scale without a unit", right)
-    if row.scale.factor <= 0:
-        wrong = f"factor {row.scale.factor} is not positive"
-        report.add(row.scale.place("factor"), wrong, "write units per count, such as 0.01")
+    factors: list[Scale | OtherScale] = [row.scale, *row.scale.otherwise]
+    for one in factors:
+        if one.factor <= 0:
+            report.add(
+                one.place("factor"), f"factor {one.factor} is not positive", "write units per count, such as 0.01"
+            )
+    if row.scale.otherwise:
+        _otherwise(row, row.scale, report)
     if row.values or row.bits:
         wrong = f"a register of listed {'values' if row.values else 'bits'} has a scale"
         report.add(row.place("scale"), wrong, "remove one of them")
+
+
+def _otherwise(row: Register, scale: Scale, report: Report) -> None:
+    """Note factors of which nothing says which one holds."""
+    if row.words:
+        report.add(scale.place("otherwise"), "a value of 32 bits has one factor", "leave `otherwise` out")
+    if scale.when is None:
+        report.miss(scale.at, "a factor that always holds has others beside it", "add `when` to it, too")
+    for number, later in enumerate(scale.conditions):
+        if not all(exclude(later, earlier) for earlier in scale.conditions[:number]):
+            wrong = "this may hold together with the condition of another factor"
+            report.add(later.at, wrong, "ask the same bits for another value")

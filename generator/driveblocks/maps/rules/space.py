@@ -44,7 +44,7 @@ def _conditions(drive: Drive) -> Iterator[Condition | State]:
     yield from operation.states
     yield from (each for one in (drive.identity, operation.commanded_by) if one for each in one.all)
     yield from (condition for status in operation.status for condition in status.any)
-    yield from (row.scale.when for _, row in drive.registers() if row.scale and row.scale.when)
+    yield from (each for _, row in drive.registers() if row.scale for each in row.scale.conditions)
 
 
 def _condition(drive: Drive, one: Condition | State, report: Report) -> None:

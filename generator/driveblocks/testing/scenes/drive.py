@@ -13,6 +13,7 @@ from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
 from driveblocks.simulator.pattern import Pattern, of_condition
+from driveblocks.simulator.plate import chosen
 from driveblocks.simulator.table import Gauge, Table, table
 from structured_text.language.writing import byte, comment, word
 
@@ -267,7 +268,7 @@ def _shown(drive: Drive, made: Table, numbers: tuple[int, ...]) -> list[Context]
         found.setdefault(register, []).append(f"Value := (Value AND {word(~mask)}) OR {face};")
     for gauge in made.gauges:
         found.setdefault(gauge.register, []).append(_gauge(gauge))
-    for register, statement in (*_faults(made, numbers), *_mistaken(drive)):
+    for register, statement in (*_faults(made, numbers), *_chosen(drive), *_mistaken(drive)):
         found.setdefault(register, []).append(statement)
     return [{"register": mark(register), "statements": lines} for register, lines in sorted(found.items())]
 
@@ -311,6 +312,12 @@ def _faults(made: Table, numbers: tuple[int, ...]) -> Iterator[tuple[int, str]]:
             place, bit = divmod(code - 1, 16)
             statement = f"IF Motor.FaultCode = {code} THEN Value := Value OR {word(1 << bit)}; END_IF;"
             yield made.fault_bits[0] + place, statement
+
+
+def _chosen(drive: Drive) -> Iterator[tuple[int, str]]:
+    """What chooses between the scales of a measure."""
+    for each in chosen(drive):
+        yield each.register, f"Value := (Value AND {word(~each.mask)}) OR {word(each.value)};"
 
 
 def _mistaken(drive: Drive) -> Iterator[tuple[int, str]]:

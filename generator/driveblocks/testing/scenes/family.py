@@ -8,7 +8,7 @@ from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words, young_words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
@@ -46,7 +46,7 @@ def _reads(drive: Drive) -> Iterator[Row]:
     yield ["nothing is read", {"Anew": False}, known.shows()]
     for each in numbers:
         yield from known.answered(each)
-    for each in sorted(known.roles["measures"] | known.roles["warned"]):
+    for each in sorted(known.roles["young"]):
         yield ["again", *known.read(each, 3)]
         yield ["as old as it may be", *known.wait(STALE_MS)]
         yield ["too old", *known.wait(1)]
@@ -135,9 +135,7 @@ class _Known:
         }  # fmt: skip
         more = {"master": "MasterRead", "states": "StatesRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
-        return found | {
-            f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["measures"] | roles["warned"])
-        }
+        return found | {f"Young{each + 1}": self.ages[each] <= STALE_MS for each in sorted(roles["young"])}
 
     def _all(self, role: str) -> bool:
         return all(self.since[each] for each in self.roles[role])
@@ -165,7 +163,7 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
     registers: dict[str, Iterable[int]] = {
         "status": fast_words(drive),
         "measures": [each.register for each in operation.measures],
-        "warned": drive.warned,
+        "young": young_words(drive),
         "fault": shown,
         "proof": [each.register for each in operation.standstill.all],
         "verify": [*(each.register for each in operation.reference.verify), *own],
