@@ -4,11 +4,13 @@ import multiprocessing
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing.connection import Connection
+from pathlib import Path
+from types import MappingProxyType
 
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
@@ -124,22 +126,24 @@ Tests = Callable[[], dict[str, str]]
 
 
 def tests(sources: Sequence[Source], languages: Sequence[text.Language]) -> Tests:
-    """Begin with the test programs: another process makes those of the drives, where one can be split off.
+    """Begin with the test programs: another process makes those of two drives in three, where one can be split off.
 
-    That is on Linux, for a few maps, while this process has but one thread. Elsewhere they are made when asked for.
+    That is on Linux, for a few maps, while this process has but one thread. The others are made when asked for.
     """
+    shared = [source for at, source in enumerate(sources) if at % 3 < 2]
     if sys.platform != "linux" or len(sources) > FEW or threading.active_count() > 1:
         return partial(programs, sources, languages)
     made, end = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.get_context("fork").Process(target=_send, args=(sources, languages, end), daemon=True)
+    process = multiprocessing.get_context("fork").Process(target=_send, args=(shared, languages, end), daemon=True)
     process.start()
     end.close()
 
     def asked() -> dict[str, str]:
         try:
-            return programs(sources, languages, made.recv())
+            there: list[Shipped] = made.recv()
         except EOFError:  # it was killed, or cannot make one: this process says why
-            return programs(sources, languages)
+            there = []
+        return programs(sources, languages, {source.path: one for source, one in zip(shared, there, strict=False)})
 
     return asked
 
@@ -148,11 +152,7 @@ def _send(sources: Sequence[Source], languages: Sequence[text.Language], end: Co
     """Make the suites of some drives; nothing is sent where one cannot be made."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits
     with suppress(Exception):
-        end.send(_suites(sources, languages))
-
-
-def _suites(sources: Sequence[Source], languages: Sequence[text.Language]) -> list[Shipped]:
-    return [_shipped(drive_suite(source, languages)) for source in sources]
+        end.send([_shipped(drive_suite(source, languages)) for source in sources])
 
 
 def _shipped(suite: Suite) -> Shipped:
@@ -160,13 +160,14 @@ def _shipped(suite: Suite) -> Shipped:
 
 
 def programs(
-    sources: Sequence[Source], languages: Sequence[text.Language], drives: Sequence[Shipped] = ()
+    sources: Sequence[Source], languages: Sequence[text.Language], there: Mapping[Path, Shipped] = MappingProxyType({})
 ) -> dict[str, str]:
     """Every file of the tests, path below the folder of all blocks -> text, with the order that compilers take.
 
-    `drives` are the suites of the drives, where they are made already.
+    `there` are suites of drives that are made already, by the map.
     """
-    made = [_shipped(shared_suite(languages)), *(drives or _suites(sources, languages))]
+    made = [_shipped(shared_suite(languages))]
+    made += [there.get(source.path) or _shipped(drive_suite(source, languages)) for source in sources]
     texts = dict(harness.texts())
     for suite in made:
         texts |= suite.texts
