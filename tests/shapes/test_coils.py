@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import cache
 from pathlib import Path
-from typing import Protocol
+from typing import Any
 
 import pytest
 from tests.maps import bad
@@ -213,18 +213,6 @@ class Second:
         return request[:2] + bytes([len(data)]) + data
 
 
-class Model(Protocol):
-    """What a stand asks of a model."""
-
-    heard: list[bytes]
-
-    def step(self) -> None:
-        """A scan."""
-
-    def reply(self, request: bytes) -> bytes:
-        """Without checksums."""
-
-
 RIG = """FUNCTION_BLOCK Rig
 VAR_INPUT
   ElapsedMs : UINT;
@@ -233,6 +221,7 @@ VAR_INPUT
   Enable : BOOL;
   Forward : BOOL;
   Reverse : BOOL;
+  Reset : BOOL;
   Hz : REAL;
   RxCount : UINT;
 END_VAR
@@ -246,7 +235,8 @@ VAR
   Bus : MB_ByteLine8;
 END_VAR
   IF NOT Skip THEN
-    Motor(Enable := Enable, RunForward := Forward, RunReverse := Reverse, SpeedReferenceHz := Hz, MaximumHz := 400.0,
+    Motor(Enable := Enable, RunForward := Forward, RunReverse := Reverse, FaultReset := Reset, SpeedReferenceHz := Hz,
+      MaximumHz := 400.0,
       Address := 1, StopWithinMs := 3000, Slot := Slots[0]);
   END_IF;
   Bus(ElapsedMs := ElapsedMs, BitRate := 19200, MaxScanMs := 20, StopAll := StopAll, RxCount := RxCount,
@@ -263,12 +253,13 @@ VAR
   Enable : BOOL;
   Forward : BOOL;
   Reverse : BOOL;
+  Reset : BOOL;
   Hz : REAL;
   RxCount : UINT;
   TxCount : UINT;
 END_VAR
   One(ElapsedMs := ElapsedMs, StopAll := StopAll, Skip := Skip, Enable := Enable, Forward := Forward,
-    Reverse := Reverse, Hz := Hz, RxCount := RxCount, RxChars := Rx, TxChars := Tx);
+    Reverse := Reverse, Reset := Reset, Hz := Hz, RxCount := RxCount, RxChars := Rx, TxChars := Tx);
   TxCount := One.Bus.TxCount;
 END_PROGRAM
 """
@@ -278,14 +269,15 @@ BUILT: dict[str, Library] = {}
 class Stand:
     """A motor on a line with a second model: 20 ms a scan, each request answered in the next but one."""
 
-    def __init__(self, engine: Engine, text: str = MAP, model: Model | None = None) -> None:
+    def __init__(self, engine: Engine, text: str = MAP, model: Any = None) -> None:
         """Power up a motor of a map, with its model."""
         name = f"{engine.name} {drive(text).prefix}"
         if name not in BUILT:
             blocks = [Text(each.path, each.text) for each in unit(text).blocks]
             BUILT[name] = engine.build([*blocks, Text("rig.st", RIG.replace("COI_", f"{drive(text).prefix}_"))])
         self.whole: Instance = BUILT[name].instance("Whole")
-        self.model, self._reply = model or Second(), b""
+        self.model: Any = model or Second()
+        self._reply = b""
         self.whole["Enable"], self.whole["Hz"] = True, 50.0
 
     def run(self, ms: int, **pins: bool | float) -> list[bytes]:

@@ -13,6 +13,7 @@ from tests.shapes.test_coils import Stand
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
+from driveblocks.maps import conduct
 from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import USES, Drive
@@ -290,3 +291,75 @@ def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: 
     row = next(each for each in rows(drives()["decimals"]) if each.address == 0x2003)
     assert value(row, 1234, {0x2004: 0x0100}) == ("123.4", "A")
     assert value(row, 1234, {0x2004: 0x0300}) == ("1234", "A ?")
+
+
+@dataclass
+class Deaf(Words):
+    """It trips, and answers nothing for 1.5 s once it has answered a reset; a scan has 20 ms."""
+
+    resets: tuple[int, int] = (0x1000, 7)
+    scans: int = 0
+    unheard: int = 0
+
+    def step(self) -> None:
+        """Time passes."""
+        self.scans = max(0, self.scans - 1)
+
+    def reply(self, request: bytes) -> bytes:
+        """Nothing while it is deaf."""
+        if self.scans:
+            self.unheard += 1
+            return b""
+        if request[1] == 6 and (int.from_bytes(request[2:4], "big"), request[5]) == self.resets:
+            self.scans, self.words[0x2002] = 75, 0
+        return super().reply(request)
+
+
+@pytest.mark.parametrize(
+    ("name", "resets", "told"),
+    [("deaf", (0x1000, 7), True), ("deaf_in_between", (0x1002, 1), True), ("deaf", (0x1000, 7), False)],
+)
+def test_a_drive_that_is_silent_after_its_reset_is_not_lost(
+    name: str, resets: tuple[int, int], told: bool, engine: Engine
+) -> None:
+    text = values()[name] if told else values()[name].replace(" silent_ms: 1500,", "").replace("DEA", "DEN")
+    model = Deaf({0x2002: 1}, resets=resets)
+    stand = Stand(engine, text, model)
+    stand.run(4000)
+    assert (stand.pin("Fault"), stand.pin("StopConfirmed")) == (True, True)
+    lost = 0
+    for scan in range(200):
+        stand.run(20, Reset=scan > 0)
+        lost += stand.pin("CommOk") is not True
+    assert (stand.pin("Fault"), stand.pin("Ready")) == (False, True)
+    if told:
+        assert (lost, model.unheard, stand.whole["One.Motor.Slot.Timeouts"]) == (0, 0, 0)
+    else:
+        assert lost > 10
+        assert model.unheard > 2
+
+
+def test_a_stop_passes_while_the_drive_is_silent(engine: Engine) -> None:
+    model = Deaf({0x2002: 1})
+    stand = Stand(engine, values()["deaf"], model)
+    stand.run(4000)
+    stand.run(20)
+    stand.run(400, Reset=True)
+    assert model.scans > 40
+    before = model.unheard
+    stand.run(100, StopAll=True)
+    assert model.unheard > before
+
+
+def test_a_simulated_drive_is_silent_after_its_reset() -> None:
+    drive = SimulatedDrive(drives()["deaf_in_between"], 1)
+    asked, write = bytes.fromhex("01 03 20 00 00 01"), bytes.fromhex("01 06 10 02 00 01")
+    assert drive.reply(write) == write
+    drive.step(1400)
+    assert drive.reply(asked) is None
+    drive.step(200)
+    assert drive.reply(asked) == bytes.fromhex("01 03 02 00 00")
+    assert drive.reply(bytes.fromhex("01 06 10 02 00 00")) is not None
+    assert drive.reply(asked) is not None
+    told = "it answers nothing for 1500 ms after write 1 of 2 of a fault reset"
+    assert (conduct.silenced(drives()["deaf_in_between"]) or "").startswith(told)

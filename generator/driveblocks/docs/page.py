@@ -241,9 +241,11 @@ def abilities(drives: list[Drive]) -> Abilities:
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
     """What happens, and what the drive then does by itself, or says."""
+    silenced = conduct.silenced(drive)
     return [
         ("The cable is cut", conduct.silent_line(drive)),
         ("The drive trips", conduct.trip(drive)),
+        *([("A fault is reset", silenced)] if silenced else []),
         ("The bus is in command", conduct.in_command(drive)),
         ("The drive is of this family", conduct.recognised(drive)),
         ("Its own maximum frequency", conduct.own_maximum(drive)),

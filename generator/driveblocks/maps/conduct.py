@@ -93,6 +93,16 @@ def own_maximum(drive: Drive) -> str:
     return f"{address_text(maximum.register)}{f' ({row.id})' if row.id else ''} x {row.scale.factor} Hz"
 
 
+def silenced(drive: Drive) -> str | None:
+    """How long the drive is silent in a fault reset, where the map says it."""
+    found = drive.operation.silenced
+    if found is None:
+        return None
+    writes = next(len(one.writes) for one in drive.operation.commands if one.does == "fault_reset")
+    after = f"write {found[0] + 1} of {writes} of a fault reset" if writes > 1 else "a fault reset"
+    return f"it answers nothing for {found[1]} ms after {after}; the block does not ask it meanwhile, and sends stops"
+
+
 def nevers(drive: Drive) -> Iterator[str]:
     """What must never be sent, and what the drive would do."""
     for _, row in drive.registers():

@@ -791,6 +791,9 @@ class Step(Entry):
     clear: tuple[Bits, ...] = fact("bits to clear, others kept", "[4]", optional=True, default=())
     until: Word | None = fact("state that the drive must show before the next write", "switched_on", optional=True)
     for_ms: Count | None = fact("how long the word stays before the next write, for a pulse, ms", "100", optional=True)
+    silent_ms: Count | None = fact(
+        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000", optional=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -810,6 +813,9 @@ class Command(Entry):
         "[{register: 2000H, value: 0006H, until: ready_to_switch_on}]",
         optional=True,
         default=(),
+    )
+    silent_ms: Count | None = fact(
+        "fault_reset: how long the drive answers nothing once it has answered this write, ms", "1000", optional=True
     )
     because: English | None = fact(
         "the manual's reason, where the register's table does not call it so; excuses no motion and no direction",
@@ -1027,6 +1033,12 @@ class Operation(Entry):
     def by_sign(self) -> bool:
         """Whether a negative reference is what reverses a run."""
         return any(command.negative for command in self.commands)
+
+    @property
+    def silenced(self) -> "tuple[int, int] | None":
+        """Of a fault reset, the number of the write that the drive is silent after, from 0, and for how long, ms."""
+        writes = (each for one in self.commands if one.does == "fault_reset" for each in enumerate(one.writes))
+        return next(((number, one.silent_ms) for number, one in writes if one.silent_ms), None)
 
     @property
     def in_one_word(self) -> bool:

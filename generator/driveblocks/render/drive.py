@@ -271,6 +271,8 @@ class Ordering:
     signed: bool
     """A negative reference reverses."""
     maximum: str
+    silent: tuple[int, int] | None
+    """The write of the fault reset that makes the drive silent, and for how long, ms."""
 
 
 @dataclass(frozen=True)
@@ -388,6 +390,7 @@ def _ordering(drive: Drive) -> Ordering:
         in_rpm=reference.in_rpm,
         signed=reference.signed,
         maximum=reference.maximum,
+        silent=drive.operation.silenced,
     )
 
 
@@ -415,7 +418,7 @@ def _writes(drive: Drive, one: Command, stop: Command) -> Iterator[Write]:
     """
     kept = context.kept(drive)
     image = {stop.register: context.bits_of(stop.set)} if one.does == "fault_reset" else {}
-    holds = [*(step.for_ms or 0 for step in one.first), 0]
+    holds = [*(max(step.for_ms or 0, step.silent_ms or 0) for step in one.first), 0]
     waits = [*(_wait(drive, step.until) for step in one.first), None]
     moves = one.does in ORDERS and one.does != "fault_reset"
     for write, hold, wait in zip(one.writes, holds, waits, strict=True):

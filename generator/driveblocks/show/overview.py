@@ -103,6 +103,7 @@ def _conduct(drive: Drive) -> Iterator[RenderableType]:
     yield facts(
         ("cable cut", _from(conduct.silent_line(drive), drive.watchdog)),
         ("trip", _from(conduct.trip(drive), faults.trip_output)),
+        ("reset", conduct.silenced(drive)),
         ("bus commands", _from(conduct.in_command(drive), run.commanded_by)),
         ("own maximum", _from(conduct.own_maximum(drive), run.own_maximum)),
         ("identity", _from(conduct.recognised(drive), drive.identity)),

@@ -28,7 +28,12 @@ def answer(machine: Machine, request: bytes) -> bytes | None:
     """The reply; None where nobody listens, the request is cut short, or it is a broadcast."""
     called = request[:1] == bytes([machine.unit])
     everyone = machine.table.broadcast is not None and request[:1] == bytes([machine.table.broadcast])
-    if not machine.powered or not (called or everyone) or not _whole(machine, request):
+    if (
+        not machine.powered
+        or machine.now < machine.deaf_until
+        or not (called or everyone)
+        or not _whole(machine, request)
+    ):
         return None
     try:
         data = _granted(machine, request, everyone=everyone)

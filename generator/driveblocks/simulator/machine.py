@@ -36,6 +36,7 @@ class Machine:
         self.now = 0
         self.heard_at = 0
         self.busy_until = 0
+        self.deaf_until = 0
         self.turn_us = self.habits.turn_us
         self.powered = True
         self.fault = 0
@@ -294,6 +295,9 @@ class Machine:
 
     def written(self, before: Mapping[int, tuple[int, int]]) -> None:
         """Act on a write; `before` holds the registers that it touched: their word until then, and since when."""
+        for pattern, ms in self.table.silences:
+            if pattern.register in before and pattern.holds(self.memory[pattern.register]):
+                self.deaf_until = self.now + ms
         if self.local or not self.follows:
             return
         fired = [move for move in self.table.moves if self._fires(move, before)]

@@ -16,7 +16,7 @@ from driveblocks.simulator.copies import Copy, copies, zeros
 from driveblocks.simulator.face import Situation, face, named_bits, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import Move, moves
-from driveblocks.simulator.pattern import WORD, Pattern, of_condition
+from driveblocks.simulator.pattern import WORD, Pattern, of_condition, of_write
 from driveblocks.simulator.plate import plate
 from driveblocks.simulator.refusal import codes, refuses_beyond
 
@@ -100,6 +100,8 @@ class Table:
     dialect: Dialect
     codes: dict[str, int | None]
     moves: tuple[Move, ...]
+    silences: tuple[tuple[Pattern, int], ...]
+    """Words that make it silent, and for how long, ms."""
     states: tuple[str, ...]
     named: dict[int, int]
     faces: dict[tuple[Situation, str | None], dict[int, int]]
@@ -146,6 +148,7 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         dialect=dialect(drive),
         codes=codes(drive),
         moves=moves(drive),
+        silences=tuple(_silences(drive)),
         states=states,
         named=named,
         faces=_faces(drive, measured),
@@ -161,6 +164,11 @@ def table(drive: Drive, habits: Habits, *, ascii_mode: bool = False) -> Table:
         copies={each.register: each for each in again},
         zeros=zeros(drive, {*known, *(each.register for each in again)}),
     )
+
+
+def _silences(drive: Drive) -> Iterator[tuple[Pattern, int]]:
+    writes = (one for command in drive.operation.commands for one in command.writes)
+    yield from ((of_write(one), one.silent_ms) for one in writes if one.silent_ms)
 
 
 def _warning(drive: Drive) -> tuple[int, int]:

@@ -10,6 +10,7 @@ from driveblocks.maps.rules.unique import unique
 
 _STOPS: tuple[Does, ...] = ("stop", "coast_stop", "quick_stop", "jog_stop")
 _LONGEST_MS = 60_000
+_SILENT_MS = 5_000
 
 
 def check(drive: Drive, report: Report) -> None:
@@ -20,6 +21,7 @@ def check(drive: Drive, report: Report) -> None:
         if command.first and command.does in _STOPS:
             wrong = f"`{command.does}` has writes before it"
             report.add(command.place("first"), wrong, "a stop is one write, at once and whatever the state")
+        _silence(command, report)
         for step in command.first:
             awaited.add(step.until)
             _step(step, set(states), report)
@@ -29,6 +31,20 @@ def check(drive: Drive, report: Report) -> None:
         if name not in awaited:
             wrong = f"no step waits for the state `{name}`"
             report.miss(state.place("name"), wrong, "name it in an `until`, or remove it")
+
+
+def _silence(command: Command, report: Report) -> None:
+    """Note a silence that no block waits for: after a stop or a run the drive is asked at once."""
+    silent = [one for one in command.writes if one.silent_ms is not None]
+    for one in silent:
+        place = one.place("silent_ms")
+        if command.does != "fault_reset":
+            wrong = f"the drive is silent after a write of `{command.does}`"
+            report.add(place, wrong, "only a fault reset may be waited for; say it under `notices`")
+        elif one is not silent[0]:
+            report.add(place, "the drive is silent after two writes of a fault reset", "keep the first")
+        elif (one.silent_ms or 0) > _SILENT_MS:
+            report.add(place, f"a silence of {one.silent_ms} ms", f"write at most {_SILENT_MS}: a reset has 10 s")
 
 
 def _step(step: Step, states: set[str], report: Report) -> None:

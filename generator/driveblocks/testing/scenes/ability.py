@@ -87,6 +87,12 @@ class Ability:
         return found[0], next(code for code in found if code != found[0])
 
     @property
+    def silent_ms(self) -> int:
+        """How long the drive is silent in a fault reset, ms."""
+        silenced = self.drive.operation.silenced
+        return silenced[1] if silenced else 0
+
+    @property
     def warning(self) -> int:
         """The code that a warning of the simulated drive has; 0 where the drive has none."""
         codes = self.drive.warning_codes

@@ -108,6 +108,10 @@ def _context(drive: Drive, made: Table, numbers: tuple[int, ...]) -> Context:
         **_proof(drive),
         "moves": moves,
         "after": _after(made, at),
+        "silences": [
+            {"test": f"Touched[{at[one.register]}] AND {_holds('Kept', one, at)}", "ms": ms}
+            for one, ms in made.silences
+        ],
         "commands": _commands(made, at),
         "refusal": _refusal(made),
     }

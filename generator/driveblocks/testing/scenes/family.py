@@ -230,5 +230,8 @@ def _write(one: Command, step: int, *, several: bool) -> Shows:
         value: word(COIL_ON * pattern.value if is_bit(pattern.register) else pattern.value),
         "Moves": last and one.does in MOTIONS,
     }
-    more: Shows = {"Last": len(one.first), "HoldMs": 0 if last else one.first[step].for_ms or 0}
+    more: Shows = {
+        "Last": len(one.first),
+        "HoldMs": 0 if last else max(one.first[step].for_ms or 0, one.first[step].silent_ms or 0),
+    }
     return found | (more if several else {})

@@ -134,7 +134,7 @@ def _resets(can: Ability) -> Iterator[Step]:
 
 def _another_fault(can: Ability) -> Iterator[Step]:
     """A fault that was not read is not reset."""
-    yield Step("in charge again", {"MonitorOnly": False, ".Mute": False, "FaultReset": False}, ms=1000)
+    yield Step("in charge again", {"MonitorOnly": False, ".Mute": False, "FaultReset": False}, ms=1000 + can.silent_ms)
     begin: Shows = {".Mark": "Seen.Resets", ".Mute": True, "FaultReset": True}
     yield Step("a reset that is not answered", begin, "Seen.Resets > Mark", 3000, {"Fault": True})
     other: Shows = {"Fate.Cause": False, "Fate.KeypadReset": True, "Fate.Trips": can.codes[0], ".Mark": "Seen.Resets"}
