@@ -39,9 +39,12 @@ TEST = (
     ("tests", "pytest", "-n", "auto", "--dist", "loadfile", "--cov", "--cov-report=term", "--cov-fail-under=90"),
 )
 QUICK = (
-    "docs", "explain", "maps", "modbus", "reference", "render", "simulator", "structured_text/language",
+    "docs", "drives/test_start.py", "explain", "maps", "modbus", "reference", "render", "simulator",
+    "structured_text/language",
 )  # fmt: skip
-"""Folders of tests that answer soon: maps, their blocks as text, and the pages."""
+"""Tests that answer soon: maps, their blocks as text and at the start of a motor, and the pages."""
+SLOW = ("maps/test_fuzz.py", "maps/test_hostile.py")
+"""Files of these that look for what hardly anybody breaks, and take a third of the time of all."""
 LAST_LINE = ("driveblocks", "test")
 """A step that says all in its last line when nothing is wrong."""
 
@@ -83,12 +86,19 @@ def quick() -> int:
     """Set up, run what answers soon, and say what was left out. Returns the exit status."""
     if not set_up("[test]"):
         return 2
-    chosen = [f"tests/{name}" for name in QUICK]
-    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "loadfile", *chosen)))
-    others = {path.parent.relative_to(ROOT).as_posix() for path in ROOT.glob("tests/**/test_*.py")}
-    left = sorted(each for each in others if not any(f"{each}/".startswith(f"{one}/") for one in chosen))
-    print(f"left out: {', '.join(left)}; `python3 generator/bootstrap.py test` runs them, too")
+    words = [f"tests/{name}" for name in QUICK] + [f"--ignore=tests/{name}" for name in SLOW]
+    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "loadfile", *words)))
+    print(f"left out: {', '.join(not_quick())}; `python3 generator/bootstrap.py test` runs them, too")
     return status
+
+
+def not_quick() -> list[str]:
+    """The folders of which the quick test runs nothing, and the files that it leaves out of others."""
+    files = [path.relative_to(ROOT / "tests") for path in ROOT.glob("tests/**/test_*.py")]
+    chosen = {each for each in files if each.as_posix().startswith(QUICK) and each.as_posix() not in SLOW}
+    begun = {each.parent for each in chosen}
+    left = {each if each.parent in begun else each.parent for each in files if each not in chosen}
+    return sorted(("tests" / each).as_posix() for each in left)
 
 
 def wrong(arguments: list[str], jobs: list[str]) -> str:

@@ -88,7 +88,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
     """Leave tests out of the coverage that say nothing of it."""
     counting.at[0] = item.nodeid.removeprefix("tests/")
-    left_out = counting.at[0].startswith(counting.NOT_COUNTED)
+    left_out = counting.left_out(counting.at[0])
     if left_out and sys.gettrace() is not None:
         counting.imported()
     with counting.uncounted() if left_out else nullcontext():

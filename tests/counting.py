@@ -44,6 +44,22 @@ What they run others run, too; that of Structured Text has counters of its own.
 """
 
 
+ALL_CASES = ("maps/", "structured_text/")
+"""Where the names begin of tests each case of which goes its own way through the code; of others the first is counted.
+
+A counted test takes up to twelve times as long.
+"""
+_begun = set[str]()
+
+
+def left_out(name: str) -> bool:
+    """Whether a test that begins is left out: by its name, or after another case of it has run."""
+    function, _, case = name.partition("[")
+    again = bool(case) and function in _begun and not name.startswith(ALL_CASES)
+    _begun.add(function)
+    return again or name.startswith(NOT_COUNTED)
+
+
 ENGINE = "structured_text/"
 """Where the names begin of tests that count the embedded engine itself; in all others it runs blocks, uncounted."""
 at: list[str] = [""]
