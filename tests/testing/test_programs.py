@@ -1,6 +1,8 @@
 """The programs themselves: portable, short-named, bounded per scan, commented, the same in every run."""
 
 import re
+import subprocess
+import sys
 
 import pytest
 from tests import shipped
@@ -27,6 +29,28 @@ def all_units(made: dict[str, Unit]) -> list[Unit]:
 @pytest.fixture(scope="module")
 def all_programs(all_units: list[Unit]) -> list[Program]:
     return [program for unit in all_units for program in unit.suite.programs]
+
+
+APART = """
+import sys
+from driveblocks.maps import catalog, collection
+from driveblocks.render.text import languages
+from driveblocks.testing import suite
+
+sources = collection.read([catalog.folder() / f"{name}.yaml" for name in ("jscc", "rockwell_powerflex_4")])
+both = languages(["en", "zh"], "utf-8")
+begun, whole, make = suite.tests(sources, both), suite.programs(sources, both), suite.drive_suite
+if sys.platform == "linux":
+    suite.drive_suite = None
+assert begun() == whole
+suite._send, suite.drive_suite = (lambda *given: None), make
+assert suite.tests(sources, both)() == whole
+"""
+"""Tests of drives from another process, and from one that ends without a word."""
+
+
+def test_another_process_makes_the_same_programs() -> None:
+    subprocess.run([sys.executable, "-c", APART], check=True, timeout=300)
 
 
 def test_the_linter_finds_nothing(all_units: list[Unit]) -> None:

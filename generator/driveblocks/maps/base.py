@@ -33,23 +33,15 @@ def asked(root: Node | None) -> Node | None:
     return root.entries["base"][1] if isinstance(root, Entries) and "base" in root.entries else None
 
 
-class Sister(NamedTuple):
-    """The map of a base: its file, what is in it, and what was made of that."""
-
-    file: Path
-    nodes: Node
-    drive: Drive
-
-
-def whole(root: Entries, of: Sister, report: Report) -> Entries:
-    """A map together with what it takes over from its base."""
-    at, file = root.entries["base"][1].at, of.file
-    base = _moved(of.nodes, at)
+def whole(root: Entries, file: Path, taken: Node, sister: Drive, report: Report) -> Entries:
+    """A map together with what it takes over from its base: from what is in `file`, the checked map `sister`."""
+    at = root.entries["base"][1].at
+    base = _moved(taken, at)
     for path in _paths(root):
         base = _cut(base, path.text.split(DEEPER), EntryOf(Drive)) or _missed(base, path, file, report)
     assert isinstance(base, Entries)  # noqa: S101  (a checked map is a mapping)
-    own = _Own(_word("document", file.stem, at), of.drive.family.en)
-    entries = base.entries | {"documents": _documents(base, file, of.drive)}
+    own = _Own(_word("document", file.stem, at), sister.family.en)
+    entries = base.entries | {"documents": _documents(base, file, sister)}
     made = _entries(EntryOf(Drive), Entries(entries, base.at), root, own)
     return Entries(made.entries | {"documents": _named(made, _rows(root))}, made.at)
 

@@ -65,7 +65,7 @@ def _based(root: Node | None, report: Report, path: Path | None) -> Node | None:
         return None
     sister = _sister(file, text)
     assert taken is not None  # noqa: S101  (it was checked)
-    return base.whole(root, base.Sister(file, taken, sister), report)
+    return base.whole(root, file, taken, sister, report)
 
 
 @lru_cache(8)

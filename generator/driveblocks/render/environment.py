@@ -26,18 +26,24 @@ _RULE = "   " + "-" * 97
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 
 
-@cache
-def environment() -> jinja2.Environment:
-    """The environment of all templates. An undefined name is an error."""
-    made = jinja2.Environment(
-        loader=jinja2.PackageLoader("driveblocks.render"),
+def strict(package: str) -> jinja2.Environment:
+    """The environment of the templates of a package. An undefined name is an error."""
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader(package),
         bytecode_cache=_kept(),
+        auto_reload=False,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
         autoescape=False,  # noqa: S701  (the output is Structured Text, not HTML)
     )
+
+
+@cache
+def environment() -> jinja2.Environment:
+    """The environment of the templates of all blocks and pages."""
+    made = strict("driveblocks.render")
     made.globals.update(
         head=head,
         type_head=type_head,

@@ -291,18 +291,18 @@ class _Printer:
         self.lines.append("      END_IF;")
 
     def _items(self, stage: Stage, items: Sequence[Item], index: int, indent: str) -> None:
+        lines, checks, about, scene = self.lines, self.checks, f"{stage.words}: ", stage.scene
         run: list[str] = []
         for item in items:
             if isinstance(item, str):
                 run.append(item)
                 continue
             if run:
-                self.lines += flowing(run, indent)
+                lines += flowing(run, indent)
                 run = []
-            words = f"{stage.words}: {item.words}"
-            self.checks.append(Check(words, item, index, len(self.lines) + 1, stage.scene))
-            self.lines += remarked(item.call, f"{len(self.checks)}: {item.words}", indent)
-        self.lines += flowing(run, indent)
+            checks.append(Check(about + item.words, item, index, len(lines) + 1, scene))
+            lines += remarked(item.call, f"{len(checks)}: {item.words}", indent)
+        lines += flowing(run, indent)
 
     def _tail(self) -> None:
         self.lines += ["  IF NOT Done THEN"]

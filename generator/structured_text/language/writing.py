@@ -87,10 +87,8 @@ def broken(statement: str, indent: str, width: int = WIDTH) -> list[str]:
 
 
 def _filled(pieces: list[str], lead: str, later: str, width: int) -> list[str]:
-    """As many pieces to a line as fit, one at least; the first line starts with `lead`, others with `later`."""
-    first, *others = pieces
-    lines = [lead + first]
-    for piece in others:
+    lines = [lead + pieces[0]]
+    for piece in pieces[1:]:
         if len(lines[-1]) + 1 + len(piece) > width:
             lines.append(later + piece)
         else:

@@ -9,6 +9,7 @@ import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
 from driveblocks.maps.model import Condition, Drive
+from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.move import MOTIONS, STATE, STOPS, Move, Need
@@ -28,15 +29,8 @@ PLACES = 16
 
 @cache
 def environment() -> jinja2.Environment:
-    """The environment of the templates of test programs. An undefined name is an error."""
-    return jinja2.Environment(
-        loader=jinja2.PackageLoader("driveblocks.testing.scenes"),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # noqa: S701  (the output is Structured Text, not HTML)
-    )
+    """The environment of the templates of test programs."""
+    return strict("driveblocks.testing.scenes")
 
 
 def name(drive: Drive) -> str:
