@@ -129,7 +129,7 @@ PLANTED = (
     Planted(
         "a project to begin with links nothing", twincat, "[*own, *shared], items", "[*own, *shared, *items]", _begin
     ),
-    Planted("a link leads elsewhere", twincat, "<Link>{escape(path)}", "<Link>{item.name}", _begin),
+    Planted("a link leads elsewhere", twincat, "<Link>{escaped(path)}", "<Link>{item.name}", _begin),
     Planted(
         "a first motor lies in the library",
         twincat,
