@@ -62,7 +62,7 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("cov_source", None):
         counting.without_engine()
-    gc.set_threshold(100_000, 20, 100)
+    gc.set_threshold(100_000, 20, 20)
 
 
 def pytest_collection_finish() -> None:

@@ -60,7 +60,7 @@ MOST = {
     # simulator: the state after power-up, where a map names it
     # render: what several commands wait for alike is asked once; structured_text: long lines are broken where they are
     # written, not in three templates
-    # reference: names and numbers that many cases have in common are found once; render: its strict environment of
+    # reference: names and numbers that cases have in common are found once; render: its strict environment of
     # templates is that of test programs, too
     # what the writes of a command wait for is said by the block that writes them
     "modbus": 531, "plc": 2519, "prove": 1935, "reference": 1132, "render": 2928, "simulator": 1504, "stand": 517,

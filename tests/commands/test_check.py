@@ -66,7 +66,7 @@ def test_a_map_without_example_frames_is_good_and_told_what_its_tests_rest_on(
 ) -> None:
     made = units.units
     monkeypatch.setattr(units, "units", lambda *given: [only(made(*given)[1], "Scales")])
-    monkeypatch.setattr(build, "programs", lambda *_: {})
+    monkeypatch.setattr(build, "_tests", lambda *_: dict)
     before, _, rest = page.skeleton().partition("frames:")
     Path(good).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")
     result = CliRunner().invoke(app, ["check", good])

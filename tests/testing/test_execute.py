@@ -88,7 +88,7 @@ def test_a_program_beyond_its_time_gives_up() -> None:
 
 def test_a_program_that_never_ends_fails() -> None:
     made = program(("1",), ("2",))
-    text = made.text.replace("Done := TRUE;", "Done := FALSE;")
+    text = made.body.text.replace("Done := TRUE;", "Done := FALSE;")
     result = scanned(replace(made, body=replace(made.body, text=text)))
     assert said(result) == [("1", "passed"), ("2", "passed"), ("ends", "failed")]
     assert result.outcomes[-1].message == "the program is not Done after 3 scans"
@@ -97,7 +97,7 @@ def test_a_program_that_never_ends_fails() -> None:
 def test_a_check_that_the_program_skips_is_an_error() -> None:
     made = program(("1", "2"), ("3",))
     line = next(line for line in made.text.split("\n") if "(* 2: itself *)" in line)
-    text = made.text.replace(line, "      Trouble(Number := 0);")
+    text = made.body.text.replace(line, "      Trouble(Number := 0);")
     result = scanned(replace(made, body=replace(made.body, text=text)))
     assert said(result) == [("1", "passed"), ("2", "error"), ("3", "passed")]
     assert result.outcomes[1].message == "the check was not reached"
