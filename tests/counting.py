@@ -44,7 +44,7 @@ What they run others run, too; that of Structured Text has counters of its own.
 """
 
 
-ALL_CASES = ("maps/", "structured_text/")
+ALL_CASES = ("desk/", "explain/", "maps/", "plc/", "prove/", "simulator/", "stand/", "structured_text/")
 """Where the names begin of tests each case of which goes its own way through the code; of others the first is counted.
 
 A counted test takes up to twelve times as long.
