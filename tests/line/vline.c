@@ -288,7 +288,8 @@ static void begin(void) {
     MB_SLOT *slot = &slots[i];
     slot->UNITADDRESS = i + 1; slot->TURNROUNDMS = c.turn_ms; slot->LONGESTMS = c.drain ? c.turn_ms : c.longest_ms;
     slot->EXCEPTIONADD = kind->exception_add; slot->ERRORFUNCTION = kind->error_function; slot->ERRORADDRESS = kind->error_address;
-    slot->OTHERQUANTITY = c.words + 1; slot->POLLEVERYMS = c.poll_ms; slot->SILENCEMS = c.silence_ms;
+    /* of coils a reply tells its bytes alone: another number of them */
+    slot->OTHERQUANTITY = kind->read_function > 2 ? c.words + 1 : c.words > 8 ? c.words - 8 : c.words + 8; slot->POLLEVERYMS = c.poll_ms; slot->SILENCEMS = c.silence_ms;
     ask(&slot->ASK.table[0], kind->stop_function, kind->stop_address, kind->stop_words, kind->stop_word);
     slot->STOPREGISTER = kind->stop_address; slot->STOPWORD = kind->stop_word; slot->HASSTOP = 1;
     ask(&slot->ASK.table[3], kind->read_function, kind->read_address, c.words, 0); slot->ASK.table[3].NUMBER = 1;
