@@ -20,8 +20,8 @@ ABI = 3
 WIDE = 80
 """Characters of an expression that still fits on one line."""
 
-_PRINT = "#" * 8
-"""In place of the hash of the body in its head, until the body is rendered."""
+_PRINT = "\x01" * 8
+"""In place of the hash of the body in its head, until the body is rendered; no map can hold it."""
 _RULE = "   " + "-" * 97
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 

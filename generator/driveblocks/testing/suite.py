@@ -1,6 +1,7 @@
 """All programs: of the blocks that every drive shares, and of each drive; and the files that ship them."""
 
 import multiprocessing
+import os
 import signal
 import sys
 import threading
@@ -130,20 +131,23 @@ def tests(sources: Sequence[Source], languages: Sequence[text.Language]) -> Test
 
     That is on Linux, for a few maps, while this process has but one thread. The others are made when asked for.
     """
-    shared = [source for at, source in enumerate(sources) if at % 3 < 2]
+    theirs = [source for at, source in enumerate(sources) if at % 3 < 2]
     if sys.platform != "linux" or len(sources) > FEW or threading.active_count() > 1:
         return partial(programs, sources, languages)
     made, end = multiprocessing.Pipe(duplex=False)
-    process = multiprocessing.get_context("fork").Process(target=_send, args=(shared, languages, end), daemon=True)
-    process.start()
+    process = multiprocessing.get_context("fork").Process(target=_send, args=(theirs, languages, end), daemon=True)
+    try:
+        process.start()
+    except OSError:  # there may be no more processes
+        return partial(programs, sources, languages)
     end.close()
 
     def asked() -> dict[str, str]:
-        try:
-            there: list[Shipped] = made.recv()
-        except EOFError:  # it was killed, or cannot make one: this process says why
-            there = []
-        return programs(sources, languages, {source.path: one for source, one in zip(shared, there, strict=False)})
+        there = {source.path: _shipped(drive_suite(source, languages)) for source in sources[2::3]}
+        with suppress(EOFError, OSError):  # it was killed, or cannot make one: this process makes it, or says why
+            there |= zip((source.path for source in theirs), made.recv(), strict=True)
+        process.join()
+        return programs(sources, languages, there)
 
     return asked
 
@@ -151,6 +155,8 @@ def tests(sources: Sequence[Source], languages: Sequence[text.Language]) -> Test
 def _send(sources: Sequence[Source], languages: Sequence[text.Language], end: Connection) -> None:
     """Make the suites of some drives; nothing is sent where one cannot be made."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that waits
+    os.closerange(3, end.fileno())  # what dies with that process: the lock of the folder, and whom it is sent to
+    os.closerange(end.fileno() + 1, os.sysconf("SC_OPEN_MAX"))
     with suppress(Exception):
         end.send([_shipped(drive_suite(source, languages)) for source in sources])
 
