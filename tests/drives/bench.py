@@ -124,11 +124,7 @@ class Bench:
         self.types: Sequence[str] = types or ("CHF",)
         self.block = (stations or library()).instance(name_of(self.types))
         self.maps = [maps()[kind] for kind in self.types]
-        habits = habits or Habits()
-        self.drives = [
-            SimulatedDrive(drive, index + 1, replace(habits, bus_volts=540 + index), ascii_mode=ascii_)
-            for index, drive in enumerate(self.maps)
-        ]
+        self.drives = self.simulated(habits or Habits(), ascii_)
         self.now, self.ms, self.rate, self.ascii = 0, ms, 19200, ascii_
         self.chance = Random(seed)
         self.faults = Faults()
@@ -151,6 +147,13 @@ class Bench:
             self.put(index, Address=index + 1, **SETTINGS)
         if start:
             self.restart()
+
+    def simulated(self, habits: Habits, ascii_: bool) -> list[SimulatedDrive]:
+        """What hangs on the wire."""
+        return [
+            SimulatedDrive(drive, index + 1, replace(habits, bus_volts=540 + index), ascii_mode=ascii_)
+            for index, drive in enumerate(self.maps)
+        ]
 
     # ------------------------------------------------------------ pins
 

@@ -13,6 +13,7 @@ from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
 
+from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Library, Value
 
 KIND = {"ATV312": "atv", "CHF": "chf", "GD200A": "gd", "JSCC": "jscc", "MX2": "mx", "PF4": "pf", "SN300G5": "sn"}
@@ -91,7 +92,7 @@ class Second(Bench):
             ascii_=ascii_,
             start=False,
         )
-        self.drives, self.pins = [], [Pins(each) for each in self.pins]
+        self.pins = [Pins(each) for each in self.pins]
         for index, kind in enumerate(types):
             given = dict((options or {}).get(kind, {}))
             given["settings"] = settings if settings and not index else {}
@@ -106,6 +107,10 @@ class Second(Bench):
         self.judge = Judge(self, {i + 1: STORES[kind] for i, kind in enumerate(types)}, figures(len(types)))
         self.watch.append(lambda _: self._look())
         self.restart()
+
+    def simulated(self, *_: object) -> list[SimulatedDrive]:
+        """None: `models` answer."""
+        return []
 
     # ------------------------------------------------------------ pins
 

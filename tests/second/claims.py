@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
-from tests.second.observer import MOVES, RUN, STOPPING, any_of, both, wish
+from tests.second.observer import MOVES, RUN, STOPPING, Pins, any_of, both, wish
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ class Claim:
 
     changed_us: int = 0
     """When its pins last changed."""
-    pins: dict[str, object] = field(default_factory=dict)
+    pins: Pins = field(default_factory=lambda: Pins({}))
     permitted: bool = False
     """It was permitted to run in the last scan."""
     ready: bool = False
@@ -208,7 +208,7 @@ class Claims:
         if pins.get("StopAll"):
             self.all_us = now
         if pins != before:
-            claim.pins, claim.changed_us = dict(pins), now
+            claim.pins, claim.changed_us = Pins(pins), now
         ready = bench.shows("Ready", index)
         settled = ready and bench.shows("StopConfirmed", index)
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
@@ -329,7 +329,7 @@ class Claims:
 
     # ------------------------------------------------------------ edges
 
-    def _start(self, index: int, claim: Claim, before: dict[str, object]) -> None:
+    def _start(self, index: int, claim: Claim, before: Pins) -> None:
         """What is asked to move, and does not yet."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
         hz = pins["SpeedReferenceHz"]

@@ -42,12 +42,14 @@ class Pins(dict[str, Any]):
     def __init__(self, pins: Mapping[str, object]) -> None:
         """A copy of pins."""
         super().__init__(pins)
+        self.true = {name for name, value in pins.items() if value is True}
         self.known: Wish | None = None
         """What they ask for, once it was reckoned."""
 
     def __setitem__(self, name: str, value: object) -> None:
         """Set a pin."""
         self.known = None
+        (self.true.add if value is True else self.true.discard)(name)
         super().__setitem__(name, value)
 
 
@@ -87,11 +89,8 @@ class Truth:
 
 
 def any_of(names: tuple[str, ...], pins: Mapping[str, object]) -> bool:
-    """Whether one of these pins is TRUE; a loop, because this is asked thousands of times a second."""
-    for name in names:  # noqa: SIM110 - `any` with a generator takes three times as long
-        if pins.get(name):
-            return True
-    return False
+    """Whether one of these pins is TRUE; by their set where there is one: this is asked thousands of times a second."""
+    return not pins.true.isdisjoint(names) if isinstance(pins, Pins) else any(pins.get(name) for name in names)
 
 
 def spoilt(pins: Mapping[str, object]) -> bool:

@@ -217,7 +217,8 @@ class Sn300g5(Drive):
         """0010H, lines 271 to 280, and 002BH, line 392."""
         hz = self.motor.hz(now_us)
         zero = not (hz if self.output or self.o.zero_speed_of == "shaft" else 0)
-        resets = any(what == "reset" and self.ram[self.run_at] >> bit & 4 for bit, what in enumerate(self.o.terminals))
+        word = self.ram[self.run_at] if "reset" in self.o.terminals else 0
+        resets = any(what == "reset" and word >> bit & 4 for bit, what in enumerate(self.o.terminals))
         agrees = self.runs and not self.stopping and hz == self._goal() != 0
         bits = (self.runs, zero, self.reverse(now_us), resets, agrees)
         ready = self.fault is None and not self.inhibited

@@ -8,6 +8,7 @@ import ctypes
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import prod
 from typing import Any, Protocol
 
@@ -152,7 +153,7 @@ class ArrayNode:
     bounds: tuple[tuple[int, int], ...]
     stride: int
 
-    @property
+    @cached_property
     def lengths(self) -> list[int]:
         """Number of elements of each dimension."""
         return [high - low + 1 for low, high in self.bounds]
