@@ -33,6 +33,7 @@ EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
+UNANSWERED = ("NO_REFERENCE", "NO_RUN")
 FOLLOW_US = 7_500_000
 """FollowWithinMs is 5 s, from the answer to run."""
 LATE_US = 600_000
@@ -343,7 +344,9 @@ class Claims:
             ignores = bench.models[index].o.ignores
             one, many = bench.models[index], len(bench.models) > 3
             others = one.local or one.by in ("keypad", "terminals")  # an MX2 does not show by whom it runs
-            if others or one.fault is not None or (not ignores and not self.willing(index)):
+            # attempts at a busy drive and those without a reply are counted as one: it gives up, and says so
+            gave_up = one.o.late_per_1000 and one.busy_us > claim.edge_us and bench.reason(index) in UNANSWERED
+            if others or gave_up or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
             elif not ignores and now - claim.edge_us > self._start_us(index) * (
                 2 if one.o.late_per_1000 and many else 1

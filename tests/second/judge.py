@@ -111,6 +111,8 @@ class Unit:
     """When it last turned unasked for long, or by somebody else's hand: the contact may open for it."""
     lied_us: int = -CALM_US
     """When it last was one that acknowledges orders and does not obey them."""
+    forgotten: bool = False
+    """A restart came while it ignored stops, into SpeedOnly: it looks like one that terminals run."""
     broken: set[str] = field(default_factory=set)
 
 
@@ -242,7 +244,9 @@ class Judge:
         # silence is no alarm yet; a line that is not called can do nothing, which the drive block shows
         unit.lied_us = now if one.o.ignores else unit.lied_us
         off = bool(pins.get("SupplyOff")) and not bench.hears(index)
-        off = off or bool(pins.get("MonitorOnly") and unit.lied_us > 0)  # it has acknowledged the stop before that
+        unit.forgotten = bool(pins.get("SpeedOnly") and (unit.forgotten or (one.o.ignores and pins.get("Restart"))))
+        lied = pins.get("MonitorOnly") and unit.lied_us > 0  # it has acknowledged the stop before that
+        off = off or bool(lied) or unit.forgotten
         open_now = self.open_now or off or self._boots(index)
         truth = Truth(hz, one.by, bool(one.stopping), open_now, one.turned, one.itself)
         shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
