@@ -113,6 +113,8 @@ class Claim:
     """Ready of the last scan."""
     edge_us: int | None = None
     """When a start was asked for that the block has shown as possible."""
+    crowd_us: int = 0
+    """When stops of many others, each sent again every second, last had the line before a start."""
     stop_us: int | None = None
     armed_us: int | None = None
     """When a pin has asked for a stop that is not sent yet."""
@@ -340,6 +342,8 @@ class Claims:
             claim.edge_us = None
         elif claim.ready and not any_of((*MOVES, "Restart"), before):
             claim.edge_us = now
+        ramping = [i for i, each in enumerate(self.claims) if not (each.driven_us or bench.shows("StopConfirmed", i))]
+        claim.crowd_us = now if len(ramping) > 3 else claim.crowd_us
         if claim.edge_us is not None:
             ignores = bench.models[index].o.ignores
             one, many = bench.models[index], len(bench.models) > 3
@@ -348,7 +352,7 @@ class Claims:
             gave_up = one.o.late_per_1000 and one.busy_us > claim.edge_us and bench.reason(index) in UNANSWERED
             if others or gave_up or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - claim.edge_us > self._start_us(index) * (
+            elif not ignores and now - max(claim.edge_us, claim.crowd_us) > self._start_us(index) * (
                 2 if one.o.late_per_1000 and many else 1
             ):
                 self._once(index, "starts", bad=True)
