@@ -1,11 +1,13 @@
 """The page of a drive block: values for its template, and the pictures beside it."""
 
+from collections import ChainMap
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
+from typing import Any
 
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
-from driveblocks.docs.members import Member, members
+from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
 from driveblocks.export import CANONICAL
 from driveblocks.export.ladder import diagram
@@ -17,7 +19,7 @@ from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
 from driveblocks.render import context
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
-from driveblocks.render.library import BYTES, DRIVE_TYPES, File, adapter, first_motor
+from driveblocks.render.library import BYTES, File, adapter, first_motor
 from driveblocks.render.motor import SCAN_MS, motor
 from driveblocks.render.overview import Abilities, overview
 from driveblocks.render.reasons import REASONS
@@ -88,17 +90,23 @@ def documents(
 def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platforms: list[str]) -> dict[str, str]:
     """Every page and picture, path below the output folder -> text."""
     found = _shared(drives, checked.blocks) if drives else {}
+    blocks = {block.name: block for block in checked.blocks.values()}
+    declared = [one for unit in checked.units for one in unit.elements if isinstance(one, TypeDecl)]
+    types = {one.name: one for one in declared}
     for drive in drives:
         name = f"{drive.prefix}_Drive"
-        block = checked.blocks[name.upper()]
+        block = blocks[name]
         inputs, in_outs, outputs = _pins(drive, block)
-        values = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
+        values: dict[str, Any] = {"inputs": inputs, "in_outs": in_outs, "outputs": outputs}
+        values["settable"], values["diagnosis"] = (
+            members(types[one], drive) for one in ("VFD_Settings", "VFD_Diagnosis")
+        )
         found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
-        found[f"{FOLDER}/{name}_ladder.svg"] = _network(BYTES, drive, checked.blocks)
+        found[f"{FOLDER}/{name}_ladder.svg"] = _network(BYTES, drive, blocks)
         for platform in (one for one in DRAWN if one in platforms):
-            found[f"{FOLDER}/{name}_ladder_{platform}.svg"] = _network(platform, drive, checked.blocks)
+            found[f"{FOLDER}/{name}_ladder_{platform}.svg"] = _network(platform, drive, blocks)
     return found
 
 
@@ -151,15 +159,9 @@ def _network(platform: str, drive: Drive, blocks: Mapping[str, FunctionBlock]) -
     """The first motor of a platform as a ladder; that for any port is the one that PLCopen XML has."""
     file = first_motor(platform, drive)
     port = (parse(one.text, one.path).elements for one in adapter(platform, [ENGLISH]))
-    named = {block.name: block for block in blocks.values()}
-    named |= {one.name: one for elements in port for one in elements if isinstance(one, FunctionBlock)}
-    return network.picture(f"{file.name} as a ladder", diagram(Part(file.folder, parse(file.text, file.path)), named))
-
-
-def _structures(drive: Drive, checked: Checked) -> dict[str, list[Member]]:
-    """Name of each structure of the block -> its members."""
-    declared = (one for unit in checked.units for one in unit.elements if isinstance(one, TypeDecl))
-    return {one.name: members(one, drive) for one in declared if one.name in DRIVE_TYPES}
+    ports = {one.name: one for elements in port for one in elements if isinstance(one, FunctionBlock)}
+    program = Part(file.folder, parse(file.text, file.path))
+    return network.picture(f"{file.name} as a ladder", diagram(program, ChainMap(ports, dict(blocks))))
 
 
 def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], list[Pin]]:
@@ -169,8 +171,8 @@ def _pins(drive: Drive, block: FunctionBlock) -> tuple[list[Pin], list[Pin], lis
     return inputs, in_outs, outputs
 
 
-def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own, platforms: list[str]) -> str:
-    block, structures = checked.blocks[f"{drive.prefix}_Drive".upper()], _structures(drive, checked)
+def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, platforms: list[str]) -> str:
+    block = checked.blocks[f"{drive.prefix}_Drive".upper()]
     listed = {code.baud for code in drive.serial.baud.codes} if drive.serial.baud else set()
     open_ = [each for each in drive.absent if _open(drive, each)]
     return render(
@@ -200,8 +202,6 @@ def _page(drive: Drive, checked: Checked, values: dict[str, list[Pin]], own: Own
         unlisted=[rate for rate in RATES if listed and rate not in listed],
         bytes=block.type.size if block.type else 0,
         slot=checked.types["MB_SLOT"].size,
-        settable=structures["VFD_Settings"],
-        diagnosis=structures["VFD_Diagnosis"],
         states_said=[(name, states.SAYS[number]) for number, (name, _) in enumerate(NAMES)],
         hard_stop=HARD_STOP,
         derived=_guessed(drive),

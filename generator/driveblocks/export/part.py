@@ -90,9 +90,13 @@ class Shelf:
     def libraries(self) -> Iterator[Library]:
         """The library of all families, then that of each one with what it shares with others."""
         yield Library(WHOLE, self.parts, tuple(self.drives.values()))
+        own: dict[str, list[int]] = {folder: [] for folder in self.drives}
+        shared: list[int] = []
+        for place, part in enumerate(self.parts):
+            own.get(part.folder, shared).append(place)
         for folder, drive in self.drives.items():
-            others = self.drives.keys() - {folder}
-            yield Library(drive.prefix, tuple(part for part in self.parts if part.folder not in others), (drive,))
+            places = sorted([*shared, *own[folder]])
+            yield Library(drive.prefix, tuple(self.parts[place] for place in places), (drive,))
 
     def adapter(self, platform: str) -> tuple[Part, ...]:
         """The blocks of a platform's serial port, in the order of their use: parsed, not typed."""

@@ -4,13 +4,13 @@ The classes are the format: the decoder, the JSON schema and the format page's t
 """
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
-from functools import cached_property, reduce
+from functools import cached_property, reduce, wraps
 from itertools import pairwise
 from operator import or_
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, TypeVar, get_args
 
 from driveblocks.maps import form
 from driveblocks.maps.form import Span
@@ -1484,3 +1484,21 @@ class Drive(Entry):
         hidden = {use: {id(row) for _, row in self._twins[use]} for use in USES}
         kept = {use: [pair for pair in rows if id(pair[1]) not in hidden["r" if use == "w" else "w"]] for use in hidden}
         return {use: ([row.address.first for _, row in some], some) for use, some in kept.items()}
+
+
+Known = TypeVar("Known")
+
+
+def kept(work: Callable[[Drive], Known]) -> Callable[[Drive], Known]:
+    """Of each map worked out once, and kept as long as the map: many maps are built one after the other."""
+    name = f"{work.__module__}.{work.__qualname__}"
+
+    @wraps(work)
+    def known(drive: Drive) -> Known:
+        of = vars(drive)
+        if name not in of:
+            of[name] = work(drive)
+        found: Known = of[name]
+        return found
+
+    return known

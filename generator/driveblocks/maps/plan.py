@@ -4,11 +4,10 @@ import re
 import struct
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import lru_cache
 from math import ceil
 
 from driveblocks.maps.form import SPACES, Span, space_of, wire
-from driveblocks.maps.model import Drive, Limit
+from driveblocks.maps.model import Drive, Limit, kept
 from driveblocks.modbus.layout import COIL_ON, Dialect
 
 READ_WORDS, WRITE_WORDS = 125, 123
@@ -41,7 +40,7 @@ class Plan:
     writable: tuple[Span, ...]
 
 
-@lru_cache
+@kept
 def plan(drive: Drive) -> Plan:
     """Derive the plan of a checked map."""
     functions = {function.code: function for function in drive.functions}

@@ -2,10 +2,9 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from driveblocks.maps.form import Span, address_text, is_bit
-from driveblocks.maps.model import Drive
+from driveblocks.maps.model import Drive, kept
 from driveblocks.maps.pair import whole
 from driveblocks.maps.plan import most, plan, reads_by
 from driveblocks.modbus.layout import bytes_of
@@ -101,7 +100,7 @@ def meaning_words(drive: Drive) -> frozenset[int]:
     return frozenset(each for word in words for each in whole(drive, word))
 
 
-@lru_cache
+@kept
 def polls(drive: Drive) -> tuple[Poll, ...]:
     """The cheapest reads of all words, the fast ones first, each class by address, no two of one length if it can be.
 

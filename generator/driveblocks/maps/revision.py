@@ -1,11 +1,10 @@
 """What distinguishes one state of a map from another."""
 
 import re
-from dataclasses import fields, replace
-from functools import lru_cache
+from dataclasses import replace
 from typing import Any
 
-from driveblocks.maps.model import Drive, Entry, Worded
+from driveblocks.maps.model import Drive, Entry, Worded, kept
 from structured_text.language.fingerprint import fingerprint
 
 _LATER = {
@@ -21,13 +20,13 @@ _LEFT_OUT = re.compile(
 )
 
 
-@lru_cache
+@kept
 def revision(drive: Drive) -> int:
     """A hash of a map's facts, 32 bits: what it says in English, wherever in the file it is."""
     return int(fingerprint([_facts(english(drive))]), 16)
 
 
-@lru_cache
+@kept
 def checked(drive: Drive) -> int:
     """The number by which a user says that the manual was checked: 1 to 65535, a hash of what can move the motor.
 
@@ -40,7 +39,7 @@ def checked(drive: Drive) -> int:
     return int(fingerprint([_facts(plain.operation), _facts(scales)]), 16) % 65535 + 1
 
 
-@lru_cache
+@kept
 def english(drive: Drive) -> Drive:
     """A map without a word in another language."""
     plain: Drive = _english(drive)
@@ -52,7 +51,9 @@ def _english(value: Any) -> Any:
         return tuple(map(_english, value))
     if not isinstance(value, Entry):
         return value
-    said: dict[str, Any] = {one.name: _english(getattr(value, one.name)) for one in fields(value)}
+    facts = value.__dataclass_fields__
+    inner = {name: each for name, each in vars(value).items() if isinstance(each, (tuple, Entry)) and name in facts}
+    said: dict[str, Any] = {name: _english(each) for name, each in inner.items()}
     if isinstance(value, Worded):
         said.update(zh=None, zh_used=None, wording=None)
     return replace(value, **said)

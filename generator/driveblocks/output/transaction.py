@@ -11,7 +11,7 @@ import os
 import shutil
 import stat
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -106,12 +106,14 @@ def write(folder: Path, texts: Mapping[str, str | None], emptied: list[str]) -> 
     work = folder / WORK
     try:
         journal = _staged(folder, texts)
-        for name, (before, _) in journal.files.items():
-            if before is not None:
-                _move(folder / name, work / OLD / name, folder / name)
-        for name, (_, after) in journal.files.items():
-            if after is not None:
-                _move(work / NEW / name, folder / name, folder / name)
+        old = [name for name, (before, _) in journal.files.items() if before is not None]
+        new = [name for name, (_, after) in journal.files.items() if after is not None]
+        _make_folders(work / OLD, old, folder)
+        for name in old:
+            _move(folder / name, work / OLD / name, folder / name)
+        _make_folders(folder, new, folder)
+        for name in new:
+            _move(work / NEW / name, folder / name, folder / name)
         _prune(folder, emptied)
         with _about(folder):
             work.rename(folder / DONE)
@@ -134,6 +136,8 @@ def _staged(folder: Path, texts: Mapping[str, str | None]) -> _Journal:
     work = folder / WORK
     new = {name: text for name, text in texts.items() if text is not None}
     there = {name: digest(folder / name) for name in texts}
+    _make_folders(work, [JOURNAL], work)
+    _make_folders(work / NEW, new, folder)
     for name, text in new.items():
         _put(work / NEW / name, text, folder / name, sync=there[name] is not None)
     files = {name: (there[name], text_digest(new[name]) if name in new else None) for name in texts}
@@ -159,20 +163,25 @@ def _put(path: Path, text: str, target: Path, *, sync: bool) -> None:
 
     What replaces something else must be on the disk itself by then; to wait for that takes seconds for a whole library.
     """
-    with _about(target):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("wb") as file:
-            file.write(text.encode("utf-8"))
-            file.flush()
-            if sync:
-                os.fsync(file.fileno())
+    with _about(target), path.open("wb") as file:
+        file.write(text.encode("utf-8"))
+        file.flush()
+        if sync:
+            os.fsync(file.fileno())
 
 
 def _move(source: Path, target: Path, known: Path) -> None:
     """Move a file within the folder. Raises OSError that names it as it is known to the user."""
     with _about(known):
-        target.parent.mkdir(parents=True, exist_ok=True)
         source.replace(target)
+
+
+def _make_folders(root: Path, names: Iterable[str], known: Path) -> None:
+    """Make the folders of files. Raises OSError that names the first file of a folder as it is known to the user."""
+    first = {name.rpartition("/")[0]: name for name in reversed([*names])}
+    for inside, name in reversed(first.items()):
+        with _about(known / name):
+            (root / inside).mkdir(parents=True, exist_ok=True)
 
 
 def _prune(folder: Path, names: list[str]) -> None:
@@ -225,6 +234,7 @@ def _undo(folder: Path, journal: _Journal) -> None:
     if strange := [name for name in kept if name not in ours and os.path.lexists(folder / name)]:
         lines = [f"{folder / name}: changed since a build was interrupted; {old / name} is older" for name in strange]
         raise Refused("\n".join([*lines, "delete or move one of the two, then build again"]))
+    _make_folders(folder, kept, folder)
     for name in kept:
         if os.path.lexists(old / name):  # where case does not count, two names may have been one file
             _move(old / name, folder / name, folder / name)

@@ -3,11 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import lru_cache
 
 from driveblocks.maps import model, names
 from driveblocks.maps.form import is_bit
-from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress
+from driveblocks.maps.model import Command, Condition, Drive, Scale, State, Status, UnitAddress, kept
 from driveblocks.maps.pair import places
 from driveblocks.maps.plan import writes_by
 from driveblocks.maps.polls import (
@@ -306,7 +305,7 @@ class Block:
         return vars(self.reading) | vars(self.showing) | vars(self.ordering) | vars(self.own)
 
 
-@lru_cache
+@kept
 def drive_block(drive: Drive) -> Block:
     """All that the drive block of a family is made of."""
     told = Decoded(drive)

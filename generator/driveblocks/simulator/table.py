@@ -178,7 +178,7 @@ def _warning(drive: Drive) -> tuple[int, int]:
     return sum(1 << bit for bit in span), (codes[0].code if codes else 1) << span.first
 
 
-@lru_cache
+@lru_cache(8)
 def _faces(drive: Drive, measured: frozenset[int]) -> dict[tuple[Situation, str | None], dict[int, int]]:
     names = [state.name for state in drive.operation.states]
     standing = (each for each in situations() if not each.fault and not each.running)

@@ -62,11 +62,13 @@ def analyse(units: Sequence[Unit]) -> tuple[Checked, list[Problem]]:
 
 def _analysed(units: Sequence[Unit]) -> Analysis | None:
     """What was made of these very files, in this order, before. Raises ValueError as `analyse` does."""
+    found = units[0].analysis if units else None
+    known = found.checked.units if found is not None else units
+    others = len(known) != len(units) or any(map(is_not, known, units))
     for unit in units:
-        known = unit.analysis.checked.units if unit.analysis is not None else units
-        if len(known) != len(units) or any(map(is_not, known, units)):
+        if others or unit.analysis is not found:
             raise ValueError(f"{unit.path} was analysed with other files already: parse it again")
-    return units[0].analysis if units else None
+    return found
 
 
 def _checked(library: Library, report: Report) -> Checked:

@@ -2,13 +2,13 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from functools import cache, lru_cache
+from functools import cache
 from typing import Any
 
 import jinja2
 
 from driveblocks.maps.form import SPACES, Span, address_name, address_text, space_of, wire
-from driveblocks.maps.model import Condition, Drive
+from driveblocks.maps.model import Condition, Drive, kept
 from driveblocks.render.environment import strict
 from driveblocks.simulator.copies import RPM_OF_ONE_PAIR
 from driveblocks.simulator.habits import Habits
@@ -43,7 +43,7 @@ def text(drive: Drive, faults: Iterable[int]) -> str:
     return environment().get_template("TestDrive.st.j2").render(_context(drive, simulated(drive), tuple(faults)))
 
 
-@lru_cache
+@kept
 def simulated(drive: Drive) -> Table:
     """What the simulator knows of a drive."""
     return table(drive, Habits(maximum_hz=MAXIMUM_HZ))
