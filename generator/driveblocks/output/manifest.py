@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import stat
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -119,13 +120,13 @@ def digest(path: Path) -> str | None:
 
     Line ends count as the generator writes them, since git may have checked the file out with others.
     """
-    if path.is_symlink():
-        return "link"
-    if path.is_dir():
-        return "folder"
-    if not path.exists():
+    try:
+        mode = path.lstat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
         return None
-    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest() if path.is_file() else "device"
+    if not stat.S_ISREG(mode):
+        return "link" if stat.S_ISLNK(mode) else "folder" if stat.S_ISDIR(mode) else "device"
+    return hashlib.sha256(path.read_bytes().replace(b"\r\n", b"\n")).hexdigest()
 
 
 def compare(folder: Path, old: Manifest, texts: Mapping[str, str]) -> dict[str, State]:
