@@ -28,7 +28,9 @@ def main() -> None:
     gc.set_threshold(20_000)  # maps, trees and texts live to the end: looking for rings among them takes a tenth
     console.use_safe_utf8()
     try:
-        sys.exit(app.main(standalone_mode=False))
+        status = app.main(standalone_mode=False)
+        gc.freeze()  # nor among them at the end
+        sys.exit(status)
     except click.Abort:
         sys.exit(130)
     except click.ClickException as error:
