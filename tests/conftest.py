@@ -95,6 +95,19 @@ def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object
         return (yield)
 
 
+def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
+    """What a module has worked out once for its tests ends with the last of them: trees of libraries are large."""
+    module = getattr(item, "module", None)
+    if module is None or getattr(nextitem, "module", None) is module:
+        return
+    caches = [each for each in vars(module).values() if isinstance(each, functools._lru_cache_wrapper)]
+    own = [each for each in caches if each.__module__ == module.__name__ and each.cache_info().currsize]
+    for each in own:
+        each.cache_clear()
+    if own:
+        gc.collect()
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Print below the results what tests have recorded as their property `summary`, whichever process they ran in."""
     reports = (report for status in ("passed", "failed") for report in terminalreporter.stats.get(status, ()))
