@@ -84,7 +84,7 @@ RUNS = 4
 """Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
 JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
 """8 ends a jog: at 1000H, line 326 of CHF's manual; at 2000H, page 139 of GD200A's."""
-LATE_ECHOES = 2
+LATE_ECHOES = 4
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
