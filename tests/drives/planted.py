@@ -245,8 +245,8 @@ PLANTED = (
     ),
     Planted(
         "the next write of a path does not wait for its state",
-        "StepReached := Reached, ",
-        "StepReached := TRUE, ",
+        "StepReached := Reached,",
+        "StepReached := TRUE,",
         test_start.test_a_path_of_states_is_walked_in_its_order,
         CIA,
     ),
