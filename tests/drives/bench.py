@@ -355,6 +355,8 @@ class Bench:
             drive.clear_cause()
             drive.local, drive.follows, drive.keeps_running = False, True, False
         self.run(1200)
+        if any(self.reason(index) == "OTHER_DRIVE" for index in range(len(self.drives))):
+            self.restart()  # as its page says: a reply that nobody asked for has passed for that of its identity
         self.until(lambda: not any(drive.motor.shaft for drive in self.drives), 9000).line(Acknowledge=True)
         for index, drive in enumerate(self.drives):
             drive.reset()
