@@ -25,6 +25,9 @@ from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate,
 from structured_text.engines.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
+MANY = 2_000_000
+"""Objects, some 200 MB, after which garbage is looked for between two modules: to walk over all takes seconds."""
+_blocks = [0]
 settings.register_profile(
     "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -104,8 +107,9 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
     own = [each for each in caches if each.__module__ == module.__name__ and each.cache_info().currsize]
     for each in own:
         each.cache_clear()
-    if own:
-        gc.collect()
+    if sys.getallocatedblocks() > _blocks[0] + MANY:
+        gc.collect()  # trees go in rings
+        _blocks[0] = sys.getallocatedblocks()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
