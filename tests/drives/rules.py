@@ -22,6 +22,8 @@ READ_US = 100_000
 """How old the words can be that prove standstill: somebody may start the motor after them, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
+BACK_US = 500_000
+"""A stop that the line has begun without the block may be sent again so long after the block is back."""
 LEFT_US = 1_050_000
 """A block that was not called for so long: the line has stopped its drive."""
 BOOT_MS = 10_000
@@ -86,6 +88,8 @@ class Observer:
     """A parameter block was busy before this scan, or is."""
     stopping_us: int = 0
     skipped_us: int = 0
+    back_us: int = -1_000_000
+    """When its block was called again after it was not."""
     turning_us: int = 0
     stood_us: int = 0
     """When the motor was last seen to stand."""
@@ -135,6 +139,7 @@ class Observer:
             self.frames = len(bench.frames)
             self._acknowledge()
             return
+        self.back_us = bench.now if self.skipped_us else self.back_us
         self.skipped_us = 0
         shows = {name: bench.shows(name, self.drive) for name in PINS}
         if not shows["CommOk"] and any(shows[name] for name in FRESH):
@@ -217,7 +222,8 @@ class Observer:
         """By the line, which gives no stop up, by a restart, or because the drive is to be more than watched."""
         line = self.bench.line_pins
         restarted = line.get("Restart") or self.bench.elapsed > 1000
-        return bool(restarted or self.owed or pins.get("SpeedOnly"))
+        back = self.bench.now - self.back_us < BACK_US
+        return bool(restarted or back or self.owed or pins.get("SpeedOnly"))
 
     def _frame(self, frame: Frame, shows: dict[str, bool]) -> None:
         pins, does = self.bench.pins[self.drive], self.meaning.does(frame)

@@ -94,7 +94,8 @@ class Walk:
         self.bench.put(drive, SpeedReferenceHz=self.chance.choice(HERTZ))
 
     def restart(self, _: int) -> None:
-        self.bench.restart()
+        """The first scan of a program calls its line."""
+        self.bench.leave("SkipLine", on=False).restart()
 
     def stop_all(self, _: int) -> None:
         self.bench.line(StopAll=not self.bench.line_pins.get("StopAll"))
