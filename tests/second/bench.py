@@ -160,18 +160,19 @@ class Second(Bench):
         self.scan()
         self.block["Contact.Reset"] = self.hand = False
 
-    def ask(self, name: str, index: int, address: int, value: int) -> None:
-        """A rising edge of a parameter block: where, and what."""
+    def ask(self, name: str, index: int, address: int, value: int, *, permitted: bool = True) -> None:
+        """A rising edge of a parameter block: where, and what; and whether its user permits what no manual has."""
         if name.startswith("Reader"):
             self.models[index].ram[address] = value
         listed = name.startswith("Reader")  # those rows are in every manual, which needs no permission
-        pins = {"Address": address, "Value": value, "AllowUnknown": not listed}
+        pins = {"Address": address, "Value": value, "AllowUnknown": permitted and not listed}
         for pin, given in pins.items() if not name.startswith("Storer") else ():
             if not (pin == "Value" and name.startswith("Reader")):
                 self.block[f"{name}.{pin}"] = given
         self.block[f"{name}.Execute"] = True
-        self.judge.observer.may_store.add(index + 1)
-        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames)))
+        if permitted:
+            self.judge.observer.may_store.add(index + 1)
+        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames), permitted))
 
     hand = False
 

@@ -22,6 +22,8 @@ PARAMETER = alike({
 WRITES = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
+NOWHERE = 0xFFF5
+"""An address that no manual has."""
 ABSENT = 29
 """A unit address that no drive here has, and each could have."""
 FOREIGN, SHARED = 54, 56
@@ -121,7 +123,9 @@ def _absent_and_stall(b: Second, chance: Random) -> None:
 
 
 def _parameters(b: Second, chance: Random) -> None:
-    """Readers and writers of some drives, before and after their blocks, within some scans."""
+    """Readers and writers of some drives, before and after their blocks, within some scans; first one to be refused."""
+    b.ask("Writer", 0, NOWHERE, 1, permitted=False)
+    b.run(200)
     for index in range(min(len(b.models), 3)):
         address, kind = PARAMETER[b.types[index]], b.types[index]
         for name in (*(("Reader", "Writer") if index == 0 else ()), f"Reader{index}", f"Writer{index}"):

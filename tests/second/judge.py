@@ -127,6 +127,8 @@ class Asked:
     since_us: int
     frames: int
     """Frames before."""
+    permitted: bool = True
+    """Else it must be refused, and nothing sent."""
 
     def over(self, judge: "Judge") -> bool:
         """Whether it has ended; what it says is then judged."""
@@ -139,6 +141,8 @@ class Asked:
             return True
         bench.block[f"{self.name}.Execute"] = False
         mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
+        if not self.permitted and (done or mine):
+            judge.tell(self.index, "parameter", f"{self.name} writes what no manual has, and nobody has permitted")
         if self.name.startswith(READ):
             value = bench.block[f"{self.name}.Value"]
             doubled = bench.types[self.index] in ONE_WORD and bench.now - judge.claims.doubled_us < CALM_US
