@@ -19,11 +19,12 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
 READ_US = 100_000
-"""How old the words can be that prove standstill: somebody may start the motor after them, and the line stop it."""
+"""For each drive on the line, how old the words can be that prove standstill: they are read one after the other;
+somebody may start the motor after one of them, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 BACK_US = 500_000
-"""A stop that the line has begun without the block may be sent again so long after the block is back."""
+"""For so long a stop that the line has begun without the block may be sent again, or the other one after it."""
 LEFT_US = 1_050_000
 """A block that was not called for so long: the line has stopped its drive."""
 BOOT_MS = 10_000
@@ -89,7 +90,7 @@ class Observer:
     stopping_us: int = 0
     skipped_us: int = 0
     back_us: int = -1_000_000
-    """When its block was called again after it was not."""
+    """When its block was called again after it was not, or a stop of the line was answered."""
     turning_us: int = 0
     stood_us: int = 0
     """When the motor was last seen to stand."""
@@ -208,6 +209,7 @@ class Observer:
                 self.referred |= frame.address == self.meaning.reference
                 self.commanded |= self.wish in does and not does & set(STOPS)
                 if does & set(STOPS):
+                    self.back_us = self.bench.now if self.owed else self.back_us
                     self.acknowledged_us, self.owed = self.bench.now, False
         self.owed |= bool(self.bench.line_pins.get("StopAll"))
         self.acknowledged = len(self.bench.acknowledged)
@@ -267,7 +269,7 @@ class Observer:
         self.stood_us = self.stood_us if turns else self.bench.now
         self.turning_us = self.turning_us + 1000 * self.bench.ms if turns else 0
         if shows["StopConfirmed"] and not self.lies:
-            if not self.was_confirmed and self.stood_us < self.acknowledged_us - READ_US:
+            if not self.was_confirmed and self.stood_us < self.acknowledged_us - READ_US * len(self.bench.types):
                 self.fail("StopConfirmed, and the motor has not stood since the stop")
             if self.turning_us > SEEN_US:
                 self.fail("StopConfirmed, and the motor turns")
