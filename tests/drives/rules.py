@@ -291,7 +291,8 @@ class Observer:
             self.boots_us = self.bench.now + 1000 * BOOT_MS
             self.anew_ms = self.bench.now // 1000
         heard = [frame for frame in self.bench.acknowledged[self.heard :] if frame.unit == self.drive + 1]
-        if any(frame.read and frame.ms >= self.anew_ms for frame in heard):
+        believed = self.bench.block[f"Slots[{self.drive}].Replies"]  # one that comes too late is not
+        if believed and any(frame.read and frame.ms >= self.anew_ms for frame in heard):
             self.boots_us = 0
         self.heard = len(self.bench.acknowledged)
         return self.bench.now < self.boots_us + 1_500_000
