@@ -136,7 +136,7 @@ PLANTED = (
     ),
     Planted(
         "standstill is believed by words read before",
-        "  Reread := Closes AND (State = STOPPING) AND NOT Acknowledged;",
+        "  Reread := Closes AND (State = STOPPING) AND (Unwatched OR NOT Acknowledged);",
         "  Reread := FALSE;",
         test_stop.test_words_read_before_the_acknowledgement_prove_nothing,
     ),
