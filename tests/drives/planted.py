@@ -136,9 +136,21 @@ PLANTED = (
     ),
     Planted(
         "standstill is believed by words read before",
-        "  Reread := Closes AND (State = STOPPING) AND (Unwatched OR NOT Acknowledged);",
+        "  Reread := Closes AND (State = STOPPING) AND NOT Acknowledged;",
         "  Reread := FALSE;",
         test_stop.test_words_read_before_the_acknowledgement_prove_nothing,
+    ),
+    Planted(
+        "a stop at standstill is believed by words read before",
+        " AND (Covered >= Rank) AND (State = STOPPING);",
+        " AND (Covered >= Rank);",
+        test_stop.test_a_stop_at_standstill_is_proved_by_words_read_after_it,
+    ),
+    Planted(
+        "the frequency was read before the status",
+        " AND (Seen.Stands OR Reads.SpeedRead);",
+        ";",
+        test_stop.test_the_frequency_is_read_last,
     ),
     Planted(
         "StopConfirmed without the acknowledgement",

@@ -19,8 +19,8 @@ FRESH = ("Ready", "Running", "AtSpeed", "ZeroSpeed", "StopConfirmed")
 SEEN_US = 5_500_000
 """How long a motor may turn by itself before the block must show it: StaleMs, and a poll."""
 READ_US = 100_000
-"""For each drive on the line, how old the words can be that prove standstill: they are read one after the other;
-somebody may start the motor after one of them, and the line stop it."""
+"""For each drive on the line, how old the frequency can be that proves standstill: somebody may start the motor after
+it, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
 BACK_US = 500_000

@@ -93,6 +93,32 @@ def test_words_read_before_the_acknowledgement_prove_nothing() -> None:
     assert {0x1001, 0x3000} <= {each.address for each in bench.acknowledged[before:]}
 
 
+def test_a_stop_at_standstill_is_proved_by_words_read_after_it() -> None:
+    """Somebody may have started the motor since standstill was read."""
+    bench = watched("CHF").stopped()
+    bench.put(Enable=False).run(1000)
+    bench.put(Enable=True).run(1000)
+    before = len(bench.acknowledged)
+    bench.put(Enable=False).until(lambda: not bench.shows("StopConfirmed"))
+    bench.until(lambda: stops(bench, bench.acknowledged[before:]))
+    stopped = len(bench.acknowledged)
+    bench.until(lambda: bench.shows("StopConfirmed"))
+    assert {0x1001, 0x3000} <= {each.address for each in bench.acknowledged[stopped:]}
+
+
+def test_the_frequency_is_read_last() -> None:
+    """A frequency of 0 that was read before the status proves nothing: somebody may have started the motor since."""
+    bench = watched("CHF").stopped()
+    shown, words = bench.drives[0].word, {0x1001: 1, 0x3000: 0}
+    bench.drives[0].word = lambda address: words.get(address, shown(address))  # type: ignore[method-assign]  # it lies
+    bench.restart().run(1000)
+    bench.until(lambda: bench.acknowledged[-1].address == 0x3000)
+    words |= {0x1001: 3, 0x3000: 1000}
+    for _ in range(100):
+        bench.scan()
+        assert not bench.shows("StopConfirmed")
+
+
 @pytest.mark.parametrize("kind", FAMILIES)
 def test_a_stop_follows_a_lost_connection(kind: str) -> None:
     """Though the motor stood before: nobody knows what has happened meanwhile."""

@@ -71,15 +71,12 @@ def slow_words(drive: Drive) -> frozenset[int]:
 
     The drive's own maximum frequency is of that kind, too.
     """
-    operation, faults = drive.operation, drive.faults
+    operation = drive.operation
     words = {each.register for each in operation.measures} | meaning_words(drive)
     rows = map(drive.register_at, words)
     meaning = [each for row in rows if row and row.scale for each in row.scale.conditions]
     words |= {each.register for each in meaning}
-    if faults.present is not None:
-        words.add(faults.present)
-    elif faults.bits is not None:
-        words.update(range(faults.bits.first, faults.bits.last + 1))
+    words |= _fault_words(drive)
     words.update(drive.warned)
     return frozenset(each for word in words for each in whole(drive, word)) - fast_words(drive)
 
@@ -90,6 +87,19 @@ def young_words(drive: Drive) -> frozenset[int]:
     rows = map(drive.register_at, measured)
     meaning = {each.register for row in rows if row and row.scale for each in row.scale.conditions}
     return frozenset({*measured, *drive.warned, *meaning - meaning_words(drive)})
+
+
+def _fault_words(drive: Drive) -> frozenset[int]:
+    faults = drive.faults
+    if faults.present is not None:
+        return frozenset({faults.present})
+    return frozenset(range(faults.bits.first, faults.bits.last + 1)) if faults.bits else frozenset()
+
+
+def speed_words(drive: Drive) -> frozenset[int]:
+    """The output frequency where it is among what proves standstill; else all of the proof."""
+    proof = frozenset(each.register for each in drive.operation.standstill.all)
+    return proof & {each.register for each in drive.operation.measures if each.shows == "output_frequency"} or proof
 
 
 def meaning_words(drive: Drive) -> frozenset[int]:
@@ -104,14 +114,25 @@ def meaning_words(drive: Drive) -> frozenset[int]:
 def polls(drive: Drive) -> tuple[Poll, ...]:
     """The cheapest reads of all words, the fast ones first, each class by address, no two of one length if it can be.
 
-    A reply does not say what it answers: one that comes late, or twice, would pass for that to another read as long.
+    Of the fast ones the frequency comes last: standstill is proved once it was read after the others. Of the slow ones
+    what says which fault it is comes first: a fault begins a new round of reads. A reply does not say what it answers:
+    one that comes late, or twice, would pass for that to another read as long.
 
     Raises ValueError for a word that cannot be read, and where more than `MOST_POLLS` reads are needed.
     """
-    found = sorted(_cheapest(drive, sorted(fast_words(drive) | slow_words(drive))), key=lambda poll: not poll.fast)
+    found = sorted(
+        _cheapest(drive, sorted(fast_words(drive) | slow_words(drive))), key=lambda poll: _place(drive, poll)
+    )
     if len(found) > MOST_POLLS:
         raise ValueError(f"what its pins show takes {len(found)} reads; {MOST_POLLS} fit into the drive block's plan")
     return tuple(_apart(drive, found))
+
+
+def _place(drive: Drive, poll: Poll) -> tuple[bool, bool]:
+    words = range(poll.address, poll.address + poll.words)
+    if poll.fast:
+        return False, not speed_words(drive).isdisjoint(words)
+    return True, _fault_words(drive).isdisjoint(words)
 
 
 def identity_read(drive: Drive) -> Poll | None:

@@ -10,7 +10,7 @@ from driveblocks.maps.model import Bits, Command, Condition, Drive, Measured, St
 from driveblocks.maps.names import UNIT_NAMES
 from driveblocks.maps.pair import places, whole
 from driveblocks.maps.plan import writes_by
-from driveblocks.maps.polls import fast_words, polls, schedule, slow_words
+from driveblocks.maps.polls import Poll, fast_words, polls, schedule, slow_words
 from driveblocks.maps.revision import checked
 from driveblocks.maps.trust import second_hand
 from driveblocks.maps.view import error_number
@@ -161,12 +161,17 @@ def _holds(drive: Drive, one: Condition) -> str:
     return f"({name} AND {word(_mask([one.bit]))}) {is_} {word(one.equals << min(bits))}"
 
 
+def _comes(number: int, poll: Poll) -> str:
+    """That a good reply to a poll has come in this call."""
+    return f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
+
+
 def _read(drive: Drive) -> dict[str, str]:
     """What the block that reads owes: which word of a poll is which, whose turn it is, what ages, and what is proof."""
     reads = polls(drive)
     taken: list[str] = []
     for number, poll in enumerate(reads, 1):
-        come = f"Fresh AND NOT Anew AND (Entry = {number}) AND (Count >= {poll.words})"
+        come = _comes(number, poll)
         words = range(poll.address, poll.address + poll.words)
         for address in sorted((fast_words(drive) | slow_words(drive)) & set(words)):
             name, at = word_input(drive, address).name, address - poll.address
@@ -188,6 +193,7 @@ def _read(drive: Drive) -> dict[str, str]:
         "status_age": _every(f"Reads.StatusAgeMs >= Reads.Age{number}" for number in fast)
         + f" AND ({_any(f'Reads.StatusAgeMs = Reads.Age{number}' for number in fast)})",
         "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
+        "speed": _any(_comes(number, reads[number - 1]) for number in _speed_reads(drive)),
         "ages": _every(
             f"(Age{number} = 65535) OR (UINT_TO_UDINT(Age{number}) = UINT_TO_UDINT(Was.Age{number}) "
             f"+ UINT_TO_UDINT(PassedMs)) OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
@@ -320,6 +326,14 @@ def _proof_reads(drive: Drive) -> list[int]:
     wanted = {one.register for one in drive.operation.standstill.all}
     numbered = enumerate(polls(drive), 1)
     return [number for number, poll in numbered if wanted & set(range(poll.address, poll.address + poll.words))]
+
+
+def _speed_reads(drive: Drive) -> list[int]:
+    """The numbers of the polls that bring the frequency among the proof; all of the proof where it has none."""
+    proof = {one.register for one in drive.operation.standstill.all}
+    speed = {one.register for one in drive.operation.measures if one.shows == "output_frequency"} & proof
+    numbered = enumerate(polls(drive), 1)
+    return [at for at, poll in numbered if (speed or proof) & set(range(poll.address, poll.address + poll.words))]
 
 
 def _command_registers(drive: Drive) -> set[int]:

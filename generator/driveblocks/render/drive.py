@@ -18,6 +18,7 @@ from driveblocks.maps.polls import (
     polls,
     schedule,
     slow_words,
+    speed_words,
     young_words,
 )
 from driveblocks.maps.revision import checked
@@ -206,6 +207,8 @@ class Reading:
     """Read -> its places among the turns."""
     proof: list[Word]
     proof_reads: list[int]
+    speed_reads: list[int]
+    """Those that bring the frequency among the proof; where it has none, all of the proof."""
     fault: Faulty
     warned: Faulty | None
     """Where the code of a warning comes from."""
@@ -325,6 +328,7 @@ def _reading(drive: Drive) -> Reading:
         places={index: [turn for turn, each in enumerate(turns) if each == index] for index in turns},
         proof=[word_input(drive, each) for each in _proof(drive)],
         proof_reads=sorted({number[each] for each in _proof(drive)}),
+        speed_reads=sorted({number[each] for each in speed_words(drive)}),
         fault=_fault(drive),
         warned=_warned(drive),
         fault_reads=_fault_reads(drive, number),
