@@ -188,7 +188,8 @@ def test_what_stops_a_motor_needs_a_release_and_a_new_edge(what: str) -> None:
     assert not motions(bench, frames)
     assert bench.drives[0].mode == "standstill"
     bench.stopped()
-    assert bench.reason() == "HELD"
+    # the first request without a reply may have been that of the reference
+    assert bench.reason() in ("HELD", *["NO_REFERENCE"] * (what == "offline"))
     edge(bench)
     bench.until(lambda: bench.drives[0].hertz > 24.0)
 
