@@ -21,8 +21,8 @@ PLANTED = (
     Planted("a new stop ranks as a command", "    MB_Rank := RANK_STOP;\n", "    MB_Rank := RANK_COMMAND;\n"),
     Planted(
         "a new stop is sent after polls",
-        "OR ((Best > RANK_STOP) AND (DrainMs = 0) AND (After >= MAX(PollAfter, 1))",
-        "OR ((DrainMs = 0) AND (After >= MAX(PollAfter, 1))",
+        "OR ((Next.Best > RANK_STOP) AND (Times.DrainMs = 0) AND (Next.After >= MAX(PollAfter, 1))",
+        "OR ((Times.DrainMs = 0) AND (Next.After >= MAX(PollAfter, 1))",
     ),
     Planted("a scan is forgotten per transaction", "OnTop := UINT_TO_UDINT(ScanMs) + ", "OnTop := "),
     Planted(
@@ -32,35 +32,42 @@ PLANTED = (
     ),
     Planted(
         "a stop waits for late replies",
-        "IF (Best > RANK_AGAIN) AND (DrainMs > 0) THEN",
-        "IF (Best < RANK_NONE) AND (DrainMs > 0) THEN",
+        "IF (Next.Best > RANK_AGAIN) AND (Times.DrainMs > 0) THEN",
+        "IF (Next.Best < RANK_NONE) AND (Times.DrainMs > 0) THEN",
     ),
     Planted(
         "an echo is believed",
-        "Open.Mirrors AND (Echo <> ECHO_NONE) AND NOT OwnHeard",
-        "Open.Mirrors AND (Echo > ECHO_HEARD) AND NOT OwnHeard",
+        "Open.Mirrors AND (Echo <> ECHO_NONE) AND NOT Talk.OwnHeard",
+        "Open.Mirrors AND (Echo > ECHO_HEARD) AND NOT Talk.OwnHeard",
     ),
     Planted(
         "a stop is given up after its retries",
         "      IF NOT Stop.Accepted THEN\n",
-        "      IF Track[Slot].Stop.Lost THEN\n        Slots[Slot].Answer[0].Number := Asked;\n      END_IF;\n"
+        "      IF Track[Slot].Stop.Lost THEN\n        Slots[Slot].Answer[0].Number := Talk.Asked;\n      END_IF;\n"
         "      IF NOT Stop.Accepted THEN\n",
     ),
     Planted(
         "a stop is acknowledged when it is sent",
-        "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
-        "      Slots[Chosen].Answer[0].Number := Asked;\n"
-        "      Stop(Event := EVENT_SENT, Track := Track[Chosen].Stop);\n",
+        "      Stop(Event := EVENT_SENT, Track := Track[Next.Chosen].Stop);\n",
+        "      Slots[Next.Chosen].Answer[0].Number := Talk.Asked;\n"
+        "      Stop(Event := EVENT_SENT, Track := Track[Next.Chosen].Stop);\n",
     ),
-    Planted("the turn of stops never moves", "      TurnStop := (Chosen + 1) MOD ", "      TurnStop := 0 MOD "),
+    Planted(
+        "the turn of stops never moves",
+        "      Next.TurnStop := (Next.Chosen + 1) MOD ",
+        "      Next.TurnStop := 0 MOD ",
+    ),
     Planted(
         "the line keeps no silence",
-        "(NOT Promise.LineKeeps OR (QuietMs > Promise.SilenceMs))",
-        "(QuietMs < 65535)",
+        "(NOT Promise.LineKeeps OR (Times.QuietMs > Promise.SilenceMs))",
+        "(Times.QuietMs < 65535)",
         "timing",
     ),
     Planted(
-        "silence is a millisecond short", "(QuietMs > Promise.SilenceMs))", "(QuietMs >= Promise.SilenceMs))", "timing"
+        "silence is a millisecond short",
+        "(Times.QuietMs > Promise.SilenceMs))",
+        "(Times.QuietMs >= Promise.SilenceMs))",
+        "timing",
     ),
     Planted(
         "the turn-round is forgotten",
@@ -70,17 +77,22 @@ PLANTED = (
     ),
     Planted(
         "time runs before the port has the request",
-        "    SinceMs := Passed;\n    QuietMs := Passed;\n",
-        "    SinceMs := MB_Plus(Number := SinceMs, More := 20);\n    QuietMs := Passed;\n",
+        "    Times.SinceMs := Times.Passed;\n    Times.QuietMs := Times.Passed;\n",
+        "    Times.SinceMs := MB_Plus(Number := Times.SinceMs, More := 20);\n    Times.QuietMs := Times.Passed;\n",
         "timing",
     ),
     Planted(
         "late replies are not waited out",
-        "IF (Best > RANK_AGAIN) AND (DrainMs > 0) THEN",
-        "IF (Best > RANK_NONE) AND (DrainMs > 0) THEN",
+        "IF (Next.Best > RANK_AGAIN) AND (Times.DrainMs > 0) THEN",
+        "IF (Next.Best > RANK_NONE) AND (Times.DrainMs > 0) THEN",
         "late",
     ),
-    Planted("the checksum is not checked", "    IF Check <> WORD#16#0000 THEN", "    IF Check <> Check THEN", "stops"),
+    Planted(
+        "the checksum is not checked",
+        "    IF Heard.Check <> WORD#16#0000 THEN",
+        "    IF Heard.Check <> Heard.Check THEN",
+        "stops",
+    ),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
         "  Open.PlainMs := MB_Plus(Number := Open.PlainMs, More := PortLateMs);\n",
@@ -89,13 +101,13 @@ PLANTED = (
     ),
     Planted(
         "a request that nobody answers passes for silence",
-        "    SinceMs := Passed;\n    QuietMs := Passed;\n",
-        "    SinceMs := Passed;\n    QuietMs := 0;\n",
+        "    Times.SinceMs := Times.Passed;\n    Times.QuietMs := Times.Passed;\n",
+        "    Times.SinceMs := Times.Passed;\n    Times.QuietMs := 0;\n",
     ),
     Planted(
         "the port's silence, rounded up, passes for the drive's",
-        "(SlotSilence) >= NextSilence THEN",
-        "(SlotSilence) > NextSilence THEN",
+        "(SlotSilence) >= Sums.NextSilence THEN",
+        "(SlotSilence) > Sums.NextSilence THEN",
         "timing",
     ),
     Planted(
@@ -105,7 +117,7 @@ PLANTED = (
     ),
     Planted(
         "a fault reset is repeated",
-        "        More := 0;\n        BusyReason := 0;\n",
-        "        More := CommandMost;\n        BusyReason := 0;\n",
+        "        Talk.More := 0;\n        Talk.BusyReason := 0;\n",
+        "        Talk.More := CommandMost;\n        Talk.BusyReason := 0;\n",
     ),
 )

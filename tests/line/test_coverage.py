@@ -23,7 +23,7 @@ def long_dead(bench: Bench) -> None:
 
 def idle(bench: Bench) -> Bench:
     """Wait until nothing is open or near."""
-    while bench["Phase"] or bench["QuietMs"] < 100:
+    while bench["Phase"] or bench["Times.QuietMs"] < 100:
         bench.scan()
     return bench
 

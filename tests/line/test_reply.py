@@ -238,7 +238,7 @@ def test_frames_that_nobody_asked_for_are_counted(frame: bytes, counted: int, as
     bench.put(0, PollEveryMs=500)
     bench.ready().run(300)
     before = bench["ForeignFrames"]
-    while bench["Phase"] or bench["QuietMs"] < 100 or bench["Track[0].PauseMs"] < 200:
+    while bench["Phase"] or bench["Times.QuietMs"] < 100 or bench["Track[0].PauseMs"] < 200:
         bench.scan()
     bench.now += bench.chance.randrange(9000)  # so that it may be split between two scans
     bench.foreign(frame)

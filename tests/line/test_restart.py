@@ -36,16 +36,16 @@ def test_what_waits_is_given_up_but_no_stop(how: str) -> None:
 @pytest.mark.parametrize(
     "name",
     [
-        "TurnStop",
-        "TurnRest",
-        "TurnProbe",
-        "TurnPoll",
+        "Next.TurnStop",
+        "Next.TurnRest",
+        "Next.TurnProbe",
+        "Next.TurnPoll",
         "Slot",
-        "Chosen",
+        "Next.Chosen",
         "Walk",
-        "PollAt",
-        "ProbeAt",
-        "LastPoll",
+        "Next.PollAt",
+        "Next.ProbeAt",
+        "Next.LastPoll",
         "Index",
     ],
 )
@@ -133,7 +133,7 @@ def test_nothing_but_stops_is_sent_before_time_has_moved() -> None:
 
 def test_the_clock_of_the_slots_goes_on_after_its_end() -> None:
     bench = Bench()
-    bench.block["Clock"] = 59_990
+    bench.block["Times.Clock"] = 59_990
     bench.scan()
     bench.scan()
     assert bench.slot(0, "TimeMs") < 20

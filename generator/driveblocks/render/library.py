@@ -20,7 +20,8 @@ BLOCKS = (
 )  # fmt: skip
 LINE_TYPES = (
     "MB_LineFrame", "MB_RxRing", "MB_Port", "MB_Words4", "MB_Words16", "MB_Ask", "MB_Asks", "MB_Answer", "MB_Answers",
-    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Open",
+    "MB_Slot", "MB_StopTrack", "MB_StopCopy", "MB_Track", "MB_Open", "MB_Talk", "MB_Times", "MB_Next",
+    "MB_SlotNow", "MB_Heard", "MB_Sums",
 )  # fmt: skip
 LINE_BLOCKS = (
     "MB_CrcByte", "MB_Plus", "MB_Minus", "MB_Sixteen", "MB_Usual", "MB_Retries", "MB_Characters", "MB_WireMs",

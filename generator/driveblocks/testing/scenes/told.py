@@ -101,8 +101,8 @@ def _other(value: Value) -> Value:
 
 
 LEFT: Shows = {
-    "Online": True, "Varied": True, "Unattended": True, "StopOverdue": True, "StopAll": True, "ScanLate": True,
-    "Shared": True, "Ascii": True, "StopConfirmed": True, "EndsByAnswer": True, "ProvedStill": True, "Tripped": True,
+    "Online": True, "Unattended": True, "StopOverdue": True, "StopAll": True, "ScanLate": True,
+    "Shared": True, "StopConfirmed": True, "EndsByAnswer": True, "ProvedStill": True, "Tripped": True,
     "StopAgain": True, "ResetAsked": True, "Once": True, "Begins": True, "JogStop": 2,
     "ParameterCleared": 9, "OtherQuantity": 3,
     "LineErrorID": 55, "PollCount": 7, "LongestReplyMs": 900, "Replies": 200, "SinceStoreMs": 65535, "Alive": 33,
@@ -124,8 +124,8 @@ def _not_blank(drive: Drive) -> Iterator[Step]:
     })  # fmt: skip
     yield Step("nothing of it counts", {}, "Motor.Ready", 2000, STANDS | NOTHING_STARTED | _slot({
         "Ask[0].Number > 12": True, "Answer[0].Tries >= 1": True,
-        "Varied": False, "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
-        "Shared": False, "Ascii": "rtu" not in drive.serial.mode.modes, "StopConfirmed": True, "ProvedStill": True,
+        "Unattended": False, "StopOverdue": False, "StopAll": False, "ScanLate": False,
+        "Shared": False, "StopConfirmed": True, "ProvedStill": True,
         "Tripped": False, "JogStop": 0, "LineErrorID": 0, "LongestReplyMs <= 60": True, "Replies < 100": True,
         "SinceStoreMs < 2000": True, "ResetAsked": False,
     } | _nothing_waits()))  # fmt: skip
