@@ -63,62 +63,80 @@ class _Walk:
     def __init__(self, scope: Scope, own: set[str], kept: set[str]) -> None:
         self.scope, self.own, self.kept = scope, own, kept
         self.looping = 0
+        self.parts = _parts(scope.expressions)
 
     def walk(self, body: list[Statement], stages: Stages) -> Stages:
-        """The stages after the statements."""
+        """Bring the stages to where they are after the statements."""
         for statement in body:
-            stages = self._statement(statement, stages)
+            self._statement(statement, stages)
         return stages
 
-    def _statement(self, statement: Statement, stages: Stages) -> Stages:
+    def _statement(self, statement: Statement, stages: Stages) -> None:
         if isinstance(statement, Assign):
-            return self._assign(statement, stages)
-        if isinstance(statement, CallStatement):
-            return self._read([statement.call], stages)
-        if isinstance(statement, If):
-            stages = self._read([branch.condition for branch in statement.branches], stages)
-            return self._join([branch.body for branch in statement.branches], statement.otherwise, stages)
-        if isinstance(statement, Case):
-            stages = self._read([statement.selector], stages)
-            return self._join([branch.body for branch in statement.branches], statement.otherwise, stages)
-        if isinstance(statement, While | RepeatUntil | For):
-            return self._loop(statement, stages)
-        return stages
+            self._assign(statement, stages)
+        elif isinstance(statement, CallStatement):
+            self._read(_paths([statement.call]), stages)
+        elif isinstance(statement, If):
+            self._read(_paths(branch.condition for branch in statement.branches), stages)
+            self._join([branch.body for branch in statement.branches], statement.otherwise, stages)
+        elif isinstance(statement, Case):
+            self._read(_paths([statement.selector]), stages)
+            self._join([branch.body for branch in statement.branches], statement.otherwise, stages)
+        elif isinstance(statement, While | RepeatUntil | For):
+            self._loop(statement, stages)
 
-    def _loop(self, statement: While | RepeatUntil | For, stages: Stages) -> Stages:
+    def _loop(self, statement: While | RepeatUntil | For, stages: Stages) -> None:
         """Each round decides anew."""
         heads = [statement.start, statement.stop] if isinstance(statement, For) else [statement.condition]
         self.looping += 1
         inside = self.walk(statement.body, dict.fromkeys(stages, Stage.OLD))
         self.looping -= 1
-        return self._read(
-            heads, {**stages, **{name: max(stage, stages.get(name, stage)) for name, stage in inside.items()}}
-        )
+        _latest(stages, inside)
+        self._read(_paths(heads), stages)
 
-    def _join(self, bodies: list[list[Statement]], otherwise: list[Statement] | None, stages: Stages) -> Stages:
+    def _join(self, bodies: list[list[Statement]], otherwise: list[Statement] | None, stages: Stages) -> None:
         ends = [self.walk(body, dict(stages)) for body in [*bodies, otherwise or []]]
-        return {name: max(end.get(name, Stage.OLD) for end in ends) for end in ends for name in end}
+        stages.clear()
+        for end in ends:
+            _latest(stages, end)
 
-    def _assign(self, statement: Assign, stages: Stages) -> Stages:
+    def _assign(self, statement: Assign, stages: Stages) -> None:
         target = path(statement.target)
-        itself = target in set(_paths([statement.value]))
-        stages = self._read([statement.value], stages, but=target)
+        read = list(_paths([statement.value]))
+        self._read(read, stages, but=target)
         if target is None or target.split(".")[0] not in self.own:
-            return stages
+            return
+        itself = target in read
         stage = stages.get(target, Stage.OLD)
         if stage is Stage.GIVEN and not (itself and self.looping):
             text = f"{_written(statement.target)} was decided and used already in this call: decide it once"
             self.scope.add(statement.target.at, RULE, text)
         old = target in self.kept and (stage is Stage.OLD or (stage is Stage.USED and itself))
-        return {**stages, target: Stage.OLD if old else Stage.DECIDED}
+        stages[target] = Stage.OLD if old else Stage.DECIDED
 
-    def _read(self, values: Iterable[Expression], stages: Stages, but: str | None = None) -> Stages:
-        made = dict(stages)
-        for name in _paths(values):
-            for each in [name, *(known for known in stages if known.startswith(name + "."))]:
+    def _read(self, names: Iterable[str], stages: Stages, but: str | None = None) -> None:
+        for name in names:
+            for each in (name, *(part for part in self.parts.get(name, ()) if part in stages)):
                 if each != but:
-                    made[each] = Stage.GIVEN if made.get(each, Stage.OLD) >= Stage.DECIDED else Stage.USED
-        return made
+                    stages[each] = Stage.GIVEN if stages.get(each, Stage.OLD) >= Stage.DECIDED else Stage.USED
+
+
+def _latest(stages: Stages, others: Stages) -> None:
+    """Of each variable the later stage of two."""
+    for name, stage in others.items():
+        if stage >= stages.get(name, Stage.OLD):
+            stages[name] = stage
+
+
+def _parts(named: Iterable[Expression]) -> dict[str, set[str]]:
+    """By the name of a structure the parts of it that expressions name."""
+    parts: dict[str, set[str]] = {}
+    for whole in {found for each in named if isinstance(each, Member) and (found := path(each))}:
+        at = whole.find(".")
+        while at >= 0:
+            parts.setdefault(whole[:at], set()).add(whole)
+            at = whole.find(".", at + 1)
+    return parts
 
 
 def _counters(body: list[Statement]) -> set[str]:
@@ -156,11 +174,14 @@ def path(value: Expression) -> str | None:
 def _paths(values: Iterable[Expression]) -> Iterator[str]:
     """The variables that expressions read, each as long as it is written."""
     for value in values:
-        inner = {id(each.base) for each in expressions(value) if isinstance(each, Member)}
-        callees = {id(each.callee) for each in expressions(value) if isinstance(each, Call)}
+        longer: set[int] = set()  # the bases of members and what is called, which come after them
         for each in expressions(value):
-            if isinstance(each, Name | Member) and not isinstance(each, Qualified) and id(each) not in inner | callees:
-                found = path(each)
+            if isinstance(each, Call):
+                longer.add(id(each.callee))
+            elif isinstance(each, Name | Member):
+                if isinstance(each, Member):
+                    longer.add(id(each.base))
+                found = None if id(each) in longer or isinstance(each, Qualified) else path(each)
                 if found is not None:
                     yield found
 
