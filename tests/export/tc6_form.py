@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 _TOKEN = re.compile(
     r"""\(\*.*?\*\) | '(?:\$.|[^'$])*' | "(?:\$.|[^"$])*" | \.\. | := |
@@ -45,6 +46,7 @@ def single(text: str) -> str:
     return " ".join(text.split())
 
 
+@lru_cache(1024)  # many libraries hold the same blocks
 def scanned(text: str) -> Unit:
     """The one unit that a canonical text, or the declaration of one, holds."""
     tokens = [_Token(m[0], m.end(), not text[text.rfind("\n", 0, m.start()) + 1 : m.start()].strip())
