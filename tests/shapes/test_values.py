@@ -26,11 +26,13 @@ from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.site.register import rows, value
 from driveblocks.stand.stand import view
 from driveblocks.testing import runner
+from driveblocks.testing.outcome import Result
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine
 from structured_text.engines.engine import Source as Text
 from structured_text.language.lint import lint_sources
+from structured_text.language.problems import Problem
 
 CONCERNED = re.compile(r"_Test(Reference|Motor|Scales|Standstill|Command)")
 
@@ -45,21 +47,42 @@ def drives() -> Mapping[str, Drive]:
 
 
 @cache
-def built(name: str) -> list[Unit]:
-    """The blocks and programs of one."""
-    return list(units([Source(Path(f"{name}.yaml"), drives()[name])], languages(["en"], "utf-8")))
+def built() -> dict[str, Unit]:
+    """The shared blocks, and the blocks and programs of each; made together, since most of it is shared."""
+    sources = [Source(Path(f"{name}.yaml"), drive) for name, drive in drives().items()]
+    return {unit.suite.name: unit for unit in units(sources, languages(["en"], "utf-8"))}
+
+
+@cache
+def concerned() -> dict[str, Unit]:
+    """Of each the programs that its references and measures concern."""
+    made = {name: [one for one in built()[name].suite.programs if CONCERNED.search(one.path)] for name in drives()}
+    return {
+        name: replace(built()[name], suite=replace(built()[name].suite, programs=tuple(made[name]))) for name in made
+    }
+
+
+@cache
+def problems() -> list[Problem]:
+    """What the linter finds in the blocks of all."""
+    blocks = {each.path: each.text for unit in built().values() for each in unit.blocks}
+    return lint_sources(list(blocks.items()))
+
+
+@cache
+def results() -> list[Result]:
+    """What came of the programs of all."""
+    return runner.run(list(concerned().values()), [EmbeddedEngine()]).results
 
 
 @pytest.mark.parametrize("name", drives())
 def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
-    found = built(name)
-    blocks = {each.path: each for unit in found for each in unit.blocks}
-    assert [str(problem) for problem in lint_sources([(each.path, each.text) for each in blocks.values()])] == []
-    unit = next(each for each in found if each.suite.name == name)
-    made = tuple(each for each in unit.suite.programs if CONCERNED.search(each.path))
-    some = replace(unit, suite=replace(unit.suite, programs=made), blocks=tuple(blocks.values()))
-    assert len(made) > 4
-    assert runner.run([some], [EmbeddedEngine()]).passed
+    own = {each.path for unit in (built()["modbus"], built()[name]) for each in unit.blocks}
+    assert [str(problem) for problem in problems() if problem.path in own] == []
+    assert len(concerned()[name].suite.programs) > 4
+    found = [each for each in results() if each.unit == name]
+    assert len(found) > len(concerned()[name].suite.programs)
+    assert [str(each) for each in found if not each.passed] == []
 
 
 @pytest.mark.parametrize(
@@ -132,7 +155,7 @@ def test_the_frequency_of_a_pair(name: str, words: str, hertz: float) -> None:
     ],
 )
 def test_the_words_of_a_reference_of_32_bits(name: str, sent: int, words: tuple[int, int]) -> None:
-    orders = next(each for unit in built(name) for each in unit.blocks if each.path.endswith("_Orders.st"))
+    orders = next(each for each in built()[name].blocks if each.path.endswith("_Orders.st"))
     block = EmbeddedEngine().build([Text(orders.path, orders.text)]).instance(Path(orders.path).stem)
     block["Order"], block["ReferenceWord"] = 10, sent
     block.scan()
@@ -144,7 +167,7 @@ def test_no_program_for_a_foreign_master_where_it_takes_coils_or_pairs() -> None
     for name, has in {"turns_signed": True, "pair_signed": False}.items():
         english = languages(["en"], "utf-8")
         assert [bool(list(programs(each, drives()[name], english))) for each in MASTERS] == [has, has]
-        assert any(each.path.endswith("_Command.st") for unit in built(name) for each in unit.blocks) == has
+        assert any(each.path.endswith("_Command.st") for each in built()[name].blocks) == has
 
 
 @pytest.mark.parametrize("pairs", [0, 101])
