@@ -3,6 +3,7 @@ every line and outcome of a decision of the blocks, but for what is explained.
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -54,7 +55,8 @@ def noting(seen: Seen) -> Callable[[EmbeddedLibrary, str], EmbeddedInstance]:
             scan(now_ns)
             reasons.add(made["Motor.Reason"])
 
-        if "MOTOR.REASON" in made.state():
+        with suppress(KeyError):  # not every program has a drive block
+            made["Motor.Reason"]
             made.scan = noted
         return made
 
