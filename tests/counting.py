@@ -60,16 +60,20 @@ def left_out(name: str) -> bool:
     return again or name.startswith(NOT_COUNTED)
 
 
-ENGINE = "structured_text/"
-"""Where the names begin of tests that count the embedded engine itself; in all others it runs blocks, uncounted."""
+ENGINE = ("structured_text/", "commands/test_lint.py")
+"""Where the names begin of tests that count the embedded engine and the linter; in all others they are uncounted."""
 at: list[str] = [""]
 """The name of the test that runs."""
 
 
 def without_engine() -> None:
-    """From now on leave out what the embedded engine compiles and runs, but in its own tests."""
+    """From now on leave out what the embedded engine and the linter read, compile and run, but in their own tests."""
     from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary  # which a test takes away
+    from structured_text.language import checker, lint, parser
 
+    parser._parsed = _aside(parser._parsed)
+    checker._checked = _aside(checker._checked)
+    lint._pou = _aside(lint._pou)
     EmbeddedEngine.build = _aside(EmbeddedEngine.build)  # type: ignore[method-assign]
     scanner = EmbeddedLibrary._scanner
     EmbeddedLibrary._scanner = lambda *made: _aside(scanner(*made))  # type: ignore[method-assign]
