@@ -13,21 +13,32 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import nullcontext
+from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from hypothesis import HealthCheck, settings
 from tests import counting
 from tests.progress import Progress
 
+from driveblocks.maps import catalog, load
+from driveblocks.maps.collection import Source
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import Report
+from driveblocks.plc import live, source
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
-MANY = 2_000_000
-"""Objects, some 200 MB, after which garbage is looked for between two modules: to walk over all takes seconds."""
+MANY = 4_000_000
+"""Objects, some 400 MB, after which garbage is looked for between two modules: to walk over all takes seconds."""
 _blocks = [0]
+WITHOUT_WALK = SimpleNamespace(collect=int, freeze=gc.freeze, unfreeze=gc.unfreeze)
+"""What a run in real time does with garbage, but look for it: among the trees of all tests that takes a second."""
+_programs: dict[tuple[object, ...], source.Loaded] = {}
+MOST_PROGRAMS = 20
 settings.register_profile(
     "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -65,7 +76,43 @@ def pytest_configure(config: pytest.Config) -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if config.getoption("cov_source", None):
         counting.without_engine()
+    maps_once()
+    programs_once()
+    live.gc = WITHOUT_WALK  # type: ignore[assignment, attr-defined]
     gc.set_threshold(100_000, 20, 20)
+
+
+def maps_once() -> None:
+    """From now on load each shipped map once in a process, but in the tests of the loader."""
+    loaded = load._loaded
+
+    @functools.cache
+    def known(text: str, path: Path) -> Drive:
+        return loaded(text, Report(str(path)), path)
+
+    def once(text: str, report: Report, path: Path | None = None) -> Drive:
+        if path is None or path.parent != catalog.folder() or counting.at[0].startswith("maps/"):
+            return loaded(text, report, path)
+        return known(text, path)
+
+    load._loaded = once
+
+
+def programs_once() -> None:
+    """From now on compile a program once for the tests of a module, but in the tests of programs."""
+    load = source.load
+
+    def once(path: str, text: str, maps: Sequence[Source], name: str | None = None) -> source.Loaded:
+        if counting.at[0].startswith("plc/"):
+            return load(path, text, maps, name)
+        key = path, text, name, *(part for each in maps for part in (each.path, id(each.drive)))
+        if key not in _programs:
+            if len(_programs) == MOST_PROGRAMS:
+                _programs.clear()
+            _programs[key] = load(path, text, maps, name)
+        return _programs[key]
+
+    source.load = once
 
 
 def pytest_collection_finish() -> None:
@@ -107,6 +154,7 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
     own = [each for each in caches if each.__module__ == module.__name__ and each.cache_info().currsize]
     for each in own:
         each.cache_clear()
+    _programs.clear()
     if sys.getallocatedblocks() > _blocks[0] + MANY:
         gc.collect()  # trees go in rings
         _blocks[0] = sys.getallocatedblocks()

@@ -1,6 +1,5 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
-import functools
 import io
 import os
 import re
@@ -23,8 +22,8 @@ from driveblocks.commands import run as command
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.screen import Lines
-from driveblocks.maps import catalog, collection
-from driveblocks.plc import demo, departure, setup, source
+from driveblocks.maps import catalog
+from driveblocks.plc import demo, departure, setup
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Options
 from driveblocks.plc.setup import Setup
@@ -34,8 +33,6 @@ from driveblocks.stand.link import TcpLink
 FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 NET = 600
 """Seconds that no machine needs, for what would hang."""
-KNOWN: dict[tuple[int, ...], list[collection.Source]] = {}
-_read, _whole = collection.read, source.load
 
 
 def run(*words: str | Path) -> Result:
@@ -44,34 +41,9 @@ def run(*words: str | Path) -> Result:
 
 
 @pytest.fixture(autouse=True)
-def _compiled_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """However many tests run a program: compiling has tests of its own."""
-    monkeypatch.setattr(source, "load", compiled)
-    monkeypatch.setattr(collection, "read", lambda paths: read(tuple(paths)))
-
-
-@pytest.fixture(autouse=True)
 def _stays(monkeypatch: pytest.MonkeyPatch) -> None:
     """However slow this machine is, the process of the tests does not end."""
     monkeypatch.setattr(departure, "leave", lambda _: None)
-
-
-@functools.cache
-def read(paths: tuple[Path, ...]) -> list[collection.Source]:
-    """Maps, read once."""
-    return _read(paths)
-
-
-@functools.cache
-def _load(path: str, text: str, maps: tuple[int, ...], name: str | None) -> source.Loaded:
-    return _whole(path, text, KNOWN[maps], name)
-
-
-def compiled(path: str, text: str, maps: list[collection.Source], name: str | None = None) -> source.Loaded:
-    """A program, compiled once."""
-    key = tuple(map(id, maps))
-    KNOWN[key] = maps
-    return _load(path, text, key, name)
 
 
 @pytest.fixture
