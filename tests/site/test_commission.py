@@ -61,19 +61,36 @@ class Person:
         assert text
 
 
+def nobody(_: int) -> bytes:
+    """Nothing comes that nobody asked for."""
+    return b""
+
+
+class Idle(VirtualClock):
+    """Time that passes in longer steps while nobody has sent: a quiet minute has many short ones."""
+
+    def __init__(self, line: "Line") -> None:
+        super().__init__()
+        self.line = line
+
+    def sleep_until(self, us: int) -> None:
+        still = self.line.alien is nobody and not (self.line.sent or self.line.said or self.line.gone_us)
+        super().sleep_until(us + 9_500 if still else us)
+
+
 class Line:
     """Units on a wire that speaks in one way; `change` makes of a reply what is heard, `alien` what nobody asked."""
 
     late_ms, error = 0, ""
 
     def __init__(self, drives: list[SimulatedDrive], way: Way = WAY) -> None:
-        self.clock, self.way, self.tuned = VirtualClock(), way, way
+        self.clock, self.way, self.tuned = Idle(self), way, way
         bits = 1_000_000 / (way.character_us * way.rate)
         self.bus = Bus(drives, way.rate, round(1 / bits), ascii_mode=way.mode == "ascii")
         self.wire = WirePort(self.bus, self.clock)
         self.sent: list[bytes] = []
         self.change: Callable[[bytes, bytes], bytes] = lambda _, reply: reply
-        self.alien: Callable[[int], bytes] = lambda _: b""
+        self.alien: Callable[[int], bytes] = nobody
         self.late_us = 0
         self.said: list[tuple[int, bytes]] = []
         self.gone_us: int | None = None
