@@ -8,7 +8,7 @@ from typing import Any
 
 from driveblocks.maps.form import is_bit
 from driveblocks.maps.model import Command, Drive
-from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words, young_words
+from driveblocks.maps.polls import Poll, fast_words, other_words, polls, schedule, slow_words, speed_words, young_words
 from driveblocks.modbus.layout import COIL_ON
 from driveblocks.reference.naming import word_pin
 from driveblocks.simulator.move import MOTIONS
@@ -85,6 +85,8 @@ class _Known:
         self.ages = [NEVER_MS] * len(self.reads)
         self.since = [False] * len(self.reads)
         self.settled = not self.roles["verify"]
+        self.speed = self.proved = False
+        """The frequency has come; it has, after all else that proves standstill."""
 
     def answered(self, number: int) -> Iterator[Row]:
         """A reply that is too short, and a good one."""
@@ -96,6 +98,7 @@ class _Known:
     def read(self, number: int, passed: int, *, believed: bool = True) -> tuple[dict[str, Any], Shows]:
         """A reply to one of them."""
         self._pass(passed)
+        self.speed = believed and number in self.roles["speed"]
         words = self.reads[number].words
         gets = {"Fresh": True, "Entry": number + 1, "Count": words - (not believed), "PassedMs": passed}
         if believed:
@@ -106,12 +109,14 @@ class _Known:
     def wait(self, passed: int) -> tuple[dict[str, Any], Shows]:
         """No reply for some time."""
         self._pass(passed)
+        self.speed = False
         return {"Fresh": False, "PassedMs": passed}, self.shows()
 
     def lost(self, *what: str) -> Shows:
         """What counts no longer: what was answered `since`, its `ages`, the `settings`. No time passes meanwhile."""
         verify = self.roles["verify"]
         self._pass(0)
+        self.speed = False
         if "ages" in what:
             self.ages = [NEVER_MS] * len(self.reads)
         if "since" in what:
@@ -127,11 +132,13 @@ class _Known:
     def shows(self) -> Shows:
         """What the block must show."""
         roles = self.roles
+        self.proved = (self.proved or self.speed) and self._all("proof")
         found: Shows = {
             "StatusAgeMs": max(self.ages[each] for each in roles["status"]),
             "MeasuresAgeMs": max((self.ages[each] for each in roles["measures"]), default=NEVER_MS),
             "FaultAgeMs": max((self.ages[each] for each in roles["fault"]), default=0),
-            "ProofRead": self._all("proof"), "FaultRead": self._all("fault"), "SettingsRead": self.settled,
+            "ProofRead": self.proved, "SpeedRead": self.speed, "FaultRead": self._all("fault"),
+            "SettingsRead": self.settled,
         }  # fmt: skip
         more = {"master": "MasterRead", "states": "StatesRead"}
         found |= {name: self._all(role) for role, name in more.items() if roles[role]}
@@ -166,6 +173,7 @@ def _reads_of(drive: Drive) -> dict[str, set[int]]:
         "young": young_words(drive),
         "fault": shown,
         "proof": [each.register for each in operation.standstill.all],
+        "speed": speed_words(drive),
         "verify": [*(each.register for each in operation.reference.verify), *own],
         "master": [each.register for each in bus],
         "states": [each.register for each in operation.states],
