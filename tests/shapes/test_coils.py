@@ -100,8 +100,8 @@ def test_a_condition_on_a_pair_is_one_on_each_of_its_words() -> None:
 
 def test_pairs_and_coils_are_read_together() -> None:
     reads = [(read.function, address_text(read.address), read.words) for read in polls(drive())]
-    assert reads == [(3, "1000H", 2), (1, "coil 000EH", 10), (3, "0011H", 1), (4, "input 1000H", 1)]
-    assert [read.characters() for read in polls(drive())] == [17, 15, 15, 15]
+    assert reads == [(1, "coil 000EH", 10), (3, "1000H", 2), (3, "0011H", 1), (4, "input 1000H", 1)]
+    assert [read.characters() for read in polls(drive())] == [15, 17, 15, 15]
 
 
 def test_no_read_ends_inside_a_pair() -> None:
