@@ -17,6 +17,7 @@ from collections.abc import Generator, Sequence
 from contextlib import nullcontext
 from pathlib import Path
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -27,9 +28,11 @@ from driveblocks.maps import catalog, load
 from driveblocks.maps.collection import Source
 from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import Report
-from driveblocks.plc import live, source
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
+
+if TYPE_CHECKING:
+    from driveblocks.plc import source
 
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
 MANY = 4_000_000
@@ -37,7 +40,7 @@ MANY = 4_000_000
 _blocks = [0]
 WITHOUT_WALK = SimpleNamespace(collect=int, freeze=gc.freeze, unfreeze=gc.unfreeze)
 """What a run in real time does with garbage, but look for it: among the trees of all tests that takes a second."""
-_programs: dict[tuple[object, ...], source.Loaded] = {}
+_programs: dict[tuple[object, ...], "source.Loaded"] = {}
 MOST_PROGRAMS = 20
 settings.register_profile(
     "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
@@ -78,7 +81,6 @@ def pytest_configure(config: pytest.Config) -> None:
         counting.without_engine()
     maps_once()
     programs_once()
-    live.gc = WITHOUT_WALK  # type: ignore[assignment, attr-defined]
     gc.set_threshold(100_000, 20, 20)
 
 
@@ -99,7 +101,10 @@ def maps_once() -> None:
 
 
 def programs_once() -> None:
-    """From now on compile a program once for the tests of a module, but in the tests of programs."""
+    """From now on compile a program once for a module's tests, but for those of programs; no run walks over trees."""
+    from driveblocks.plc import live, source  # here: the check of engines comes first
+
+    live.gc = WITHOUT_WALK  # type: ignore[assignment, attr-defined]
     load = source.load
 
     def once(path: str, text: str, maps: Sequence[Source], name: str | None = None) -> source.Loaded:

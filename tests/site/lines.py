@@ -214,7 +214,9 @@ def line(seed: int, way: str | None = None) -> Verdict:
     person = Person(wrong, one, wire, kind == "scale")
     others = {name: each for name, each in MAPS.items() if name != family}
     found = commission(wire, person, Wish(MAPS[family], others), lambda _: None)
-    if written := [each for each in wire.sent if (opened(each) or ascii_opened(each) or b"\0\0")[1] not in (1, 2, 3, 4)]:
+    if written := [
+        each for each in wire.sent if (opened(each) or ascii_opened(each) or b"\0\0")[1] not in (1, 2, 3, 4)
+    ]:
         return Verdict(kind, "wrong", f"seed {seed}: it writes {written[0].hex()}")
     state, why = _judged(kind, found, unit, wire, one)
     return Verdict(kind, state, f"seed {seed}, {family}: {why}")
