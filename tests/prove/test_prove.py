@@ -145,7 +145,10 @@ def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
 @pytest.mark.parametrize(
     ("change", "found"),
     [
-        ("VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead [AND -> OR] NOT Reread;", True),
+        (
+            "VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead [AND -> OR] Seen.ProofRead AND NOT Reread;",
+            True,
+        ),
         ("VFD_StopRound: Acknowledged := Acknowledged [OR -> AND] Closes;", True),
         ("VFD_FaultReset: Failed := (Edge [AND -> OR] Refuses) OR Gone;", True),
         ("VFD_Usual: LearnedMs := LongestReplyMs MOD [256 -> 257] * 2 + MARGIN_MS;", False),

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, Pins, any_of, both, wish
-from tests.second.pf4 import alike
+from tests.second.pf4 import VARIANTS, alike
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
     from tests.second.judge import Judge
 
+ONE_WORD = ("PF4", *VARIANTS)
+"""Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
 READS_FEED = ("MX2",)
 """Drives whose watchdog any good frame feeds, so that no reference is sent for it alone (SJ700, page 4-129)."""
 QUIET_US = 2_000_000
@@ -195,8 +197,13 @@ class Claims:
             and self.willing(index)
             and self.well(index, QUIET_US)
             and not any_of((*MOVES, "Restart"), pins)
+            and not self.mistaken(index, now_us)
         ):
             self.judge.tell(index, "quiet", f"a write to {self.bench.told(index)}")
+
+    def mistaken(self, index: int, now: int) -> bool:
+        """Whether it may have taken a copy of a reply for the next one."""
+        return self.bench.types[index] in ONE_WORD and now - self.doubled_us < CALM_US
 
     def scan(self, index: int, hz: float, *, driven: bool, looks: bool) -> None:
         """After a scan; the true speed of the shaft."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import MAX_SCAN_US, Claims
 from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
-from tests.second.pf4 import VARIANTS, alike
+from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -20,8 +20,6 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
-ONE_WORD = ("PF4", *VARIANTS)
-"""Families whose reads have one length: a copy of a reply passes for the next, as docs/line.md says."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 UNLEARNED_MS = 500
@@ -145,8 +143,8 @@ class Asked:
             judge.tell(self.index, "parameter", f"{self.name} writes what no manual has, and nobody has permitted")
         if self.name.startswith(READ):
             value = bench.block[f"{self.name}.Value"]
-            doubled = bench.types[self.index] in ONE_WORD and bench.now - judge.claims.doubled_us < CALM_US
-            if done and value not in (self.value, one.ram.get(self.address)) and not doubled:
+            wrong = done and value not in (self.value, one.ram.get(self.address))
+            if wrong and not judge.claims.mistaken(self.index, bench.now):
                 judge.tell(self.index, "parameter", f"{self.name} has read {value!r}")
         elif (
             self.name.startswith(WRITE)
@@ -385,7 +383,7 @@ class Judge:
         if not good or now - self.lineless_us < CALM_US // 2:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
-        if bench.types[index] in ONE_WORD and now - self.claims.doubled_us < CALM_US:
+        if self.claims.mistaken(index, now):
             return
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
