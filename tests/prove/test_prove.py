@@ -146,7 +146,8 @@ def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
     ("change", "found"),
     [
         (
-            "VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead [AND -> OR] Seen.ProofRead AND NOT Reread;",
+            "VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead "
+            "[AND -> OR] Seen.ProofRead AND NOT Reread;",
             True,
         ),
         ("VFD_StopRound: Acknowledged := Acknowledged [OR -> AND] Closes;", True),
