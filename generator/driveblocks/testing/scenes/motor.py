@@ -552,7 +552,7 @@ def _nine_faults(can: Ability) -> Iterator[Step]:
     codes = [first, second, second, first, first, first, second, first, second]
     for count, code in enumerate(codes, 1):
         shown = code if can.code else 0
-        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=400 * can.turns, shows={
+        yield Step(f"fault {count}", {"Fate.Trips": code}, ms=500 * can.turns, shows={
             "Fault": True, "FaultCode": shown, "Motor.Diagnosis.FaultBack1": shown,
         })  # fmt: skip
         yield Step("it is reset", {"Fate.KeypadReset": True}, "NOT Motor.Fault", 1500)
