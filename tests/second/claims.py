@@ -31,6 +31,8 @@ page 10), which is two reads of three: of any five in a row at least three.
 """
 CODE_ROUNDS = {"ATV312": 9, "PF525": 12}
 """Rounds in which the code of a fault is read once: three or four registers take turns beside status and frequency."""
+CODE_MOST = 5
+"""Those of the others: three until the status shows the fault, and two until its code is read."""
 EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000
@@ -532,7 +534,7 @@ class Claims:
         claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
-        most = max(CALM_US // 2, CODE_ROUNDS.get(bench.types[index], 0) * round_us(bench))
+        most = max(CALM_US // 2, CODE_ROUNDS.get(bench.types[index], CODE_MOST) * round_us(bench))
         old = claim.fault_us is not None and now - claim.fault_us > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
