@@ -104,6 +104,7 @@ def programs_once() -> None:
     """From now on compile a program once for a module's tests, but for those of programs; no run walks over trees."""
     from driveblocks.plc import live, source  # here: the check of engines comes first
 
+    # a namespace in place of a module, which is no type that mypy knows
     live.gc = WITHOUT_WALK  # type: ignore[assignment, attr-defined]
     load = source.load
 
