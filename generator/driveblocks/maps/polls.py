@@ -115,8 +115,8 @@ def polls(drive: Drive) -> tuple[Poll, ...]:
     """The cheapest reads of all words, the fast ones first, each class by address, no two of one length if it can be.
 
     Of the fast ones the frequency comes last: standstill is proved once it was read after the others. Of the slow ones
-    what says which fault it is comes first, so that it is known soon after a restart. A reply does not say what it answers:
-    one that comes late, or twice, would pass for that to another read as long.
+    what says which fault it is comes first, so that it is known soon after a restart. A reply does not say what it
+    answers: one that comes late, or twice, would pass for that to another read as long.
 
     Raises ValueError for a word that cannot be read, and where more than `MOST_POLLS` reads are needed.
     """
