@@ -122,20 +122,22 @@ class Observer:
         raise BrokenRuleError(f"drive {self.drive}: {what}; {self.bench.told()}")
 
     def scan(self) -> None:
-        """Behind each scan. Raises BrokenRuleError."""
+        """After each scan. Raises BrokenRuleError."""
         bench, pins = self.bench, self.bench.pins[self.drive]
         now = (bench.seen, bench.changes, len(bench.frames), len(bench.acknowledged), bench.elapsed)
         self.calm = self.calm + 1 if now == self.now else 0
         self.now = now
-        if self.calm > 1:  # nothing to be seen but time
+        skipped = bench.block[f"Skip{self.drive}"]
+        if self.calm > 1 and not skipped:  # nothing to be seen but time
             self._time(pins)
             return
-        if bench.block[f"Skip{self.drive}"]:
+        if skipped:
             self.skipped_us += 1000 * bench.ms
             self.turning_us = self.stopping_us = 0
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
             self.only_reads &= self.skipped_us < UNATTENDED_US
+            self.owed |= LEFT_US < self.skipped_us <= LEFT_US + 1000 * bench.ms  # its stop may stay unanswered for long
             self.idle, self.shows = False, dict.fromkeys(PINS, False)
             self.frames = len(bench.frames)
             self._acknowledge()

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from tests.line.drives import counted
 from tests.line.vline import STOP, Bench, Config
 
 LEARNED = Config(drives=1, turn_ms=50, longest_ms=500, turn_high=20_000)
@@ -98,6 +99,43 @@ def test_a_port_that_stalls_opens_no_contact() -> None:
         while not bench.answer(1, STOP):
             bench.scan()
             assert not bench["StopOverdue"]
+
+
+def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> None:
+    """It refuses its stop for 2.2 s, and each fifth refusal is lost; then it obeys."""
+    bench = Bench(EIGHT).ready()
+    bench.put(2, BusyReason=6, StopWithinMs=0)
+    refused = []
+
+    def answer(request: bytes) -> bytes | None:
+        if request[1] != 6:
+            return counted(request, 1)
+        refused.append(bench.now)
+        return None if len(refused) % 5 == 0 else bytes([request[0], request[1] + 0x80, 6])
+
+    bench.drives[2].answer = answer
+    bench.stop(2)
+    began = bench.now
+    while bench.now - began < 2_200_000:
+        bench.scan()
+        assert not bench.slot(2, "StopOverdue"), f"after {(bench.now - began) // 1000} ms"
+    assert len(refused) > 7
+    bench.drives[2].answer = None
+    bench.run(400)
+    assert bench.answer(2, STOP) == "OK"
+    assert not bench.slot(2, "StopOverdue")
+
+
+def test_a_drive_that_stays_busy_opens_the_contact() -> None:
+    bench = Bench(EIGHT).ready()
+    bench.put(2, BusyReason=6, StopWithinMs=0)
+    bench.drives[2].answer = lambda each: counted(each, 1) if each[1] != 6 else bytes([each[0], each[1] + 0x80, 6])
+    bench.stop(2)
+    began = bench.now
+    while not bench.slot(2, "StopOverdue"):
+        bench.scan()
+        assert bench.now - began < 3_000_000
+    assert bench.now - began > 2_500_000
 
 
 def test_silent_units_get_one_attempt_each_before_retries() -> None:

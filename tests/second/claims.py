@@ -29,10 +29,8 @@ PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
 MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
 page 10), which is two reads of three: of any five in a row at least three.
 """
-CODE_ROUNDS = {"ATV312": 9, "PF525": 12}
-"""Rounds in which the code of a fault is read once: three or four registers take turns beside status and frequency."""
 CODE_MOST = 5
-"""Those of the others: three until the status shows the fault, and two until its code is read."""
+"""Rounds until the code of a fault is read: three until the status shows the fault, and two more."""
 EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000
@@ -165,6 +163,8 @@ class Claims:
         self.retries: object = 0
         self.all_us = 0
         """When the line last stopped all drives, or one did not obey: stops count as sent again."""
+        self.open_us = 0
+        """When a drive was last neither run nor shown at standstill: its stop is repeated."""
 
     def sent(self, now_us: int, index: int, body: bytes) -> None:
         """A frame to a drive, without checksum.
@@ -303,6 +303,7 @@ class Claims:
         pins, now = self.bench.pins[index], self.bench.now
         alone = pins.get("SpeedOnly") and not any_of(("Left", "Shared", "MonitorOnly"), pins)
         quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > CALM_US // 2
+        quiet = quiet and not self.bench.models[index].local  # the stop before SpeedOnly is repeated until it is obeyed
         return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
     def _refreshed(self, now_us: int, index: int, claim: Claim) -> None:
@@ -503,6 +504,7 @@ class Claims:
         claim.early = claim.early + 1 if bench.reason(index) == "READY" and not bench.shows("Ready", index) else 0
         self._once(index, "says ready", bad=claim.early > 1 and not bench.flicker)
         if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
+            claim.odd = 0
             return
         reason, ready = bench.reason(index), bench.shows("Ready", index)
         if bench.shows("Fault", index):
@@ -534,7 +536,7 @@ class Claims:
         claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
-        most = max(CALM_US // 2, CODE_ROUNDS.get(bench.types[index], CODE_MOST) * round_us(bench))
+        most = max(CALM_US // 2, CODE_MOST * round_us(bench))
         old = claim.fault_us is not None and now - claim.fault_us > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
@@ -572,6 +574,9 @@ class Claims:
             self.all_us = now
         retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us + ATTEND_US for one in bench.models)
+        proved = all(self.claims[i].driven_us or bench.shows("StopConfirmed", i) for i in units)
+        self.open_us = self.open_us if proved else now
+        plain = plain and now - self.open_us > ATTEND_US
         self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
         self.retries = retries
         asked = block["TheLine.Requests"]

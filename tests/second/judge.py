@@ -25,7 +25,7 @@ CUT_US = 3_000_000
 UNLEARNED_MS = 500
 """How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
 MORE_US = 500_000
-"""How much later that may be with three drives, and again with eight, whose requests are between its own."""
+"""How much later that may be with three drives, and again with eight or in slow scans, whose requests are between."""
 SLOW_US = 1_500_000
 """How much later that may be where scans take longer than the program has promised."""
 RESTARTED_US = 2_000_000
@@ -330,8 +330,8 @@ class Judge:
             unit.broken.discard("cut")
             return
         unit.silent_since = unit.silent_since or bench.now
-        slow = bench.now - self.slow_us < CUT_US + SLOW_US
-        most = CUT_US + (SLOW_US if slow else 0) + MORE_US * ((len(bench.models) > 1) + (len(bench.models) > 3))
+        slow, many = bench.now - self.slow_us < CUT_US + SLOW_US, len(bench.models)
+        most = CUT_US + (SLOW_US if slow else 0) + MORE_US * (many > 1) * (1 + (many > 3 or bench.ms > 20))
         if bench.turn_round(index) >= UNLEARNED_MS:
             most = max(most, 1000 * bench.promised_cut)
         if self._all_dead(index) and not slow:
@@ -356,13 +356,14 @@ class Judge:
         now, unit = self.bench.now, self.units[index]
         away = unit.excused_us > 0 and now - unit.excused_us < self.figures.stop_us + 2_000_000
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < self.figures.stop_us  # so nothing can be proved
-        one = self.bench.models[index]  # which refuses the stop, and is not proved to stand since the restart
+        one = self.bench.models[index]  # which refuses the stop of a restart or of another mode
         elsewhere = one.local or one.run_source != "bus"
-        busy = self.bench.mode == "SpeedOnly" and now - one.busy_us < GRACE_US  # nor is it proved to stand there
-        obstinate = elsewhere and one.o.not_in_command == "refuses" and now - unit.unknown_us < self.figures.stop_us
+        asked_us = max(unit.unknown_us, self.claims.claims[index].changed_us)
+        obstinate = elsewhere and (one.local or one.o.not_in_command == "refuses")
+        obstinate = obstinate and now - asked_us < self.figures.stop_us
         lies = now - unit.lied_us < self.figures.stop_us + 2_000_000
         slow = now - self.slow_us < CUT_US + SLOW_US  # a line that scans late promises no time
-        if self.bench.restarts_contact or refuses or obstinate or busy or lies or slow:
+        if self.bench.restarts_contact or refuses or obstinate or lies or slow:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
 
