@@ -78,6 +78,8 @@ class Second(Bench):
         """Nobody hears the first drive acknowledge a run."""
         self.lineless = False
         """The line is not called."""
+        self.was_slow_port = False
+        """Its port has been one that sends late."""
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
         self.restarts_contact = False
@@ -212,6 +214,12 @@ class Second(Bench):
         self.scan(ms)
         for each in self.pins:
             each["Restart"] = self.line_pins.get("Restart", False)
+
+    def slow_port(self, *, on: bool) -> None:
+        """A port that sends a frame one scan after it has found it, and says that it may take two."""
+        self.block["SlowPort"] = on
+        self.was_slow_port = True
+        self.block["Port.LateMs"] = 2 * self.ms if on else 0
 
     def _look(self) -> None:
         if self.flicker:

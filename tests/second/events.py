@@ -136,6 +136,30 @@ def _parameters(b: Second, chance: Random) -> None:
             b.run(chance.choice([0, 0, 20, 60]))
 
 
+def _unpermitted(b: Second, _: Random) -> None:
+    """At standstill nothing but the permission is missing."""
+    b.release()
+    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    b.ask("Writer", 0, NOWHERE, 1, permitted=False)
+
+
+def _slow_port(b: Second, chance: Random) -> None:
+    """What waits in the mailbox: a parameter that nothing takes back, then writes of a start that a stop does."""
+    b.release()
+    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    b.slow_port(on=True)
+    b.run(1000)
+    b.ask("Writer", 0, WRITES[b.types[0]] | PARAMETER[b.types[0]], chance.randrange(1, 500))
+    b.run(2000)
+    for _ in range(4):
+        _ready_again(b)
+        written = len(b.frames)
+        b.put(0, **{b.start_pin: True})
+        b.wait(lambda: any(each.unit == 1 and not each.read for each in b.frames[written:]), 1000)  # noqa: B023
+        b.run(chance.randrange(0, 200, b.ms))
+        b.release().run(1000)
+
+
 def _stores(b: Second, _: Random) -> None:
     """Two blocks of one drive, more than a minute after power-up."""
     b.release()
@@ -411,6 +435,8 @@ AIMED = {
     "a run is neither acknowledged nor obeyed": Event(_unsaid_and_ignored, 9000, _said),
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
+    "a write without permission": Event(_unpermitted, 2000),
+    "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
 }
 """Events that look at one rule each."""
 LONG = ("nothing", "two stores")

@@ -160,6 +160,9 @@ class Asked:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
+        unsent = error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and self.permitted
+        if unsent and stood and judge.known(self.index, bench.now - self.since_us + QUIET_US):
+            judge.tell(self.index, "parameter", f"{self.name} was taken back, and nothing has stopped the drive")
         mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
             judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
@@ -333,7 +336,8 @@ class Judge:
         slow, many = bench.now - self.slow_us < CUT_US + SLOW_US, len(bench.models)
         most = CUT_US + (SLOW_US if slow else 0) + MORE_US * (many > 1) * (1 + (many > 3 or bench.ms > 20))
         if bench.turn_round(index) >= UNLEARNED_MS:
-            most = max(most, 1000 * bench.promised_cut)
+            beside = self.figures.stop_us + CUT_US if many > 1 else 0  # an attempt costs 0.5 s, then come others
+            most = max(most, 1000 * bench.promised_cut, beside)
         if self._all_dead(index) and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
         self.once(index, "cut", bad=bench.now - unit.silent_since > most)

@@ -132,6 +132,9 @@ class Watch:
     before_hz: float = 0.0
     """What that was when it was last driven."""
     lowered_at: int = 0
+    asked_hz: float = 0.0
+    asked_us: int = 0
+    """The largest that was asked for just before it was driven, and when."""
     turned_since: int | None = None
     left_us: int | None = None
     """Since when its block is called no longer, with nothing but that against a run that was permitted."""
@@ -233,15 +236,19 @@ class Observer:
     def _speed(self, now_us: int, unit: int, pins: Mapping[str, object], truth: Truth) -> None:
         """Not faster than asked, and not the other way round; a jog has a speed of its own."""
         watch, figures = self.watches[unit], self.figures
-        if not watch.driven or not wish(pins).runs:
-            watch.before_hz, watch.most_hz = watch.most_hz or watch.before_hz, 0.0
-            return
         asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)
         assert isinstance(asked, float)
         assert isinstance(limit, float)
         most = min(asked, limit) if limit else asked
+        if not watch.driven or not wish(pins).runs:
+            watch.before_hz, watch.most_hz = watch.most_hz or watch.before_hz, 0.0
+            if most >= watch.asked_hz or now_us - watch.asked_us > self.figures.follow_us:
+                watch.asked_hz, watch.asked_us = most, now_us
+            return
         if truth.itself and not watch.most_hz:  # without its supply it has heard of no other reference
             watch.most_hz, watch.lowered_at = max(most, watch.before_hz), now_us
+        elif not watch.most_hz:  # it may have coasted, or been started with a reference that was lowered just then
+            watch.most_hz, watch.lowered_at = max(most, abs(truth.hz), watch.asked_hz), now_us
         elif most >= watch.most_hz:
             watch.most_hz, watch.lowered_at = most, now_us
         elif now_us - watch.lowered_at > self.figures.follow_us + int(RAMP_US * (watch.most_hz - most)):

@@ -67,9 +67,12 @@ def station(types: Sequence[str]) -> str:
     for old, new in (
         ("END_VAR\nVAR\n", "  More : UDINT;\nEND_VAR\nVAR\n"),
         ("END_VAR\n  Index := 0;\n", f"{declared}  UseTwin : BOOL;\n  Twin : {types[0]}_Drive;\n"
-         "  Contact : VFD_HardStop;\nEND_VAR\n  Index := 0;\n"),
+         "  Contact : VFD_HardStop;\n  SlowPort : BOOL;\n  Found : UINT;\nEND_VAR\n  Index := 0;\n"),
         ("  IF NOT SkipLine THEN\n", f"{after}  IF NOT SkipLine THEN\n"),
-        ("  Port.TxTaken :=", "  Contact(Overdue := TheLine.StopOverdue);\n  Port.TxTaken :="),
+        ("  Port.TxTaken := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxNumber);\n",
+         "  Contact(Overdue := TheLine.StopOverdue);\n"
+         "  IF NOT SlowPort OR (Port.TxNumber = Found) THEN\n    Port.TxTaken := Port.TxNumber;\n  END_IF;\n"
+         "  Found := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxTaken);\n"),
         ("END_FUNCTION_BLOCK", f"  More := 0;\n{seen}END_FUNCTION_BLOCK"),
     ):  # fmt: skip
         assert text.count(old) == 1, old
