@@ -68,6 +68,10 @@ ABLE = alike({
     "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
     "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
 })  # fmt: skip
+RESETS_US = 3_000_000
+"""From the end of a fault until a reset has seen it: its status and its code are read again, and standstill."""
+REFUSED_US = 1_500_000
+"""From the first refused read to its reason: StaleMs, this time, and the rounds of CODE_MOST."""
 MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
 CHAR_US = 521
@@ -512,7 +516,7 @@ class Claims:
         if bench.shows("Fault", index):
             right = reason in ("FAULT", "NO_RESET") or bool(pins.get("SupplyOff"))
         elif reason == "RESETTING":
-            right = True
+            right = now - self.judge.units[index].fault[True] < RESETS_US + CODE_MOST * round_us(bench)
         else:
             first = next((name for name, is_so in self._told(index) if is_so), None)
             held = any_of(MOVES, pins)  # then nothing starts until it is released

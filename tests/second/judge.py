@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import MAX_SCAN_US, Claims
+from tests.second.claims import CODE_MOST, MAX_SCAN_US, REFUSED_US, Claims, round_us
 from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
 from tests.second.pf4 import alike
 
@@ -93,6 +93,8 @@ class Unit:
     """When it could last not be reached, or all began anew."""
     refuses_us: int = 0
     """When it last refused to be read, by its options."""
+    reads_us: int = 0
+    """When it last did not."""
     pin_us: int | None = None
     stored_us: int = 0
     silent_since: int | None = None
@@ -299,6 +301,8 @@ class Judge:
         forbidden = bench.models[index].o.forbidden
         if forbidden and STATUS[bench.types[index]] in forbidden:
             unit.refuses_us = now
+        else:
+            unit.reads_us = now
 
     def _stop_pin(self, index: int, unit: Unit, hz: float) -> None:
         """Terminals start and stop it, but a stop pin still sends its stop, and takes the reference back."""
@@ -379,6 +383,11 @@ class Judge:
             return
         calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1)  # the dead have their turn on the wire, too
         good = bench.shows("CommOk", index)
+        since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
+        most = 1000 * int(bench.pins[index]["StaleMs"]) + REFUSED_US + CODE_MOST * round_us(bench)  # type: ignore[arg-type]
+        refused = now - since > most and not bench.pins[index].get("SupplyOff")
+        told = bench.reason(index) == "READ_REFUSED" or good
+        self.once(index, "refused", bad=refused and not told, seen=bench.reason(index))
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)

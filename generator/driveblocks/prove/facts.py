@@ -195,8 +195,8 @@ def _read(drive: Drive) -> dict[str, str]:
         "proves": _every(f"Since{number}" for number in _proof_reads(drive)),
         "speed": _any(_comes(number, reads[number - 1]) for number in _speed_reads(drive)),
         "ages": _every(
-            f"(Age{number} = 65535) OR (UINT_TO_UDINT(Age{number}) = UINT_TO_UDINT(Was.Age{number}) "
-            f"+ UINT_TO_UDINT(PassedMs)) OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
+            f"(Age{number} = MB_Plus(Number := Was.Age{number}, More := PassedMs)) "
+            f"OR Fresh AND (Entry = {number}) AND (Age{number} = PassedMs)"
             for number in range(1, len(reads) + 1)
         ),
         "since": _every(
