@@ -346,6 +346,11 @@ def _busy(b: Second, _: Random) -> None:
     b.put(0, **{b.start_pin: True})
 
 
+def _busy_stop(b: Second, _: Random) -> None:
+    b.models[0].be_busy(b.now, 2_000_000)
+    b.release()
+
+
 def _stop_all_alone(b: Second, _: Random) -> None:
     _leave(b, True)
     b.line(StopAll=True)
@@ -436,6 +441,7 @@ AIMED = {
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission": Event(_unpermitted, 2000),
+    "a stop while it is busy": Event(_busy_stop, 5000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
 }
 """Events that look at one rule each."""
