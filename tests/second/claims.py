@@ -84,8 +84,8 @@ SILENT_US = 6_000_000
 """A drive that does not answer is stopped again within this time: each second, in turn with others and its identity."""
 UNLINKED_CALLS = 100
 """Calls of a drive block without one of the line, after which it says that there is none."""
-BUSY_US = 300_000
-"""A busy drive gets a write again 100 ms later at the earliest: four take longer than this."""
+BUSY_US = 200_000
+"""A busy drive gets a write again 100 ms later at the earliest, or once at once: four take longer than this."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
 RUNS = 4
@@ -274,7 +274,8 @@ class Claims:
         one: Any = self.bench.models[index]
         same = all(each == body for _, each in claim.words) and now_us - claim.words[0][0] < SAME_US
         calm = now_us - claim.changed_us > QUIET_US and self.well(index, QUIET_US) and not self.bench.flicker
-        answers = one.o.not_in_command == "acknowledges" and now_us >= one.busy_us and not one.o.late_per_1000
+        answers = one.o.not_in_command == "acknowledges" and not one.o.late_per_1000
+        answers = answers and now_us >= one.busy_us + SAME_US
         hurries = now_us < one.busy_us and now_us - claim.words[0][0] < BUSY_US and self.well(index, QUIET_US)
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=body.hex())
 
