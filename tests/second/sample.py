@@ -27,6 +27,7 @@ def aimed() -> list[tuple[Cell, int]]:
         for state, seed in (("standstill", 0), ("at speed", 2))
     ]
     found = [each for each in found if ONE_STATE.get(each[0].event, each[0].state) == each[0].state]
+    found.append((Cell("PF4", "full control", "a trip", "standstill"), 4))  # one whose stop does not reset its fault
     return [*found, *varied(found)]
 
 
