@@ -455,9 +455,10 @@ class Claims:
         bench, now = self.bench, self.bench.now
         pins = bench.pins[index]
         since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, self.judge.units[index].unknown_us)
-        dead = any(now - each.away_us < CALM_US for each in self.judge.units)  # others have their turn on the wire, too
+        # the dead have their turn on the wire, too, and in slow scans each exchange takes longer than was promised
+        late = now - self.judge.slow_us < CALM_US or any(now - each.away_us < CALM_US for each in self.judge.units)
         calm = (
-            now - since > STANDS_US * (1 + dead) and self.willing(index) and not bench.flicker and len(bench.models) < 8
+            now - since > STANDS_US * (1 + late) and self.willing(index) and not bench.flicker and len(bench.models) < 8
         )
         held = any_of(MOVES, pins) and pins["Enable"]
         quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
