@@ -126,6 +126,22 @@ def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> No
     assert not bench.slot(2, "StopOverdue")
 
 
+def test_a_repetition_that_a_busy_drive_refuses_in_a_long_ramp_is_no_alarm() -> None:
+    """Its first stop was acknowledged four seconds ago; time counts from the first attempt of the repetition."""
+    bench = Bench(EIGHT).ready()
+    bench.put(2, BusyReason=6, StopWithinMs=9000)
+    bench.stop(2)
+    bench.run(4000)
+    assert bench.answer(2, STOP) == "OK"
+    began = bench.now
+    bench.drives[2].answer = lambda each: counted(each, 1) if each[1] != 6 else bytes([each[0], each[1] + 0x80, 6])
+    bench.put(2, StopAgain=True)
+    bench.stop(2)
+    while bench.now - began < 2_200_000:
+        bench.scan()
+        assert not bench.slot(2, "StopOverdue"), f"after {(bench.now - began) // 1000} ms"
+
+
 def test_a_drive_that_stays_busy_opens_the_contact() -> None:
     bench = Bench(EIGHT).ready()
     bench.put(2, BusyReason=6, StopWithinMs=0)

@@ -376,7 +376,7 @@ class Claims:
                 2 if one.o.late_per_1000 and many else 1
             ):
                 self._once(index, "starts", bad=True)
-            elif ignores and now - claim.edge_us > FOLLOW_US * (2 if many else 1):
+            elif ignores and now - max(claim.edge_us, one.busy_us) > FOLLOW_US * (2 if many else 1):
                 told = bench.reason(index) == "NOT_FOLLOWED" and bench.out("CommandNotFollowed", index)
                 told = told or (bench.unsaid and bench.reason(index) == "NO_RUN") or bench.reason(index) == "BY_ITSELF"
                 self._once(index, "follow", bad=not told)

@@ -351,6 +351,12 @@ def _busy_stop(b: Second, _: Random) -> None:
     b.release()
 
 
+def _busy_ramp(b: Second, chance: Random) -> None:
+    b.release()
+    b.run(chance.randrange(2000, 4000, 100))
+    b.models[0].be_busy(b.now, 700_000)
+
+
 def _stop_all_alone(b: Second, _: Random) -> None:
     _leave(b, True)
     b.line(StopAll=True)
@@ -442,6 +448,7 @@ AIMED = {
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission": Event(_unpermitted, 2000),
     "a stop while it is busy": Event(_busy_stop, 5000),
+    "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
 }
 """Events that look at one rule each."""

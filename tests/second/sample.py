@@ -13,7 +13,7 @@ SIZE = 120
 """Cells of the sample."""
 ONE_STATE = {
     "the motor turns round": "at speed", "a write without permission": "standstill", "a slow port": "at speed",
-    "a stop while it is busy": "at speed",
+    "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""
 
