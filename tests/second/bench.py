@@ -222,12 +222,12 @@ class Second(Bench):
         self.block["Port.LateMs"] = 2 * self.ms if on else 0
 
     def _look(self) -> None:
-        if self.flicker:
-            self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
         more = self.block["More"]
         assert isinstance(more, int)
         self.seen |= more << (16 + 8 * IN_SEEN)
         self.judge.scan()
+        if self.flicker:
+            self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
 
     def _answer(self, frame: Any, data: bytes, end: int) -> None:
         raw = ascii_frame(data) if self.ascii else rtu(data)
