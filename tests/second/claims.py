@@ -94,8 +94,8 @@ JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
 """8 ends a jog: at 1000H, line 326 of CHF's manual; at 2000H, page 139 of GD200A's."""
 LATE_ECHOES = 4
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
-TAKEN_BACK = 8
-"""Requests that a slow port can find in the mailbox no longer: two writes of each start, or one in it at present."""
+TAKEN_BACK = 100
+"""Requests that a slow port can find in the mailbox no longer, in a whole walk."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
 

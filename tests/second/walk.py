@@ -14,11 +14,17 @@ from tests.second.pf4 import VARIANTS
 
 from structured_text.engines.engine import Library
 
-STEPS = 5
+STEPS, SLOW_PORT = 5, 6
 
 
 class Walk(Run):
-    """A cell whose first two events are followed by others."""
+    """A cell whose first two events are followed by others; every eighth at a slow port."""
+
+    def reach(self) -> None:
+        """As there, whatever the port."""
+        if self.seed % 8 == SLOW_PORT:
+            self.bench.slow_port(on=True)
+        super().reach()
 
     def go(self) -> Outcome:
         """As there; all events are in the message."""
