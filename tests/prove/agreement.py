@@ -22,6 +22,7 @@ from tests.prove.evaluate import Program, signed
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
+from driveblocks.prove.operations import summed
 from structured_text.engines.discovery import survey
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Instance, Library, ScanError, Source
@@ -84,8 +85,9 @@ def compared(model: Model, library: Library, calls: int) -> Score:
     function = isinstance(model.pou, Function)
     shown = {"RESULT": kinds[model.pou.name.upper()]} if function else kinds
     bounds = [each.term for each in model.obligations if each.words.startswith("the index")]
-    program = Program([*(model.after[path] for path in shown), *bounds])
-    places = {path: program.places[model.after[path].get_id()] for path in shown}
+    after_call = {path: summed(model.after[path]) for path in shown}
+    program = Program([*after_call.values(), *bounds])
+    places = {path: program.places[term.get_id()] for path, term in after_call.items()}
     within = [program.places[each.get_id()] for each in bounds]
     random, score = Random(SEED), Score()
     instance = library.instance(f"{model.pou.name}_Call" if function else model.pou.name)

@@ -1,8 +1,8 @@
 """Operators and standard functions of ST on terms, and what has to hold for all compilers to agree on the result.
 
 Products and quotients of REALs, and what is converted to or from them, are left free unless they are asked for: any
-value may come, which proves less, never more. Sums and comparisons of REALs are exact, those with what is no number
-included.
+value may come, which proves less, never more. So are sums, but one sum of the same terms has one value, in a rule as in
+a block. Comparisons of REALs are exact, those with what is no number included.
 """
 
 from collections.abc import Callable
@@ -21,9 +21,25 @@ FREE = "free"
 """What the name of a value begins with that may be any."""
 
 
+_sums: dict[tuple[str, int, int], tuple[Term, Term, Term]] = {}
+"""What sums of REALs are called, by operator and terms, which are kept so that their numbers stay theirs."""
+
+
 def free(of: z3.SortRef) -> Term:
     """Any value."""
     return z3.FreshConst(of, FREE)
+
+
+def _sum(op: str, left: Term, right: Term) -> Term:
+    """Any value, always the same for the same terms."""
+    return _sums.setdefault((op, left.get_id(), right.get_id()), (free(SINGLE), left, right))[0]
+
+
+def summed(term: Term) -> Term:
+    """A term with its sums of REALs as they are computed."""
+    for (op, *_), (name, left, right) in reversed(_sums.items()):  # what is summed was named before its sum
+        term = z3.substitute(term, (name, arithmetic(op, left, right)))
+    return term
 
 
 def both(*terms: Term) -> Term:
@@ -98,7 +114,7 @@ def binary(op: str, left: Term, right: Term, kind: Elementary, demand: Demand) -
     if op in ("AND", "OR", "XOR"):
         return folded({"AND": left & right, "OR": left | right, "XOR": left ^ right}[op])
     if left.sort() == SINGLE:
-        return free(SINGLE)
+        return _sum(op, left, right) if op in ("+", "-") else free(SINGLE)
     if op in ("/", "MOD"):
         return folded(_divided(op, left, right, kind, demand))
     demand(f"the result of {op} is a {kind.name}", _kept(op, left, right, kind))

@@ -300,7 +300,7 @@ class Terms:
         kind = _elementary(each.operand_type if each.op in _COMPARISONS else each.type)
         if each.op in _COMPARISONS:
             return operations.compare(each.op, left, right, kind)
-        if kind is REAL and (self.exact or each.op in ("+", "-")):
+        if kind is REAL and self.exact:
             return operations.arithmetic(each.op, left, right)
         return operations.binary(each.op, left, right, kind, self._demand)
 
