@@ -112,7 +112,7 @@ class Unit:
     lied_us: int = -CALM_US
     """When it last was one that acknowledges orders and does not obey them."""
     forgotten: bool = False
-    """A restart came while it ignored stops, into SpeedOnly: it looks like one that terminals run."""
+    """A restart came while it ignored stops, or just before, into SpeedOnly: it looks like one that terminals run."""
     broken: set[str] = field(default_factory=set)
 
 
@@ -254,7 +254,8 @@ class Judge:
         # silence is no alarm yet; a line that is not called can do nothing, which the drive block shows
         unit.lied_us = now if one.o.ignores else unit.lied_us
         off = bool(pins.get("SupplyOff")) and not bench.hears(index)
-        unit.forgotten = bool(pins.get("SpeedOnly") and (unit.forgotten or (one.o.ignores and pins.get("Restart"))))
+        anew = pins.get("Restart") or (unit.restarted_us and now - unit.restarted_us < RESTARTED_US)
+        unit.forgotten = bool(pins.get("SpeedOnly") and (unit.forgotten or (one.o.ignores and anew)))
         lied = pins.get("MonitorOnly") and unit.lied_us > 0  # it has acknowledged the stop before that
         off = off or bool(lied) or unit.forgotten
         open_now = self.open_now or off or self._boots(index)
