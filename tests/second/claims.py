@@ -312,7 +312,8 @@ class Claims:
         """It gives its reference to a drive that terminals run, and nothing has happened for long."""
         pins, now = self.bench.pins[index], self.bench.now
         alone = pins.get("SpeedOnly") and not any_of(("Left", "Shared", "MonitorOnly"), pins)
-        quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > CALM_US // 2
+        since = CALM_US if len(self.claims) > 3 else CALM_US // 2  # a restart has stopped all drives before
+        quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > since
         quiet = quiet and not self.bench.models[index].local  # the stop before SpeedOnly is repeated until it is obeyed
         return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
