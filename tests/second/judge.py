@@ -158,7 +158,7 @@ class Asked:
         stood = still is not None and still < self.since_us and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
         asks = error and self.permitted and may and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
-        if asks and judge.known(self.index, bench.now - self.since_us + CALM_US) and not mine:
+        if asks and judge.known(self.index, bench.now - self.since_us + QUIET_US) and not mine:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
