@@ -16,13 +16,14 @@ from functools import cache
 from random import Random
 from typing import Any
 
+import z3
 from tests import shipped
 from tests.prove.evaluate import Program, signed
 
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
 from driveblocks.prove.model import BEFORE, Model, models
-from driveblocks.prove.operations import summed
+from driveblocks.prove.operations import Term, arithmetic, sums
 from structured_text.engines.discovery import survey
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Instance, Library, ScanError, Source
@@ -62,6 +63,13 @@ def subjects(family: str) -> list[Model]:
         return models(sources()[family], rules.shared())
     drive = next(each.drive for each in shipped.sources() if each.path.stem == family)
     return models(sources()[family], rules.family(facts(drive)))
+
+
+def summed(term: Term) -> Term:
+    """A term with its sums of REALs as they are computed."""
+    for (op, *_), (name, left, right) in reversed(sums.items()):  # what is summed was named before its sum
+        term = z3.substitute(term, (name, arithmetic(op, left, right)))
+    return term
 
 
 def nothing(kind: Elementary) -> Any:

@@ -21,25 +21,13 @@ FREE = "free"
 """What the name of a value begins with that may be any."""
 
 
-_sums: dict[tuple[str, int, int], tuple[Term, Term, Term]] = {}
-"""What sums of REALs are called, by operator and terms, which are kept so that their numbers stay theirs."""
+sums: dict[tuple[str, int, int], tuple[Term, Term, Term]] = {}
+"""Names of sums of REALs by operator and terms, and these terms, which so keep their numbers."""
 
 
 def free(of: z3.SortRef) -> Term:
     """Any value."""
     return z3.FreshConst(of, FREE)
-
-
-def _sum(op: str, left: Term, right: Term) -> Term:
-    """Any value, always the same for the same terms."""
-    return _sums.setdefault((op, left.get_id(), right.get_id()), (free(SINGLE), left, right))[0]
-
-
-def summed(term: Term) -> Term:
-    """A term with its sums of REALs as they are computed."""
-    for (op, *_), (name, left, right) in reversed(_sums.items()):  # what is summed was named before its sum
-        term = z3.substitute(term, (name, arithmetic(op, left, right)))
-    return term
 
 
 def both(*terms: Term) -> Term:
@@ -114,7 +102,8 @@ def binary(op: str, left: Term, right: Term, kind: Elementary, demand: Demand) -
     if op in ("AND", "OR", "XOR"):
         return folded({"AND": left & right, "OR": left | right, "XOR": left ^ right}[op])
     if left.sort() == SINGLE:
-        return _sum(op, left, right) if op in ("+", "-") else free(SINGLE)
+        named = (free(SINGLE), left, right)
+        return sums.setdefault((op, left.get_id(), right.get_id()), named)[0] if op in ("+", "-") else named[0]
     if op in ("/", "MOD"):
         return folded(_divided(op, left, right, kind, demand))
     demand(f"the result of {op} is a {kind.name}", _kept(op, left, right, kind))
