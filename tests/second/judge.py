@@ -158,12 +158,13 @@ class Asked:
         stood = still is not None and still < self.since_us and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
         asks = error and self.permitted and may and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
-        if asks and judge.known(self.index, bench.now - self.since_us + QUIET_US) and not mine:
+        calm = bench.now - self.since_us + (QUIET_US if bench.was_slow_port else CALM_US)  # a slow port is aimed at it
+        if asks and judge.known(self.index, calm) and not mine:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
         unsent = error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and self.permitted
-        if unsent and stood and judge.known(self.index, bench.now - self.since_us + QUIET_US):
+        if unsent and stood and judge.known(self.index, calm):
             judge.tell(self.index, "parameter", f"{self.name} was taken back, and nothing has stopped the drive")
         mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
