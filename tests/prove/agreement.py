@@ -10,7 +10,7 @@ import argparse
 import math
 import struct
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from random import Random
@@ -65,11 +65,12 @@ def subjects(family: str) -> list[Model]:
     return models(sources()[family], rules.family(facts(drive)))
 
 
-def summed(term: Term) -> Term:
-    """A term with its sums of REALs as they are computed."""
+def summed(terms: Sequence[Term]) -> list[Term]:
+    """Terms with their sums of REALs as they are computed, all at once."""
+    whole = z3.Function("whole", *(each.sort() for each in terms), z3.BoolSort())(*terms)
     for (op, *_), (name, left, right) in reversed(sums.items()):  # what is summed was named before its sum
-        term = z3.substitute(term, (name, arithmetic(op, left, right)))
-    return term
+        whole = z3.substitute(whole, (name, arithmetic(op, left, right)))
+    return list(whole.children())
 
 
 def nothing(kind: Elementary) -> Any:
@@ -93,7 +94,7 @@ def compared(model: Model, library: Library, calls: int) -> Score:
     function = isinstance(model.pou, Function)
     shown = {"RESULT": kinds[model.pou.name.upper()]} if function else kinds
     bounds = [each.term for each in model.obligations if each.words.startswith("the index")]
-    after_call = {path: summed(model.after[path]) for path in shown}
+    after_call = dict(zip(shown, summed([model.after[path] for path in shown]), strict=True))
     program = Program([*after_call.values(), *bounds])
     places = {path: program.places[term.get_id()] for path, term in after_call.items()}
     within = [program.places[each.get_id()] for each in bounds]

@@ -136,28 +136,36 @@ def _parameters(b: Second, chance: Random) -> None:
             b.run(chance.choice([0, 0, 20, 60]))
 
 
-def _unpermitted(b: Second, _: Random) -> None:
-    """At standstill nothing but the permission is missing."""
+def _stop(b: Second) -> None:
     b.release()
     b.wait(lambda: b.shows("StopConfirmed"), 9000)
+
+
+def _unpermitted(b: Second, _: Random) -> None:
+    """At standstill nothing but the permission is missing."""
+    _stop(b)
     b.ask("Writer", 0, NOWHERE, 1, permitted=False)
+
+
+def _stopped_after_a_write(b: Second, chance: Random) -> None:
+    """A start that is stopped soon after its first write."""
+    written = len(b.frames)
+    b.put(0, **{b.start_pin: True})
+    b.wait(lambda: any(each.unit == 1 and not each.read for each in b.frames[written:]), 1000)
+    b.run(chance.randrange(0, 200, b.ms))
+    b.release().run(1000)
 
 
 def _slow_port(b: Second, chance: Random) -> None:
     """What waits in the mailbox: a parameter that nothing takes back, then writes of a start that a stop does."""
-    b.release()
-    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    _stop(b)
     b.slow_port(on=True)
     b.run(1000)
     b.ask("Writer", 0, WRITES[b.types[0]] | PARAMETER[b.types[0]], chance.randrange(1, 500))
     b.run(2000)
     for _ in range(4):
         _ready_again(b)
-        written = len(b.frames)
-        b.put(0, **{b.start_pin: True})
-        b.wait(lambda: any(each.unit == 1 and not each.read for each in b.frames[written:]), 1000)  # noqa: B023
-        b.run(chance.randrange(0, 200, b.ms))
-        b.release().run(1000)
+        _stopped_after_a_write(b, chance)
 
 
 def _stores(b: Second, _: Random) -> None:
@@ -368,8 +376,7 @@ def _called_again(b: Second, _: Random) -> None:
 
 
 def _switched_off(b: Second, _: Random) -> None:
-    b.release()
-    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    _stop(b)
     b.put(0, SupplyOff=True)
     b.models[0].power(False, b.now)
 

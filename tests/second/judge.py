@@ -386,7 +386,7 @@ class Judge:
         calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1)  # the dead have their turn on the wire, too
         good = bench.shows("CommOk", index)
         since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
-        most = 1000 * int(bench.pins[index]["StaleMs"]) + REFUSED_US + CODE_MOST * round_us(bench)  # type: ignore[arg-type]
+        most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)
         refused = now - since > most and not bench.pins[index].get("SupplyOff")
         told = bench.reason(index) == "READ_REFUSED" or good
         self.once(index, "refused", bad=refused and not told, seen=bench.reason(index))

@@ -141,6 +141,12 @@ def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
     return ""
 
 
+def survivors() -> dict[str, dict[str, str]]:
+    """By change: `same`, why no drive of the lines can tell it, or `open`, what the judge does not look at."""
+    rows = yaml.safe_load(SURVIVORS.read_text(encoding="utf-8"))
+    return {row["change"]: {name: why for name, why in row.items() if name != "change"} for row in rows}
+
+
 def main() -> int:
     """Judge all of them, or one."""
     parser = argparse.ArgumentParser(description="One-token changes of the blocks.")
@@ -150,7 +156,7 @@ def main() -> int:
     parser.add_argument("--step", type=int, default=1)
     parser.add_argument("--cells", type=int, help="cells for each, all unless said")
     options = parser.parse_args()
-    reasons = {row.pop("change"): row for row in yaml.safe_load(SURVIVORS.read_text(encoding="utf-8"))}
+    known = survivors()
     number = found = same = 0
     for one in drawn(options.seed):
         mine = number in options.only if options.only else number % options.step == options.first
@@ -161,9 +167,9 @@ def main() -> int:
             continue
         by = judged(one, number, options.cells)
         if by is not None:
-            reason = reasons.get(one.says, {"open": "no reason yet"})
-            print(f"{number:2} {one}: {by or f'SURVIVES: {reason}'}", flush=True)
-            number, found, same = number + 1, found + bool(by), same + (not by and "same" in reason)
+            row = known.get(one.says, {"open": "no reason yet"})
+            print(f"{number:2} {one}: {by or f'SURVIVES, {row}'}", flush=True)
+            number, found, same = number + 1, found + bool(by), same + (not by and "same" in row)
         if number >= NUMBER:
             break
     print(f"{found} of {number} found; {same} are the same to every drive of the lines")
