@@ -243,6 +243,7 @@ class Atv312(Drive):
         ULN: lambda _, __: 4000,
         LFT: lambda self, _: self.code or 0,
     }
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {"OutputCurrentA": (LCR, 0.1)}  # page 21
 
 
 def stores(body: bytes) -> bool:

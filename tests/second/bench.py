@@ -24,6 +24,16 @@ MODELS = pf4.alike(
 STORES = {family: module.stores for family, module in MODELS.items()}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
+SHORTEST = 4
+"""Characters of a frame."""
+METER = 40
+"""Unit address of a meter, which shows two registers and has no motor."""
+METERED = bytes((METER, 3, 0, 0, 0, 2))
+"""What is asked of it, and no more."""
+METER_US = 5000
+"""How long it takes to answer."""
+COUNTS = bytes((METER, 3, 4, 0x12, 0x34, 0x56, 0x78))
+"""What it answers."""
 STRANGER = bytes((77, 3, 0, 1, 0, 1))
 """A request of another master to a unit of its own."""
 STOP_WITHIN_MS = {1: 7000, 3: 7000, 8: 14_000}
@@ -80,6 +90,10 @@ class Second(Bench):
         """The line is not called."""
         self.was_slow_port = False
         """Its port has been one that sends late."""
+        self.metered = False
+        """A meter is on the line."""
+        self.metered_us = 0
+        """When it came, or was taken away."""
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
         self.restarts_contact = False
@@ -221,6 +235,26 @@ class Second(Bench):
         self.was_slow_port = True
         self.block["Port.LateMs"] = 2 * self.ms if on else 0
 
+    def meter(self, *, on: bool, address: int = METER) -> None:
+        """A meter on the line, where there is a slot for it; else it has no address any more."""
+        self.metered, self.metered_us = on and len(self.types) < 8, self.now
+        self.judge.stores[METER] = lambda _: False
+        self.block["Meter.Address"] = address if self.metered else 0
+        self.block["Meter.Quantity"], self.block["Meter.TurnRoundMs"], self.block["Meter.LongestMs"] = 2, 30, 30
+        self.call_meter(called=self.metered)
+
+    def call_meter(self, *, called: bool) -> None:
+        """Whether its block is called."""
+        self.block["UseMeter"] = called and len(self.types) < 8
+
+    def waits(self, unit: int) -> bool:
+        """Whether a request to a unit waits for the port."""
+        text = self.block["Port.Tx"]
+        assert isinstance(text, list)
+        begins = b":" + f"{unit:02X}".encode() if self.ascii else bytes([unit])
+        mine = bytes(text[: len(begins)]) == begins  # type: ignore[arg-type]  # an array of BYTE
+        return mine and self.block["Port.TxCount"] != 0 and self.block["Port.TxNumber"] != self.block["Port.TxTaken"]
+
     def _look(self) -> None:
         more = self.block["More"]
         assert isinstance(more, int)
@@ -229,10 +263,21 @@ class Second(Bench):
         if self.flicker:
             self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
 
+    def _send(self) -> None:
+        count = self.block["Port.TxCount"]
+        assert isinstance(count, int)
+        if count >= SHORTEST:
+            super()._send()
+        else:
+            self.judge.tell(-1, "frame", f"{count} characters")
+
     def _answer(self, frame: Any, data: bytes, end: int) -> None:
         raw = ascii_frame(data) if self.ascii else rtu(data)
         self.judge.sent(end, raw)
         self._hear_others(end)
+        if data[0] == METER:
+            self.judge.once(0, "meter", bad=data != METERED, seen=data.hex())
+            self.transmit(ascii_frame(COUNTS) if self.ascii else rtu(COUNTS), end + METER_US, None)
         for index, one in enumerate(self.models):
             if index + 1 in self.deaf:
                 continue

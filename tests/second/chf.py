@@ -159,10 +159,18 @@ class Chf(Drive):
         0x3000: lambda self, now_us: self._counts(now_us, self.o.monitor_milli_hz / 1000),
         0x3001: _set_hz,
         0x3002: lambda self, _: self.o.bus_volts,
+        0x3003: lambda self, _: 380 * self.output,
         0x3004: lambda self, _: self.o.amperes * self.output,
+        0x3005: lambda self, _: 1450 * self.output,
+        0x3006: lambda self, _: 37 * self.output,
         0x5000: lambda self, _: self.code or 0,
         0x5001: lambda self, _: self.last_error,
     }
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
+        "Diagnosis.DcBusVoltageV": (0x3002, 0.01), "Diagnosis.OutputVoltageV": (0x3003, 1),
+        "OutputCurrentA": (0x3004, 1),
+        "Diagnosis.OutputPowerKW": (0x3006, 1),
+    }  # fmt: skip  # lines 335 to 339
 
 
 def stores(body: bytes) -> bool:

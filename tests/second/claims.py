@@ -141,7 +141,7 @@ class Claim:
     written_us: int = 0
     writes: deque[int] = field(default_factory=lambda: deque([0] * 6, maxlen=6))
     """When it was last written to."""
-    words: deque[tuple[int, bytes]] = field(default_factory=lambda: deque([(0, b"")] * 4, maxlen=4))
+    orders: deque[tuple[int, bytes]] = field(default_factory=lambda: deque([(0, b"")] * 4, maxlen=4))
     """The last writes."""
     heard_us: int = 0
     """When it could last hear."""
@@ -158,6 +158,14 @@ class Claim:
     """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
     """Looks in a row with a wrong reason."""
+    words: dict[int, tuple[int, int]] = field(default_factory=dict)
+    """Registers of measured values: the word, and since when it is that."""
+    faulty_us: int = 0
+    """When it last had a fault."""
+    run_us: int = 0
+    """When the bus last ran it, by a start that its block knows of."""
+    first: bool = False
+    """Its fault is the first since then."""
 
 
 class Claims:
@@ -242,6 +250,7 @@ class Claims:
             claim.stop_us = claim.armed_us = None
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
+        self._trips(index, claim)
         if claim.runs and (driven or not any_of(MOVES, before)):
             claim.runs = 0
         turns = driven or claim.output or hz != 0
@@ -270,13 +279,13 @@ class Claims:
 
     def _again(self, now_us: int, index: int, claim: Claim, body: bytes) -> None:
         """The same word is not sent again and again to a drive that answers, and that nothing has happened to."""
-        claim.words.append((now_us, body))
+        claim.orders.append((now_us, body))
         one: Any = self.bench.models[index]
-        same = all(each == body for _, each in claim.words) and now_us - claim.words[0][0] < SAME_US
+        same = all(each == body for _, each in claim.orders) and now_us - claim.orders[0][0] < SAME_US
         calm = now_us - claim.changed_us > QUIET_US and self.well(index, QUIET_US) and not self.bench.flicker
         answers = one.o.not_in_command == "acknowledges" and not one.o.late_per_1000
         answers = answers and now_us >= one.busy_us + SAME_US
-        hurries = now_us < one.busy_us and now_us - claim.words[0][0] < BUSY_US and self.well(index, QUIET_US)
+        hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=body.hex())
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
@@ -440,6 +449,7 @@ class Claims:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
             self._fault(index, claim)
+            self._measures(index, claim)
             self._able(index)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
@@ -448,7 +458,9 @@ class Claims:
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
         idle = now - self.judge.units[index].unknown_us > CALM_US
-        most = AGE_MS + (ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0)  # stops that are refused come first
+        most = AGE_MS * (4 if bench.metered else 3) // 3 + (
+            ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0
+        )  # stops that are refused come first
         self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
 
     def _stands(self, index: int, claim: Claim) -> None:
@@ -542,16 +554,43 @@ class Claims:
             ("BOTH", both(pins)),
         ]  # fmt: skip
 
+    def _trips(self, index: int, claim: Claim) -> None:
+        one, now = self.bench.models[index], self.bench.now
+        if one.fault is None:
+            claim.fault_us = None
+            claim.run_us = now if claim.driven_us and not one.itself else claim.run_us
+            return
+        if claim.fault_us is None:
+            claim.fault_us, claim.first = now, claim.run_us > claim.faulty_us
+        claim.faulty_us = now
+
     def _fault(self, index: int, claim: Claim) -> None:
         """The code of a fault that has been there for some time; without one there is none."""
         bench, one, now = self.bench, self.bench.models[index], self.bench.now
-        claim.fault_us = (claim.fault_us or now) if one.fault is not None else None
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         most = max(CALM_US // 2, CODE_MOST * round_us(bench))
         old = claim.fault_us is not None and now - claim.fault_us > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
+
+        for pin, asked in (("FaultBack1", old), ("FirstFaultCode", old and claim.first)):
+            kept = bench.block[f"Drive{index}.Diagnosis.{pin}"]
+            self._once(index, pin, bad=asked and kept != number, seen=f"{kept!r} of {number}")
+
+    def _measures(self, index: int, claim: Claim) -> None:
+        """Measured values are what the drive shows, once that has been so for longer than they are old."""
+        bench, one, now = self.bench, self.bench.models[index], self.bench.now
+        age = int(bench.number("MeasuresAgeMs", index))
+        for pin, (register, unit) in one.MEASURES.items():
+            word = one.LIVE[register](one, now)
+            if claim.words.get(register, (None, 0))[0] != word:
+                claim.words[register] = word, now
+            shown = bench.block[f"Drive{index}.{pin}"]
+            assert isinstance(shown, float)
+            long = now - claim.words[register][1] > 1000 * age + SEEN_US
+            bad = long and age < AGE_MS and abs(shown - word * unit) > unit / 2
+            self._once(index, pin, bad=bad, seen=f"{shown} of {word * unit}")
 
     def _able(self, index: int) -> None:
         """The capabilities are those of the manual."""
@@ -571,9 +610,9 @@ class Claims:
         units = range(len(self.judge.units))
         plain = all(self.attended(i) and bench.pins[i].get("Address") == i + 1 for i in units)
         good = plain and all(now - self.judge.units[i].unknown_us > CALM_US and self.well(i, CALM_US) for i in units)
-        good = good and now - self.doubled_us > FOREIGN_US
+        good = good and now - max(self.doubled_us + FOREIGN_US, bench.metered_us + CALM_US // 5) > 0
         shown = (block["TheLine.AllOnline"], block["TheLine.OnlineCount"])
-        self._once(0, "all online", bad=good and shown != (True, len(units)), seen=f"{shown}")
+        self._once(0, "all online", bad=good and shown != (True, len(units) + bench.metered), seen=f"{shown}")
         error = block["TheLine.ErrorID"]
         self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
         strange = block["TheLine.ForeignFrames"]

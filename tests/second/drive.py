@@ -103,6 +103,8 @@ class Drive:
     """Words by function; other functions are refused."""
     LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = {}
     """Registers that are reckoned when they are read."""
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {}
+    """Measured values but the frequency, by pin: register, and units of a count, which some manuals leave to the user."""
     IDS: ClassVar[tuple[str, str, str]]
     """Settings: unit address, source of run, source of frequency."""
     RUN_SOURCES: ClassVar[dict[int, Source]]

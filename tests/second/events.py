@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from random import Random
 
 from tests.drives.bench import Faults
-from tests.second.bench import Second
+from tests.second.bench import METER, Second
 from tests.second.drive import RUNS, STOPS, Fault
 from tests.second.pf4 import alike
 
@@ -166,6 +166,57 @@ def _slow_port(b: Second, chance: Random) -> None:
     for _ in range(4):
         _ready_again(b)
         _stopped_after_a_write(b, chance)
+
+
+def _waiting(b: Second, chance: Random) -> None:
+    """Another address while a request waits in the mailbox: it is taken back whole. Of a meter no stop is next."""
+    _stop(b)
+    b.judge.stores[ABSENT] = lambda _: False
+    b.meter(on=True)
+    b.slow_port(on=True)
+    b.run(1000)
+    for _ in range(2):
+        b.wait(lambda: b.waits(1), 3000)
+        b.put(0, Address=ABSENT).run(chance.choice([20, 60, 200]))
+        b.put(0, Address=1).run(4000)
+        b.wait(lambda: b.waits(METER) or not b.metered, 3000)
+        b.meter(on=b.metered, address=ABSENT)
+        b.run(chance.choice([20, 60, 200]))
+        b.meter(on=b.metered)
+        b.run(4000)
+
+
+def _taken(b: Second, chance: Random) -> None:
+    b.slow_port(on=False)
+    _no_meter(b, chance)
+
+
+def _metered(b: Second, chance: Random) -> None:
+    """A meter, which StopAll and a program that leaves it alone do not concern."""
+    b.meter(on=True)
+    b.run(3000)
+    _measures(b)
+    b.line(StopAll=True).run(chance.choice([20, 200, 2500]))
+    b.line(StopAll=False).run(3000)
+    _measures(b)
+    b.call_meter(called=False)
+    b.run(4000)
+    b.call_meter(called=True)
+    b.run(3000)
+    _measures(b)
+
+
+def _measures(b: Second) -> None:
+    shown = [b.block[each] for each in ("Meter.Valid", "MeterWords[0]", "MeterWords[1]", "Meter.ErrorID")]
+    if b.metered and shown != [True, 0x1234, 0x5678, 0]:
+        b.judge.tell(0, "meter", f"shows {shown}")
+
+
+def _no_meter(b: Second, _: Random) -> None:
+    b.meter(on=False)
+    b.call_meter(called=True)
+    b.run(100)
+    b.call_meter(called=False)
 
 
 def _stores(b: Second, _: Random) -> None:
@@ -457,6 +508,8 @@ AIMED = {
     "a stop while it is busy": Event(_busy_stop, 5000),
     "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
+    "another address while a frame waits": Event(_waiting, 1000, _taken),
+    "a meter": Event(_metered, 1000, _no_meter, stops_all=True),
 }
 """Events that look at one rule each."""
 LONG = ("nothing", "two stores")

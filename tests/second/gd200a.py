@@ -149,9 +149,17 @@ class Gd200a(Drive):
         0x3000: lambda self, now_us: self._counts(now_us, 0.01),
         0x3001: lambda self, _: int(100 * (self.reference_hz if self.speed_from_bus else self.o.own_hz)),
         0x3002: lambda _, __: 540,
+        0x3003: lambda self, _: 380 * self.output,
         0x3004: lambda self, _: 100 * self.output,
+        0x3005: lambda self, _: 1450 * self.output,
+        0x3006: lambda self, _: -250 * self.output,
         0x5000: lambda self, _: self.code or 0,
     }
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
+        "Diagnosis.DcBusVoltageV": (0x3002, 1), "Diagnosis.OutputVoltageV": (0x3003, 1),
+        "OutputCurrentA": (0x3004, 0.1), "Diagnosis.OutputSpeedRpm": (0x3005, 1),
+        "Diagnosis.RelativePowerPercent": (0x3006, 0.1),
+    }  # fmt: skip  # page 141
 
 
 def stores(body: bytes) -> bool:

@@ -234,6 +234,7 @@ class Mx2(Drive):
             0x1004: lambda self, now_us: (2 if self.reverse(now_us) else 1) if self.runs else 0,
         }.items()
     }
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {"OutputCurrentA": (0x1002, 0.01)}  # 1003H, I570 page 287
 
 
 def stores(body: bytes) -> bool:

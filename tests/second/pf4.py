@@ -239,10 +239,13 @@ class Pf525(Pf4):
         1: lambda self, now_us: self._counts(now_us, 0.01),  # b001
         8450: lambda self, _: round(100 * self.reference_hz),
         8451: lambda self, now_us: self._counts(now_us, 0.01),  # xxx.xx Hz
-        8452: lambda _, __: 0,  # xxx.xx A
+        8452: lambda self, _: 100 * self.output,  # xxx.xx A
         8453: lambda _, __: 540,  # xxx V
-        8454: lambda _, __: 0,  # xxx.x V
+        8454: lambda self, _: 3800 * self.output,  # xxx.x V
     }
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
+        "OutputCurrentA": (8452, 0.01), "Diagnosis.DcBusVoltageV": (8453, 1), "Diagnosis.OutputVoltageV": (8454, 0.1),
+    }  # fmt: skip
 
 
 def stores(body: bytes) -> bool:

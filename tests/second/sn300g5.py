@@ -249,11 +249,15 @@ class Sn300g5(Drive):
         0x0021: _output,
         0x0022: lambda self, _: self.o.amperes * self.output,
         0x0026: lambda self, _: self.o.bus_volts,
+        0x0027: lambda self, _: 75 * self.output,
         0x002B: _status,
         0x0080: lambda self, _: self.number(self.code), 0x0081: lambda self, _: self.number(self.last_fault),
         0x0082: lambda self, _: self.at_fault[0], 0x0083: lambda self, _: self.at_fault[1],
         0x0090: lambda self, _: self.number(self.last_fault),
     }  # fmt: skip
+    MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
+        "OutputCurrentA": (0x0022, 1), "Diagnosis.DcBusVoltageV": (0x0026, 0.01), "Diagnosis.OutputPowerKW": (0x0027, 1),
+    }  # fmt: skip  # lines 383, 387 and 388
 
 
 def stores(body: bytes) -> bool:

@@ -15,6 +15,8 @@ from structured_text.engines.engine import Engine, Library, Source
 
 Edit = Callable[[str], str]
 BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer": "VFD_Store"}
+METER = "  IF UseMeter THEN\n    Meter(Slot := Slots[7], Words := MeterWords);\n  END_IF;\n"
+"""A unit without a motor, in the last slot, where no drive is there."""
 IN_SEEN = 6
 """Drives whose pins `Seen` has bits for; those of the others, and the contact's, are in `More`."""
 SIZES = (1, 3, 8)
@@ -67,12 +69,13 @@ def station(types: Sequence[str]) -> str:
     for old, new in (
         ("END_VAR\nVAR\n", "  More : UDINT;\nEND_VAR\nVAR\n"),
         ("END_VAR\n  Index := 0;\n", f"{declared}  UseTwin : BOOL;\n  Twin : {types[0]}_Drive;\n"
-         "  Contact : VFD_HardStop;\n  SlowPort : BOOL;\n  Found : UINT;\nEND_VAR\n  Index := 0;\n"),
-        ("  IF NOT SkipLine THEN\n", f"{after}  IF NOT SkipLine THEN\n"),
+         "  Contact : VFD_HardStop;\n  SlowPort : BOOL;\n  Found : UINT;\n"
+         f"  UseMeter : BOOL;\n  Meter : MB_Device;\n  MeterWords : MB_Words16;\nEND_VAR\n  Index := 0;\n"),
+        ("  IF NOT SkipLine THEN\n", f"{after}{METER}  IF NOT SkipLine THEN\n"),
         ("  Port.TxTaken := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxNumber);\n",
          "  Contact(Overdue := TheLine.StopOverdue);\n"
-         "  IF NOT SlowPort OR (Port.TxNumber = Found) THEN\n    Port.TxTaken := Port.TxNumber;\n  END_IF;\n"
-         "  Found := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxTaken);\n"),
+         "  IF (Port.TxCount > 0) AND (NOT SlowPort OR (Port.TxNumber = Found)) THEN\n"
+         "    Port.TxTaken := Port.TxNumber;\n  END_IF;\n  Found := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxTaken);\n"),
         ("END_FUNCTION_BLOCK", f"  More := 0;\n{seen}END_FUNCTION_BLOCK"),
     ):  # fmt: skip
         assert text.count(old) == 1, old
