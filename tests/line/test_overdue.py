@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from tests.line.drives import counted
-from tests.line.vline import STOP, Bench, Config
+from tests.line.vline import NAMES, STOP, Bench, Config
 
 LEARNED = Config(drives=1, turn_ms=50, longest_ms=500, turn_high=20_000)
 EIGHT = Config(drives=8, turn_ms=50, longest_ms=500, turn_high=20_000)
@@ -105,7 +105,7 @@ def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> No
     """It refuses its stop for 2.2 s, and each fifth refusal is lost; then it obeys."""
     bench = Bench(EIGHT).ready()
     bench.put(2, BusyReason=6, StopWithinMs=0)
-    refused = []
+    refused, said = [], set[str]()
 
     def answer(request: bytes) -> bytes | None:
         if request[1] != 6:
@@ -118,8 +118,10 @@ def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> No
     began = bench.now
     while bench.now - began < 2_200_000:
         bench.scan()
+        said.add(NAMES[bench.slot(2, "Answer[0].ErrorID")])
         assert not bench.slot(2, "StopOverdue"), f"after {(bench.now - began) // 1000} ms"
     assert len(refused) > 7
+    assert said == {"OK", "BUSY", "SILENCE"}  # it has refused no stop for good: the end of a jog is sent again
     bench.drives[2].answer = None
     bench.run(400)
     assert bench.answer(2, STOP) == "OK"

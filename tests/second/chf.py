@@ -168,8 +168,7 @@ class Chf(Drive):
     }
     MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
         "Diagnosis.DcBusVoltageV": (0x3002, 0.01), "Diagnosis.OutputVoltageV": (0x3003, 1),
-        "OutputCurrentA": (0x3004, 1),
-        "Diagnosis.OutputPowerKW": (0x3006, 1),
+        "OutputCurrentA": (0x3004, 1), "Diagnosis.OutputPowerKW": (0x3006, 1),
     }  # fmt: skip  # lines 335 to 339
 
 

@@ -458,9 +458,8 @@ class Claims:
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
         idle = now - self.judge.units[index].unknown_us > CALM_US
-        most = AGE_MS * (4 if bench.metered else 3) // 3 + (
-            ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0
-        )  # stops that are refused come first
+        most = AGE_MS * (3 + bench.metered) // 3
+        most += ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0  # stops that are refused come first
         self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
 
     def _stands(self, index: int, claim: Claim) -> None:

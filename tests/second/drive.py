@@ -104,7 +104,7 @@ class Drive:
     LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = {}
     """Registers that are reckoned when they are read."""
     MEASURES: ClassVar[dict[str, tuple[int, float]]] = {}
-    """Measured values but the frequency, by pin: register, and units of a count, which some manuals leave to the user."""
+    """Measured values but the frequency, by pin: register, and units of a count, which some manuals do not print."""
     IDS: ClassVar[tuple[str, str, str]]
     """Settings: unit address, source of run, source of frequency."""
     RUN_SOURCES: ClassVar[dict[int, Source]]

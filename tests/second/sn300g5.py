@@ -256,7 +256,8 @@ class Sn300g5(Drive):
         0x0090: lambda self, _: self.number(self.last_fault),
     }  # fmt: skip
     MEASURES: ClassVar[dict[str, tuple[int, float]]] = {
-        "OutputCurrentA": (0x0022, 1), "Diagnosis.DcBusVoltageV": (0x0026, 0.01), "Diagnosis.OutputPowerKW": (0x0027, 1),
+        "OutputCurrentA": (0x0022, 1), "Diagnosis.DcBusVoltageV": (0x0026, 0.01),
+        "Diagnosis.OutputPowerKW": (0x0027, 1),
     }  # fmt: skip  # lines 383, 387 and 388
 
 

@@ -75,7 +75,8 @@ def station(types: Sequence[str]) -> str:
         ("  Port.TxTaken := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxNumber);\n",
          "  Contact(Overdue := TheLine.StopOverdue);\n"
          "  IF (Port.TxCount > 0) AND (NOT SlowPort OR (Port.TxNumber = Found)) THEN\n"
-         "    Port.TxTaken := Port.TxNumber;\n  END_IF;\n  Found := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxTaken);\n"),
+         "    Port.TxTaken := Port.TxNumber;\n  END_IF;\n"
+         "  Found := Port.TxNumber;\n  Seen := UINT_TO_ULINT(Port.TxTaken);\n"),
         ("END_FUNCTION_BLOCK", f"  More := 0;\n{seen}END_FUNCTION_BLOCK"),
     ):  # fmt: skip
         assert text.count(old) == 1, old

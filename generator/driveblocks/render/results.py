@@ -61,6 +61,7 @@ RESULTS = (
     Result(37, "OTHER_QUANTITY", "reply for another number of registers", "寄存器个数不符"),
     Result(38, "OTHER_SUB_FUNCTION", "reply to another sub-function", "子功能码不符"),
     Result(40, "REFUSED", "refused by the drive", "变频器拒绝"),
+    Result(41, "BUSY", "the drive is busy", "变频器忙"),
     # the line
     Result(50, "RESTARTED", "given up by a restart", "因重新启动而放弃"),
     Result(51, "OFFLINE", "the drive does not answer", "变频器离线"),

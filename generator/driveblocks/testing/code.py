@@ -55,6 +55,7 @@ WORDS = {
     "OTHER_QUANTITY": "another number of registers",
     "OTHER_SUB_FUNCTION": "another sub-function",
     "REFUSED": "refused by the drive",
+    "BUSY": "the drive is busy",
     "RESTARTED": "given up by a restart",
     "OFFLINE": "the drive is dead",
     "TAKEN_BACK": "a stop has taken it back",
