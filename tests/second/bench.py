@@ -42,6 +42,8 @@ STALE_MS = {1: 5000, 3: 5000, 8: 12_000}
 """The same; with 8 drives, 19.2 kbit/s and scans of 40 ms the page of Reason 29 asks for more than the usual value."""
 CONTACT = 1 << (16 + 8 * IN_SEEN + 16)
 """The bit of `seen` that is HardStopOk."""
+FOLLOW_US = {1: 2_000_000, 3: 2_000_000, 8: 3_000_000}
+"""From a lowered reference to its frame, a lost one included; then the ramp."""
 UNSEEN_US = {1: 500_000, 3: 1_200_000, 8: 3_000_000}
 """From one look at the status of a drive to the next."""
 
@@ -51,6 +53,7 @@ def figures(drives: int) -> Figures:
     return Figures(
         stop_us=1000 * STOP_WITHIN_MS[drives] + 1_800_000,
         seen_us=1000 * STALE_MS[drives] + 500_000,
+        follow_us=FOLLOW_US[drives],
         unseen_us=UNSEEN_US[drives],
     )
 

@@ -35,7 +35,7 @@ EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
-UNANSWERED = ("NO_REFERENCE", "NO_RUN")
+UNANSWERED = ("NO_REFERENCE", "NO_RUN", "REFUSED")
 FOLLOW_US = 7_500_000
 """FollowWithinMs is 5 s, from the answer to run."""
 LATE_US = 600_000
@@ -84,10 +84,14 @@ SILENT_US = 6_000_000
 """A drive that does not answer is stopped again within this time: each second, in turn with others and its identity."""
 UNLINKED_CALLS = 100
 """Calls of a drive block without one of the line, after which it says that there is none."""
+BUSY_MOST_US = 900_000
+"""Ten attempts at a busy drive end a start."""
 BUSY_US = 200_000
 """A busy drive gets a write again 100 ms later at the earliest, or once at once: four take longer than this."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
+UNLEARNED_MS = 500
+"""How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
 RUNS = 4
 """Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
 JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
@@ -379,7 +383,8 @@ class Claims:
             one, many = bench.models[index], len(bench.models) > 3
             others = one.local or one.by in ("keypad", "terminals")  # an MX2 does not show by whom it runs
             # attempts at a busy drive and those without a reply are counted as one: it gives up, and says so
-            gave_up = one.o.late_per_1000 and one.busy_us > claim.edge_us and bench.reason(index) in UNANSWERED
+            most = 0 if one.o.late_per_1000 else BUSY_MOST_US
+            gave_up = one.busy_us > claim.edge_us + most and bench.reason(index) in UNANSWERED
             if others or gave_up or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
             elif not ignores and now - max(claim.edge_us, claim.crowd_us) > self._start_us(index) * (
@@ -419,6 +424,8 @@ class Claims:
             claim.armed_us = now if plain and claim.written_us < now else None
         if claim.stop_us is not None:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
+            if bench.models[index].jogging and now - self.judge.units[index].unknown_us < CALM_US:
+                most += 2 * round_us(bench)  # a restart has forgotten that it jogs: the end of a jog is sent second
             self._once(index, "prompt", bad=now - claim.stop_us > most)
 
     def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
@@ -457,9 +464,11 @@ class Claims:
         self._once(index, "refreshes", bad=bool(missed))
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
-        idle = now - self.judge.units[index].unknown_us > CALM_US
+        busy = bench.models[index].busy_us if bench.models[index].o.busy_refuses == "all" else 0  # its reads, too
+        idle = now - max(self.judge.units[index].unknown_us, busy) > CALM_US
         most = AGE_MS * (3 + bench.metered) // 3
-        most += ATTEND_US // 1000 if now - self.all_us < QUIET_US else 0  # stops that are refused come first
+        refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
+        most += ATTEND_US // 1000 if refused else 0  # stops that are refused come first
         self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
 
     def _stands(self, index: int, claim: Claim) -> None:
@@ -483,7 +492,9 @@ class Claims:
         elsewhere = pins.get("Address") != index + 1 or pins.get("SupplyOff") or bench.lineless
         if bench.hears(index) or not self.attended(index) or elsewhere:
             claim.heard_us = now
-        silent = now - max(claim.heard_us, claim.written_us) > SILENT_US and len(bench.models) < 8
+        deaf = [unit - 1 for unit in bench.deaf]
+        slow = len(deaf) > 1 and any(bench.turn_round(each) >= UNLEARNED_MS for each in deaf)  # half a second each
+        silent = now - max(claim.heard_us, claim.written_us) > SILENT_US * (1 + slow) and len(bench.models) < 8
         self._once(index, "silent", bad=silent)
 
     def _speed(self, index: int, claim: Claim, *, driven: bool) -> None:
@@ -533,7 +544,9 @@ class Claims:
         if bench.shows("Fault", index):
             right = reason in ("FAULT", "NO_RESET") or bool(pins.get("SupplyOff"))
         elif reason == "RESETTING":
-            right = now - self.judge.units[index].fault[True] < RESETS_US + CODE_MOST * round_us(bench)
+            refuses = not self.willing(index) and self.bench.models[index].o.not_in_command == "refuses"
+            most = CALM_US if refuses else RESETS_US + CODE_MOST * round_us(bench)  # no stop of it is acknowledged
+            right = now - self.judge.units[index].fault[True] < most
         else:
             first = next((name for name, is_so in self._told(index) if is_so), None)
             held = any_of(MOVES, pins)  # then nothing starts until it is released
@@ -587,7 +600,7 @@ class Claims:
                 claim.words[register] = word, now
             shown = bench.block[f"Drive{index}.{pin}"]
             assert isinstance(shown, float)
-            long = now - claim.words[register][1] > 1000 * age + SEEN_US
+            long = now - claim.words[register][1] > 1000 * age + SEEN_US + 3 * max(self.judge.late)
             bad = long and age < AGE_MS and abs(shown - word * unit) > unit / 2
             self._once(index, pin, bad=bad, seen=f"{shown} of {word * unit}")
 
@@ -600,8 +613,9 @@ class Claims:
         """A drive that does not answer is asked again and again."""
         pins, unit, now = self.bench.pins[index], self.judge.units[index], self.bench.now
         forgotten = now - claim.sent_us > PROBE_US and now - unit.unknown_us > 0
-        free = pins.get("SupplyOff") or pins.get("Left") or pins.get("Shared") or pins.get("Address") != index + 1
-        self._once(index, "probe", bad=forgotten and not free)
+        if pins.get("SupplyOff") or pins.get("Left") or pins.get("Shared") or pins.get("Address") != index + 1:
+            claim.sent_us = now
+        self._once(index, "probe", bad=forgotten and claim.sent_us < now)
 
     def _line(self) -> None:
         """What the line says of itself."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import CODE_MOST, MAX_SCAN_US, REFUSED_US, Claims, round_us
+from tests.second.claims import CODE_MOST, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, round_us
 from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
 from tests.second.pf4 import alike
 
@@ -22,8 +22,6 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 CUT_US = 3_000_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
-UNLEARNED_MS = 500
-"""How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
 MORE_US = 500_000
 """How much later that may be with three drives, and again with eight or in slow scans, whose requests are between."""
 SLOW_US = 1_500_000
@@ -34,6 +32,8 @@ PIN_US = 3_500_000
 """In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
 ATTEMPTS_US = 1_000_000
 """How much longer it takes where each stop is refused first."""
+BACK_US = 2_000_000
+"""Silence is no alarm for so long once its user says that it has its supply again."""
 BOOT_US = 10_000_000
 """After a restart silence is no alarm for so long, unless the drive has answered since."""
 STORE_US = 60_000_000
@@ -103,6 +103,8 @@ class Unit:
     """For how long it could be reached since then."""
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
+    off_us: int = -BACK_US
+    """When its user last said that it has no supply."""
     off: bool = False
     """Its block was called with SupplyOff."""
     excused_us: int = 0
@@ -157,14 +159,15 @@ class Asked:
         still = judge.claims.claims[self.index].still_us
         stood = still is not None and still < self.since_us and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
-        asks = error and self.permitted and may and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
+        crowded = len(bench.models) > 3 and bench.ms > 20  # references have all the line
+        asks = error and self.permitted and may and not crowded and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
         calm = bench.now - self.since_us + (QUIET_US if bench.was_slow_port else CALM_US)  # a slow port is aimed at it
         if asks and judge.known(self.index, calm) and not mine:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
         unsent = error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and self.permitted
-        if unsent and stood and judge.known(self.index, calm):
+        if unsent and stood and not crowded and judge.known(self.index, calm):
             judge.tell(self.index, "parameter", f"{self.name} was taken back, and nothing has stopped the drive")
         mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
@@ -260,7 +263,7 @@ class Judge:
         lied = pins.get("MonitorOnly") and unit.lied_us > 0  # it has acknowledged the stop before that
         off = off or bool(lied) or unit.forgotten
         open_now = self.open_now or off or self._boots(index)
-        truth = Truth(hz, one.by, bool(one.stopping), open_now, one.turned, one.itself)
+        truth = Truth(hz, one.by, bool(one.stopping), open_now, one.turned, one.itself, unit.running[False])
         shows = bench.shows("StopConfirmed", index) and not pins.get("Left")
         self.observer.scan(now, index + 1, pins, confirmed=shows, truth=truth)
         self._reach(index, unit)
@@ -333,7 +336,9 @@ class Judge:
         silent = index + 1 in bench.deaf or one.cut
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
-        owed = owed and not (bench.lineless or bench.pins[index].get("SupplyOff"))  # its user says that it is off
+        if bench.pins[index].get("SupplyOff"):  # its user says that it is off, and afterwards it boots
+            unit.off_us = bench.now
+        owed = owed and not bench.lineless and bench.now - unit.off_us > BACK_US
         if not owed:
             unit.silent_since = None
             unit.broken.discard("cut")

@@ -86,6 +86,8 @@ class Truth:
     """Somebody else has turned its direction round, which the block must see and stop."""
     itself: bool = False
     """The drive has taken up a command by itself: no start of the block, which must stop it."""
+    stood_us: int | None = None
+    """When it last showed that it does not run; None: nobody looks."""
 
 
 def any_of(names: tuple[str, ...], pins: Mapping[str, object]) -> bool:
@@ -139,7 +141,7 @@ class Watch:
     left_us: int | None = None
     """Since when its block is called no longer, with nothing but that against a run that was permitted."""
     caught: bool = False
-    """It was still turning the other way when it was started, and is braked and turned round."""
+    """It was still turning the other way when it was started or its pin rose, and is braked and turned round."""
     interrupted: bool = False
     ended_us: int = 0
     """When it was last driven no longer, and whether it was permitted to be until then."""
@@ -177,12 +179,16 @@ class Observer:
         wanted = wish(pins)
         asked, stops = wanted.moves, wanted.stops
         self._left(now_us, watch, pins, asked)
+        rises = not stops and not watch.asked_before and bool(asked)
         watch.permitted = not stops and (not watch.asked_before or (watch.permitted and asked == watch.asked_before))
         watch.asked_before = asked
         turns = abs(truth.hz) > figures.still_hz
+        watch.caught = watch.caught or (rises and turns)
         driven = truth.by == "bus" and not truth.stopping
         if driven and not watch.driven:
-            if truth.itself and watch.interrupted and now_us - watch.ended_us <= self.figures.unseen_us and not stops:
+            short = now_us - watch.ended_us <= self.figures.unseen_us
+            unseen = short or (truth.stood_us is not None and truth.stood_us < watch.ended_us)
+            if truth.itself and watch.interrupted and unseen and not stops:
                 watch.permitted = True
             watch.caught = turns
             waited = watch.left_us is not None and now_us - watch.left_us <= ATTEND_US
@@ -258,7 +264,9 @@ class Observer:
         far = abs(truth.hz) > watch.most_hz + 0.01 * watch.most_hz + self.figures.still_hz
         wrong_way = truth.hz * (-1 if pins.get("RunReverse") else 1) < -self.figures.still_hz
         self._judge(now_us, unit, "speed", bad=far, seen=truth)
-        watch.turned_since = (watch.turned_since or now_us) if wrong_way and truth.turned else None
+        others = truth.turned or truth.itself
+        watch.turned_since = (watch.turned_since or now_us) if wrong_way and others else None
         watch.caught = watch.caught and wrong_way
         young = watch.turned_since is not None and now_us - watch.turned_since <= figures.unseen_us + TURNED_US
-        self._judge(now_us, unit, "direction", bad=wrong_way and not (young or watch.caught), seen=truth)
+        excused = young or watch.caught or truth.contact_open
+        self._judge(now_us, unit, "direction", bad=wrong_way and not excused, seen=truth)
