@@ -71,7 +71,7 @@ PLANTED = (
     ),
     Planted(
         "the turn-round is forgotten",
-        "Open.DueMs := MB_Plus(Number := Open.PlainMs, More := TurnRoundMs);",
+        "Open.DueMs := MB_Plus(Number := Open.PlainMs, More := Slots[Next.Chosen].TurnRoundMs);",
         "Open.DueMs := Open.PlainMs;",
         "timing",
     ),
@@ -95,7 +95,7 @@ PLANTED = (
     ),
     Planted(
         "an adapter that keeps requests back is forgotten in the timeout",
-        "  Open.PlainMs := MB_Plus(Number := Open.PlainMs, More := PortLateMs);\n",
+        "  Open.PlainMs := MB_Plus(Number := Open.PlainMs, More := Port.LateMs);\n",
         "",
         "timing",
     ),

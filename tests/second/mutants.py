@@ -31,7 +31,8 @@ SEEDS, NUMBER = (734, 421, 411, 412, 911), 60
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
 DRIVE = ("Link", "Unit", "Usual", "Identity", "Diagnose")
-LINE = ("Line8", "Stop", "Rank", "Overdue", "Promise", "Foreign", "LineRequest", "Listen")
+LINE = ("Line8", "Stop", "Rank", "Overdue", "Promise", "Foreign", "Listen", "Repeats", "ReplyMs", "Withdrawn",
+        "WhyFailed", "WhyUnsent", "TriesOver", "OthersMs")
 OF_EACH = ("Drive", "Reads", "Orders", "ParameterGate")
 BLOCKS = (
     *(f"VFD_{each}" for each in (*CONTROL, *DRIVE)),
