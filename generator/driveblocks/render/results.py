@@ -61,7 +61,6 @@ RESULTS = (
     Result(37, "OTHER_QUANTITY", "reply for another number of registers", "寄存器个数不符"),
     Result(38, "OTHER_SUB_FUNCTION", "reply to another sub-function", "子功能码不符"),
     Result(40, "REFUSED", "refused by the drive", "变频器拒绝"),
-    Result(41, "BUSY", "the drive is busy", "变频器忙"),
     # the line
     Result(50, "RESTARTED", "given up by a restart", "因重新启动而放弃"),
     Result(51, "OFFLINE", "the drive does not answer", "变频器离线"),
@@ -90,6 +89,7 @@ RESULTS = (
     Result(72, "BAD_SETTING", "a setting is 65535, which switches off nothing there", "设定值65535在此处无效"),
     # the drive itself
     Result(73, "OTHER_DRIVE", "another kind of drive is at this address", "此地址上是另一种变频器"),
+    Result(74, "BUSY", "the drive is busy", "变频器忙"),
 )
 _BY_NAME = {result.name: result for result in RESULTS}
 
