@@ -31,8 +31,10 @@ SEEDS, NUMBER = (734, 421, 411, 412, 911), 60
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
 DRIVE = ("Link", "Unit", "Usual", "Identity", "Diagnose")
-LINE = ("Line8", "Stop", "Rank", "Overdue", "Promise", "Foreign", "Listen", "Repeats", "ReplyMs", "Withdrawn",
-        "WhyFailed", "WhyUnsent", "TriesOver", "OthersMs")
+LINE = (
+    "Line8", "Stop", "TriesOver", "Rank", "Withdrawn", "Overdue", "Promise", "OthersMs", "Foreign", "Listen",
+    "Repeats", "ReplyMs", "WhyFailed", "WhyUnsent",
+)  # fmt: skip
 OF_EACH = ("Drive", "Reads", "Orders", "ParameterGate")
 BLOCKS = (
     *(f"VFD_{each}" for each in (*CONTROL, *DRIVE)),
