@@ -162,6 +162,9 @@ class Claim:
     """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
     """Looks in a row with a wrong reason."""
+    current: bool = False
+    flipped_us: int = 0
+    """Whether its motor has current, and since when it has, or has not."""
     words: dict[int, tuple[int, int]] = field(default_factory=dict)
     """Registers of measured values: the word, and since when it is that."""
     faulty_us: int = 0
@@ -568,6 +571,8 @@ class Claims:
 
     def _trips(self, index: int, claim: Claim) -> None:
         one, now = self.bench.models[index], self.bench.now
+        if one.output != claim.current:
+            claim.current, claim.flipped_us = one.output, now
         if one.fault is None:
             claim.fault_us = None
             claim.run_us = now if claim.driven_us and not one.itself else claim.run_us
@@ -600,8 +605,8 @@ class Claims:
                 claim.words[register] = word, now
             shown = bench.block[f"Drive{index}.{pin}"]
             assert isinstance(shown, float)
-            long = now - claim.words[register][1] > 1000 * age + SEEN_US + 3 * max(self.judge.late)
-            bad = long and age < AGE_MS and abs(shown - word * unit) > unit / 2
+            since = max(claim.words[register][1], claim.flipped_us) + 3 * max(self.judge.late)
+            bad = now - since > 1000 * age + SEEN_US and age < AGE_MS and abs(shown - word * unit) > unit / 2
             self._once(index, pin, bad=bad, seen=f"{shown} of {word * unit}")
 
     def _able(self, index: int) -> None:

@@ -314,7 +314,7 @@ class Judge:
         bench, pins = self.bench, self.bench.pins[index]
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
-        heard = heard and bench.now - unit.unknown_us > RESTARTED_US
+        heard = heard and bench.now - unit.unknown_us > RESTARTED_US and bench.now >= bench.models[index].busy_us
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         most = PIN_US * (2 if len(bench.models) > 3 else 1)
         most += ATTEMPTS_US if bench.models[index].o.not_in_command == "refuses" else 0
