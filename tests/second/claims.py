@@ -50,6 +50,8 @@ FOREIGN_US = 45_000_000
 PROBE_US = 12_000_000
 AGE_MS = 2600
 """How old words may be on a line of three drives at most."""
+NEVER_MS = 65535
+"""The age of words that were not read."""
 SEEN_US = 300_000
 """What the age of words does not say: the reply's way, and the scan in which it is shown."""
 USUAL_MS, OFF = 1000, 65535
@@ -473,6 +475,10 @@ class Claims:
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
         most += ATTEND_US // 1000 if refused else 0  # stops that are refused come first
         self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
+        restarted = self.judge.units[index].restarted_us
+        known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS
+        before = known and 1000 * age > now - restarted + SEEN_US // 3
+        self._once(index, "remembers", bad=bool(before), seen=f"{age} ms")  # words of before a restart
 
     def _stands(self, index: int, claim: Claim) -> None:
         """A drive that has been standing for long, and that nobody starts, is shown so."""
