@@ -276,14 +276,18 @@ class Bench:
         self.block["Text"] = text
         self.block["Count"] = len(text)
 
+    def mailbox(self, count: int) -> bytes:
+        """The first characters of the request there."""
+        text = self.block["Port.Tx"]
+        assert isinstance(text, list)
+        return bytes(text[:count])  # type: ignore[arg-type]  # an array of BYTE
+
     def _send(self) -> None:
         count = self.block["Port.TxCount"]
-        text = self.block["Port.Tx"]
         assert isinstance(count, int)
-        assert isinstance(text, list)
         if not count:
             return
-        raw = bytes(text[:count])  # type: ignore[arg-type]  # an array of BYTE
+        raw = self.mailbox(count)
         data = _opened(raw, self.ascii)
         start = max(self.now, self._free + self._us(4))
         end = start + self._us(count)

@@ -252,10 +252,8 @@ class Second(Bench):
 
     def waits(self, unit: int) -> bool:
         """Whether a request to a unit waits for the port."""
-        text = self.block["Port.Tx"]
-        assert isinstance(text, list)
         begins = b":" + f"{unit:02X}".encode() if self.ascii else bytes([unit])
-        mine = bytes(text[: len(begins)]) == begins  # type: ignore[arg-type]  # an array of BYTE
+        mine = self.mailbox(len(begins)) == begins
         return mine and self.block["Port.TxCount"] != 0 and self.block["Port.TxNumber"] != self.block["Port.TxTaken"]
 
     def _look(self) -> None:

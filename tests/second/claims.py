@@ -32,7 +32,7 @@ page 10), which is two reads of three: of any five in a row at least three.
 CODE_MOST = 5
 """Rounds until the code of a fault is read: three until the status shows the fault, and two more."""
 EXCHANGE_US = 50_000
-"""A request and its reply at 19,200 bit/s, up to 18 ms after it; or two scans, where those are longer."""
+"""A request and its reply at 19,200 bit/s, up to 18 ms after it; or three scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 UNANSWERED = ("NO_REFERENCE", "NO_RUN", "REFUSED")
@@ -108,7 +108,7 @@ LINE_ERRORS = (0, 61)
 
 def round_us(bench: "Second") -> int:
     """A round of the line: two exchanges of each drive, a write and a read."""
-    return 2 * len(bench.types) * max(EXCHANGE_US, 2000 * max(bench.ms, bench.was_ms))
+    return 2 * len(bench.types) * max(EXCHANGE_US, 3000 * max(bench.ms, bench.was_ms))
 
 
 def path_us(bench: "Second", index: int) -> int:
@@ -175,6 +175,9 @@ class Claim:
     """When the bus last ran it, by a start that its block knows of."""
     first: bool = False
     """Its fault is the first since then."""
+    fault: Any = None
+    alone: bool = False
+    """It, and whether none was shown when it came: one that follows another without a gap is not recorded."""
 
 
 class Claims:
@@ -416,7 +419,8 @@ class Claims:
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
-        good = self.willing(index) and hears and not self.lies(index)
+        watched = pins.get("MonitorOnly") and self.judge.units[index].lied_us > 0  # it had acknowledged its stop before
+        good = self.willing(index) and hears and not self.lies(index) and not watched
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
         elif owed and (claim.stop_us is None or pins.get("Restart")):
@@ -583,8 +587,9 @@ class Claims:
             claim.fault_us = None
             claim.run_us = now if claim.driven_us and not one.itself else claim.run_us
             return
-        if claim.fault_us is None:
-            claim.fault_us, claim.first = now, claim.run_us > claim.faulty_us
+        if claim.fault_us is None or one.fault != claim.fault:
+            claim.alone = not self.bench.shows("Fault", index)
+            claim.fault, claim.fault_us, claim.first = one.fault, now, claim.run_us > claim.faulty_us
         claim.faulty_us = now
 
     def _fault(self, index: int, claim: Claim) -> None:
@@ -597,7 +602,8 @@ class Claims:
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 
-        for pin, asked in (("FaultBack1", old), ("FirstFaultCode", old and claim.first)):
+        recorded = old and claim.alone
+        for pin, asked in (("FaultBack1", recorded), ("FirstFaultCode", recorded and claim.first)):
             kept = bench.block[f"Drive{index}.Diagnosis.{pin}"]
             self._once(index, pin, bad=asked and kept != number, seen=f"{kept!r} of {number}")
 

@@ -95,6 +95,14 @@ def any_of(names: tuple[str, ...], pins: Mapping[str, object]) -> bool:
     return not pins.true.isdisjoint(names) if isinstance(pins, Pins) else any(pins.get(name) for name in names)
 
 
+def most_hz(pins: Mapping[str, object]) -> float:
+    """The reference, within the limit that the pins give."""
+    asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)
+    assert isinstance(asked, float)
+    assert isinstance(limit, float)
+    return min(asked, limit) if limit else asked
+
+
 def spoilt(pins: Mapping[str, object]) -> bool:
     """Whether a run is asked for with a negative reference, which stops it."""
     hz = pins.get("SpeedReferenceHz", 0.0)
@@ -201,6 +209,7 @@ class Observer:
         if not (turns or driven):  # nothing is owed, and nothing is too fast: most drives in most scans
             watch.stop_since, watch.others_since, watch.most_hz = None, None, 0.0
             watch.broken -= STANDING
+            self._asks(now_us, watch, pins)
             return
         owed = (stops or not watch.permitted) and watch.ours and (turns or driven)
         self._stop(now_us, unit, truth, stops=owed)
@@ -239,17 +248,19 @@ class Observer:
         coasts = not truth.by and not figures.coast_counts
         self._judge(now_us, unit, "confirmed", bad=wrong and not young and not coasts, seen=truth)
 
+    def _asks(self, now_us: int, watch: Watch, pins: Mapping[str, object]) -> None:
+        """What a start would ask for, or has just asked for."""
+        most = most_hz(pins)
+        if most >= watch.asked_hz or now_us - watch.asked_us > self.figures.follow_us:
+            watch.asked_hz, watch.asked_us = most, now_us
+
     def _speed(self, now_us: int, unit: int, pins: Mapping[str, object], truth: Truth) -> None:
         """Not faster than asked, and not the other way round; a jog has a speed of its own."""
         watch, figures = self.watches[unit], self.figures
-        asked, limit = pins.get("SpeedReferenceHz", 0.0), pins.get("MaximumHz", 0.0)
-        assert isinstance(asked, float)
-        assert isinstance(limit, float)
-        most = min(asked, limit) if limit else asked
+        most = most_hz(pins)
         if not watch.driven or not wish(pins).runs:
             watch.before_hz, watch.most_hz = watch.most_hz or watch.before_hz, 0.0
-            if most >= watch.asked_hz or now_us - watch.asked_us > self.figures.follow_us:
-                watch.asked_hz, watch.asked_us = most, now_us
+            self._asks(now_us, watch, pins)
             return
         if truth.itself and not watch.most_hz:  # without its supply it has heard of no other reference
             watch.most_hz, watch.lowered_at = max(most, watch.before_hz), now_us
