@@ -177,7 +177,7 @@ class Claim:
     """Its fault is the first since then."""
     fault: Any = None
     alone: bool = False
-    """It, and whether none was shown when it came: one that follows another without a gap is not recorded."""
+    """It, and whether none was shown when it came, and it was watched since: else it need not be recorded."""
 
 
 class Claims:
@@ -590,6 +590,7 @@ class Claims:
         if claim.fault_us is None or one.fault != claim.fault:
             claim.alone = not self.bench.shows("Fault", index)
             claim.fault, claim.fault_us, claim.first = one.fault, now, claim.run_us > claim.faulty_us
+        claim.alone = claim.alone and self.attended(index) and self.bench.shows("CommOk", index)
         claim.faulty_us = now
 
     def _fault(self, index: int, claim: Claim) -> None:
@@ -598,7 +599,7 @@ class Claims:
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         most = max(CALM_US // 2, CODE_MOST * round_us(bench))
-        old = claim.fault_us is not None and now - claim.fault_us > most and shown
+        old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
 
