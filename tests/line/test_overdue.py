@@ -62,6 +62,23 @@ def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds(echo: bool) -> 
     assert not any(bench.slot(slot, "StopOverdue") for slot in range(8) if slot != 3)
 
 
+def test_the_stop_of_a_drive_that_has_just_died_rests_for_no_other() -> None:
+    """One that never answered takes half a second for each attempt, and the others three times as long after it."""
+    bench = Bench(replace(LEARNED, drives=3))
+    bench.drives[0].alive = False
+    bench.put(0, TurnRoundMs=500)
+    bench.ready().run(6000)
+    bench.drives[1].alive = False
+    while bench.slot(1, "Online"):
+        bench.scan()
+    bench.stop(0)
+    bench.stop(1)
+    began = bench.now
+    while not bench.slot(1, "StopOverdue"):
+        bench.scan()
+    assert bench.now - began < 1_500_000
+
+
 @pytest.mark.parametrize("cut_off", [3, 5, 7])
 def test_who_still_answers_stays_online(cut_off: int) -> None:
     bench = Bench(EIGHT).ready()
