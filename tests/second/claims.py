@@ -112,8 +112,9 @@ def round_us(bench: "Second") -> int:
 
 
 def path_us(bench: "Second", index: int) -> int:
-    """How much longer a start of this drive takes than one by one write."""
-    return PATH_ROUNDS.get(bench.types[index], 0) * round_us(bench)
+    """How much longer a start of this drive takes than one by one write; in slow scans its reference has a round."""
+    crowded = len(bench.types) > 3 and max(bench.ms, bench.was_ms) > 20
+    return (PATH_ROUNDS.get(bench.types[index], 0) + crowded) * round_us(bench)
 
 
 @dataclass(slots=True)
@@ -470,6 +471,7 @@ class Claims:
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
+        missed = missed and now - self.judge.slow_us > CALM_US
         self._once(index, "refreshes", bad=bool(missed))
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
@@ -477,7 +479,8 @@ class Claims:
         idle = now - max(self.judge.units[index].unknown_us, busy) > CALM_US
         most = AGE_MS * (3 + bench.metered) // 3
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
-        most += ATTEND_US // 1000 if refused else 0  # stops that are refused come first
+        dies = any(now - each.away_us < CALM_US for each in self.judge.units)
+        most += ATTEND_US // 1000 if refused or dies else 0  # stops that are refused, or not answered, come first
         self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
         restarted = self.judge.units[index].restarted_us
         known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS

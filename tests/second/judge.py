@@ -10,7 +10,7 @@ from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import CODE_MOST, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, round_us
-from tests.second.observer import MOVES, Figures, Observer, Truth, any_of
+from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Truth, any_of
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
@@ -20,16 +20,16 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
-CUT_US = 3_000_000
+CUT_US = 2_500_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 MORE_US = 500_000
-"""How much later that may be with three drives, and again with eight or in slow scans, whose requests are between."""
+"""How much later with three drives, again with eight, and again in slow scans: their requests are between."""
 SLOW_US = 1_500_000
 """How much later that may be where scans take longer than the program has promised."""
 RESTARTED_US = 2_000_000
 """After a restart nothing is written to a drive before it was read."""
-PIN_US = 3_500_000
-"""In SpeedOnly, from a stop pin to standstill: a ramp from 25 Hz, and attempts."""
+PIN_US = 1_000_000
+"""In SpeedOnly, from a stop pin to standstill, beside the ramp: attempts."""
 ATTEMPTS_US = 1_000_000
 """How much longer it takes where each stop is refused first."""
 BACK_US = 2_000_000
@@ -68,7 +68,7 @@ STATUS = alike(
 )
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
-NOT_SENT, READ, WRITE = 68, "Reader", "Writer"
+OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
 
 
 @dataclass(slots=True)
@@ -96,6 +96,8 @@ class Unit:
     reads_us: int = 0
     """When it last did not."""
     pin_us: int | None = None
+    pin_hz: float = 0.0
+    """Since when a pin asks to stop what terminals run, and how fast that was then."""
     stored_us: int = 0
     silent_since: int | None = None
     restarted_us: int = 0
@@ -162,7 +164,8 @@ class Asked:
         crowded = len(bench.models) > 3 and bench.ms > 20  # references have all the line
         asks = error and self.permitted and may and not crowded and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
         calm = bench.now - self.since_us + (QUIET_US if bench.was_slow_port else CALM_US)  # a slow port is aimed at it
-        if asks and judge.known(self.index, calm) and not mine:
+        lost = bench.block[f"{self.name}.ErrorID"] == OFFLINE and not bench.shows("CommOk", self.index)
+        if asks and judge.known(self.index, calm) and not mine and not lost:
             judge.tell(
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
@@ -315,8 +318,9 @@ class Judge:
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
         heard = heard and bench.now - unit.unknown_us > RESTARTED_US and bench.now >= bench.models[index].busy_us
+        unit.pin_hz = unit.pin_hz if unit.pin_us else abs(hz)
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
-        most = PIN_US * (2 if len(bench.models) > 3 else 1)
+        most = (PIN_US + int(RAMP_US * unit.pin_hz)) * (2 if len(bench.models) > 3 else 1)
         most += ATTEMPTS_US if bench.models[index].o.not_in_command == "refuses" else 0
         late = unit.pin_us is not None and bench.now - unit.pin_us > most
         o = bench.models[index].o
@@ -345,7 +349,7 @@ class Judge:
             return
         unit.silent_since = unit.silent_since or bench.now
         slow, many = bench.now - self.slow_us < CUT_US + SLOW_US, len(bench.models)
-        most = CUT_US + (SLOW_US if slow else 0) + MORE_US * (many > 1) * (1 + (many > 3 or bench.ms > 20))
+        most = CUT_US + (SLOW_US if slow else 0) + MORE_US * (many > 1) * (1 + (many > 3) + (bench.ms > 20))
         if bench.turn_round(index) >= UNLEARNED_MS:
             beside = self.figures.stop_us + CUT_US if many > 1 else 0  # an attempt costs 0.5 s, then come others
             most = max(most, 1000 * bench.promised_cut, beside)
