@@ -277,7 +277,7 @@ class Second(Bench):
         self.judge.sent(end, raw)
         self._hear_others(end)
         if data[0] == METER:
-            self.judge.once(0, "meter", bad=data != METERED, seen=data.hex())
+            self.judge.once(0, "meter", bad=data != METERED, seen=(data.hex(),))
             self.transmit(ascii_frame(COUNTS) if self.ascii else rtu(COUNTS), end + METER_US, None)
         for index, one in enumerate(self.models):
             if index + 1 in self.deaf:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.frames import runs
-from tests.second.observer import MOVES, RUN, STOPPING, Pins, any_of, both, wish
+from tests.second.observer import MOVES, RUN, STOPPING, Pins, Seen, any_of, both, wish
 from tests.second.pf4 import VARIANTS, alike
 
 if TYPE_CHECKING:
@@ -206,12 +206,12 @@ class Claims:
         self._kept(index, body)
         shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
         if shared and not writes and index + 1 not in self.bench.deaf:
-            self._once(index, "barred", bad=True, seen=body.hex())
+            self._once(index, "barred", bad=True, seen=(body.hex(),))
         if writes:
             self._again(now_us, index, claim, body)
             self._jog(index, claim, body)
             claim.runs += runs(self.bench.types[index], body)
-            self._once(index, "runs again", bad=claim.runs > RUNS, seen=body.hex())
+            self._once(index, "runs again", bad=claim.runs > RUNS, seen=(body.hex(),))
             self._first(now_us, index, claim, len(body))
             self._refreshed(now_us, index, claim)
             claim.written_us = now_us
@@ -299,7 +299,7 @@ class Claims:
         answers = one.o.not_in_command == "acknowledges" and not one.o.late_per_1000
         answers = answers and now_us >= one.busy_us + SAME_US
         hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
-        self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=body.hex())
+        self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=(body.hex(),))
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
         """The stop of the last order is sent first: after a jog its own, unless it is to coast or a restart came."""
@@ -308,7 +308,7 @@ class Claims:
         coasts = self.bench.pins[index].get("CoastStop")
         ends = JOG_ENDS.get(self.bench.types[index])
         if armed and ends and not coasts:
-            self._once(index, "jog stop", bad=body[1:6] != ends, seen=body.hex())
+            self._once(index, "jog stop", bad=body[1:6] != ends, seen=(body.hex(),))
 
     def _kept(self, index: int, body: bytes) -> None:
         """Bits that no command uses are as KeepWord has them in every run word of SN300G5."""
@@ -438,7 +438,7 @@ class Claims:
                 most += 2 * round_us(bench)  # a restart has forgotten that it jogs: the end of a jog is sent second
             self._once(index, "prompt", bad=now - claim.stop_us > most)
 
-    def _once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+    def _once(self, index: int, rule: str, *, bad: bool, seen: Seen = ()) -> None:
         self.judge.once(index, rule, bad=bad, seen=seen)
 
     # ------------------------------------------------------------ quiet times
@@ -454,7 +454,7 @@ class Claims:
         shared = bool(pins.get("Shared")) and not pins.get("Left") and now - claim.changed_us > ATTEND_US
         told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
         told = told or bool(bench.pins[index].get("SupplyOff"))
-        self._once(index, "shared", bad=shared and not told, seen=bench.reason(index))
+        self._once(index, "shared", bad=shared and not told, seen=(bench.reason(index),))
         if index == 0:
             self._line()
         heard = self.well(index, CALM_US // 5) and bench.shows("CommOk", index)
@@ -481,11 +481,11 @@ class Claims:
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
         dies = any(now - each.away_us < CALM_US for each in self.judge.units)
         most += ATTEND_US // 1000 if refused or dies else 0  # stops that are refused, or not answered, come first
-        self._once(index, "age", bad=fast and idle and age > most, seen=f"{age} ms")
+        self._once(index, "age", bad=fast and idle and age > most, seen=(age, "ms"))
         restarted = self.judge.units[index].restarted_us
         known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS
         before = known and 1000 * age > now - restarted + SEEN_US // 3
-        self._once(index, "remembers", bad=bool(before), seen=f"{age} ms")  # words of before a restart
+        self._once(index, "remembers", bad=bool(before), seen=(age, "ms"))  # words of before a restart
 
     def _stands(self, index: int, claim: Claim) -> None:
         """A drive that has been standing for long, and that nobody starts, is shown so."""
@@ -524,8 +524,8 @@ class Claims:
         permitted = self.judge.observer.watches[index + 1].permitted and not one.turned
         runs = steady and any_of(RUN, pins) and permitted and not self.lies(index)
         far = abs(abs(one.motor.hz(now)) - asked) > 0.01 * asked + 0.2
-        self._once(index, "reaches", bad=runs and far, seen=f"{one.motor.hz(now)} Hz of {asked}")
-        shown = bool(bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]) or bench.types[index] == "SN300G5"
+        self._once(index, "reaches", bad=runs and far, seen=(one.motor.hz(now), "Hz of", asked))
+        shown = bool(bench.out("OutputFrequencyValid", index)) or bench.types[index] == "SN300G5"
         claim.far_us = now if far else claim.far_us
         age = max(bench.number("StatusAgeMs", index), bench.number("MeasuresAgeMs", index))
         quiet = runs and shown and age < AGE_MS and now - claim.far_us > 1000 * age + SEEN_US
@@ -541,9 +541,13 @@ class Claims:
 
     def _was_far(self, index: int, asked: float) -> bool:
         """Whether the drive has shown no such speed for some time."""
-        shaft = self.judge.units[index].shaft
         since = self.bench.now - 1000 * int(self.bench.number("StatusAgeMs", index)) - 1_000_000
-        return all(abs(hz - asked) > 1.0 for at, hz in shaft if at >= since)
+        for at, hz in reversed(self.judge.units[index].shaft):
+            if at < since:
+                return True
+            if abs(hz - asked) <= 1.0:
+                return False
+        return True
 
     def _start_us(self, index: int) -> int:
         return START_US + path_us(self.bench, index)
@@ -568,11 +572,11 @@ class Claims:
             held = any_of(MOVES, pins)  # then nothing starts until it is released
             right = reason == first if first else reason != "READY" or (ready and not held)
         claim.odd = 0 if right else claim.odd + 1
-        self._once(index, "why", bad=claim.odd > 1, seen=reason)
+        self._once(index, "why", bad=claim.odd > 1, seen=(reason,))
         running = bench.shows("Running", index)
-        self._once(index, "runs", bad=reason == "RUNS" and not running, seen=reason)
+        self._once(index, "runs", bad=reason == "RUNS" and not running, seen=(reason,))
         idle = bench.shows("StopConfirmed", index) or not ready
-        self._once(index, "ready", bad=not idle, seen="Ready without StopConfirmed")
+        self._once(index, "ready", bad=not idle, seen=("Ready without StopConfirmed",))
 
     def _told(self, index: int) -> list[tuple[str, bool]]:
         pins = self.bench.pins[index]
@@ -604,12 +608,12 @@ class Claims:
         most = max(CALM_US // 2, CODE_MOST * round_us(bench))
         old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
-        self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=f"code {code!r}")
+        self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
 
         recorded = old and claim.alone
         for pin, asked in (("FaultBack1", recorded), ("FirstFaultCode", recorded and claim.first)):
-            kept = bench.block[f"Drive{index}.Diagnosis.{pin}"]
-            self._once(index, pin, bad=asked and kept != number, seen=f"{kept!r} of {number}")
+            kept = bench.out(pin, index)
+            self._once(index, pin, bad=asked and kept != number, seen=(kept, "of", number))
 
     def _measures(self, index: int, claim: Claim) -> None:
         """Measured values are what the drive shows, once that has been so for longer than they are old."""
@@ -619,16 +623,16 @@ class Claims:
             word = one.LIVE[register](one, now)
             if claim.words.get(register, (None, 0))[0] != word:
                 claim.words[register] = word, now
-            shown = bench.block[f"Drive{index}.{pin}"]
+            shown = bench.out(pin, index)
             assert isinstance(shown, float)
             since = max(claim.words[register][1], claim.flipped_us) + 3 * max(self.judge.late)
             bad = now - since > 1000 * age + SEEN_US and age < AGE_MS and abs(shown - word * unit) > unit / 2
-            self._once(index, pin, bad=bad, seen=f"{shown} of {word * unit}")
+            self._once(index, pin, bad=bad, seen=(shown, "of", word * unit))
 
     def _able(self, index: int) -> None:
         """The capabilities are those of the manual."""
         shown = tuple(self.bench.out(each, index) for each in CAN)
-        self._once(index, "able", bad=shown != ABLE[self.bench.types[index]], seen=f"{shown}")
+        self._once(index, "able", bad=shown != ABLE[self.bench.types[index]], seen=shown)
 
     def _probe(self, index: int, claim: Claim) -> None:
         """A drive that does not answer is asked again and again."""
@@ -646,15 +650,15 @@ class Claims:
         good = plain and all(now - self.judge.units[i].unknown_us > CALM_US and self.well(i, CALM_US) for i in units)
         good = good and now - max(self.doubled_us + FOREIGN_US, bench.metered_us + CALM_US // 5) > 0
         shown = (block["TheLine.AllOnline"], block["TheLine.OnlineCount"])
-        self._once(0, "all online", bad=good and shown != (True, len(units) + bench.metered), seen=f"{shown}")
+        self._once(0, "all online", bad=good and shown != (True, len(units) + bench.metered), seen=shown)
         error = block["TheLine.ErrorID"]
-        self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=f"ErrorID {error!r}")
+        self._once(0, "line", bad=good and error not in LINE_ERRORS, seen=("ErrorID", error))
         strange = block["TheLine.ForeignFrames"]
         assert isinstance(strange, int)
         most = LATE_ECHOES if any(one.o.late_per_1000 for one in bench.models) else 0
         began = max(self.judge.units[i].unknown_us for i in units)
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
-        self._once(0, "strange", bad=forgotten and strange > most, seen=f"{strange!r} foreign frames")
+        self._once(0, "strange", bad=forgotten and strange > most, seen=(strange, "foreign frames"))
         if not all(self.willing(i) for i in units):
             self.all_us = now
         retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US
@@ -662,10 +666,10 @@ class Claims:
         proved = all(self.claims[i].driven_us or bench.shows("StopConfirmed", i) for i in units)
         self.open_us = self.open_us if proved else now
         plain = plain and now - self.open_us > ATTEND_US
-        self._once(0, "retries", bad=plain and retries != self.retries, seen=f"{retries!r} after {self.retries!r}")
+        self._once(0, "retries", bad=plain and retries != self.retries, seen=(retries, "after", self.retries))
         self.retries = retries
         asked = block["TheLine.Requests"]
         assert isinstance(asked, int)
         taken_back = asked - len(bench.frames)
         wrong = not 0 <= taken_back <= (TAKEN_BACK if bench.was_slow_port else 0)
-        self._once(0, "counts", bad=wrong, seen=f"{asked} of {len(bench.frames)} requests")
+        self._once(0, "counts", bad=wrong, seen=(asked, "of", len(bench.frames), "requests"))

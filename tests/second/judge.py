@@ -10,7 +10,7 @@ from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import CODE_MOST, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, round_us
-from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Truth, any_of
+from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ RESTARTED_US = 2_000_000
 """After a restart nothing is written to a drive before it was read."""
 PIN_US = 1_000_000
 """In SpeedOnly, from a stop pin to standstill, beside the ramp: attempts."""
+RUN_HZ = 25.0
+"""What runs ask for: the motor may be on its way to it."""
 ATTEMPTS_US = 1_000_000
 """How much longer it takes where each stop is refused first."""
 BACK_US = 2_000_000
@@ -220,14 +222,14 @@ class Judge:
         """A broken rule."""
         self.found.append((self.bench.now, index + 1, rule, seen))
 
-    def once(self, index: int, rule: str, *, bad: bool, seen: str = "") -> None:
+    def once(self, index: int, rule: str, *, bad: bool, seen: Seen = ()) -> None:
         """A rule that may be broken at present: told when it breaks, not while it stays so."""
         broken = self.units[index].broken
         if not bad:
             broken.discard(rule)
         elif rule not in broken:
             broken.add(rule)
-            self.tell(index, rule, f"{seen} {self.bench.told(index)}".strip())
+            self.tell(index, rule, " ".join(map(str, (*seen, self.bench.told(index)))))
 
     # ------------------------------------------------------------ every scan
 
@@ -318,7 +320,7 @@ class Judge:
         asked = not pins.get("Enable") or pins.get("QuickStop") or pins.get("CoastStop")
         heard = bench.reachable(index) and not pins.get("Left") and bench.models[index].by == "terminals"
         heard = heard and bench.now - unit.unknown_us > RESTARTED_US and bench.now >= bench.models[index].busy_us
-        unit.pin_hz = unit.pin_hz if unit.pin_us else abs(hz)
+        unit.pin_hz = unit.pin_hz if unit.pin_us else max(RUN_HZ, abs(hz))
         unit.pin_us = (unit.pin_us or bench.now) if asked and heard else None
         most = (PIN_US + int(RAMP_US * unit.pin_hz)) * (2 if len(bench.models) > 3 else 1)
         most += ATTEMPTS_US if bench.models[index].o.not_in_command == "refuses" else 0
@@ -398,13 +400,13 @@ class Judge:
         most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)
         refused = now - since > most and not bench.pins[index].get("SupplyOff")
         told = bench.reason(index) == "READ_REFUSED" or good
-        self.once(index, "refused", bad=refused and not told, seen=bench.reason(index))
+        self.once(index, "refused", bad=refused and not told, seen=(bench.reason(index),))
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses)
         reason = bench.out("Reason", index)
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge
         silent = calm and reason in SILENT and not held
-        self.once(index, "reason", bad=silent, seen=f"Reason {reason!r}, and it answers")
+        self.once(index, "reason", bad=silent, seen=("Reason", reason, "and it answers"))
         if not good or now - self.lineless_us < CALM_US // 2:  # its clock is that of the line
             return
         self.once(index, "stale", bad=now - unit.heard_us > self.figures.seen_us + 1_000_000)
@@ -412,11 +414,11 @@ class Judge:
             return
         lag = LAG_US + max(self.late)
         since = now - int(1000 * bench.number("StatusAgeMs", index)) - lag
-        for name, seen in (("Running", unit.running), ("Fault", unit.fault)):
+        for rule, name, seen in (("shows Running", "Running", unit.running), ("shows Fault", "Fault", unit.fault)):
             shown = bench.shows(name, index)
             late = seen[shown] < since
-            self.once(index, f"shows {name}", bad=late and since > 0, seen=f"{name} {shown};")
-        if bench.block[f"Drive{index}.Diagnosis.OutputFrequencyValid"]:
+            self.once(index, rule, bad=late and since > 0, seen=(rule, shown))
+        if bench.out("OutputFrequencyValid", index):
             self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)
 
     def _frequency(self, index: int, unit: Unit, since: int) -> None:
@@ -424,4 +426,4 @@ class Judge:
         window = [each for _, each in takewhile(lambda each: each[0] >= since, reversed(unit.shaft))]
         if window and unit.shaft[0][0] < since:
             far = not min(window) - 0.3 <= hz <= max(window) + 0.3
-            self.once(index, "shows Hz", bad=far, seen=f"{hz} Hz, was {min(window)} to {max(window)};")
+            self.once(index, "shows Hz", bad=far, seen=(hz, "Hz, was", min(window), "to", max(window)))

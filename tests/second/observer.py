@@ -18,6 +18,8 @@ RAMP_US = 100_000
 """What a second model takes for 1 Hz."""
 STANDING = {"stop", "confirmed"}
 """Rules that hold where it stands and nobody runs it."""
+Seen = tuple[object, ...]
+"""What is seen of a broken rule; it becomes words only when one breaks, since rules are asked thousands of times."""
 ATTEND_US = 1_000_000
 """AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
 TURNED_US = 1_000_000
