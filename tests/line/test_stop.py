@@ -107,6 +107,20 @@ def test_a_repeated_stop_does_not_take_a_reset_back() -> None:
     assert bench.answer(1, COMMAND) == "OK"
 
 
+def test_stop_all_lasts_for_each_drive_until_its_stop_is_sent() -> None:
+    """Its block would show a start as possible that the stop takes back."""
+    bench = Bench(Config(drives=8)).ready()
+    bench.set(StopAll=True)
+    bench.scan()
+    bench.set(StopAll=False)
+    last: set[int] = set()
+    while len(last) < 8:
+        before = {each.unit - 1 for each in bench.sent if each.stop}
+        bench.scan()
+        assert {slot for slot in range(8) if not bench.slot(slot, "StopAll")} <= before
+        last = {slot for slot in range(8) if not bench.slot(slot, "StopAll")}
+
+
 def test_no_run_is_sent_after_a_repeated_stop() -> None:
     bench = Bench().ready()
     bench.stop(1)
