@@ -479,8 +479,9 @@ class Claims:
         idle = now - max(self.judge.units[index].unknown_us, busy) > CALM_US
         most = AGE_MS * (3 + bench.metered) // 3
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
-        dies = any(now - each.away_us < CALM_US for each in self.judge.units)
-        most += ATTEND_US // 1000 if refused or dies else 0  # stops that are refused, or not answered, come first
+        dead = [i for i, each in enumerate(self.judge.units) if now - each.away_us < CALM_US]
+        most += ATTEND_US // 1000 if refused or dead else 0  # stops that are refused, or not answered, come first
+        most += 2 * UNLEARNED_MS if any(bench.turn_round(each) >= UNLEARNED_MS for each in dead) else 0
         self._once(index, "age", bad=fast and idle and age > most, seen=(age, "ms"))
         restarted = self.judge.units[index].restarted_us
         known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS
