@@ -137,6 +137,8 @@ class Asked:
     """Frames before."""
     permitted: bool = True
     """Else it must be refused, and nothing sent."""
+    heard: bool = False
+    """Its drive answered then: else nobody knows how soon it is asked again."""
 
     def over(self, judge: "Judge") -> bool:
         """Whether it has ended; what it says is then judged."""
@@ -167,7 +169,7 @@ class Asked:
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
         crowded = len(bench.models) > 3 and bench.ms > 20  # references have all the line
         asks = error and self.permitted and may and not crowded and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
-        calm = bench.now - self.since_us + (QUIET_US if bench.was_slow_port else CALM_US)  # a slow port is aimed at it
+        calm = bench.now - self.since_us + (QUIET_US if self.heard else CALM_US)
         lost = bench.block[f"{self.name}.ErrorID"] == OFFLINE and not bench.shows("CommOk", self.index)
         if asks and judge.known(self.index, calm) and not mine and not lost:
             judge.tell(
