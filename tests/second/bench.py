@@ -191,8 +191,8 @@ class Second(Bench):
         self.block[f"{name}.Execute"] = True
         if permitted:
             self.judge.observer.may_store.add(index + 1)
-        heard = self.shows("CommOk", index)
-        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames), permitted, heard))
+        shown = self.shows("CommOk", index), self.shows("StopConfirmed", index)
+        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames), permitted, *shown))
 
     hand = False
 

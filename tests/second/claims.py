@@ -78,8 +78,12 @@ MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up."""
+SPEEDING = 6
+"""State: the block gives the reference alone."""
 SHARED = 56
 """ErrorID: two drive blocks use the slot."""
+SHARED_US = 4_000_000
+"""Within this time the line has stopped a drive whose slot two blocks use."""
 STANDS_US = 5_000_000
 """From standstill, or a pin that stops, to StopConfirmed."""
 SILENT_US = 6_000_000
@@ -90,6 +94,8 @@ BUSY_MOST_US = 900_000
 """Ten attempts at a busy drive end a start."""
 BUSY_US = 200_000
 """A busy drive gets a write again 100 ms later at the earliest, or once at once: four take longer than this."""
+RARELY_US = 2_100_000
+"""A dead drive gets a stop every second once its first attempts are over: four take longer than this."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
 UNLEARNED_MS = 500
@@ -176,6 +182,8 @@ class Claim:
     """When the bus last ran it, by a start that its block knows of."""
     first: bool = False
     """Its fault is the first since then."""
+    handed_over: bool = False
+    """Its terminals were to run it from now on, and nothing has begun anew since."""
     fault: Any = None
     alone: bool = False
     """It, and whether none was shown when it came, and it was watched since: else it need not be recorded."""
@@ -250,6 +258,8 @@ class Claims:
             self.all_us = now
         if pins != before:
             claim.pins, claim.changed_us = Pins(pins), now
+            began = not before.get("SpeedOnly") or claim.handed_over
+            claim.handed_over = bool(pins.get("SpeedOnly")) and began and not pins.get("Restart")
         ready = bench.shows("Ready", index)
         settled = ready and bench.shows("StopConfirmed", index)
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
@@ -300,6 +310,10 @@ class Claims:
         answers = answers and now_us >= one.busy_us + SAME_US
         hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=(body.hex(),))
+        heard, restarted = self.judge.units[index].heard_us, self.judge.units[index].restarted_us
+        silent = now_us - max(heard, claim.changed_us) > SILENT_US and heard > restarted
+        often = silent and all(each == body for _, each in claim.orders) and now_us - claim.orders[0][0] < RARELY_US
+        self._once(index, "hurries", bad=often and self.bench.turn_round(index) < UNLEARNED_MS, seen=(body.hex(),))
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
         """The stop of the last order is sent first: after a jog its own, unless it is to coast or a restart came."""
@@ -455,11 +469,15 @@ class Claims:
         told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
         told = told or bool(bench.pins[index].get("SupplyOff"))
         self._once(index, "shared", bad=shared and not told, seen=(bench.reason(index),))
+        runs_on = shared and driven and self.willing(index) and bench.reachable(index) and not self.lies(index)
+        self._once(index, "shared stop", bad=runs_on and now - claim.changed_us > SHARED_US and not bench.lineless)
         if index == 0:
             self._line()
         heard = self.well(index, CALM_US // 5) and bench.shows("CommOk", index)
         if not heard:
             claim.odd = claim.early = 0
+        ours = heard and claim.handed_over and bench.models[index].by == "bus" and self.willing(index)
+        self._once(index, "speed only", bad=ours and bench.out("State", index) == SPEEDING)  # it is to be stopped first
         if not self.attended(index) or bench.pins[index].get("Address") != index + 1:
             return
         if heard:

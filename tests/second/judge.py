@@ -139,6 +139,8 @@ class Asked:
     """Else it must be refused, and nothing sent."""
     heard: bool = False
     """Its drive answered then: else nobody knows how soon it is asked again."""
+    stood: bool = False
+    """It was shown at standstill then."""
 
     def over(self, judge: "Judge") -> bool:
         """Whether it has ended; what it says is then judged."""
@@ -164,12 +166,12 @@ class Asked:
             and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
         ):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
-        still = judge.claims.claims[self.index].still_us
-        stood = still is not None and still < self.since_us and bench.types[self.index] != "MX2"
+        stood = self.stood and bench.shows("StopConfirmed", self.index) and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
-        crowded = len(bench.models) > 3 and bench.ms > 20  # references have all the line
+        crowded = (len(bench.models) > 3 and bench.ms > 20) or (len(bench.models) > 1 and bench.was_slow_port)
+        # there references have all the line
         asks = error and self.permitted and may and not crowded and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
-        calm = bench.now - self.since_us + (QUIET_US if self.heard else CALM_US)
+        calm = bench.now - self.since_us + (EVERY_US if self.heard else CALM_US)
         lost = bench.block[f"{self.name}.ErrorID"] == OFFLINE and not bench.shows("CommOk", self.index)
         if asks and judge.known(self.index, calm) and not mine and not lost:
             judge.tell(
