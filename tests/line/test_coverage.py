@@ -16,9 +16,12 @@ COILS = next(index for index, kind in enumerate(KINDS) if kind.stop_function == 
 
 
 def long_dead(bench: Bench) -> None:
-    """A drive that is dead for long, the last of eight."""
+    """A drive that is dead for long, the last of eight; its stop, whose attempts take long, too."""
     bench.drives[7].alive = False
     bench.run(20_000)
+    bench.put(7, TurnRoundMs=500)
+    bench.stop(7)
+    bench.run(2000)
 
 
 def idle(bench: Bench) -> Bench:

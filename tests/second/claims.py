@@ -489,7 +489,8 @@ class Claims:
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
-        missed = missed and now - self.judge.slow_us > CALM_US
+        dead = [i for i, each in enumerate(self.judge.units) if now - each.away_us < CALM_US]
+        missed = missed and now - self.judge.slow_us > CALM_US and not dead  # stops that are not answered come first
         self._once(index, "refreshes", bad=bool(missed))
         fast = len(bench.models) < 8 and self.well(index, CALM_US) and max(self.judge.late) <= 50_000
         age = bench.number("StatusAgeMs", index)
@@ -497,9 +498,8 @@ class Claims:
         idle = now - max(self.judge.units[index].unknown_us, busy) > CALM_US
         most = AGE_MS * (3 + bench.metered) // 3
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
-        dead = [i for i, each in enumerate(self.judge.units) if now - each.away_us < CALM_US]
         most += ATTEND_US // 1000 if refused or dead else 0  # stops that are refused, or not answered, come first
-        most += 2 * UNLEARNED_MS if any(bench.turn_round(each) >= UNLEARNED_MS for each in dead) else 0
+        most += 3 * UNLEARNED_MS if any(bench.turn_round(each) >= UNLEARNED_MS for each in dead) else 0
         self._once(index, "age", bad=fast and idle and age > most, seen=(age, "ms"))
         restarted = self.judge.units[index].restarted_us
         known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS

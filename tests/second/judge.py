@@ -52,6 +52,8 @@ CALM_US = 10_000_000
 8 s apart at most."""
 GRACE_US = 3_000_000
 """A contact may open so long after its reason has ended, which the block cannot know at once."""
+FOREIGN = 54
+"""The line's error while another master seems to be there."""
 SHAFT = 700
 """Scans of which the frequency is remembered."""
 SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
@@ -391,7 +393,9 @@ class Judge:
         obstinate = obstinate and now - asked_us < self.figures.stop_us
         lies = now - unit.lied_us < self.figures.stop_us + 2_000_000
         slow = now - self.slow_us < CUT_US + SLOW_US  # a line that scans late promises no time
-        if self.bench.restarts_contact or refuses or obstinate or lies or slow:
+        # with another master standstill has to be read twice, which a pin that asks for stops all the time prevents
+        unread = bool(self.bench.flicker) and self.bench.block["TheLine.ErrorID"] == FOREIGN
+        if self.bench.restarts_contact or refuses or obstinate or lies or slow or unread:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
 
@@ -409,9 +413,10 @@ class Judge:
         told = bench.reason(index) == "READ_REFUSED" or good
         self.once(index, "refused", bad=refused and not told, seen=(bench.reason(index),))
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
-        # with eight drives in slow scans, stops that it refuses leave too few turns to read it
+        # in slow scans, stops that it refuses leave too few turns to read it
         refused_us = self.claims.claims[index].unwilling_us
-        starved = len(bench.models) > 3 and bench.ms > 20 and now - refused_us < CALM_US // 2
+        crowded = (len(bench.models) > 3 and bench.ms > 20) or now - self.slow_us < CALM_US
+        starved = crowded and now - refused_us < CALM_US // 2
         self.once(index, "comm", bad=calm and not good and not refuses and not starved)
         reason = bench.out("Reason", index)
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge

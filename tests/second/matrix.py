@@ -18,6 +18,7 @@ from tests.second.bench import Second
 from tests.second.claims import path_us
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
+from tests.second.judge import FOREIGN
 from tests.second.pf4 import VARIANTS, alike
 from tests.second.station import ALONE, FAMILIES, RTU_ONLY, SIZES, types_of
 
@@ -58,8 +59,8 @@ FOLLOW_MS = 8000
 """From an edge to the reason that it is not followed: FollowWithinMs, 5 s, from the answer to run."""
 RESET_MS = 8000
 """For a reset, which is given up after 10 s."""
-FOREIGN, FOREIGN_MS = 54, 15_000
-"""The line's error while another master seems to be there, and how long it lasts: no reset is sent meanwhile."""
+FOREIGN_MS = 15_000
+"""How long another master seems to be there after its last frame: no reset is sent meanwhile."""
 APART_MS = (0, 20, 100, 300, 700, 1500, 1950)
 """When the second event comes."""
 BOTH: tuple[Any, ...] = (False, True)
