@@ -94,8 +94,9 @@ BUSY_MOST_US = 900_000
 """Ten attempts at a busy drive end a start."""
 BUSY_US = 200_000
 """A busy drive gets a write again 100 ms later at the earliest, or once at once: four take longer than this."""
-RARELY_US = 2_100_000
-"""A dead drive gets a stop every second once its first attempts are over: four take longer than this."""
+RARELY_US, HASTY = 2_100_000, 4
+"""A dead drive gets a stop every second once its first attempts are over: four take longer than this. Attempts begin
+anew when what excused its silence ends, as the trip of a drive does, so that a few may come sooner."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
 UNLEARNED_MS = 500
@@ -182,6 +183,8 @@ class Claim:
     """When the bus last ran it, by a start that its block knows of."""
     first: bool = False
     """Its fault is the first since then."""
+    hasty: int = 0
+    """Stops in a row that came too soon after those before."""
     handed_over: bool = False
     """Its terminals were to run it from now on, and nothing has begun anew since."""
     fault: Any = None
@@ -313,7 +316,8 @@ class Claims:
         heard, restarted = self.judge.units[index].heard_us, self.judge.units[index].restarted_us
         silent = now_us - max(heard, claim.changed_us) > SILENT_US and heard > restarted
         often = silent and all(each == body for _, each in claim.orders) and now_us - claim.orders[0][0] < RARELY_US
-        self._once(index, "hurries", bad=often and self.bench.turn_round(index) < UNLEARNED_MS, seen=(body.hex(),))
+        claim.hasty = claim.hasty + 1 if often and self.bench.turn_round(index) < UNLEARNED_MS else 0
+        self._once(index, "hurries", bad=claim.hasty > HASTY, seen=(body.hex(),))
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
         """The stop of the last order is sent first: after a jog its own, unless it is to coast or a restart came."""
