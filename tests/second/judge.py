@@ -395,7 +395,9 @@ class Judge:
         slow = now - self.slow_us < CUT_US + SLOW_US  # a line that scans late promises no time
         # with another master standstill has to be read twice, which a pin that asks for stops all the time prevents
         unread = bool(self.bench.flicker) and self.bench.block["TheLine.ErrorID"] == FOREIGN
-        if self.bench.restarts_contact or refuses or obstinate or lies or slow or unread:
+        # a read that a busy drive refuses is asked again in its turn: with eight drives in slow scans 6 s later
+        busy = len(self.units) > 3 and self.bench.ms > 20 and now - one.busy_us < self.figures.stop_us
+        if self.bench.restarts_contact or refuses or obstinate or lies or slow or unread or busy:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
 
