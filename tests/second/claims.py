@@ -661,7 +661,8 @@ class Claims:
         """A drive that does not answer is asked again and again."""
         pins, unit, now = self.bench.pins[index], self.judge.units[index], self.bench.now
         forgotten = now - claim.sent_us > PROBE_US and now - unit.unknown_us > 0
-        if pins.get("SupplyOff") or pins.get("Left") or pins.get("Shared") or pins.get("Address") != index + 1:
+        elsewhere = any_of(("SupplyOff", "Left", "Shared"), pins) or pins.get("Address") != index + 1
+        if elsewhere or self.bench.faults.lost:  # a probe that is lost is not seen here
             claim.sent_us = now
         self._once(index, "probe", bad=forgotten and claim.sent_us < now)
 

@@ -22,6 +22,8 @@ Seen = tuple[object, ...]
 """What is seen of a broken rule; it becomes words only when one breaks, since rules are asked thousands of times."""
 ATTEND_US = 1_000_000
 """AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
+COAST_US = 2_500_000
+"""How much longer a motor without output may turn: from 50 Hz it coasts for 10 s."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 
@@ -237,7 +239,8 @@ class Observer:
         watch = self.watches[unit]
         owed = stops and not truth.contact_open
         watch.stop_since = (now_us if watch.stop_since is None else watch.stop_since) if owed else None
-        late = watch.stop_since is not None and now_us - watch.stop_since > self.figures.stop_us
+        most = self.figures.stop_us + (0 if truth.by else COAST_US)
+        late = watch.stop_since is not None and now_us - watch.stop_since > most
         self._judge(now_us, unit, "stop", bad=late, seen=truth)
 
     def _confirmed(self, now_us: int, unit: int, truth: Truth, *, wrong: bool) -> None:
