@@ -52,6 +52,7 @@ def figures(drives: int) -> Figures:
     """The pin's time, and for a block that is not called a second before the line stops its drive; then attempts."""
     return Figures(
         stop_us=1000 * STOP_WITHIN_MS[drives] + 1_800_000,
+        coast_us=2_500_000,  # from 50 Hz it coasts for 10 s
         seen_us=1000 * STALE_MS[drives] + 500_000,
         follow_us=FOLLOW_US[drives],
         unseen_us=UNSEEN_US[drives],

@@ -22,8 +22,6 @@ Seen = tuple[object, ...]
 """What is seen of a broken rule; it becomes words only when one breaks, since rules are asked thousands of times."""
 ATTEND_US = 1_000_000
 """AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
-COAST_US = 2_500_000
-"""How much longer a motor without output may turn: from 50 Hz it coasts for 10 s."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 
@@ -63,6 +61,8 @@ class Figures:
 
     stop_us: int
     """From a pin that stops to standstill, or to the open contact."""
+    coast_us: int = 0
+    """How much longer it may turn without output."""
     seen_us: int = 0
     """How long StopConfirmed may outlive the start of a motion that the bus has not begun."""
     follow_us: int = 2_000_000
@@ -239,7 +239,7 @@ class Observer:
         watch = self.watches[unit]
         owed = stops and not truth.contact_open
         watch.stop_since = (now_us if watch.stop_since is None else watch.stop_since) if owed else None
-        most = self.figures.stop_us + (0 if truth.by else COAST_US)
+        most = self.figures.stop_us + (0 if truth.by else self.figures.coast_us)
         late = watch.stop_since is not None and now_us - watch.stop_since > most
         self._judge(now_us, unit, "stop", bad=late, seen=truth)
 
