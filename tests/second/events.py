@@ -141,10 +141,12 @@ def _stop(b: Second) -> None:
     b.wait(lambda: b.shows("StopConfirmed"), 9000)
 
 
-def _unpermitted(b: Second, _: Random) -> None:
-    """At standstill nothing but the permission is missing."""
+def _unpermitted(b: Second, chance: Random) -> None:
+    """At standstill nothing but the permission is missing; a write that has it is sent."""
     _stop(b)
     b.ask("Writer", 0, NOWHERE, 1, permitted=False)
+    b.run(1000)
+    b.ask("Writer", 0, WRITES[b.types[0]] | PARAMETER[b.types[0]], chance.randrange(1, 500))
 
 
 def _stopped_after_a_write(b: Second, chance: Random) -> None:
@@ -504,7 +506,7 @@ AIMED = {
     "a run is neither acknowledged nor obeyed": Event(_unsaid_and_ignored, 9000, _said),
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
-    "a write without permission": Event(_unpermitted, 2000),
+    "a write without permission and one with it": Event(_unpermitted, 2000),
     "a stop while it is busy": Event(_busy_stop, 5000),
     "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),

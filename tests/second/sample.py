@@ -12,8 +12,8 @@ from tests.second.station import NEWER
 SIZE = 120
 """Cells of the sample."""
 ONE_STATE = {
-    "the motor turns round": "at speed", "a write without permission": "standstill", "a slow port": "at speed",
-    "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
+    "the motor turns round": "at speed", "a write without permission and one with it": "standstill",
+    "a slow port": "at speed", "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""
 
@@ -30,6 +30,7 @@ def aimed() -> list[tuple[Cell, int]]:
     found.append((Cell("PF4", "full control", "a trip", "standstill"), 4))  # one whose stop does not reset its fault
     found.append((Cell("CHF", "jog", "a stop while it is busy", "at speed"), 0))  # 5 does not end this one's jog
     found.append((Cell("JSCC", "full control", "a dead drive", "at speed"), 0))  # beside others that live
+    found.append((Cell("CHF", "full control", "SpeedOnly", "at speed"), 0))  # the bus still runs it
     return [*found, *varied(found)]
 
 
