@@ -113,12 +113,12 @@ def test_stop_all_lasts_for_each_drive_until_its_stop_is_sent() -> None:
     bench.set(StopAll=True)
     bench.scan()
     bench.set(StopAll=False)
-    last: set[int] = set()
-    while len(last) < 8:
-        before = {each.unit - 1 for each in bench.sent if each.stop}
+    over: set[int] = set()
+    while len(over) < 8:
+        sent = {each.unit - 1 for each in bench.sent if each.stop}
         bench.scan()
-        assert {slot for slot in range(8) if not bench.slot(slot, "StopAll")} <= before
-        last = {slot for slot in range(8) if not bench.slot(slot, "StopAll")}
+        over = {slot for slot in range(8) if not bench.slot(slot, "StopAll")}
+        assert over <= sent
 
 
 def test_no_run_is_sent_after_a_repeated_stop() -> None:

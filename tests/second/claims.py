@@ -118,10 +118,15 @@ def round_us(bench: "Second") -> int:
     return 2 * len(bench.types) * max(EXCHANGE_US, 3000 * max(bench.ms, bench.was_ms))
 
 
+def crowded(bench: "Second") -> bool:
+    """Whether references and reads of the running drives have all the line: eight drives in slow scans."""
+    return len(bench.types) > 3 and bench.ms > 20
+
+
 def path_us(bench: "Second", index: int) -> int:
     """How much longer a start of this drive takes than one by one write; in slow scans its reference has a round."""
-    crowded = len(bench.types) > 3 and max(bench.ms, bench.was_ms) > 20
-    return (PATH_ROUNDS.get(bench.types[index], 0) + crowded) * round_us(bench)
+    rounds = PATH_ROUNDS.get(bench.types[index], 0) + (len(bench.types) > 3 and max(bench.ms, bench.was_ms) > 20)
+    return rounds * round_us(bench)
 
 
 @dataclass(slots=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import CODE_MOST, JOG_ENDS, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, round_us
+from tests.second.claims import CODE_MOST, JOG_ENDS, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, crowded, round_us
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 
@@ -170,9 +170,8 @@ class Asked:
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
         stood = self.stood and bench.shows("StopConfirmed", self.index) and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
-        crowded = (len(bench.models) > 3 and bench.ms > 20) or (len(bench.models) > 1 and bench.was_slow_port)
-        # there references have all the line
-        asks = error and self.permitted and may and not crowded and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
+        full = crowded(bench) or (len(bench.models) > 1 and bench.was_slow_port)
+        asks = error and self.permitted and may and not full and bench.block[f"{self.name}.ErrorID"] != NOT_SENT
         calm = bench.now - self.since_us + (EVERY_US if self.heard else CALM_US)
         lost = bench.block[f"{self.name}.ErrorID"] == OFFLINE and not bench.shows("CommOk", self.index)
         if asks and judge.known(self.index, calm) and not mine and not lost:
@@ -180,7 +179,7 @@ class Asked:
                 self.index, "parameter", f"{self.name} has sent nothing: {bench.block[f'{self.name}.ErrorID']!r}"
             )
         unsent = error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and self.permitted
-        if unsent and stood and not crowded and judge.known(self.index, calm):
+        if unsent and stood and not full and judge.known(self.index, calm):
             judge.tell(self.index, "parameter", f"{self.name} was taken back, and nothing has stopped the drive")
         mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
@@ -396,7 +395,7 @@ class Judge:
         # with another master standstill has to be read twice, which a pin that asks for stops all the time prevents
         unread = bool(self.bench.flicker) and self.bench.block["TheLine.ErrorID"] == FOREIGN
         # a read that a busy drive refuses is asked again in its turn: with eight drives in slow scans 6 s later
-        busy = len(self.units) > 3 and self.bench.ms > 20 and now - one.busy_us < self.figures.stop_us
+        busy = crowded(self.bench) and now - one.busy_us < self.figures.stop_us
         if self.bench.restarts_contact or refuses or obstinate or lies or slow or unread or busy:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))
@@ -417,8 +416,8 @@ class Judge:
         refuses = unit.refuses_us > 0 and now - unit.refuses_us < CALM_US
         # in slow scans, stops that it refuses leave too few turns to read it
         refused_us = self.claims.claims[index].unwilling_us
-        crowded = (len(bench.models) > 3 and bench.ms > 20) or now - self.slow_us < CALM_US
-        starved = crowded and now - refused_us < CALM_US // 2
+        full = crowded(bench) or now - self.slow_us < CALM_US
+        starved = full and now - refused_us < CALM_US // 2
         self.once(index, "comm", bad=calm and not good and not refuses and not starved)
         reason = bench.out("Reason", index)
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge
