@@ -79,6 +79,22 @@ def test_the_stop_of_a_drive_that_has_just_died_rests_for_no_other() -> None:
     assert bench.now - began < 1_500_000
 
 
+def test_three_unanswered_requests_to_a_drive_that_is_read_rarely_come_at_once() -> None:
+    """At the first of them its silence is long enough already."""
+    bench = Bench(replace(LEARNED, drives=3))
+    bench.put(1, PollEveryMs=1500)
+    bench.ready().run(6000)
+    asked = len(bench.drives[1].heard)
+    while len(bench.drives[1].heard) == asked:
+        bench.scan()
+    bench.drives[1].alive = False
+    began = bench.now
+    while bench.slot(1, "Online"):
+        bench.scan()
+    assert bench.now - began < 1_500_000 + 3 * 500_000
+    assert [sent.unit for sent in bench.sent].count(2) == asked + 4
+
+
 @pytest.mark.parametrize("cut_off", [3, 5, 7])
 def test_who_still_answers_stays_online(cut_off: int) -> None:
     bench = Bench(EIGHT).ready()
