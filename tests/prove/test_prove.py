@@ -31,7 +31,7 @@ def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_Hard
         each if each.path != f"vfd/{block}.st" else type(each)(each.path, each.text.replace(old, new, 1))
         for each in mutants.texts()[prover.GENERIC]
     ]
-    return next(prover.proved(prover.GENERIC, texts, [each for each in rules.shared() if each.block == of]))
+    return next(prover.proved(texts, {prover.GENERIC: [each for each in rules.shared() if each.block == of]}))
 
 
 @cache
@@ -173,7 +173,7 @@ def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
     path.write_text((texts() | values()).get(name) or skeleton(), "utf-8")
     (source,) = collection.read(catalog.chosen([str(path)]))
     made = dict(prover.texts([source]))[name]
-    found = prover.proved(name, made, rules.family(facts(source.drive)))
+    found = prover.proved(made, {name: rules.family(facts(source.drive))})
     assert not [report.told(each) for proved in found for each in proved.proofs if not each.good]
 
 

@@ -1,7 +1,7 @@
 """All proofs: of the blocks that every drive shares, and of each drive."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import z3
@@ -70,9 +70,9 @@ class Proved:
 
 def run(sources: Sequence[Source]) -> Iterator[Proved]:
     """The shared blocks, then those of each drive. UnsupportedError, CheckError."""
+    every = {each.path: each for _, made in texts(sources) for each in made}
     subjects = {each.path.stem: rules.family(facts(each.drive)) for each in sources}
-    for unit, made in texts(sources):
-        yield from proved(unit, made, subjects.get(unit) or rules.shared())
+    yield from proved(list(every.values()), {GENERIC: rules.shared()} | subjects)
 
 
 def texts(sources: Sequence[Source]) -> Iterator[tuple[str, list[Text]]]:
@@ -94,19 +94,20 @@ def _next(line: str) -> str:
     return f"{head.replace('FUNCTION_BLOCK MB_Line8', f'FUNCTION_BLOCK {NEXT}')}END_VAR\n{body}END_FUNCTION_BLOCK\n"
 
 
-def proved(unit: str, sources: Sequence[Text], subjects: Sequence[Subject]) -> Iterator[Proved]:
-    """The proofs of some subjects; the parts that they name are proved elsewhere. UnsupportedError, CheckError."""
-    named = {name for subject in subjects for name in subject.inside.values()} - {each.block for each in subjects}
+def proved(sources: Sequence[Text], subjects: Mapping[str, Sequence[Subject]]) -> Iterator[Proved]:
+    """The proofs of each unit's subjects; parts that they name are proved elsewhere. UnsupportedError, CheckError."""
+    asked = [(unit, each) for unit, some in subjects.items() for each in some]
+    named = {name for _, each in asked for name in each.inside.values()} - {each.block for _, each in asked}
     parts = [each for each in rules.shared() if each.block in named]
-    made = models(sources, [*parts, *subjects])
+    made = models(sources, [*parts, *(each for _, each in asked)])
     replay = Replay(sources, made)
     by_name = {each.pou.name: each for each in made}
-    for model in made[len(parts) :]:
+    for (unit, _), model in zip(asked, made[len(parts) :], strict=True):
         begin = time.perf_counter()
-        known = model.pou.symbols
-        inside = {name: by_name[block] for name, block in model.subject.inside.items() if name.upper() in known}
-        asked = answers(questions(model, inside), exact=model.subject.exact)
-        proofs = tuple(_replayed(replay, model, each) for each in asked)
+        parts_of = model.subject.inside.items()
+        inside = {name: by_name[block] for name, block in parts_of if name.upper() in model.pou.symbols}
+        found = answers(questions(model, inside), exact=model.subject.exact)
+        proofs = tuple(_replayed(replay, model, each) for each in found)
         yield Proved(unit, model, proofs, time.perf_counter() - begin)
 
 

@@ -14,7 +14,7 @@ from driveblocks.prove.example import Values
 from driveblocks.prove.model import BEFORE, Model, in_outs
 from driveblocks.prove.question import Question
 from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.embedded.library import EmbeddedLibrary
+from structured_text.engines.embedded.library import EmbeddedInstance, EmbeddedLibrary
 from structured_text.engines.engine import ScanError, Source, Value
 from structured_text.language.tree import FunctionBlock
 from structured_text.language.types import Elementary, Kind
@@ -77,11 +77,18 @@ class Replay:
             return Call(before, inputs, before | inputs, when=True, then=False)
 
     def _run(self, model: Model, before: Mapping[str, Value], inputs: Mapping[str, Value]) -> dict[str, Value]:
-        instance = self.library.instance(model.pou.name)
-        for path, value in (dict(before) | dict(inputs)).items():
-            instance[path] = value
-        instance.scan()
+        instance = self._called(model.pou.name, {**before, **inputs})
         return {path: instance[path] for path in before}
+
+    def _called(self, block: str, values: Mapping[str, Value]) -> EmbeddedInstance:
+        """An instance after a call with these values; most are those of a fresh one, and writing takes time."""
+        instance = self.library.instance(block)
+        fresh = instance.state()
+        for path, value in values.items():
+            if isinstance(value, float) or fresh.get(path) != value:  # 0.0 equals -0.0
+                instance[path] = value
+        instance.scan()
+        return instance
 
     def _judged(
         self, model: Model, condition: str, before: Mapping[str, Value], after: Mapping[str, Value]
@@ -95,12 +102,8 @@ class Replay:
             model = inner
         word = rest.rstrip("0123456789")
         number = rest[len(word) :]
-        instance = self.library.instance(observer.name(model.pou))
-        for path, value in after.items():
-            instance[path] = value
-        for path, value in before.items():
-            instance[f"WAS.{path}"] = value
-        instance.scan()
+        was = {f"WAS.{path}": value for path, value in before.items()}
+        instance = self._called(observer.name(model.pou), {**after, **was})
         return bool(instance[f"{word}When{number}"]), bool(instance[f"{word}Then{number}"])
 
 
