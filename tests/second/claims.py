@@ -486,7 +486,7 @@ class Claims:
         if not heard:
             claim.odd = claim.early = 0
         ours = heard and claim.handed_over and bench.models[index].by == "bus" and self.willing(index)
-        ours = ours and not bench.models[index].stopping  # which it has not had
+        ours = ours and not bench.models[index].stopping  # it may ramp down
         self._once(index, "speed only", bad=ours and bench.out("State", index) == SPEEDING)  # it is to be stopped first
         if not self.attended(index) or bench.pins[index].get("Address") != index + 1:
             return
