@@ -319,7 +319,7 @@ class Claims:
         hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=(body.hex(),))
         heard, restarted = self.judge.units[index].heard_us, self.judge.units[index].restarted_us
-        silent = now_us - max(heard, claim.changed_us) > SILENT_US and heard > restarted
+        silent = now_us - max(heard, claim.changed_us, self.judge.lineless_us) > SILENT_US and heard > restarted
         often = silent and all(each == body for _, each in claim.orders) and now_us - claim.orders[0][0] < RARELY_US
         claim.hasty = claim.hasty + 1 if often and self.bench.turn_round(index) < UNLEARNED_MS else 0
         self._once(index, "hurries", bad=claim.hasty > HASTY, seen=(body.hex(),))
@@ -512,7 +512,9 @@ class Claims:
         most += 3 * UNLEARNED_MS if any(bench.turn_round(each) >= UNLEARNED_MS for each in dead) else 0
         self._once(index, "age", bad=fast and idle and age > most, seen=(age, "ms"))
         restarted = self.judge.units[index].restarted_us
-        known = restarted and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS
+        known = (
+            restarted > max(0, self.judge.lineless_us) and now - restarted > 3 * max(self.judge.late) and age < NEVER_MS
+        )
         before = known and 1000 * age > now - restarted + SEEN_US // 3
         self._once(index, "remembers", bad=bool(before), seen=(age, "ms"))  # words of before a restart
 
