@@ -637,6 +637,8 @@ class Claims:
         code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
         number = getattr(one, "number", lambda fault: fault)(one.fault)
         most = max(CALM_US // 2, CODE_MOST * round_us(bench))
+        dead = any(now - each.away_us < most for each in self.judge.units)
+        most += 2 * round_us(bench) if dead else 0  # stops that are not answered come first
         old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
         old = old and self.judge.known(index, CALM_US // 2)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
