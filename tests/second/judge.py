@@ -20,6 +20,8 @@ EVERY_US = 200_000
 """How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
+READING = 5
+"""State of MonitorOnly: the motor is that of others."""
 CUT_US = 2_500_000
 """From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
 MORE_US = 500_000
@@ -353,6 +355,7 @@ class Judge:
         if bench.pins[index].get("SupplyOff"):  # its user says that it is off, and afterwards it boots
             unit.off_us = bench.now
         owed = owed and not bench.lineless and bench.now - unit.off_us > BACK_US
+        owed = owed and bench.out("State", index) != READING  # after a restart whose stop the drive has ignored
         if not owed:
             unit.silent_since = None
             unit.broken.discard("cut")
