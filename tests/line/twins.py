@@ -5,7 +5,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from structured_text.engines.engine import Instance, Library, Value
 
-_COPY = re.compile(r"[\w.]+\.(?:SLOT|SLOTS|PORT|STORES|OPEN|TRACK|TX|(?:READS|PLATE)\.WORDS|GATE\.ASK|REST\.DIAGNOSIS)\b.*")
+_COPY = re.compile(
+    r"[\w.]+\.(?:SLOT|SLOTS|PORT|STORES|OPEN|TRACK|TX|(?:READS|PLATE)\.WORDS|GATE\.ASK|REST\.DIAGNOSIS)\b.*"
+)
 """Copies of in-outs inside inner instances, which only C keeps."""
 
 

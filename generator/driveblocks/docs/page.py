@@ -135,7 +135,7 @@ def _wires(drive: Drive) -> dict[str, str]:
     return {
         "name": f"[{drive.prefix}]({drive.prefix}_Drive.md)",
         "port": drive.serial.interface.en,
-        "open": "the manual does not say" if gaps else "see the manual",
+        "open": "see below" if gaps else "see the manual",
         "silence": milliseconds or characters or "the manual does not say",
         "find_out": "; ".join(one.find_out for one in gaps),
     }

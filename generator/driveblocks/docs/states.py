@@ -31,7 +31,7 @@ def picture() -> str:
 
 def _starts(canvas: Canvas) -> None:
     canvas.arrow([(110, 20), (110, 60)])
-    canvas.text(120, 34, "power-up, Restart, late scan, new Address", "small")
+    canvas.text(120, 34, "power-up, Restart, a scan over RestartMs, new Address", "small")
     canvas.arrow([(110, 118), (110, 240)], "go")
     _note(canvas, 118, 170, "stop acknowledged,", "standstill read", "after it")
     canvas.arrow([(250, 269), (470, 269)], "go")
@@ -52,7 +52,7 @@ def _stops(canvas: Canvas) -> None:
             "its pin FALSE, another pin TRUE, Enable FALSE, QuickStop, CoastStop, StopAll,",
             "fault, no reply, SupplyOff TRUE, bad reference, MonitorOnly, SpeedOnly,",
             "not acknowledged, refused, does not run within FollowWithinMs,",
-            "stops or changes direction by itself, foreign master, block not called",
+            "stops or changes direction by itself, another master (at a start), block not called",
         )
     ):
         canvas.text(722, 106 + 15 * row, words, "small", "end")
@@ -69,7 +69,7 @@ def _others(canvas: Canvas) -> None:
     canvas.path([(70, 409), (30, 409)], "stop")
     canvas.path([(70, 499), (30, 499)], "stop")
     canvas.arrow([(30, 499), (30, 89), (70, 89)], "stop")
-    canvas.text(38, 458, "its pin FALSE; from 5 also StopAll", "small")
+    canvas.text(38, 458, "its pin FALSE", "small")
     canvas.text(
         70,
         546,

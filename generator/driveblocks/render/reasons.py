@@ -23,7 +23,7 @@ REASONS = (
     Reason(3, "STARTING", "the start is on its way to the drive", "正在启动", "wait"),
     Reason(4, "STOPPING", "waits until the drive proves standstill", "正在停机", "wait; see `StopOverdue`"),
     Reason(5, "RESETTING", "the fault reset is on its way", "正在复位故障", "wait"),
-    Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing"),
+    Reason(6, "RELEASED", "the run or jog pin was released", "运行信号已撤除", "nothing; only `StopReason` shows it"),
     # the line
     Reason(
         10,
@@ -58,7 +58,7 @@ REASONS = (
         "LATE_SCAN",
         "the scan takes longer than promised",
         "扫描周期过长",
-        "raise `MaxScanMs` of the line, or shorten the task",
+        "it bars no start, but the figures of the stop do not hold: raise `MaxScanMs` of the line, or shorten the task",
     ),
     Reason(
         19,
@@ -75,18 +75,18 @@ REASONS = (
     Reason(
         24,
         "HELD",
-        "a run or jog pin is held since before",
+        "a run or jog pin has been TRUE since before",
         "运行信号一直保持",
         "release all run and jog pins, then set one",
     ),
     Reason(25, "NOT_ABLE", "the drive has no such command", "变频器无此命令", "see `Diagnosis.Can...`"),
-    Reason(26, "MONITOR", "reads only", "仅监视", "release `MonitorOnly`"),
+    Reason(26, "MONITOR", "reads only", "仅监视", "start, stop and reset at the drive, or release `MonitorOnly`"),
     Reason(
         27,
         "SPEED_ONLY",
-        "run comes by the terminals of the drive",
+        "the terminals of the drive start and stop it",
         "由端子控制启停",
-        "start and stop by the drive's own terminals",
+        "start, stop and reset at the drive, or release `SpeedOnly`",
     ),
     Reason(
         28,
@@ -117,7 +117,13 @@ REASONS = (
         "映射未与手册核对",
         "check it, then set `ManualChecked` to the number that the page prints",
     ),
-    Reason(32, "REFERENCE", "the reference is no number, negative, or without scale", "给定值无效", "see `ErrorID`"),
+    Reason(
+        32,
+        "REFERENCE",
+        "the reference is no number, negative, or without a scale or a limit",
+        "给定值无效",
+        "see `ErrorID`",
+    ),
     Reason(
         33,
         "SETTING",
@@ -133,7 +139,7 @@ REASONS = (
         "FAULT",
         "fault: see FaultCode",
         "故障，见FaultCode",
-        "remove the cause, then a rising `FaultReset`",
+        "remove the cause, then a rising `FaultReset`; with `SpeedOnly` or `MonitorOnly` reset at the drive",
         "remove the cause; the bus cannot reset it, and `FaultReset` is refused: what the manual says of it is listed "
         "under [gaps](#what-the-manual-does-not-say)",
     ),
@@ -174,15 +180,20 @@ REASONS = (
         "keypad, terminals, STO, automatic restart",
     ),
     Reason(
-        47, "NOT_STOPPED", "a start came before StopConfirmed", "停机确认前给出启动信号", "wait for `StopConfirmed`"
+        47,
+        "NOT_STOPPED",
+        "a start came before StopConfirmed",
+        "停机确认前给出启动信号",
+        "release the run pin, wait for `StopConfirmed`, then start again",
     ),
     Reason(
         48,
         "NO_RESET",
         "the reset was refused or has not helped",
         "复位被拒绝或无效",
-        "release the run pins, remove the cause, then a rising `FaultReset`",
-        "does not appear: no reset is sent to this drive",
+        "release the run pins, remove the cause, then a rising `FaultReset`; "
+        "none is sent with `SpeedOnly` or `MonitorOnly`",
+        "`FaultReset` was pressed: this drive takes none over the bus",
     ),
     Reason(
         49,

@@ -34,7 +34,9 @@ RESULTS = (
     Result(15, "NO_SCALE", "the scale of the reference is not set", "未设定给定值比例"),
     Result(16, "NOT_ABLE", "the drive has no such command", "变频器无此命令"),
     Result(17, "NO_MAXIMUM", "the maximum frequency is not set, or makes no sense", "未设定最高频率或其值不合理"),
-    Result(18, "HELD", "a run or jog pin is held since the reset; release it first", "复位后运行或点动信号未释放"),
+    Result(
+        18, "HELD", "a run or jog pin has been TRUE since the reset; release it first", "复位后运行或点动信号未释放"
+    ),
     Result(
         19,
         "NO_FULL_SCALE",

@@ -34,7 +34,7 @@ WORDS = {
     "NO_SCALE": "the scale is not set",
     "NOT_ABLE": "the drive has no such command",
     "NO_MAXIMUM": "no maximum, or one without sense",
-    "HELD": "a run pin is held since the reset",
+    "HELD": "a run pin has been TRUE since the reset",
     "NO_FULL_SCALE": "no full scale, or one without sense",
     "SILENCE": "nothing was received",
     "SHORT": "too short",
