@@ -215,7 +215,8 @@ PLANTED = (
     ),
     Planted(
         "an address is taken while the motor turns",
-        "\n    AND (StopConfirmed OR (Served = 0) OR Wrong OR NOT (Heard OR Started) OR (SupplyOff AND NOT Online));",
+        "\n    AND (StopConfirmed OR (Served = 0) OR Wrong "
+        "OR (NOT Started AND (NOT Heard OR (LineError = ERROR_DOUBLED)))\n      OR Dark);",
         ";",
         test_modes.test_the_address_is_taken_while_the_stop_is_confirmed,
     ),

@@ -71,7 +71,7 @@ PLANTED = (
     ),
     Planted(
         "the turn-round is forgotten",
-        "Open.DueMs := MB_Plus(Number := Open.PlainMs, More := Slots[Next.Chosen].TurnRoundMs);",
+        "Open.DueMs := MIN(MB_Plus(Number := Open.PlainMs, More := Slots[Next.Chosen].TurnRoundMs), 65534);",
         "Open.DueMs := Open.PlainMs;",
         "timing",
     ),

@@ -148,6 +148,18 @@ def late(bench: Bench) -> None:
         bench.run(300)
 
 
+def late_of_two(bench: Bench) -> None:
+    """A late reply to a stop that is not repeated, while that of another drive may still come."""
+    bench.set(CommandRetries=255)
+    bench.ready().drives[0].alive = False
+    before = bench["Timeouts"]
+    while bench["Timeouts"] == before:
+        bench.scan()
+    bench.drives[1].turn_us = 60_000
+    bench.stop(1)
+    bench.run(200)
+
+
 def stalls(bench: Bench) -> None:
     """A store; a late scan while a reply is awaited; a port that takes no poll; an address that two slots have."""
     bench.ready().ask(0, PARAMETER, 6, 0x0123)
@@ -211,6 +223,7 @@ TOURS = (
     (unset, Config(drives=1)),
     (supplies, Config(drives=1)),
     (late, Config(drives=1, longest_ms=300)),
+    (late_of_two, Config(drives=2, longest_ms=300)),
     (once, Config(drives=1)),
     (echo_ends, Config(drives=1, echo=True)),
     (odd_replies, Config(drives=1, kind=2)),

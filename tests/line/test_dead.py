@@ -3,6 +3,7 @@
 from collections import Counter
 from itertools import pairwise
 
+from tests.line.drives import counted
 from tests.line.vline import COMMAND, Bench, Config
 
 
@@ -123,3 +124,21 @@ def test_commands_of_others_cost_no_dead_drive_its_turn() -> None:
     asked = Counter(each.unit for each in bench.sent[before:] if each.unit <= 2)
     assert min(asked.values()) >= 3
     assert asked[1] - asked[2] in (-1, 0, 1), asked
+
+
+def test_the_repeated_stop_of_a_dead_drive_waits_for_nobodys_late_reply() -> None:
+    """A probe of another one took its turn, and then waited for three seconds; each seventh reply is lost."""
+    bench = Bench(Config(drives=3, turn_ms=50, longest_ms=3000))
+    bench.run(7000)
+    bench.drives[0].alive = bench.drives[1].alive = False
+    bench.stop(0)
+    bench.run(17_000)
+    asked = []
+
+    def answer(request: bytes) -> bytes | None:
+        asked.append(request)
+        return counted(request, 1) if len(asked) % 7 else None
+
+    bench.drives[2].answer = answer
+    stops = [each.ms for each in bench.run(60_000) if each.stop and each.unit == 1]
+    assert max(later - first for first, later in pairwise(stops)) < 1500

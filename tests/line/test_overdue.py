@@ -275,3 +275,40 @@ def test_without_supply_an_answering_drive_that_falls_silent_is_no_alarm() -> No
     for _ in range(500):
         bench.scan()
         assert not bench["StopOverdue"]
+
+
+@pytest.mark.parametrize("how", ["dark", "boots"])
+def test_one_without_supply_or_that_boots_keeps_no_cut_cable_from_the_contact(how: str) -> None:
+    """Its silence proves nothing, but that of the others does."""
+    bench = Bench(replace(EIGHT, turn_ms=200))
+    for slot in range(8):
+        bench.put(slot, BootMs=10_000)
+    bench.drives[7].alive = how != "dark"
+    bench.put(7, SupplyOff=how == "dark", StopConfirmed=True)
+    bench.run(16_000)
+    if how == "boots":
+        bench.put(7, UnitAddress=99)
+        bench.scan()
+    for slot, drive in enumerate(bench.drives[:7]):
+        drive.alive = False
+        bench.stop(slot)
+    bench.drives[7].alive = False
+    began = bench.now
+    while not all(bench.slot(slot, "StopOverdue") for slot in range(7)):
+        bench.scan()
+        assert bench.now - began <= 1000 * bench["CutToContactMs"]
+    assert not bench.slot(7, "StopOverdue")
+
+
+def test_the_stop_of_one_that_has_fallen_silent_lets_others_be_read() -> None:
+    """For OfflineMs no late reply was waited out, and nothing but that stop was sent."""
+    bench = Bench(replace(LEARNED, drives=2), OfflineMs=10_000).ready()
+    bench.run(3000)
+    bench.drives[0].alive = False
+    bench.stop(0)
+    for _ in range(9):
+        fresh = bench.slot(1, "Fresh")
+        bench.run(1000)
+        assert bench.slot(1, "Fresh") != fresh
+    bench.run(3000)
+    assert bench.slot(0, "StopOverdue")

@@ -627,3 +627,34 @@ def test_the_numbers_of_an_area(prefix: str, last: int) -> None:
         library(prefix).call(f"{prefix}_ParameterAddress", {"Number": number}) for number in (0, 18, last, last + 1)
     ]
     assert found == [0, 18, last, -1]
+
+
+def test_no_number_is_one_that_was_answered_long_ago() -> None:
+    """The next one after 65535 was; the write was Done, and never sent."""
+    scene = Scene()
+    assert scene.done("Put1", Address=0x0012, Value=5) == "OK"
+    assert scene.slot(0, "Answer[2].Number") == 1
+    scene.drop("Put1")
+    scene.block["Drive.StopConfirmed"] = False  # so that what has this number is never sent
+    scene.block["Slots[0].Ask[2].Number"] = 65535
+    scene.scan()
+    scene.block["Drive.StopConfirmed"] = True
+    assert scene.done("Put1", Address=0x0012, Value=7) == "OK"
+    assert [each[-1] for each in scene.written()] == [5, 7]
+
+
+def test_an_attempt_that_is_withdrawn_from_the_port_gives_no_more_of_them() -> None:
+    """A stop withdraws the second attempt of a store that nobody answers; a third was sent, and not counted."""
+    scene = Scene("SN300G5").rested()
+    scene.drives[0].answer = lambda each: None if each[2:4] == b"\xff\xfd" else scene.reply(each)
+    scene.execute("Keep", WithinMs=30_000)
+    while not scene.written():
+        scene.scan()
+    scene.port_takes = False
+    while (scene["Line.Phase"], scene["Line.Box"], scene.slot(0, "Answer[2].Tries")) != (1, PARAMETER, 2):
+        scene.scan()
+    scene.stop(0)
+    scene.port_takes = True
+    scene.run(2000)
+    stored = [each for each in scene.written() if each[1:3].hex() == "fffd"]
+    assert (scene.result("Keep"), len(stored), scene["Stores"]) == ("SILENCE", 2, 2)

@@ -2,7 +2,7 @@
 
 import pytest
 from tests.line.drives import KINDS, counted
-from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config
+from tests.line.vline import COMMAND, PARAMETER, POLL, STOP, Bench, Config
 
 
 @pytest.mark.parametrize("ascii_", [False, True])
@@ -282,3 +282,98 @@ def test_a_run_that_nobody_answers_is_sent_once() -> None:
     assert len([each for each in bench.sent[before:] if not each.read]) == 1
     assert bench.slot(0, "Answer[1].Number") == number
     assert bench.slot(0, "Answer[1].ErrorID") == 20
+
+
+class Turning(Bench):
+    """A port that hears a character before each frame."""
+
+    def transmit(self, text: bytes, start: int, whole: bool = True) -> int:
+        return super().transmit(b"\x00" + text, start - self._us(1), whole)
+
+
+@pytest.mark.parametrize("echo", [False, True])
+def test_a_character_before_each_reply_hides_no_echo_and_is_none(echo: bool) -> None:
+    """Commands waited for ever for what the echo is, and no stop was believed."""
+    bench = Turning(Config(drives=2, echo=echo)).ready()
+    assert bench["Echo"] == (2 if echo else 1)
+    bench.command(0)
+    bench.stop(1)
+    bench.run(300)
+    assert (bench.answer(0, COMMAND), bench.answer(1, STOP)) == ("OK", "OK")
+    bench.drives[0].alive = False
+    bench.command(0)
+    bench.run(600)
+    assert bench.answer(0, COMMAND) == "SILENCE", "no echo is believed"
+    bench.stop(0)
+    bench.run(200)
+    assert bench.answer(0, STOP) == ""
+
+
+def late_reader(config: Config) -> Bench:
+    """The registers of the first drive hold their address, and all its reads have one length."""
+    bench = Bench(config)
+    bench.put(0, OtherQuantity=config.words)
+    bench.drives[0].answer = lambda each: counted(each, int.from_bytes(each[2:4], "big")) if each[1] <= 4 else each[:6]
+    bench.run(5000)
+    return bench
+
+
+def asked_late(bench: Bench, turn_ms: int) -> None:
+    """One read of the first drive is answered late, and the next after nearly all the time that it has."""
+    bench.drives[0].turn_us, before = 1000 * turn_ms, len(bench.sent)
+    while not any(each.unit == 1 for each in bench.sent[before:]):
+        bench.scan()
+    bench.drives[0].turn_us = 900 * bench.config.turn_ms
+
+
+def taken(bench: Bench) -> set[int]:
+    """What is taken for the reply to the first drive's next read, which is one of other registers."""
+    bench.ask(0, POLL, 3, 0x3000, quantity=bench.config.words)
+    words: set[int] = set()
+    for _ in range(200):
+        bench.scan()
+        if bench.answer(0, POLL) == "OK":
+            words.add(bench.slot(0, "PollWords[0]"))
+    return words
+
+
+def test_after_a_restart_the_open_request_has_its_time_on_the_wire_too() -> None:
+    """At 4800 bit/s that is 17 ms; a reply of 60 ms came after a wait of 60."""
+    bench = late_reader(Config(drives=1, rate=4800, longest_ms=60))
+    asked_late(bench, 60)
+    bench.set(Restart=True)
+    bench.scan()
+    bench.set(Restart=False)
+    assert taken(bench) == {0x3000}
+
+
+def test_the_late_reply_of_a_dead_drive_ends_no_wait_for_anothers() -> None:
+    bench = late_reader(Config(drives=2, turn_ms=50, longest_ms=500))
+    bench.drives[1].alive = False
+    bench.stop(1)
+    bench.run(6000)
+    assert not bench.slot(1, "Online")
+    while not 0 < bench["Track[1].Stop.AgainMs"] <= 40:
+        bench.scan()
+    bench.drives[1].alive, bench.drives[1].turn_us = True, 100_000
+    asked_late(bench, 320)
+    while bench.sent[-1].unit != 2:
+        bench.scan()
+    bench.run(60)
+    assert taken(bench) == {0x3000}
+
+
+def test_a_new_address_ends_no_wait_for_anothers_late_reply() -> None:
+    """One whose replies take 100 ms at most set the wait of 950 ms to 100."""
+    bench = late_reader(Config(drives=2, turn_ms=50, longest_ms=100))
+    bench.put(0, LongestMs=1000)
+    bench.put(1, StopConfirmed=True)
+    asked_late(bench, 255)
+    while not bench["Times.DrainMs"]:
+        bench.scan()
+    bench.stop(1)
+    while (bench["Slot"], bench["Phase"]) != (1, 2):
+        bench.scan()
+    bench.put(1, UnitAddress=9)
+    bench.scan()
+    assert taken(bench) == {0x3000}

@@ -306,3 +306,25 @@ def test_a_repetition_takes_the_command_back_from_the_mailbox_too() -> None:
     assert bench.answer(1, COMMAND) == "TAKEN_BACK"
     bench.port_takes = True
     assert all(each.read or each.stop for each in bench.run(800))
+
+
+def test_a_drive_that_may_take_65_seconds_to_answer_holds_the_line_no_longer() -> None:
+    """The clock of a request ends there, and never came past it."""
+    bench = Bench(Config(drives=2, scan=100_000, max_scan=110))
+    bench.run(3000)
+    bench.put(1, TurnRoundMs=65_534, LongestMs=65_534)
+    bench.drives[1].alive = False
+    bench.run(3000)
+    bench.stop(0)
+    bench.run(70_000)
+    assert bench.answer(0, STOP) == "OK"
+
+
+def test_nobody_is_missed_for_longer_than_half_a_minute() -> None:
+    bench = Bench(Config(drives=1, scan=100_000, max_scan=110), AttendMs=65_535)
+    bench.run(3000)
+    bench.attended.clear()
+    bench.run(29_000)
+    assert not bench.slot(0, "Unattended")
+    bench.run(2000)
+    assert bench.slot(0, "Unattended")

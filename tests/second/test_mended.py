@@ -2,12 +2,16 @@
 
 import pytest
 from tests.second.bench import Second
-from tests.second.drive import RUNS
+from tests.second.drive import RUNS, STOPS
 from tests.second.events import ignore
 from tests.second.matrix import named, run
 from tests.second.station import types_of
 
 TERMINALS = {"run": 1}
+DOUBLED = 55
+"""LineErrorID: two slots have one unit address."""
+COIL, RESET, ON = 5, 3, 0xFF00
+"""Write single coil; the coil of an MX2 that resets, and its value."""
 
 
 def at_terminals() -> Second:
@@ -201,3 +205,147 @@ HELD = {
 def test_a_cell_that_has_failed_holds(what: str) -> None:
     cell, seed = HELD[what]
     assert run(named(cell), seed).rules == []
+
+
+def test_an_address_typed_twice_can_be_corrected() -> None:
+    """A unit that had been heard kept its number until its stop was confirmed: LineErrorID 55 stayed for ever."""
+    b = Second(*types_of("CHF", 3, ascii_=False)).put(1, Address=1).restart()
+    b.run(8000)
+    assert [b.block[f"Slots[{each}].LineErrorID"] for each in (0, 1)] == [DOUBLED] * 2
+    b.put(1, Address=2)
+    assert b.wait(lambda: all(b.shows("Ready", each) for each in range(3)), 9000)
+    for each in range(3):
+        b.put(each, RunForward=True)
+    assert b.wait(lambda: all(b.shows("AtSpeed", each) for each in range(3)), 9000)
+
+
+@pytest.mark.parametrize("ms", [200, 1000, 5000])
+def test_the_address_of_a_motor_that_runs_can_be_taken_back_from_another_block(ms: int) -> None:
+    """The other block, which had begun at standstill, kept it, and no motor of the two ran any more."""
+    b = Second(*types_of("CHF", 3, ascii_=False))
+    b.wait(lambda: all(b.shows("Ready", each) for each in range(3)), 9000)
+    b.put(0, RunForward=True)
+    b.wait(lambda: b.shows("AtSpeed"), 9000)
+    b.put(1, Address=1).run(ms)
+    b.put(1, Address=2).release()
+    assert b.wait(lambda: all(b.shows("Ready", each) for each in range(3)), 15_000)
+    for each in (0, 1):
+        b.put(each, RunForward=True)
+    assert b.wait(lambda: all(b.shows("AtSpeed", each) for each in (0, 1)), 9000)
+
+
+def seen_turning(mode: str) -> Second:
+    """A CHF that has stood still, and that somebody else has started in a mode in which the bus does not; then dead."""
+    b = Second("CHF")
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.put(0, **{mode: True}).run(500)
+    b.press()
+    if mode == "SpeedOnly":
+        b.models[0].set("run", 1, b.now)
+        b.models[0].terminal(True, b.now)
+    else:
+        b.models[0].press("local", b.now)
+        b.models[0].press("start", b.now)
+    b.run(4000)
+    assert b.shows("Running")
+    assert b.contact
+    b.deaf.add(1)
+    b.run(4000)
+    return b
+
+
+@pytest.mark.parametrize(
+    ("mode", "stop"),
+    [
+        ("SpeedOnly", "Enable"), ("SpeedOnly", "StopAll"), ("SpeedOnly", "SpeedOnly"),
+        ("MonitorOnly", "MonitorOnly"),
+    ],
+)  # fmt: skip
+def test_a_motor_that_was_seen_to_turn_is_not_proved_still(mode: str, stop: str) -> None:
+    """The proof of before outlived a motion that the bus had not begun, and the contact stayed closed."""
+    b = seen_turning(mode)
+    if stop == "StopAll":
+        b.line(StopAll=True)
+    else:
+        b.put(0, **{stop: False})
+    b.run(15_000)
+    assert b.models[0].motor.hz(b.now)
+    assert not b.contact
+
+
+@pytest.mark.parametrize("mode", ["", "SpeedOnly", "MonitorOnly"])
+def test_a_drive_that_is_cut_off_at_proved_standstill_opens_no_contact(mode: str) -> None:
+    b = Second("CHF")
+    b.wait(lambda: b.shows("Ready"), 9000)
+    if mode:
+        b.put(0, **{mode: True}).run(500)
+    b.press()
+    b.run(4000)
+    b.models[0].power(False, b.now)
+    b.run(4000)
+    b.put(0, Enable=False, SpeedOnly=False, MonitorOnly=False).run(15_000)
+    assert b.contact
+
+
+@pytest.mark.parametrize("ms", range(80, 500, 120))
+def test_a_stronger_stop_while_all_are_stopped_is_sent_at_once(ms: int) -> None:
+    """It waited with the repetitions, for the proof to be read."""
+    b = Second("CHF", ms=10, options={"CHF": {"down_hz_s": 2.0}})
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.put(0, RunForward=True, SpeedReferenceHz=40.0).run(6000)
+    b.line(StopAll=True).run(ms)
+    frames = b.put(0, CoastStop=True).run(100)
+    assert (0x1000, 6) in [(each.address, each.word) for each in frames]
+
+
+def test_a_stop_that_was_asked_for_long_ago_is_not_that_of_today() -> None:
+    """In MonitorOnly the kind of the last stop was kept: a motor that a person ran then was left to coast."""
+    b = Second("CHF")
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.put(0, CoastStop=True).run(100)
+    b.wait(lambda: b.shows("StopConfirmed"), 9000)
+    b.put(0, MonitorOnly=True).run(500)
+    b.put(0, CoastStop=False).run(5000)
+    b.models[0].press("local", b.now)
+    b.models[0].press("start", b.now)
+    b.run(3000)
+    words = [each.word for each in b.put(0, MonitorOnly=False).run(2000) if each.address == 0x1000 and not each.read]
+    assert 5 in words
+    assert 6 not in words
+
+
+@pytest.mark.parametrize("deaf_us", [0, 1_000_000])
+@pytest.mark.parametrize("acts", ["rise", "fall"])
+def test_each_reset_of_an_mx2_helps(acts: str, deaf_us: int) -> None:
+    """A reset that helped at once left the coil on, and to write it again was no change.
+
+    A drive that does not answer for a second as it is reset may leave it on still, until the next reset begins.
+    """
+    b = Second("MX2", options={"MX2": {"reset_acts": acts, "reset_deaf_us": deaf_us}})
+    for time in range(4):
+        assert b.wait(lambda: b.shows("Ready"), 14_000), f"before fault {time}"
+        b.put(0, RunForward=True).run(4000)
+        b.models[0].trip(3, b.now)
+        b.run(2000)
+        b.release().run(6000)
+        sent = len(b.frames)
+        b.put(0, FaultReset=True).run(100)
+        b.put(0, FaultReset=False).run(12_000)
+        assert b.models[0].fault is None, f"fault {time}"
+        assert b.reason() != "NO_RESET"
+        words = [each.word for each in b.frames[sent:] if (each.function, each.address) == (COIL, RESET)]
+        assert words[:2] == [0, ON]
+        assert deaf_us or words[2:] == [0]
+
+
+@pytest.mark.parametrize(("within", "ms"), [(0, 15_000), (65_535, 70_000)])
+def test_a_motor_is_watched_whatever_its_time_to_stop(within: int, ms: int) -> None:
+    """StopWithinMs 0 switched the watch off; 65535 is a time that its clock did not pass."""
+    b = Second("CHF")
+    b.wait(lambda: b.shows("Ready"), 9000)
+    b.press()
+    b.put(0, RunForward=True).run(4000)
+    ignore(b, STOPS)
+    b.put(0, StopWithinMs=within).release().run(ms)
+    assert b.models[0].motor.hz(b.now)
+    assert not b.contact
