@@ -209,7 +209,8 @@ def test_a_cell_that_has_failed_holds(what: str) -> None:
 
 def test_an_address_typed_twice_can_be_corrected() -> None:
     """A unit that had been heard kept its number until its stop was confirmed: LineErrorID 55 stayed for ever."""
-    b = Second(*types_of("CHF", 3, ascii_=False)).put(1, Address=1).restart()
+    b = Second(*types_of("CHF", 3, ascii_=False))
+    b.put(1, Address=1).restart()
     b.run(8000)
     assert [b.block[f"Slots[{each}].LineErrorID"] for each in (0, 1)] == [DOUBLED] * 2
     b.put(1, Address=2)
