@@ -113,7 +113,7 @@ def unset(bench: Bench) -> None:
     bench.run(300)
     bench.set(**dict.fromkeys(retries, 255))
     bench.ready().run(5000)
-    bench.set(**dict.fromkeys(usual[2:5], 1000), **dict.fromkeys(retries, 2))
+    bench.set(**dict.fromkeys(usual[2:5], 65_535), **dict.fromkeys(retries, 2))
     bench.run(100)
 
 

@@ -150,7 +150,7 @@ def _quiet(drive: Drive) -> Iterator[Step]:
     yield Step("a slow line on which it is quiet", MS | slow, ms=60 * SCAN_MS)
     yield Step("Restart", {"Pins.Restart": True, "Pins.TxBusy": False}, ms=SCAN_MS)
     yield Step("its first request", {"Pins.Restart": False}, "TxCount > 0", 2000, {
-        ".WaitedMs": _after(4, 80 if drive.identity else 14),
+        ".WaitedMs": _after(4, 110 if drive.identity else 14),
     })  # fmt: skip
 
 
