@@ -90,7 +90,8 @@ def rung(drive: Drive) -> str:
 def heard(drive: Drive) -> list[str]:
     """One line for each group and document whose facts were not read in the maker's own words; all faults are one."""
     lines = []
-    for group, facts in rungs(drive).items():
+    settings = {each.id: _named(drive, each.document) for each in drive.settings}
+    for group, facts in (rungs(drive) | {"settings": settings}).items():
         for document in dict.fromkeys(facts.values()):
             how = trust(drive, document)
             if how != "read":
