@@ -25,7 +25,7 @@ from tests.plc.desk import ONE
 from tests.stand.softplc import SoftPlc
 
 from driveblocks.desk.bus import Loss
-from driveblocks.render.reasons import REASONS
+from driveblocks.render.reasons import by_name
 
 UNIT = 7
 RATE, BITS = 19200, 10
@@ -42,7 +42,7 @@ RUNNING, STANDING = 1, 3
 STEP = 500
 """So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
 COUNTERS = ("Requests", "Good", "Bad", "Timeouts", "Retries", "LateReplies", "Refusals")
-HELD = next(reason.code for reason in REASONS if reason.en == "a run or jog pin is held since before")
+HELD = by_name("HELD").code
 VALID = "Diagnosis.OutputFrequencyValid"
 SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", VALID)
 
