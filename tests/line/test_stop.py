@@ -328,3 +328,16 @@ def test_nobody_is_missed_for_longer_than_half_a_minute() -> None:
     assert not bench.slot(0, "Unattended")
     bench.run(2000)
     assert bench.slot(0, "Unattended")
+
+
+def test_a_unit_that_is_added_counts_in_the_figures_from_the_next_call_on() -> None:
+    """Slots are looked at one a call, and what it may take came into the figures up to twelve calls after its reads."""
+    bench = Bench(Config(drives=3, turn_ms=50, longest_ms=500))
+    bench.put(2, UnitAddress=0)
+    bench.run(5000)
+    before = bench["WorstStopMs"]
+    bench.put(2, UnitAddress=3, TurnRoundMs=500)
+    bench.run(20)
+    shown = bench["WorstStopMs"]
+    bench.run(1000)
+    assert before + 500 < shown == bench["WorstStopMs"]
