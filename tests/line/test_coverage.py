@@ -194,11 +194,13 @@ def echo_ends(bench: Bench) -> None:
 
 
 def falls_silent(bench: Bench) -> None:
-    """All eight at once: those that nobody has asked yet stay online until they are."""
+    """All eight at once, and are stopped: those that nobody has asked yet stay online until they are."""
     bench.ready().run(500)
     for drive in bench.drives:
         drive.alive = False
     bench.run(10_000)
+    bench.stop(0)
+    bench.run(3000)
     assert bench["OnlineCount"] == 0
 
 

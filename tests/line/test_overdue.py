@@ -107,6 +107,25 @@ def test_who_still_answers_stays_online(cut_off: int) -> None:
     assert bench["OnlineCount"] == 8 - cut_off
 
 
+def test_one_lost_reply_beside_a_drive_that_has_just_died_is_no_silent_line() -> None:
+    """Two polls to it fill OfflineMs, since its reply time is not learned; then another drive loses one reply."""
+    bench = Bench(replace(LEARNED, drives=2))
+    bench.put(0, TurnRoundMs=500)
+    bench.ready().run(500)
+    bench.drives[0].alive = False
+    while bench["Times.LineSilentMs"] < 1000:
+        bench.scan()
+    bench.drives[1].alive = False
+    bench.scan()
+    while bench["Phase"] == 2:
+        bench.scan()
+    bench.drives[1].alive = True
+    for _ in range(1500):
+        bench.scan()
+        assert bench.slot(1, "Online")
+    assert not bench.slot(0, "Online")
+
+
 def test_never_before_the_longest_reply() -> None:
     bench = Bench(Config(drives=1, longest_ms=5000)).ready()
     bench.drives[0].alive = False

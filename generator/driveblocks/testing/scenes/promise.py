@@ -72,8 +72,8 @@ class Promise:
 
     @property
     def cut(self) -> int:
-        """CutToContactMs: three unanswered polls, a poll and a stop to each drive, all tries of a stop, two scans."""
-        asked = 3 * (self._poll + self._more + self.longest - self.turn_round)
+        """CutToContactMs: three or four lost polls, a poll and a stop to each drive, all tries of a stop, two scans."""
+        asked = (3 if self.drives == 1 else 4) * (self._poll + self._more + self.longest - self.turn_round)
         silent = max(asked, self.offline + self._more)
         each = self.drives * (self._poll + self._stop + 2 * self._more)
         attempts = (self.retries + 1) * (self._stop + self._more)
