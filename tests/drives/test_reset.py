@@ -6,6 +6,8 @@ from tests.drives.rules import sent, watched
 from tests.drives.station import FAMILIES, MADE_UP, maps
 from tests.drives.test_start import edge, motions
 
+from driveblocks.simulator.habits import Habits
+
 CAN = [
     kind
     for kind in (*FAMILIES, *MADE_UP)
@@ -163,3 +165,35 @@ def test_the_first_fault_and_the_last_eight() -> None:
     bench.drives[0].fault = 0
     bench.stopped().running()
     assert bench.out("FirstFaultCode") == 0
+
+
+@pytest.mark.parametrize("silent", [4000, 70_000])
+def test_silence_neither_ends_a_fault_nor_gives_it_a_code(silent: int) -> None:
+    """A trip whose relay drops the contactor: the drive is silent before its code is read, and comes back with it."""
+    bench = Bench().running()
+    bench.drives[0].trip(5)
+    bench.until(lambda: bench.shows("Fault"))
+    for _ in range(3):
+        bench.deaf = {1}
+        bench.run(silent)
+        bench.deaf = set()
+        bench.run(12_000)
+    shown = [bench.out(name) for name in ("FaultCode", "FirstFaultCode", "FaultBack1", "FaultBack2")]
+    assert shown == [5, 5, 5, 0]
+
+
+@pytest.mark.parametrize("kind", ["CHF", "JSCC"])
+def test_a_fault_shows_no_code_before_its_own_was_read(kind: str) -> None:
+    """These drives keep the code of the fault before; a program that takes the code as Fault rises would log that."""
+    bench = Bench(kind, habits=Habits(keeps_fault_code=True)).running()
+    shown = []
+    for code in (4, 5):
+        bench.drives[0].trip(code)
+        bench.until(lambda: bench.shows("Fault"))
+        shown.append(bench.out("FaultCode"))
+        bench.until(lambda: bench.out("FaultCode") != 0)
+        shown.append(bench.out("FaultCode"))
+        bench.put(RunForward=False)
+        bench.drives[0].fault = 0
+        bench.stopped().running()
+    assert shown == [0, 4, 0, 5]

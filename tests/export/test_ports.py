@@ -46,6 +46,19 @@ def test_the_next_attempt_starts_within_three_scans_of_the_end(maker: Maker, end
 
 
 @platforms
+@pytest.mark.parametrize("call", range(7))
+def test_every_frame_that_a_port_takes_is_given_to_the_makers_block(maker: Maker, call: int) -> None:
+    """Also one that waits when the frame before it ends: the block needs an edge for each."""
+    rig = alone(maker)
+    rig.end(End(call))
+    rig.scan()
+    began = rig.attempts - rig.number("Offered")
+    for _ in range(200):
+        rig.scan()
+    assert abs(rig.attempts - rig.number("Offered") - began) <= 1
+
+
+@platforms
 @pytest.mark.parametrize("end", FAILURES, ids=str)
 def test_a_frame_that_failed_is_reported_until_another_went(maker: Maker, end: End) -> None:
     rig = alone(maker)
@@ -119,6 +132,23 @@ def turn(rig: Rig) -> None:
     """One scan with a drive block that is called."""
     rig.program["Slots[0].Alive"] = rig.ms // SCAN_MS % 256
     rig.scan()
+
+
+@platforms
+def test_a_disturbed_character_is_shown_and_is_no_port_that_does_not_work(maker: Maker) -> None:
+    """The line judges itself what it receives: one bad character stopped all its motors."""
+    rig = lined(maker)
+    name, value = {
+        "siemens": ("Receive.Fails", True),
+        "codesys": ("Reading.Fails", True),
+        "twincat": ("Receiver.Error", 24),
+    }[maker.target]
+    for scan in range(200):
+        rig.program[f"Bus.Port.{name}"] = value if scan % 40 in (10, 11, 12) else type(value)(0)
+        turn(rig)
+        assert rig.number("Bus.ErrorID") != 57
+    assert rig.number("Bus.PortErrorID") != 0
+
 
 
 @platforms
@@ -273,3 +303,13 @@ def test_a_pin_that_is_left_at_0_means_its_default() -> None:
         assert rig.number("Bus.LateMs") == 33
     rig = alone(MAKERS[1])
     assert [rig.program[f"Port.Settings[{each}].udiValue"] for each in (1, 2, 6)] == [1, 9600, 8]
+
+
+@pytest.mark.parametrize(("parity", "bits", "data"), [(0, 0, 8), (2, 0, 8), (1, 11, 8), (2, 10, 7)])
+def test_a_port_with_parity_alone_has_eight_data_bits(parity: int, bits: int, data: int) -> None:
+    """Ten bits of a character, the usual number, are 7E1 with parity, which no MODBUS RTU can use."""
+    rig = Rig(MAKERS[1], "X_Lined")
+    rig.program["Bus.Parity"], rig.program["Bus.CharacterBits"] = parity, bits
+    for _ in range(10):
+        rig.scan()
+    assert rig.number("Bus.Port.Settings[6].udiValue") == data

@@ -158,10 +158,10 @@ def test_errors_are_reported_that_of_the_terminal_too() -> None:
     bench = Bench()
     bench.trial["ControlErrorID"] = 24
     bench.pass_ms(10)
-    assert bench.trial["Port.ErrorID"] == 24
+    assert [bench.trial[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [24, 24]
     bench.trial["Port.Receiver.Error"] = 2
     bench.pass_ms(10)
-    assert bench.trial["Port.ErrorID"] == 2
+    assert [bench.trial[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [2, 24]
     bench.trial["ControlErrorID"], bench.trial["Port.Receiver.Error"] = 0, 0
     bench.pass_ms(10)
     assert bench.trial["Port.ErrorID"] == 0
@@ -214,8 +214,8 @@ PLANTED = {
         test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped,
     ),
     "an error of the terminal is hidden": (
-        "ErrorID := ControlErrorID;",
-        "ErrorID := 0;",
+        "    SendErrorID := ControlErrorID;",
+        "    SendErrorID := 0;",
         test_errors_are_reported_that_of_the_terminal_too,
     ),
 }

@@ -211,6 +211,29 @@ def no_motor(bench: Bench) -> None:
     bench.run(100)
 
 
+def learns(bench: Bench) -> None:
+    """A reply time, while a request is open that waits for longer; then the unit is taken out, while it is asked."""
+    bench.put(0, TurnRoundMs=500, StopConfirmed=True)
+    bench.ready().drives[0].alive = False
+    bench.run(600)
+    bench.put(0, TurnRoundMs=20)
+    bench.run(200)
+    bench.put(0, TurnRoundMs=500)
+    while not (bench["Slot"] == 0 and bench["Open.DueMs"] > 500 and bench["Phase"] == 2):
+        bench.scan()
+    bench.put(0, UnitAddress=0)
+    bench.run(200)
+
+
+def two_lines(bench: Bench) -> None:
+    """Another line has the same slots."""
+    bench.ready()
+    for _ in range(30):
+        bench.put(0, Served=(bench.slot(0, "Served") + 1) % 256)
+        bench.scan()
+    assert bench["ErrorID"] == 56
+
+
 def reads_a_coil(bench: Bench) -> None:
     """A parameter that is a coil."""
     bench.ready().ask(0, PARAMETER, 1, 0x0020, quantity=1)
@@ -227,6 +250,8 @@ TOURS = (
     (late, Config(drives=1, longest_ms=300)),
     (late_of_two, Config(drives=2, longest_ms=300)),
     (once, Config(drives=1)),
+    (learns, Config(drives=2)),
+    (two_lines, Config(drives=1)),
     (echo_ends, Config(drives=1, echo=True)),
     (odd_replies, Config(drives=1, kind=2)),
     (odd_replies, Config(drives=1, kind=2, ascii=True)),

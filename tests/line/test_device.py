@@ -536,3 +536,15 @@ def test_the_same_on_matiec(matiec: Engine) -> None:
     bench.run(300)
     bench.drives[0].alive = False
     bench.run(500)
+
+
+def test_a_drive_block_on_its_slot_keeps_its_stop() -> None:
+    """Two blocks on one slot: the line stops what may have a motor, in whatever order they are called."""
+    scene = Scene()
+    scene.run(500)
+    for _ in range(100):
+        scene.put(0, Alive=(scene.slot(0, "Alive") + 1) % 256, UnitAddress=1, HasStop=True)
+        scene.fill(0, STOP, 6, 0x1000, word=5)
+        scene.scan()
+    assert scene.error() == "SHARED"
+    assert bytes([1, 6, 0x10, 0x00, 0, 5]) in scene.written

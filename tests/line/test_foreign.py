@@ -1,9 +1,20 @@
 """Frames that nobody here asked for are a rate: what counts, when starts pass no more, and when again."""
 
 import pytest
-from tests.line.vline import COMMAND, Bench, Config
+from tests.line.vline import COMMAND, Bench, Config, line_sources
+
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
 
 REQUEST = bytes([9, 3, 0x20, 0, 0, 2])
+TWO_LINES = """PROGRAM TwoLines
+VAR
+  One : MB_Line8; Two : MB_Line8; OnePort : MB_Port; TwoPort : MB_Port; Slots : MB_Slots8; Others : MB_Slots8;
+END_VAR
+  One(ElapsedMs := 10, Port := OnePort, Slots := Slots);
+  Two(ElapsedMs := 10, Port := TwoPort, Slots := {slots});
+END_PROGRAM
+"""
 
 
 def quiet(longest_ms: int = 30) -> Bench:
@@ -159,3 +170,17 @@ def test_damaged_frames_are_none() -> None:
     bench.run(20_000)
     assert bench["Bad"] > 50
     assert bench["ForeignFrames"] == 0
+
+
+@pytest.mark.parametrize(("slots", "error"), [("Slots", 56), ("Others", 0)])
+def test_two_lines_cannot_have_the_same_slots(slots: str, error: int) -> None:
+    """A copy of the line for a second port: its drive 1 got what was meant for the other one, and ran."""
+    sources = [*line_sources(), Source("two.st", TWO_LINES.format(slots=slots))]
+    program = EmbeddedEngine().build(sources).instance("TwoLines")
+    for each in ("Slots", "Others"):
+        for slot in (1, 4):
+            program[f"{each}[{slot}].UnitAddress"] = slot
+    for _ in range(30):
+        program.scan()
+    assert [program[name] for name in ("One.ErrorID", "Two.ErrorID")] == [error, error]
+    assert program["Slots[4].LineErrorID"] == error

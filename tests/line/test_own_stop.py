@@ -181,3 +181,16 @@ def test_a_new_stop_of_the_block_takes_the_place_of_the_lines_own() -> None:
     bench.stop(1)
     assert words(bench.run(1000)) == [COAST]
     assert bench.answer(1, STOP) == "OK"
+
+
+def test_a_unit_that_nobody_attends_is_stopped_when_its_supply_returns() -> None:
+    """It is read every ten seconds, as one without supply is; it may go on by itself."""
+    bench = copied()
+    bench.put(1, SupplyOff=True)
+    bench.drives[1].alive = False
+    bench.run(5000)
+    bench.attended.discard(1)
+    assert words(bench.run(15_000)) == []
+    assert not bench["StopOverdue"]
+    bench.drives[1].alive = True
+    assert words(bench.run(11_000))[:2] == [PLAIN, JOG]

@@ -341,3 +341,34 @@ def test_a_unit_that_is_added_counts_in_the_figures_from_the_next_call_on() -> N
     shown = bench["WorstStopMs"]
     bench.run(1000)
     assert before + 500 < shown == bench["WorstStopMs"]
+
+
+@pytest.mark.parametrize("how", [{"TurnRoundMs": 20}, {"UnitAddress": 0}])
+def test_figures_hold_while_a_request_is_open_that_waits_for_longer(how: dict[str, int]) -> None:
+    """A reply time that is learned while another request is open, or a unit that is taken out."""
+    bench = Bench(Config(drives=2, turn_ms=20, longest_ms=500))
+    bench.put(0, TurnRoundMs=500, StopConfirmed=True)
+    bench.ready().run(500)
+    bench.drives[0].alive = False
+    while not (bench["Track[0].Vain"] and bench["Phase"] == 2):
+        bench.scan()
+    bench.put(0, **how)
+    bench.run(100)
+    bench.stop(1)
+    promised, began, sent = bench["StopAloneMs"], bench.now, len(bench.sent)
+    while not any(each.stop for each in bench.sent[sent:]):
+        bench.scan()
+    assert bench.now - began <= 1000 * promised
+    bench.run(1000)
+    assert bench["StopAloneMs"] < 100
+
+
+def test_a_unit_that_is_taken_out_while_it_may_turn_stays_in_the_figures() -> None:
+    """The line stops it by itself, with the time that it takes."""
+    bench = Bench(Config(drives=2, turn_ms=20, longest_ms=500))
+    bench.put(0, TurnRoundMs=500)
+    bench.ready().run(500)
+    before = bench["WorstStopMs"]
+    bench.put(0, UnitAddress=0)
+    bench.run(3000)
+    assert bench["WorstStopMs"] == before

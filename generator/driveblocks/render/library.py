@@ -111,7 +111,8 @@ def adapter(platform: str, languages: list[Language]) -> Iterator[File]:
         return
     yield File(platform, f"{prefix}_Port", render(f"{platform}/{prefix}_Port.st.j2", where=where))
     for slots in LINE_SIZES:
-        values = {"slots": slots, "where": where, "busy": platform != "linux"}
+        bits = "Bits" if platform in ("linux", "codesys") else "CharacterBits"  # where parity is a pin
+        values = {"slots": slots, "where": where, "busy": platform != "linux", "bits": bits}
         line = render(f"{platform}/{prefix}_Line.st.j2", **values, **_texts_of(languages))
         yield File(platform, f"{prefix}_Line{slots}", line)
 

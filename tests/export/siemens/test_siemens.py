@@ -391,7 +391,7 @@ def test_an_error_of_receiving_is_reported_in_its_scan_whatever_becomes_of_a_fra
     module.receive()
     assert module.shown("TxBusy", "ErrorID") == [False, 0x80E1]
     module.receive()
-    assert module.shown("ErrorID", "Flush.Count") == [0, 2]
+    assert module.shown("ErrorID", "SendErrorID", "Flush.Count") == [0, 0, 1]  # the next message may be good
 
 
 def test_a_module_whose_receiver_stays_broken_is_reset_by_edges() -> None:
@@ -403,7 +403,7 @@ def test_a_module_whose_receiver_stays_broken_is_reset_by_edges() -> None:
         module.port["Receive.Fails"] = True
         module.receive()
         assert module.shown("ErrorID") == [0x80E1]
-    assert module.shown("Flush.Count") == [before + 5]
+    assert module.shown("Flush.Count") == [before + 4]
 
 
 def test_the_first_motor_speaks_to_its_drive() -> None:
