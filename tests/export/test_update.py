@@ -14,12 +14,18 @@ from structured_text.language.parser import parse
 
 Files = dict[str, str]
 MARK = "STOPWITHINMS := 4321"
+ADDED = "MB_Added"
+LINK = r'    <Compile Include="\.\.\\library\\.*?</Compile>\r?\n'
 
 
 @cache
 def versions() -> tuple[Shelf, Shelf]:
-    """The library, and a later one: every block of it says another body."""
-    return made(), replace(made(), parts=tuple(map(later, made().parts)))
+    """The library, and a later one: every head says so, and there is one shared function more, `MB_Added`."""
+    parts = list(map(later, made().parts))
+    place, old = next((place, part) for place, part in enumerate(parts) if part.name == "MB_Lrc")
+    text, path = old.text.replace(old.name, ADDED), old.unit.path.replace(old.name, ADDED)
+    parts.insert(place + 1, Part(old.folder, parse(text, path)))
+    return made(), replace(made(), parts=tuple(parts))
 
 
 def later(part: Part) -> Part:
@@ -49,11 +55,24 @@ def only(names: str) -> Callable[[Files, Files], Files]:
 
 
 def merged(project: Files, new: Files) -> Files:
-    """Beremiz: what the library's file has takes the place of what has the same name in the project."""
+    """Beremiz: what the library's file has replaces what has the same name; what is new comes before the user's."""
     whole = project["CHF_Motor.xml"]
+    mine = elements(whole)["CHF_Motor"]
     for name, text in elements(new["CHF.xml"]).items():
-        whole = whole.replace(elements(whole)[name], text)
+        if name in elements(whole):
+            whole = whole.replace(elements(whole)[name], text)
+        else:
+            whole = whole.replace(mine, f"{text}\n{mine}")
     return project | {"CHF_Motor.xml": whole}
+
+
+def linked(project: Files, new: Files) -> Files:
+    """TwinCAT: the new folder of the library, and its links in the place of those of the user's project."""
+    path = "motor/CHF_Motor.plcproj"
+    rows, others = re.findall(LINK, new[path], re.DOTALL), re.split(LINK, project[path], flags=re.DOTALL)
+    kept = {name: text for name, text in project.items() if not name.startswith("library/")}
+    library = {name: text for name, text in new.items() if name.startswith("library/")}
+    return kept | library | {path: others[0] + "".join(rows) + others[-1]}
 
 
 def elements(text: str) -> dict[str, str]:
@@ -66,7 +85,7 @@ def elements(text: str) -> dict[str, str]:
 PLATFORMS = {
     "codesys": ("CHF_Motor.xml", only(r"CHF\.xml")),
     "plcopen": ("CHF_Motor.xml", merged),
-    "twincat": ("motor/CHF_Motor.TcPOU", only(r"library/.*")),
+    "twincat": ("motor/CHF_Motor.TcPOU", linked),
     "siemens": ("CHF_Motor.scl", only(r"DriveBlocks\.\w+|CHF\.scl|SI_Port\.scl")),
     "openplc": ("CHF_Motor.st", only(r"CHF\.st|LX_Line8\.st")),
 }
@@ -87,6 +106,22 @@ def test_an_update_replaces_the_library_and_leaves_the_motor_as_its_user_wrote_i
     library = "".join(text for path, text in after.items() if path != motor or target == "plcopen")
     assert "VERSION TWO CHF_Drive" in library
     assert "VERSION TWO MB_Line8" in library
+    assert f"VERSION TWO {ADDED}" in library
+
+
+def test_a_twincat_project_that_links_the_library_lists_every_file_only_after_its_rows_were_taken() -> None:
+    project, new = built("twincat", 0), built("twincat", 1)
+    motor = "motor/CHF_Motor.plcproj"
+    before, after = links(only(r"library/.*")(project, new)[motor]), links(linked(project, new)[motor])
+    whole = set(re.findall(r'Compile Include="([^"]+)"', new["library/CHF.plcproj"]))
+    assert after == whole
+    assert whole - before == {rf"modbus\{ADDED}.TcPOU"}
+    assert {"library/" + path.replace("\\", "/") for path in after} <= linked(project, new).keys()
+
+
+def links(project: str) -> set[str]:
+    """The files of the library that a project lists, below its folder."""
+    return set(re.findall(r'Compile Include="\.\.\\library\\([^"]+)"', project))
 
 
 @pytest.mark.parametrize("target", PLATFORMS)
