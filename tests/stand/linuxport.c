@@ -2,8 +2,8 @@
  *
  * Commands, one per line: "now MS"; "next CALL RESULT" queues what a call gives, an error number below 0, else the most
  * that it takes or gives; "always CALL RESULT" from now on; "granted RATE"; "handle N"; "receive", "send N" call LX_Port,
- * and "scan" the program of softplc.st with its line. Each of these three prints a line with what the block shows, what
- * has gone out in it, and what it has called. A call that nothing was said of works, and nothing is to be read. */
+ * and "scan" the program of softplc.st with its line; "again" starts the PLC anew without ending its process, "unload" is
+ * what dlclose calls. Each but "again" prints a line with what the block shows, what has gone out in it, and what it has called. A call that nothing was said of works, and nothing is to be read. */
 #include <errno.h>
 
 #include "iec_std_lib.h"
@@ -16,6 +16,9 @@ BOOL __DEBUG;
 enum { OPEN, CLOSE, READ, WRITE, SET, MODEM, EXCLUSIVE, LOCK, QUEUE, FLUSH, CALLS };
 static const char *const NAMES[CALLS] = {"open", "close", "read", "write", "set", "modem", "exclusive", "lock", "queue", "flush"};
 enum { MOST = 256, FIRST = 3, NOTHING = -1000 };
+
+extern void *__dso_handle __attribute__((visibility("hidden")));
+void __cxa_finalize(void *);
 
 static LX_PORT port;
 static DESK desk;
@@ -138,7 +141,11 @@ int main(void) {
   for (int each = 0; each < 40; each++) port.TX.value.table[each] = (BYTE)(each + 1);
   while (scanf("%15s", word) == 1) {
     if (!strcmp(word, "receive")) call(0);
-    else if (!strcmp(word, "scan")) {
+    else if (!strcmp(word, "again")) LX_PORT_init__(&port, 0);
+    else if (!strcmp(word, "unload")) {
+      __cxa_finalize(&__dso_handle);
+      show(0, 0, 0);
+    } else if (!strcmp(word, "scan")) {
       DESK_body__(&desk);
       show(desk.BUS.PORTERRORID.value, desk.BUS.PORT.RXCOUNT.value, desk.BUS.ELAPSEDMS.value);
     } else if (!strcmp(word, "next") || !strcmp(word, "always")) {

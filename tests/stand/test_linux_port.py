@@ -164,6 +164,19 @@ def test_the_port_is_locked_against_others(port: Told) -> None:
     assert (refused.error, refused.did[-1], "flush2" in refused.did) == (EBUSY, "close", False)
 
 
+def test_a_plc_that_starts_again_in_the_same_process_closes_what_it_had_open(port: Told) -> None:
+    first, again, after = port(OPENED, "again", "receive", "receive")
+    assert first.did[0] == "open"
+    assert again.did[:2] == ["close", "open"]
+    assert (again.error, after.did) == (0, ["read"])
+
+
+def test_a_plc_that_is_unloaded_closes_what_is_open_and_nothing_else(port: Told) -> None:
+    assert port(OPENED, "unload")[1].did == ["close"]
+    assert port(OPENED, f"next read -{EIO}", "receive", "unload")[2].did == [""]
+    assert port("unload")[0].did == [""]
+
+
 def test_a_pseudo_terminal_which_would_stay_exclusive_after_its_program_is_not_made_so(port: Told) -> None:
     (opened,) = port(f"next modem -{ENOTTY}", OPENED)
     assert opened.error == 0
