@@ -105,8 +105,16 @@ def _spans(addresses: Iterable[int]) -> list[Span]:
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
     for _, row in drive.registers():
         written = drive.register_at(row.address.first, "w") is row
-        if row.range is not None and not row.words and written and writable.issuperset(row.address):
-            yield Ranged(row.address, row.signed, row.range.min, row.range.max)
+        for span in _again(drive, row.address):
+            if row.range is not None and not row.words and written and writable.issuperset(span):
+                yield Ranged(span, row.signed, row.range.min, row.range.max)
+
+
+def _again(drive: Drive, span: Span) -> Iterator[Span]:
+    """A row's registers, and the same with the bit that spares the memory."""
+    yield span
+    if drive.storage.add is not None:
+        yield Span(span.first + drive.storage.add, span.last + drive.storage.add)
 
 
 # ---------------------------------------------------------------- the manual's numbers
