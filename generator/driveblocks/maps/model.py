@@ -25,6 +25,7 @@ Addresses = Annotated[Span, form.ADDRESSES]
 Bits = Annotated[Span, form.BITS]
 Number = Annotated[int, form.NUMBER]
 Count = Annotated[int, form.COUNT]
+Writes = Annotated[int, form.WRITES]
 Factor = Annotated[Decimal, form.DECIMAL]
 Octets = Annotated[bytes, form.BYTES]
 Adu = Annotated[bytes, form.ADU]
@@ -769,7 +770,7 @@ class Storage(Entry):
     value: Number | None = fact(
         "enter_register: the word to write; where one bit stores, with the others as they must be", "0", optional=True
     )
-    max_writes: Count | None = fact("how often the memory can be written", "100000", optional=True)
+    max_writes: Writes | None = fact("how often the memory can be written", "100000", optional=True)
     add: Address | None = fact("ram_address_bit: what to add to an address", "8000H", optional=True)
     area: Word | None = fact(
         "ram_address_bit: the only area, or section, where it may be added", "function_codes", optional=True
