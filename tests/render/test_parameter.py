@@ -47,6 +47,12 @@ def test_what_is_refused_is_refused_at_its_address_in_ram_too() -> None:
             assert judge.result(Write(again, 1, unknown=True)) == "LINE_SETTING"
 
 
+def test_a_write_after_which_the_next_is_stored_is_refused() -> None:
+    drive = drives()["MX2"]
+    assert any(0x0901 in span for span in may_write(drive, plan(drive)).fixed)
+    assert {Judge(drive).result(Write(0x0901, 1, unknown=unknown)) for unknown in (False, True)} == {"NOT_WRITABLE"}
+
+
 def test_a_parameter_may_be_written_to_ram_within_its_range() -> None:
     drive = drives()["GD200A"]
     *others, codes = drive.sections
