@@ -47,6 +47,16 @@ def test_what_is_refused_is_refused_at_its_address_in_ram_too() -> None:
             assert judge.result(Write(again, 1, unknown=True)) == "LINE_SETTING"
 
 
+def test_the_maximum_that_the_full_scale_is_compared_with_is_refused() -> None:
+    drive = drives()["ATV312"]
+    assert drive.operation.own_maximum is not None
+    at = drive.operation.own_maximum.register
+    assert at not in {one.register for one in drive.settings}
+    refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
+    assert any(at in span for span in refused["LINE_SETTING"])
+    assert Judge(drive).result(Write(at, 500, unknown=True)) == "LINE_SETTING"
+
+
 def test_a_write_after_which_the_next_is_stored_is_refused() -> None:
     drive = drives()["MX2"]
     assert any(0x0901 in span for span in may_write(drive, plan(drive)).fixed)

@@ -82,10 +82,11 @@ class Judge:
         operation = drive.operation
         steps = (step.register for command in operation.commands for step in command.first)
         commands = (command.register for command in operation.commands)
+        own = operation.own_maximum
         self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
             "OWNED": {*_of_reference(drive), *commands, *steps},
-            "LINE_SETTING": {setting.register for setting in drive.settings},
+            "LINE_SETTING": {*(one.register for one in drive.settings), own.register if own else None},
         }
         self._writable = writable(drive)
         rows = sorted(

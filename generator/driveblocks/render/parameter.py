@@ -50,8 +50,8 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
     kept = [
         (
             "LINE_SETTING",
-            "what the connection rests on",
-            _with_aliases(drive, (one.register for one in drive.settings)),
+            "what the connection and the full scale rest on",
+            _with_aliases(drive, _settings(drive)),
         ),
         ("OWNED", "what moves the motor", _with_aliases(drive, _commanded(drive))),
         ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
@@ -66,6 +66,12 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
         refused=[(name, why, _spans(some)) for name, why, some in kept if some],
         ranges=list(_ranges(drive, writable - taken)),
     )
+
+
+def _settings(drive: Drive) -> Iterator[int | None]:
+    """The registers of the settings, and of the maximum that the full scale is compared with."""
+    yield from (one.register for one in drive.settings)
+    yield drive.operation.own_maximum.register if drive.operation.own_maximum else None
 
 
 def _commanded(drive: Drive) -> Iterator[int]:
