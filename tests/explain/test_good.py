@@ -162,6 +162,13 @@ def test_bits_values_and_faults(
         ("CHF", "01 06 10 00 01 00", (256, None), "no listed value; with its bytes swapped it is 1, Run forward"),
         ("CHF", "01 06 80 07 00 05", (5, None), "RAM only, not stored; it cannot be read at this address"),
         ("CHF", "01 06 00 07 00 05", (5, None), "stored in EEPROM, which frequent writes wear out; 8007H is RAM only"),
+        ("GD200A", "01 06 80 04 13 88", (5000, "50.00"), "RAM only, not stored; it cannot be read at this address"),
+        (
+            "GD200A",
+            "01 06 00 04 13 88",
+            (5000, "50.00"),
+            "stored in EEPROM, which frequent writes wear out; 8004H is RAM only",
+        ),
         ("JSCC", "01 06 00 12 00 05", (5, None), "counts as a write to EEPROM: the manual does not say"),
         ("SN300G5", "01 10 FF FD 00 01 02 00 00", (0, None), "stores all parameters, at most 100000 times"),
         ("SN300G5", "01 10 00 01 00 01 02 13 88", (5000, "50.00"), "only while 000FH bit 0 = 0"),

@@ -77,6 +77,7 @@ END_VAR
   END_IF;
 END_FUNCTION_BLOCK
 """
+PAGE = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
 WRITABLE = {"JSCC": 0x0012, "CHF": 0x8007, "PF4": 0x0027, "SN300G5": 0x0200}
 """A register of each family that a ladder user may write."""
 ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
@@ -208,6 +209,10 @@ def test_the_pins_count_as_they_were_at_the_edge() -> None:
         ("CHF", 0xA000, "OWNED"),
         ("CHF", 0x9001, "NOT_WRITABLE"),
         ("CHF", 0x8200, "UNKNOWN_ADDRESS"),
+        ("GD200A", 0x8003, "LINE_SETTING"),
+        ("GD200A", 0xA000, "OWNED"),
+        ("ATV312", 0x0C20, "LINE_SETTING"),
+        ("MX2", 0x0901, "NOT_WRITABLE"),
         ("SN300G5", 0x0000, "OWNED"),
         ("SN300G5", 0x0001, "OWNED"),
         ("SN300G5", 0x0181, "LINE_SETTING"),
@@ -454,13 +459,14 @@ def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
 
 def test_an_edge_while_busy_begins_nothing() -> None:
     scene = Scene()
-    scene.execute("Put1", Address=0x0012)
+    scene.execute("Put1", Address=0x0012, Value=1)
     scene.run(40)
     scene.drop("Put1")
-    scene.execute("Put1")
+    scene.execute("Put1", Value=2)
     scene.run(300)
-    assert len(scene.written()) == 1
-    assert scene.result("Put1") == "OK"
+    assert [each[-1] for each in scene.written()] == [1]
+    assert scene.result("Put1") == "OK", "of the first; so the page says to wait"
+    assert "An edge of `Execute` while `Busy` is TRUE is ignored" in PAGE
 
 
 @pytest.mark.parametrize("block", ASKING)
@@ -480,6 +486,18 @@ def test_a_line_that_is_not_called(block: str) -> None:
     scene = Scene("SN300G5").rested()
     scene.set(Lined=False)
     assert scene.done(block, 10_100, **ASKING[block]) == "NO_LINE"
+
+
+def test_a_write_may_have_arrived_before_the_line_is_called_no_more() -> None:
+    scene = Scene("SN300G5").rested()
+    scene.execute("Put1", Address=0x0200, Value=1)
+    while not scene.written():
+        scene.scan()
+    scene.set(Lined=False)
+    scene.run(10_100)
+    assert scene.result("Put1") == "NO_LINE"
+    (listed,) = re.findall(r"After `ErrorID` ([0-9, or]+) an\s+attempt may have reached the drive", PAGE)
+    assert str(scene["Put1.ErrorID"]) in re.findall("[0-9]+", listed)
 
 
 def test_a_drive_that_keeps_silent() -> None:
@@ -586,8 +604,7 @@ def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
 
 
 def test_the_example_of_the_page_runs_and_lints_clean() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
-    (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", page, re.DOTALL)
+    (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", PAGE, re.DOTALL)
     wanted = re.compile(r"types/.*|vfd/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
     texts = [each for each in sources() if wanted.fullmatch(each.path)]
     texts.append(Source("example.st", program + "\n"))

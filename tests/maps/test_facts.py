@@ -949,6 +949,13 @@ def test_gd200a_commands_its_faults_and_what_its_pins_show_are_the_manuals() -> 
     assert [one.code for one in GD.errors.codes] == list(range(1, 10))
 
 
+def test_gd200a_function_codes_are_stored_unless_their_address_has_8000h() -> None:
+    storage = GD.storage
+    assert (storage.method, storage.add, storage.readable) == ("ram_address_bit", 0x8000, False)
+    codes = {address for address in rows(GD) if address < 0x2000}
+    assert {address for span in GD.ram_only for address in span} == {address + 0x8000 for address in codes}
+
+
 def test_gd200a_line_speaks_as_p14_01_and_p14_02_say() -> None:
     assert GD.serial.baud is not None
     assert [(one.code, one.baud) for one in GD.serial.baud.codes] == list(enumerate(gd200a.RATES))

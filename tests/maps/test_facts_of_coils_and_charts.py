@@ -45,6 +45,13 @@ def test_altivar_312_line_settings_and_faults() -> None:
     assert {name: getattr(ATV.limits, name).value for name in altivar_312.LIMITS} == altivar_312.LIMITS
 
 
+def test_altivar_312_and_mx2_say_how_often_their_memory_can_be_written() -> None:
+    assert {one.prefix: (one.storage.method, one.storage.max_writes) for one in (ATV, MX)} == {
+        "ATV312": ("enter_register", 1_000_000),
+        "MX2": ("enter_register", 100_000),
+    }
+
+
 def test_mx2_coils_are_sent_as_the_list_prints() -> None:
     rows = [row for section in MX.sections for row in section.registers if section.id.endswith("_coils")]
     sent = {row.address.first & 0xFFFF for row in rows}

@@ -6,7 +6,7 @@ import pytest
 from tests.shipped import drives, sisters
 
 from driveblocks.maps.form import Span
-from driveblocks.maps.model import Drive, Step
+from driveblocks.maps.model import Drive, Range, Step
 from driveblocks.maps.plan import plan
 from driveblocks.reference.permission import Judge, Write, parameters
 from driveblocks.render.parameter import NumberAddress, ParameterAddress, addresses, may_write, passing
@@ -33,6 +33,50 @@ def test_what_is_sent_before_a_command_moves_the_motor_too() -> None:
     assert {Span(0x0042, 0x0042), Span(0x8042, 0x8042)} <= set(refused["OWNED"])
     judge = Judge(drive)
     assert [judge.result(Write(at)) for at in (0x0042, 0x8042, 0x0043)] == ["OWNED", "OWNED", "OK"]
+
+
+def test_what_is_refused_is_refused_at_its_address_in_ram_too() -> None:
+    drive = drives()["GD200A"]
+    judge = Judge(drive)
+    refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
+    settings = [one.register for one in drive.settings if one.register is not None]
+    assert {0x0001, 0x0003, 0x0006, 0x0E00} <= {*settings}
+    for address in settings:
+        for again in (address, address + 0x8000):
+            assert any(again in span for span in refused["LINE_SETTING"])
+            assert judge.result(Write(again, 1, unknown=True)) == "LINE_SETTING"
+
+
+def test_the_maximum_that_the_full_scale_is_compared_with_is_refused() -> None:
+    drive = drives()["ATV312"]
+    assert drive.operation.own_maximum is not None
+    at = drive.operation.own_maximum.register
+    assert at not in {one.register for one in drive.settings}
+    refused = {name: spans for name, _, spans in may_write(drive, plan(drive)).refused}
+    assert any(at in span for span in refused["LINE_SETTING"])
+    assert Judge(drive).result(Write(at, 500, unknown=True)) == "LINE_SETTING"
+
+
+def test_a_write_after_which_the_next_is_stored_is_refused() -> None:
+    drive = drives()["MX2"]
+    assert any(0x0901 in span for span in may_write(drive, plan(drive)).fixed)
+    assert {Judge(drive).result(Write(0x0901, 1, unknown=unknown)) for unknown in (False, True)} == {"NOT_WRITABLE"}
+
+
+def test_a_parameter_may_be_written_to_ram_within_its_range() -> None:
+    drive = drives()["GD200A"]
+    *others, codes = drive.sections
+    rows = [replace(row, range=Range(min=10, max=20)) if row.address.first == 4 else row for row in codes.registers]
+    drive = replace(drive, sections=(*others, replace(codes, registers=tuple(rows))))
+    allowed = plan(drive)
+    assert any(0x8004 in span for span in allowed.writable)
+    assert not any(0x8004 in span for span in allowed.readable)
+    assert not any(0xA000 in span for span in allowed.writable)
+    made = may_write(drive, allowed)
+    assert [one.span.first for one in made.ranges if (one.min, one.max) == (10, 20)] == [0x0004, 0x8004]
+    assert not any(0x8004 in span for span in made.fixed)
+    judge = Judge(drive)
+    assert [judge.result(Write(0x8004, value)) for value in (9, 10, 20, 21)] == ["RANGE", "OK", "OK", "RANGE"]
 
 
 @pytest.mark.parametrize(

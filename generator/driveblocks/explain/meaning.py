@@ -8,7 +8,7 @@ from driveblocks.maps import view
 from driveblocks.maps.adu import number
 from driveblocks.maps.conduct import condition
 from driveblocks.maps.form import Span, address_text, bits_text
-from driveblocks.maps.model import Area, Bit, Command, Condition, Drive, Register, Step, Value
+from driveblocks.maps.model import Area, Bit, Command, Condition, Drive, Register, Step, Use, Value
 
 WORD = Span(0, 15)
 
@@ -47,9 +47,15 @@ def held(drive: Drive | None, address: int | None, word: int | None, *, writing:
     """What a drive's map says of an address and a word."""
     if drive is None or address is None:
         return Held(address, word, word)
-    row = drive.register_at(address, "w" if writing else "r")
+    use: Use = "w" if writing else "r"
+    row = drive.register_at(address, use)
     if row is not None:
         return _row(drive, row, address, word, writing)
+    ram = any(address in span for span in drive.ram_only)
+    home = drive.register_at(address - (drive.storage.add or 0), use) if ram else None
+    if home is not None:
+        known = _row(drive, home, address - (drive.storage.add or 0), word, writing=False)
+        return replace(known, address=address, note=_ram_note(drive) if writing else "")
     area = _area(drive, address)
     if area is None:
         return Held(address, word, word, note="not in the map", known=False)
@@ -65,9 +71,12 @@ def _area(drive: Drive, address: int) -> tuple[str, str, str] | None:
         moved = address - (drive.storage.add or 0)
         if drive.storage.area == area.id and drive.storage.add and moved in area.addresses:
             name, zh = _numbered(area, moved)
-            note = "" if drive.storage.readable else "; it cannot be read at this address"
-            return name, zh, f"RAM only, not stored{note}"
+            return name, zh, _ram_note(drive)
     return None
+
+
+def _ram_note(drive: Drive) -> str:
+    return "RAM only, not stored" + "; it cannot be read at this address" * (not drive.storage.readable)
 
 
 def _numbered(area: Area, address: int) -> tuple[str, str]:
@@ -229,6 +238,9 @@ def _stores(drive: Drive, row: Register) -> Iterator[str]:
     for twin in storage.twins:
         if twin.stored in row.address:
             yield f"stored in EEPROM, which frequent writes wear out; {address_text(twin.ram)} is the same in RAM"
+    again = row.address.first + (storage.add or 0)
+    if any(again in span for span in drive.ram_only):
+        yield f"stored in EEPROM, which frequent writes wear out; {address_text(again)} is RAM only"
 
 
 def _met(condition: Condition, word: int) -> bool:

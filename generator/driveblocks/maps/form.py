@@ -175,6 +175,7 @@ NUMBER = _form(
     numeric=True,
 )
 COUNT = _form("count", r"[1-9][0-9]{0,5}", int, "write a decimal number from 1 to 999999", numeric=True)
+WRITES = _form("number of writes", r"[1-9][0-9]{0,8}", int, "write a decimal number up to 999999999", numeric=True)
 DECIMAL = _form(
     "decimal",
     r"-?(0|[1-9][0-9]{0,8})(\.[0-9]{1,9})?",

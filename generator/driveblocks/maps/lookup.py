@@ -101,11 +101,11 @@ def _faults_by_id(drive: Drive, upper: str) -> Iterator[Match]:
 
 
 def _at_address(drive: Drive, address: int, *, spelled: bool) -> Iterator[Match]:
-    for row in filter(None, dict.fromkeys(drive.register_at(address, use) for use in USES)):
-        yield _register(row, address, spelled=spelled)
+    again = address - (drive.storage.add or 0) if any(address in span for span in drive.ram_only) else address
+    for row in filter(None, dict.fromkeys(drive.register_at(again, use) for use in USES)):
+        yield _register(row, again, spelled=spelled)
     for area in drive.areas:
-        alias = drive.storage.add if drive.storage.area == area.id else None
-        if address in area.addresses or (alias is not None and address - alias in area.addresses):
+        if again in area.addresses:
             yield Match(area, f"{address_text(address)}  in the area {area.name}", address, spelled)
 
 

@@ -25,6 +25,7 @@ Addresses = Annotated[Span, form.ADDRESSES]
 Bits = Annotated[Span, form.BITS]
 Number = Annotated[int, form.NUMBER]
 Count = Annotated[int, form.COUNT]
+Writes = Annotated[int, form.WRITES]
 Factor = Annotated[Decimal, form.DECIMAL]
 Octets = Annotated[bytes, form.BYTES]
 Adu = Annotated[bytes, form.ADU]
@@ -769,9 +770,11 @@ class Storage(Entry):
     value: Number | None = fact(
         "enter_register: the word to write; where one bit stores, with the others as they must be", "0", optional=True
     )
-    max_writes: Count | None = fact("how often the memory can be written", "100000", optional=True)
+    max_writes: Writes | None = fact("how often the memory can be written", "100000", optional=True)
     add: Address | None = fact("ram_address_bit: what to add to an address", "8000H", optional=True)
-    area: Word | None = fact("ram_address_bit: the only area where it may be added", "function_codes", optional=True)
+    area: Word | None = fact(
+        "ram_address_bit: the only area, or section, where it may be added", "function_codes", optional=True
+    )
     twins: tuple[Twin, ...] = fact(
         "ram_twin: the registers that are there twice", "[{stored: 000EH, ram: 000DH}]", optional=True, default=()
     )
@@ -1464,6 +1467,20 @@ class Drive(Entry):
         low = max(bisect_right(firsts, span.first) - 1, 0)
         high = bisect_right(firsts, span.last)
         return [row for _, row in rows[low:high] if row.address.overlaps(span)]
+
+    @cached_property
+    def with_ram_bit(self) -> tuple[Span, ...]:
+        """The registers to whose addresses `storage.add` may be added: an area, or what a section lets write."""
+        areas = [area.addresses for area in self.areas if area.id == self.storage.area]
+        rows = [(section, row) for section, row in self.registers() if section.id == self.storage.area]
+        written = [row.address for section, row in rows if "w" in (row.access or section.access) and not row.unused]
+        return () if self.storage.add is None else (*areas, *written)
+
+    @cached_property
+    def ram_only(self) -> tuple[Span, ...]:
+        """The same registers at the addresses that write to RAM alone."""
+        add = self.storage.add or 0
+        return tuple(Span(span.first + add, span.last + add) for span in self.with_ram_bit)
 
     @cached_property
     def shared(self) -> frozenset[int]:

@@ -50,7 +50,7 @@ def plan(drive: Drive) -> Plan:
         rtu=_words(drive, "rtu"),
         ascii=_words(drive, "ascii"),
         readable=_grouped(drive, _merged(_allowed(drive, "r"))),
-        writable=_grouped(drive, _merged([*_allowed(drive, "w"), *_ram_only(drive)])),
+        writable=_grouped(drive, _merged([*_allowed(drive, "w"), *drive.ram_only])),
     )
 
 
@@ -115,13 +115,6 @@ def most(drive: Drive, mode: str) -> Words:
 
 def _value(limit: Limit | None, default: int) -> int:
     return limit.value if limit else default
-
-
-def _ram_only(drive: Drive) -> list[Span]:
-    """Addresses that write to RAM alone: a drive's parameter area moved by its storage rule."""
-    areas = [area.addresses for area in drive.areas if area.id == drive.storage.area]
-    add = drive.storage.add
-    return [] if add is None else [Span(area.first + add, area.last + add) for area in areas]
 
 
 def _allowed(drive: Drive, use: str) -> list[Span]:

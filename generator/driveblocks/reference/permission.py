@@ -46,10 +46,14 @@ def _written_areas(drive: Drive) -> Iterator[int]:
 
 
 def ram_only(drive: Drive) -> Iterator[int]:
-    """The addresses of the parameter area moved by what the storage rule adds: a write there is not stored."""
+    """The addresses of the parameter area or section plus what the storage rule adds: not stored there."""
     for area in drive.areas:
         if area.id == drive.storage.area and drive.storage.add is not None:
             for address in area.addresses:
+                yield address + drive.storage.add
+    for section, row in _rows(drive):
+        if section.id == drive.storage.area and drive.storage.add is not None and not row.unused:
+            for address in row.address if "w" in (row.access or section.access) else ():
                 yield address + drive.storage.add
 
 
@@ -78,10 +82,11 @@ class Judge:
         operation = drive.operation
         steps = (step.register for command in operation.commands for step in command.first)
         commands = (command.register for command in operation.commands)
+        own = operation.own_maximum
         self._known: dict[str, set[int | None]] = {
             "STORE_REGISTER": {drive.storage.register},
             "OWNED": {*_of_reference(drive), *commands, *steps},
-            "LINE_SETTING": {setting.register for setting in drive.settings},
+            "LINE_SETTING": {*(one.register for one in drive.settings), own.register if own else None},
         }
         self._writable = writable(drive)
         rows = sorted(
@@ -111,7 +116,7 @@ class Judge:
         return "OK" if wish.stopped else "NOT_STOPPED"
 
     def _beyond(self, wish: Write) -> bool:
-        row = self._rows.get(wish.address)
+        row = self._rows.get(wish.address) or self._rows.get(wish.address & ~self._bit)
         if row is None or row.range is None or row.words == 2:
             return False
         number = wish.value - 0x10000 if row.signed and wish.value > 0x7FFF else wish.value

@@ -50,8 +50,8 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
     kept = [
         (
             "LINE_SETTING",
-            "what the connection rests on",
-            _with_aliases(drive, (one.register for one in drive.settings)),
+            "what the connection and the full scale rest on",
+            _with_aliases(drive, _settings(drive)),
         ),
         ("OWNED", "what moves the motor", _with_aliases(drive, _commanded(drive))),
         ("STORE_REGISTER", "what stores in the memory", _with_aliases(drive, [drive.storage.register])),
@@ -66,6 +66,12 @@ def may_write(drive: Drive, allowed: Plan) -> MayWrite:
         refused=[(name, why, _spans(some)) for name, why, some in kept if some],
         ranges=list(_ranges(drive, writable - taken)),
     )
+
+
+def _settings(drive: Drive) -> Iterator[int | None]:
+    """The registers of the settings, and of the maximum that the full scale is compared with."""
+    yield from (one.register for one in drive.settings)
+    yield drive.operation.own_maximum.register if drive.operation.own_maximum else None
 
 
 def _commanded(drive: Drive) -> Iterator[int]:
@@ -105,8 +111,16 @@ def _spans(addresses: Iterable[int]) -> list[Span]:
 def _ranges(drive: Drive, writable: set[int]) -> Iterator[Ranged]:
     for _, row in drive.registers():
         written = drive.register_at(row.address.first, "w") is row
-        if row.range is not None and not row.words and written and writable.issuperset(row.address):
-            yield Ranged(row.address, row.signed, row.range.min, row.range.max)
+        for span in _again(drive, row.address):
+            if row.range is not None and not row.words and written and writable.issuperset(span):
+                yield Ranged(span, row.signed, row.range.min, row.range.max)
+
+
+def _again(drive: Drive, span: Span) -> Iterator[Span]:
+    """A row's registers, and the same with the bit that spares the memory."""
+    yield span
+    if drive.storage.add is not None:
+        yield Span(span.first + drive.storage.add, span.last + drive.storage.add)
 
 
 # ---------------------------------------------------------------- the manual's numbers

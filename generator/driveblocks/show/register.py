@@ -37,6 +37,7 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
         ("commands", "\n".join(_commands(drive, row, address))),
         ("never", "\n".join(f"bits {bits_text(one.bit)} = {one.equals}: {one.why}" for one in row.never)),
         ("pins", "\n".join(_shows(drive, address)) if drive.is_read(row) else None),
+        ("RAM only", _ram_only(drive, address)),
         ("note", row.note),
         ("also says", corroborated(drive, row.corroborated)),
         ("section", both(section.title.en, section.title.own)),
@@ -46,6 +47,12 @@ def page(drive: Drive, section: Section, row: Register, address: int) -> Iterato
     yield from _bits(row)
     yield from _values(row)
     yield from recorded(drive, "register", address)
+
+
+def _ram_only(drive: Drive, address: int) -> str | None:
+    """The address at which a write to the same parameter is not stored."""
+    kept = any(address in span for span in drive.with_ram_bit)
+    return f"{address_text(address + (drive.storage.add or 0))} is not stored" if kept else None
 
 
 def area_page(drive: Drive, area: Area, address: int) -> Iterator[RenderableType]:

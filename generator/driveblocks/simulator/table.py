@@ -281,8 +281,8 @@ def _storage(drive: Drive, writable: tuple[Span, ...]) -> Storage:
     told |= {each.register for each in drive.operation.commands} | {*whole(drive, drive.operation.reference.register)}
     sections = [each for each in drive.sections if not any(row.address.first in told for row in each.registers)]
     rows = [row.address for section in sections for row in section.registers]
-    areas = [area.addresses for area in drive.areas if storage.area in (None, area.id)]
-    kept = areas if storage.method == "ram_address_bit" else [*areas, *rows]
+    areas = [area.addresses for area in drive.areas]
+    kept = list(drive.with_ram_bit) if storage.method == "ram_address_bit" else [*areas, *rows]
     for twin in storage.twins:
         parts = [part for span in kept for part in _around(span, twin.ram)]
         kept = [*parts, *([] if any(twin.stored in part for part in parts) else [Span(twin.stored, twin.stored)])]

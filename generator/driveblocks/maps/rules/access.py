@@ -1,7 +1,7 @@
 """What an address is good for: reading, writing, or nothing."""
 
-from driveblocks.maps.form import Span, address_text
-from driveblocks.maps.model import Area, Drive, Register, Use
+from driveblocks.maps.form import address_text
+from driveblocks.maps.model import Drive, Register, Use
 from driveblocks.maps.problem import Place, Report
 
 _VERBS = {"r": "read", "w": "written"}
@@ -44,32 +44,25 @@ def _stored(drive: Drive, address: int) -> str | None:
             return None
         if address == twin.stored:
             return f"a write there is stored; {address_text(twin.ram)} is its twin in RAM"
-    area = next((area for area in drive.areas if address in area.addresses), None)
-    if area is not None and (unexplained or area.id == storage.area):
-        return f"the area `{area.id}` is stored in EEPROM" + " as far as the manual says" * unexplained
+    area = next((area.id for area in drive.areas if unexplained and address in area.addresses), None)
+    if any(address in span for span in drive.with_ram_bit):
+        area = storage.area
+    if area is not None:
+        return f"the area `{area}` is stored in EEPROM" + " as far as the manual says" * unexplained
     row = drive.register_at(address, "w")
     if unexplained and row is not None and row.id is not None:
         return f"the parameter {row.id} is stored in EEPROM as far as the manual says"
     return None
 
 
-def ram_span(drive: Drive, area: Area) -> Span | None:
-    """The RAM-only addresses of an area, or None where it has none."""
-    storage = drive.storage
-    if storage.add is None or storage.area != area.id:
-        return None
-    return Span(area.addresses.first + storage.add, area.addresses.last + storage.add)
-
-
 def carried(drive: Drive, address: int, use: Use, place: Place, report: Report) -> Register | None:
     """The row of an address that a frame reads or writes, None in an area; notes what forbids it."""
+    if any(address in span for span in drive.ram_only):
+        if use == "r" and not drive.storage.readable:
+            wrong = f"{address_text(address)} is a RAM-only address, which cannot be read"
+            report.add(place, wrong, "correct the frame, or `readable` under `storage`")
+        return None
     for area in drive.areas:
-        ram = ram_span(drive, area)
-        if ram is not None and address in ram:
-            if use == "r" and not drive.storage.readable:
-                wrong = f"{address_text(address)} is a RAM-only address, which cannot be read"
-                report.add(place, wrong, "correct the frame, or `readable` under `storage`")
-            return None
         if address in area.addresses:
             if use not in area.access:
                 wrong = f"{address_text(address)} cannot be {_VERBS[use]}"

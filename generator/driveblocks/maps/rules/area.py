@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from driveblocks.maps.form import Span, address_text, span_text
 from driveblocks.maps.model import Area, AreaExample, Drive, Storage
 from driveblocks.maps.problem import Place, Report
-from driveblocks.maps.rules.access import known, ram_span
+from driveblocks.maps.rules.access import known
 from driveblocks.maps.rules.parameter import of_form
 from driveblocks.maps.rules.setting import must_be
 from driveblocks.maps.rules.unique import overlapping, unique
@@ -36,9 +36,9 @@ def check(drive: Drive, report: Report) -> None:
 def _claims(drive: Drive) -> Iterator[tuple[Span, _Claim]]:
     for area in drive.areas:
         yield area.addresses, (area.place("addresses"), f"area `{area.id}`")
-        alias = ram_span(drive, area)
-        if alias is not None:
-            yield alias, (drive.storage.place("add"), f"the RAM-only part of area `{area.id}`")
+    kind = "area" if any(area.id == drive.storage.area for area in drive.areas) else "section"
+    for alias in drive.ram_only:
+        yield alias, (drive.storage.place("add"), f"the RAM-only part of {kind} `{drive.storage.area}`")
 
 
 def _spans(drive: Drive, report: Report) -> None:
@@ -61,8 +61,7 @@ def _spans(drive: Drive, report: Report) -> None:
 def _example(drive: Drive, area: Area, example: AreaExample, report: Report) -> None:
     of_form(drive, example, example.id, report)
     due = area.addresses.first + example.number
-    alias = ram_span(drive, area)
-    offset = drive.storage.add if alias is not None and example.address in alias else 0
+    offset = drive.storage.add if any(example.address in span for span in drive.ram_only) else 0
     if example.address != due + (offset or 0):
         wrong = f"{example.id} has number {example.number} and address {address_text(example.address)}"
         report.add(example.place("address"), wrong, f"by the area's rule it is {address_text(due)}")
@@ -99,14 +98,18 @@ def _storage(drive: Drive, storage: Storage, report: Report) -> None:
                 report.add(twin.place(key), f"{address_text(address)} is there twice", "name each register once")
     if storage.ram_when is not None:
         must_be(drive, storage.ram_when, "writes stay in RAM", report)
-    areas = {area.id: area for area in drive.areas}
-    if storage.area is not None and storage.area not in areas:
-        report.miss(storage.place("area"), f"there is no area `{storage.area}`", "name an entry of `areas`")
+    named = {*(area.id for area in drive.areas), *(section.id for section in drive.sections)}
+    if storage.area is not None and storage.area not in named:
+        wrong = f"there is no area `{storage.area}`"
+        report.miss(storage.place("area"), wrong, "name an entry of `areas` or `sections`")
     elif storage.area is not None and storage.add is not None:
-        _address_bit(storage.add, areas[storage.area], storage.place("add"), report)
+        _address_bit(drive, storage.add, storage.place("add"), report)
 
 
-def _address_bit(add: int, area: Area, place: Place, report: Report) -> None:
-    if add == 0 or add & (add - 1) or area.addresses.last >= add:
-        wrong = f"{address_text(add)} is not an address bit above {span_text(area.addresses)}"
+def _address_bit(drive: Drive, add: int, place: Place, report: Report) -> None:
+    last = max(drive.with_ram_bit, key=lambda span: span.last, default=None)
+    if last is None:
+        report.add(place, f"`{drive.storage.area}` has no register that may be written", "name another section")
+    elif add == 0 or add & (add - 1) or last.last >= add:
+        wrong = f"{address_text(add)} is not an address bit above {span_text(last)}"
         report.add(place, wrong, "write one bit that no address of the area has, such as 8000H")
