@@ -229,7 +229,7 @@ def two_lines(bench: Bench) -> None:
     """Another line has the same slots."""
     bench.ready()
     for _ in range(30):
-        bench.put(0, Served=(bench.slot(0, "Served") + 1) % 256)
+        bench.put(0, TimeMs=(bench.slot(0, "TimeMs") + 1) % 60_000)
         bench.scan()
     assert bench["ErrorID"] == 56
 
