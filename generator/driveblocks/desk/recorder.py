@@ -1,8 +1,6 @@
 """Keeps what scans have seen, in a thread of its own: a full pipe or a slow disk never makes a scan wait."""
 
-import errno
 import queue
-import re
 import stat
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -11,14 +9,13 @@ from pathlib import Path
 from driveblocks.desk import record
 from driveblocks.desk.port import reason
 from driveblocks.desk.record import Timing, Trace
+from driveblocks.desk.words import spare
 from structured_text.engines.engine import Value
 from structured_text.visible import file_name
 
 MOST_WAITING = 5_000
 """Scans that may wait to be written."""
 LOOK_S = 0.05
-HEAD = 4096
-"""So much of a file says who wrote it."""
 
 Row = tuple[int, Mapping[str, Value]]
 """Microseconds since the start, and values."""
@@ -103,7 +100,7 @@ class _Plain:
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A trace as CSV. Raises OSError."""
-    _spare(path, record.TRACE)
+    spare(path, record.TRACE, "no run")
     opened = None if _is_pipe(path) else _Plain(path)
 
     def keep(rows: Iterator[Row]) -> None:
@@ -116,7 +113,7 @@ def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Record
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A timing diagram as SVG. Raises OSError."""
-    _spare(path, record.PICTURE)
+    spare(path, record.PICTURE, "no run")
     path.touch()
 
     def keep(rows: Iterator[Row]) -> None:
@@ -126,17 +123,6 @@ def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Reco
         _Plain(path).write(made.svg())
 
     return Recorder(file_name(path), keep, waits=waits)
-
-
-def _spare(path: Path, mine: re.Pattern[bytes]) -> None:
-    """Raises OSError for a file that holds anything but what an earlier run wrote."""
-    if not path.is_file():
-        return
-    with path.open("rb") as file:
-        head = file.read(HEAD)
-    if head and not mine.match(head):
-        why = "there is a file that no run has written; name a new one, or move it away"
-        raise OSError(errno.EEXIST, why, str(path))
 
 
 def _is_pipe(path: Path) -> bool:
