@@ -4,6 +4,7 @@ import queue
 import stat
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import chain, islice
 from pathlib import Path
 
 from driveblocks.desk import record
@@ -99,14 +100,18 @@ class _Plain:
 
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
-    """A trace as CSV. Raises OSError."""
+    """A trace as CSV, which takes the place of the last one with its first row. Raises OSError."""
     spare(path, record.TRACE, "no run")
-    opened = None if _is_pipe(path) else _Plain(path)
+    pipe = _is_pipe(path)
+    if not pipe:
+        path.open("ab").close()
 
     def keep(rows: Iterator[Row]) -> None:
-        made = Trace(opened or _Plain(path), names, port)
-        for row in rows:
-            made.add(*row)
+        begun = [] if pipe else [*islice(rows, 1)]
+        if pipe or begun:
+            made = Trace(_Plain(path), names, port)
+            for row in chain(begun, rows):
+                made.add(*row)
 
     return Recorder(file_name(path), keep, waits=waits)
 
