@@ -223,8 +223,9 @@ def test_a_full_disk_leaves_the_file_that_was_there(pump: Path, monkeypatch: pyt
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(OSError, match="No space"):
+    with pytest.raises(OSError, match="No space") as error:
         saved.write(pump, *MAPS["SN300G5"], 3, {0x20: 1})
+    assert error.value.filename == str(pump)  # else the message would be of standard output
     assert (pump.read_bytes(), [*pump.parent.iterdir()]) == (before, [pump])
 
 

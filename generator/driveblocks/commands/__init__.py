@@ -25,6 +25,23 @@ def refuse(message: str) -> NoReturn:
     sys.exit(2)
 
 
+def write(path: Path, text: str, mode: str = "w") -> None:
+    """Write a file; with mode `x` a new one, of which nothing is left if the disk is full. Ends with status 2."""
+    try:
+        file = path.open(mode, encoding="utf-8", newline="\n")
+    except FileExistsError:
+        refuse(f"{file_name(path)}: is there already; name another file with -o")
+    except OSError as error:
+        refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
+    try:
+        with file:
+            file.write(text)
+    except OSError as error:
+        if mode == "x":
+            path.unlink(missing_ok=True)
+        refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
+
+
 def only_over(head: bytes, writer: str) -> Callable[[click.Context, click.Parameter, Path | None], Path | None]:
     """A callback of an option: before any work, status 2 for a file there that does not begin as `writer` begins it."""
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, only_over, refuse
+from driveblocks.commands import FILE, only_over, refuse, write
 
 PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --picture")
 
@@ -64,7 +64,7 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     tried = [figures(line, rate) for rate in line.rates()]
     own = next(each for each in tried if each.rate == line.rate)
     if picture is not None:
-        picture.write_text(pictures.drawn(own), encoding="utf-8")
+        write(picture, pictures.drawn(own))
     if json:
         click.echo(dumps(report.plain(tried), ensure_ascii=False, indent=2))
     else:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from driveblocks.commands import FILE, only_over, refuse
+from driveblocks.commands import FILE, only_over, refuse, write
 
 PAGE = only_over(rb"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>Commissioning<", "site --html")
 TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
@@ -41,7 +41,7 @@ def run(file: Path, target: str, html: Path | None, report: str | None, maps: tu
     if report is not None and report not in entries:
         refuse(f"{file} has no {report}; it has {', '.join(entries)}")
     if html is not None:
-        html.write_text(sheet.page(entries, drives), encoding="utf-8")
+        write(html, sheet.page(entries, drives))
     lines = sheet.report(report, entries[report]) if report else sheet.initialisation(entries, target)
     for line in lines:
         click.echo(line)

@@ -15,6 +15,7 @@ from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Wor
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf
 from driveblocks.site.found import Found
+from driveblocks.site.saved import part_of, put
 from driveblocks.site.session import SKIPPABLE, STEPS
 from structured_text.visible import file_name
 
@@ -141,22 +142,13 @@ def write(path: Path, about: About, found: Found) -> None:
     new = replaced(old, about.label, text(about, found))
     nodes.parse(new, report)
     report.raise_if_any()
-    part = _part(path)
-    try:
-        part.write_bytes(new.encode())
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    put(path, new)
 
 
 def try_out(path: Path) -> None:
     """Raise OSError where a file could not be written."""
-    _part(path).touch()
-    _part(path).unlink()
-
-
-def _part(path: Path) -> Path:
-    return path.with_name(f".{path.name}.part")
+    part_of(path).touch()
+    part_of(path).unlink()
 
 
 def replaced(old: str, label: str, entry: str) -> str:

@@ -51,12 +51,24 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
             word = words[row.address]
             shown = value(row, word, known) if isinstance(word, int) else ("", "")
             table.writerow((address_text(row.address), row.id, row.name, word, *shown, row.default))
-    part = path.with_name(f".{path.name}.part")
+    put(path, text.getvalue())
+
+
+def put(path: Path, text: str) -> None:
+    """Put a file in the place of the one that is there, in one step. Raises OSError with the name of the file."""
+    part = part_of(path)
     try:
-        part.write_text(text.getvalue(), encoding="utf-8")
+        part.write_bytes(text.encode())
         part.replace(path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
         part.unlink(missing_ok=True)
+
+
+def part_of(path: Path) -> Path:
+    """Beside a file, what is to take its place."""
+    return path.with_name(f".{path.name}.part")
 
 
 def read(path: Path) -> Saved:
