@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,11 +56,17 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
 
 
 def put(path: Path, text: str) -> None:
-    """Put a file in the place of the one that is there, in one step. Raises OSError with the name of the file."""
+    """Put a file in the place of the one that is there, in one step. Raises OSError with the name of the file.
+
+    A link stays one, and who may read the file is kept.
+    """
     part = part_of(path)
     try:
-        part.write_bytes(text.encode())
-        part.replace(path)
+        with part.open("wb") as file:
+            if path.exists():
+                shutil.copymode(path, part)
+            file.write(text.encode())
+        part.replace(path.resolve())
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
@@ -67,7 +74,8 @@ def put(path: Path, text: str) -> None:
 
 
 def part_of(path: Path) -> Path:
-    """Beside a file, what is to take its place."""
+    """Beside a file, where a link to it leads, what is to take its place."""
+    path = path.resolve()
     return path.with_name(f".{path.name}.part")
 
 
