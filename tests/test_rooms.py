@@ -82,8 +82,8 @@ MOST = {
     # structured_text: a paragraph without hyphens is broken like any other line
     # structured_text: where decisions stand is noted in place, not copied for each statement
     # a file is put into place by one function, which names it where the disk is full,
-    # writes where a link leads and keeps its mode
-    "site": 3677, "show": 1114, "structured_text": 16081,
+    # writes where a link leads and keeps its mode; what a person types into site.yaml has types
+    "site": 3684, "show": 1114, "structured_text": 16081,
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
     # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
     # processes that compile and run a share of the programs each

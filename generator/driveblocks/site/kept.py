@@ -5,16 +5,17 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import yaml
 
 from driveblocks.maps import nodes, source
 from driveblocks.maps.decode import build
+from driveblocks.maps.form import Form
 from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf
-from driveblocks.site.found import Found
+from driveblocks.site.found import Found, Tens
 from driveblocks.site.saved import part_of, put
 from driveblocks.site.session import SKIPPABLE, STEPS
 from structured_text.visible import file_name
@@ -22,6 +23,8 @@ from structured_text.visible import file_name
 LABEL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,23}")
 """A label names a variable of the PLC, too."""
 MOST_TEXT = 200
+_UINT = re.compile("[0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-5]")
+Ms = Annotated[int, Form("time of a PLC", _UINT, int, "write 0 to 65535, in ms", numeric=True)]
 HEAD = "# Written by `driveblocks commission`, one entry per drive; other entries, and all comments, are kept.\n"
 
 
@@ -60,8 +63,8 @@ class Times(Entry):
     gap_ms: Count | None = fact("shortest pause after a reply that held", "2", optional=True)
     words: Number = fact("words of the longest read", "16")
     unlisted: Str = fact("a read of a register that the map does not list", "001BH, refused")
-    turn_round_ms: Count = fact("`TurnRoundMs`", "50")
-    longest_reply_ms: Count = fact("`LongestMs`", "500")
+    turn_round_ms: Ms = fact("`TurnRoundMs`", "50")
+    longest_reply_ms: Ms = fact("`LongestMs`", "500")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,7 +75,7 @@ class Said(Entry):
     answer: Str = fact("as typed", '"20.0"')
     word: Number | None = fact("the register at that moment", "2000", optional=True)
     gives: OpenScale | None = fact("a scale of `VFD_Settings`", "FrequencyScale", optional=True)
-    value: Str | None = fact("the scale", '"0.01"', optional=True)
+    value: Tens | None = fact("the scale", '"0.01"', optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
