@@ -9,6 +9,8 @@ from click.testing import CliRunner, Result
 from rich.cells import cell_len
 
 from driveblocks.cli import app
+from driveblocks.site import kept
+from driveblocks.site.found import Found, Way
 
 EXAMPLE = str(Path(__file__).parents[2] / "examples" / "three_makes.st")
 
@@ -54,6 +56,32 @@ def test_the_shipped_example_has_the_figures_of_its_own_line(tmp_path: Path) -> 
     ends = [float(each.get("x", "0")) + float(each.get("width", "0")) for each in bars[-2:]]
     assert len(bars) == 2 + 3 * 2
     assert ends[0] < ends[1] <= 970
+    assert line(EXAMPLE, "--picture", str(picture)).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "wrote"),
+    [
+        ("line mine.st --picture mine.st", "`driveblocks line --picture`"),
+        ("site --html site.yaml", "`driveblocks site --html`"),
+        ("test jscc --junit mine.xml", "`driveblocks test` or `prove`"),
+        ("prove jscc --junit mine.st", "`driveblocks test` or `prove`"),
+    ],
+)
+def test_a_file_that_no_such_command_has_written_is_refused_before_any_work(
+    words: str, wrote: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    kept.write(
+        Path("site.yaml"), kept.About("Pump", "jscc", "12345678", "2026-11-23 10:30", ""), Found(Way(9600), 1, "fits")
+    )
+    Path("mine.st").write_bytes(Path(EXAMPLE).read_bytes())
+    Path("mine.xml").write_text('<?xml version="1.0"?>\n<testsuites name="theirs"/>\n', encoding="utf-8")
+    before = {path: path.read_bytes() for path in Path().iterdir()}
+    got = CliRunner().invoke(app, words.split())
+    why = f"there is a file that no {wrote} has written; name a new one, or move it away"
+    assert (got.exit_code, got.output) == (2, f"{words.rsplit(maxsplit=1)[-1]}: {why}\n")
+    assert {path: path.read_bytes() for path in Path().iterdir()} == before
 
 
 def test_a_rate_and_a_scan_beside_a_program_try_another_line() -> None:

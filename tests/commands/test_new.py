@@ -1,5 +1,7 @@
 """`driveblocks new` and the map that it writes: the one on the page, small and good."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -7,6 +9,8 @@ from click.testing import CliRunner
 
 from driveblocks.cli import app
 from driveblocks.maps import collection, page
+from driveblocks.site import kept
+from driveblocks.site.found import Found, Way
 
 GUIDE = Path(__file__).parents[2] / "vendor_maps/README.md"
 MOST = 60
@@ -70,3 +74,35 @@ def test_what_cannot_be_written_gives_status_2(arguments: list[str], said: str) 
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(said)
     assert list(Path.cwd().iterdir()) == []
+
+
+@contextmanager
+def full() -> Iterator[None]:
+    """A disk that takes no byte more."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (0, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize(
+    ("words", "left"),
+    [
+        ("new ACME -o out", False),
+        ("import-csv table.csv -o out", False),
+        ("line jscc --picture out", True),
+        ("site --html out", True),
+    ],
+)
+def test_a_full_disk_is_said_of_the_file_and_leaves_no_half_of_a_new_one(words: str, left: bool) -> None:
+    about = kept.About("Pump", "jscc", "12345678", "2026-11-23 10:30", "")
+    kept.write(Path("site.yaml"), about, Found(Way(9600), 1, "fits"))
+    Path("table.csv").write_text("address,name\n2000H,Speed\n", encoding="utf-8")
+    with full():
+        result = CliRunner().invoke(app, words.split())
+    assert (result.exit_code, result.output) == (2, "out: cannot be written: File too large\n")
+    assert Path("out").exists() == left
+    assert CliRunner().invoke(app, words.split()).exit_code == 0

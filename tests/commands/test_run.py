@@ -243,6 +243,17 @@ def test_a_picture_of_somebody_else_and_a_program_stay_as_they_are(program: Path
     assert {path: path.read_bytes() for path in Path().iterdir()} == before
 
 
+def test_a_run_that_does_not_begin_leaves_the_trace_of_the_last_one(program: Path) -> None:
+    assert run(program, "--fast", "--for", "1s", "--trace", "t.csv").exit_code == 0
+    before = Path("t.csv").read_bytes()
+    Path("mine.svg").write_text("mine", encoding="utf-8")
+    for words in (("--port", "no-such-port"), ("--fast", "--for", "2s", "--picture", "mine.svg")):
+        assert run(program, *words, "--trace", "t.csv").exit_code == 2
+        assert Path("t.csv").read_bytes() == before
+    assert run(program, "--fast", "--for", "1s", "--trace", "t.csv", "--show", "Hz").exit_code == 0
+    assert Path("t.csv").read_bytes() == b"# SIMULATED, my.st\nms,Hz\n0,20\n"
+
+
 def test_a_lost_output_is_no_failure_of_the_program(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = Lines.say
 

@@ -478,6 +478,46 @@ def test_all_mistakes_of_the_file_are_reported_at_once(tmp_path: Path) -> None:
     assert [(each.line, each.wrong[:12]) for each in error.value.problems] == [(3, "`Pump 1` is "), (7, "`rate: fast`")]
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "wrong"),
+    [
+        ('value: "0.01"', 'value: "0,01"', "`value: 0,01` is not allowed; did you mean `0.01`?"),
+        ('value: "0.01"', 'value: "-1"', "`value: -1` is not allowed"),
+        ('value: "0.01"', 'value: "1.0; MotorRun := TRUE"', "`value: 1.0; MotorRun := TRUE` is not allowed"),
+        (
+            "turn_round_ms: 50",
+            "turn_round_ms: 70000",
+            "`turn_round_ms: 70000` is not a time of a PLC; write 0 to 65535",
+        ),
+        ("reply_ms: 500", "reply_ms: 65536", "`longest_reply_ms: 65536` is not a time of a PLC; write 0 to 65535"),
+    ],
+)
+def test_only_what_a_plc_takes_becomes_a_setting(old: str, new: str, wrong: str, tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    text = path.read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    got = CliRunner().invoke(app, ["site", str(path)])
+    assert (got.exit_code, got.stdout) == (2, "")
+    ((line, row),) = [(at, row) for at, row in enumerate(text.splitlines(), 1) if old in row]
+    column = row.index(old) + old.index(": ") + 3
+    assert got.stderr.startswith(f"{path}:{line}:{column}: {wrong}")
+
+
+@pytest.mark.parametrize("target", ["plcopen", "siemens"])
+def test_a_date_of_a_persons_own_stays_a_comment(target: str, tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    text = path.read_text(encoding="utf-8").replace("2026-11-23 10:30", "*)\\nMotorRun := TRUE; (*")
+    path.write_text(text, encoding="utf-8")
+    got = CliRunner().invoke(app, ["site", str(path), "--target", target])
+    assert got.exit_code == 0
+    begin, end = ("//", "") if target == "siemens" else ("(*", "*)")
+    (line,) = [each for each in got.stdout.splitlines() if "MotorRun" in each]
+    assert (line.startswith(begin), line.endswith(end), line.count("*)")) == (True, True, len(end) // 2)
+
+
 @pytest.mark.parametrize(("target", "line"), [
     ("codesys", "PumpSettings.FrequencyScale := 0.01;"), ("siemens", "#PumpSettings.FrequencyScale := 0.01;"),
 ])  # fmt: skip
@@ -517,6 +557,8 @@ def test_the_page_and_the_report_say_what_was_found_and_escape_it(tmp_path: Path
     kept.write(path, replace(ABOUT, who="Anna"), FULL)
     got = CliRunner().invoke(app, ["site", str(path), "--html", str(page), "--report", "Pump"])
     assert got.exit_code == 0
+    got = CliRunner().invoke(app, ["site", str(path), "--html", str(page), "--report", "Pump"])
+    assert got.exit_code == 0  # the page is its own
     assert "Anna" not in got.stdout
     assert "- setting F0.08: by eye not right, must be 8" in got.stdout
     assert "- gap `scale of 2000H`: 20.0; word 2000; FrequencyScale 0.01" in got.stdout

@@ -223,9 +223,22 @@ def test_a_full_disk_leaves_the_file_that_was_there(pump: Path, monkeypatch: pyt
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(Path, "replace", full)
-    with pytest.raises(OSError, match="No space"):
+    with pytest.raises(OSError, match="No space") as error:
         saved.write(pump, *MAPS["SN300G5"], 3, {0x20: 1})
+    assert error.value.filename == str(pump)  # else the message would be of standard output
     assert (pump.read_bytes(), [*pump.parent.iterdir()]) == (before, [pump])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="modes and links of files are others there")
+def test_a_link_stays_a_link_and_a_private_file_private(pump: Path, tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    path = pump.rename(tmp_path / "there" / "pump.csv")
+    path.chmod(0o600)
+    pump.symlink_to(path)
+    saved.write(pump, *MAPS["SN300G5"], 3, {0x20: 1})
+    assert (pump.is_symlink(), path.stat().st_mode & 0o777) == (True, 0o600)
+    assert saved.read(path).words == {0x20: 1}
+    assert sorted(each.name for each in tmp_path.rglob("*")) == ["pump.csv", "pump.csv", "there"]
 
 
 def test_all_that_is_wrong_with_a_file_is_reported(pump: Path) -> None:

@@ -1,10 +1,13 @@
 """One module per command of `driveblocks`; each holds the click command and the tables that it prints."""
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import click
+
+from structured_text.visible import file_name
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
@@ -14,13 +17,54 @@ FILE = click.Path(path_type=Path)
 MAPS = click.argument(
     "maps", nargs=-1, metavar="[MAP]...", help="Paths of maps, or names of shipped ones; if none, all shipped ones."
 )
-JUNIT = click.option("--junit", metavar="FILE", type=FILE, help="Write all results there as JUnit XML.")
 
 
 def refuse(message: str) -> NoReturn:
     """Say what is wrong with the input, and end with status 2."""
     click.echo(message, err=True)
     sys.exit(2)
+
+
+def write(path: Path, text: str, mode: str = "w") -> None:
+    """Write a file; with mode `x` a new one, of which nothing is left if the disk is full. Ends with status 2."""
+    try:
+        file = path.open(mode, encoding="utf-8", newline="\n")
+    except FileExistsError:
+        refuse(f"{file_name(path)}: is there already; name another file with -o")
+    except OSError as error:
+        refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
+    try:
+        with file:
+            file.write(text)
+    except OSError as error:
+        if mode == "x":
+            path.unlink(missing_ok=True)
+        refuse(f"{file_name(path)}: cannot be written: {error.strerror}")
+
+
+def only_over(head: bytes, writer: str) -> Callable[[click.Context, click.Parameter, Path | None], Path | None]:
+    """A callback of an option: before any work, status 2 for a file there that does not begin as `writer` begins it."""
+
+    def checked(_: click.Context, __: click.Parameter, path: Path | None) -> Path | None:
+        from driveblocks.desk.words import spare
+
+        try:
+            if path is not None:
+                spare(path, head, f"no `driveblocks {writer}`")
+        except OSError as error:
+            refuse(f"{file_name(error.filename)}: {error.strerror}")
+        return path
+
+    return checked
+
+
+JUNIT = click.option(
+    "--junit",
+    metavar="FILE",
+    type=FILE,
+    callback=only_over(rb'<\?xml [^>]*>\s*<testsuites name="driveblocks"', "test` or `prove"),
+    help="Write all results there as JUnit XML.",
+)
 
 
 def loaded(name: str) -> "tuple[Path, Drive]":

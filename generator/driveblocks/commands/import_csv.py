@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE, refuse, write
 
 COLUMN = "address, id, name, unit, scale or access"
 
@@ -44,7 +44,7 @@ def run(file: str, columns: tuple[str, ...], addresses: str | None, output: Path
     if output is None:
         click.echo(rows, nl=False)
     else:
-        output.write_text(rows, encoding="utf-8")
+        write(output, rows, "x")
     for each in made.left:
         click.echo(f"{each}; left out", err=True)
     click.echo(f"{len(made.rows)} rows, {len(made.left)} left out", err=True)

@@ -5,7 +5,9 @@ from typing import Any
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE, only_over, refuse, write
+
+PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --picture")
 
 
 @click.command()
@@ -36,7 +38,7 @@ from driveblocks.commands import FILE, refuse
 )
 @click.option("--watchdog", metavar="TIME", help="Time of the drives' own watchdogs; a program has it itself.")
 @click.option("--stop-within", metavar="TIME", help="The stops of all drives have to be sent within this time.")
-@click.option("--picture", type=FILE, metavar="FILE.svg", help="Draw one round of the line.")
+@click.option("--picture", type=FILE, callback=PICTURE, metavar="FILE.svg", help="Draw one round of the line.")
 @click.option("--json", is_flag=True, help="Print all figures of all rates as JSON.")
 def run(picture: Path | None, json: bool, **words: Any) -> None:
     """Compute how often each drive is read and how late a stop can be, before anything is bought.
@@ -62,7 +64,7 @@ def run(picture: Path | None, json: bool, **words: Any) -> None:
     tried = [figures(line, rate) for rate in line.rates()]
     own = next(each for each in tried if each.rate == line.rate)
     if picture is not None:
-        picture.write_text(pictures.drawn(own), encoding="utf-8")
+        write(picture, pictures.drawn(own))
     if json:
         click.echo(dumps(report.plain(tried), ensure_ascii=False, indent=2))
     else:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE, refuse, write
 
 
 @click.command()
@@ -20,18 +20,7 @@ def run(prefix: str, output: Path | None) -> None:
     """
     path = output or Path(f"{prefix.lower()}.yaml")
     text = _named(prefix)
-    try:
-        file = path.open("x", encoding="utf-8", newline="\n")
-    except FileExistsError:
-        refuse(f"{path}: is there already; name another file with -o")
-    except OSError as error:
-        refuse(f"{path}: cannot be written: {error.strerror}")
-    try:
-        with file:
-            file.write(text)
-    except OSError as error:
-        path.unlink(missing_ok=True)
-        refuse(f"{path}: cannot be written: {error.strerror}")
+    write(path, text, "x")
     click.echo(f"{path}: the map of a drive that does not exist; replace every fact by your manual's, then run")
     click.echo(f"driveblocks check {path}")
 

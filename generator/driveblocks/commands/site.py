@@ -4,8 +4,9 @@ from pathlib import Path
 
 import click
 
-from driveblocks.commands import FILE, refuse
+from driveblocks.commands import FILE, only_over, refuse, write
 
+PAGE = only_over(rb"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>Commissioning<", "site --html")
 TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
 
 
@@ -14,7 +15,7 @@ TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
     "file", type=FILE, default=Path("site.yaml"), metavar="[FILE]", help="What `commission` has kept, else site.yaml."
 )
 @click.option("--target", type=click.Choice(TARGETS), default="plcopen", help="The platform of the PLC.")
-@click.option("--html", type=FILE, metavar="FILE.html", help="Write a page to be printed and signed.")
+@click.option("--html", type=FILE, callback=PAGE, metavar="FILE.html", help="Write a page to be printed and signed.")
 @click.option("--report", metavar="LABEL", help="Print what was found of one drive, to be sent as an issue.")
 @click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that a drive is of, for --html.")
 def run(file: Path, target: str, html: Path | None, report: str | None, maps: tuple[str, ...]) -> None:
@@ -40,7 +41,7 @@ def run(file: Path, target: str, html: Path | None, report: str | None, maps: tu
     if report is not None and report not in entries:
         refuse(f"{file} has no {report}; it has {', '.join(entries)}")
     if html is not None:
-        html.write_text(sheet.page(entries, drives), encoding="utf-8")
+        write(html, sheet.page(entries, drives))
     lines = sheet.report(report, entries[report]) if report else sheet.initialisation(entries, target)
     for line in lines:
         click.echo(line)

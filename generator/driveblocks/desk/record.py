@@ -11,10 +11,10 @@ from structured_text.engines.engine import Value
 MOST_CHANGES = 20_000
 """Changes of one variable that a picture holds; older ones are forgotten."""
 
-TRACE = re.compile(rb"# (SIMULATED|REAL PORT), [^\n]*\nms,")
+TRACE = rb"# (SIMULATED|REAL PORT), [^\n]*\nms,"
 """How a trace begins."""
 _MARK = "<!-- a picture of driveblocks run -->"
-PICTURE = re.compile(rb"<svg [^>]*>\n" + re.escape(_MARK.encode()))
+PICTURE = rb"<svg [^>]*>\n" + re.escape(_MARK.encode())
 """How a picture begins."""
 
 _LEFT, _PLOT, _RIGHT, _LANE, _HIGH, _TOP = 200, 770, 30, 44, 26, 34

@@ -1,24 +1,22 @@
 """Keeps what scans have seen, in a thread of its own: a full pipe or a slow disk never makes a scan wait."""
 
-import errno
 import queue
-import re
 import stat
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import chain, islice
 from pathlib import Path
 
 from driveblocks.desk import record
 from driveblocks.desk.port import reason
 from driveblocks.desk.record import Timing, Trace
+from driveblocks.desk.words import spare
 from structured_text.engines.engine import Value
 from structured_text.visible import file_name
 
 MOST_WAITING = 5_000
 """Scans that may wait to be written."""
 LOOK_S = 0.05
-HEAD = 4096
-"""So much of a file says who wrote it."""
 
 Row = tuple[int, Mapping[str, Value]]
 """Microseconds since the start, and values."""
@@ -102,21 +100,25 @@ class _Plain:
 
 
 def trace(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
-    """A trace as CSV. Raises OSError."""
-    _spare(path, record.TRACE)
-    opened = None if _is_pipe(path) else _Plain(path)
+    """A trace as CSV, which takes the place of the last one with its first row. Raises OSError."""
+    spare(path, record.TRACE, "no run")
+    pipe = _is_pipe(path)
+    if not pipe:
+        path.open("ab").close()
 
     def keep(rows: Iterator[Row]) -> None:
-        made = Trace(opened or _Plain(path), names, port)
-        for row in rows:
-            made.add(*row)
+        begun = [] if pipe else [*islice(rows, 1)]
+        if pipe or begun:
+            made = Trace(_Plain(path), names, port)
+            for row in chain(begun, rows):
+                made.add(*row)
 
     return Recorder(file_name(path), keep, waits=waits)
 
 
 def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Recorder:
     """A timing diagram as SVG. Raises OSError."""
-    _spare(path, record.PICTURE)
+    spare(path, record.PICTURE, "no run")
     path.touch()
 
     def keep(rows: Iterator[Row]) -> None:
@@ -126,17 +128,6 @@ def picture(path: Path, names: Sequence[str], port: str, *, waits: bool) -> Reco
         _Plain(path).write(made.svg())
 
     return Recorder(file_name(path), keep, waits=waits)
-
-
-def _spare(path: Path, mine: re.Pattern[bytes]) -> None:
-    """Raises OSError for a file that holds anything but what an earlier run wrote."""
-    if not path.is_file():
-        return
-    with path.open("rb") as file:
-        head = file.read(HEAD)
-    if head and not mine.match(head):
-        why = "there is a file that no run has written; name a new one, or move it away"
-        raise OSError(errno.EEXIST, why, str(path))
 
 
 def _is_pipe(path: Path) -> bool:

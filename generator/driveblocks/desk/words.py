@@ -1,11 +1,15 @@
-"""What several commands take from the command line alike: ports, times, and how they refuse what they are given."""
+"""What several commands take from the command line alike: ports, times, files, and how they refuse them."""
 
+import errno
 import re
+from pathlib import Path
 
 from driveblocks.desk import script
 
 NO_PORT = "--port names no port; write one such as /dev/ttyUSB0 or COM3"
 LOOPBACK = ("", "127.0.0.1", "localhost")
+HEAD = 4096
+"""So much of a file says who wrote it."""
 
 
 class Refused(Exception):  # noqa: N818  (bad input is no error of the program)
@@ -26,3 +30,14 @@ def time(word: str, text: str, least: int, most: int) -> int:
     if not least <= us <= most:
         raise Refused(f"{word} {text} is out of range; write {least / 1e6:g}s to {most / 1e6:g}s")
     return us
+
+
+def spare(path: Path, head: bytes, writer: str) -> None:
+    """Raises OSError for a file that holds anything but what `writer` writes, which begins with the pattern `head`."""
+    if not path.is_file():
+        return
+    with path.open("rb") as file:
+        begin = file.read(HEAD)
+    if begin and not re.match(head, begin):
+        why = f"there is a file that {writer} has written; name a new one, or move it away"
+        raise OSError(errno.EEXIST, why, str(path))

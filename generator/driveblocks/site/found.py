@@ -12,6 +12,8 @@ Trouble = Literal[
     "bound",
 ]  # fmt: skip
 """What is wrong with a line or a drive, as far as the bytes show it."""
+Tens = Literal["1", "0.1", "0.01", "0.001", "0.0001"]
+"""A scale of `VFD_Settings` that was found out."""
 
 
 @dataclass(frozen=True)

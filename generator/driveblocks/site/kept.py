@@ -5,22 +5,26 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import yaml
 
 from driveblocks.maps import nodes, source
 from driveblocks.maps.decode import build
+from driveblocks.maps.form import Form
 from driveblocks.maps.model import Count, Entry, Id, Number, OpenScale, Str, Word, fact
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf
-from driveblocks.site.found import Found
+from driveblocks.site.found import Found, Tens
+from driveblocks.site.saved import part_of, put
 from driveblocks.site.session import SKIPPABLE, STEPS
 from structured_text.visible import file_name
 
 LABEL = re.compile(r"[A-Za-z][A-Za-z0-9]{0,23}")
 """A label names a variable of the PLC, too."""
 MOST_TEXT = 200
+_UINT = re.compile("[0-9]{1,4}|[1-5][0-9]{4}|6[0-4][0-9]{3}|65[0-4][0-9]{2}|655[0-2][0-9]|6553[0-5]")
+Ms = Annotated[int, Form("time of a PLC", _UINT, int, "write 0 to 65535, in ms", numeric=True)]
 HEAD = "# Written by `driveblocks commission`, one entry per drive; other entries, and all comments, are kept.\n"
 
 
@@ -59,8 +63,8 @@ class Times(Entry):
     gap_ms: Count | None = fact("shortest pause after a reply that held", "2", optional=True)
     words: Number = fact("words of the longest read", "16")
     unlisted: Str = fact("a read of a register that the map does not list", "001BH, refused")
-    turn_round_ms: Count = fact("`TurnRoundMs`", "50")
-    longest_reply_ms: Count = fact("`LongestMs`", "500")
+    turn_round_ms: Ms = fact("`TurnRoundMs`", "50")
+    longest_reply_ms: Ms = fact("`LongestMs`", "500")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +75,7 @@ class Said(Entry):
     answer: Str = fact("as typed", '"20.0"')
     word: Number | None = fact("the register at that moment", "2000", optional=True)
     gives: OpenScale | None = fact("a scale of `VFD_Settings`", "FrequencyScale", optional=True)
-    value: Str | None = fact("the scale", '"0.01"', optional=True)
+    value: Tens | None = fact("the scale", '"0.01"', optional=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,22 +145,13 @@ def write(path: Path, about: About, found: Found) -> None:
     new = replaced(old, about.label, text(about, found))
     nodes.parse(new, report)
     report.raise_if_any()
-    part = _part(path)
-    try:
-        part.write_bytes(new.encode())
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    put(path, new)
 
 
 def try_out(path: Path) -> None:
     """Raise OSError where a file could not be written."""
-    _part(path).touch()
-    _part(path).unlink()
-
-
-def _part(path: Path) -> Path:
-    return path.with_name(f".{path.name}.part")
+    part_of(path).touch()
+    part_of(path).unlink()
 
 
 def replaced(old: str, label: str, entry: str) -> str:

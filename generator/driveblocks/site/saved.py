@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,12 +52,31 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
             word = words[row.address]
             shown = value(row, word, known) if isinstance(word, int) else ("", "")
             table.writerow((address_text(row.address), row.id, row.name, word, *shown, row.default))
-    part = path.with_name(f".{path.name}.part")
+    put(path, text.getvalue())
+
+
+def put(path: Path, text: str) -> None:
+    """Put a file in the place of the one that is there, in one step. Raises OSError with the name of the file.
+
+    A link stays one, and who may read the file is kept.
+    """
+    part = part_of(path)
     try:
-        part.write_text(text.getvalue(), encoding="utf-8")
-        part.replace(path)
+        with part.open("wb") as file:
+            if path.exists():
+                shutil.copymode(path, part)
+            file.write(text.encode())
+        part.replace(path.resolve())
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
         part.unlink(missing_ok=True)
+
+
+def part_of(path: Path) -> Path:
+    """Beside a file, where a link to it leads, what is to take its place."""
+    path = path.resolve()
+    return path.with_name(f".{path.name}.part")
 
 
 def read(path: Path) -> Saved:

@@ -37,7 +37,8 @@ def initialisation(entries: Mapping[str, Kept], target: str) -> Iterator[str]:
         yield f"{label}Settings : {quote}VFD_Settings{quote};"
     for label, one in entries.items():
         yield ""
-        yield comment.format(sign, f"{label}: measured on one drive, {one.date}, map {one.map} {one.revision}")
+        said = f"{label}: measured on one drive, {one.date}, map {one.map} {one.revision}"
+        yield comment.format(sign, " ".join(said.replace("*", " ").split()))  # whatever is there, it stays a comment
         if not members(one):
             yield comment.format(sign, "nothing was measured: all members keep their usual values")
         for name, value in members(one).items():

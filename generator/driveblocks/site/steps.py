@@ -4,12 +4,13 @@ import re
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
 from decimal import Decimal, InvalidOperation
+from typing import get_args
 
 from driveblocks.maps.form import Span, address_text
 from driveblocks.maps.model import Absence, Drive, Setting
 from driveblocks.maps.plan import most, plan
 from driveblocks.show.layout import table
-from driveblocks.site.found import Answer, Asker, Found, Measured, Set
+from driveblocks.site.found import Answer, Asker, Found, Measured, Set, Tens
 from driveblocks.site.hunt import LATE_US, first_read, steady, unlisted
 from driveblocks.site.register import rows, spans
 from driveblocks.site.talk import EndedError, Talk, ended
@@ -189,5 +190,5 @@ def scale(answer: str, word: int | None) -> str:
         return ""
     if word is None or not LEAST_COUNTS <= word < 0x8000 or not number.is_finite():
         return ""
-    tens = (Decimal(10) ** -each for each in range(5))
-    return next((f"{each:f}" for each in tens if abs(word * each - number) <= each + number / 50), "")
+    tens = ((each, Decimal(each)) for each in get_args(Tens))
+    return next((text for text, each in tens if abs(word * each - number) <= each + number / 50), "")
