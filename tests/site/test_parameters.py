@@ -387,6 +387,20 @@ def test_what_only_one_file_has_is_not_taken_for_equal(pump: Path, tmp_path: Pat
     assert row.split()[-4:] == ["50.00", "Hz", "40.00", "Hz"]
 
 
+def test_what_neither_side_has_given_is_not_taken_for_equal(tmp_path: Path) -> None:
+    paths, (stem, drive) = [tmp_path / name for name in ("a.csv", "b.csv")], MAPS["SN300G5"]
+    for path in paths:
+        saved.write(path, stem, drive, 1, {row.address: "no reply" for row in rows(drive)} | {0x100: 1})
+    got = parameters("compare", *map(str, paths))
+    assert (got.exit_code, got.stdout) == (1, "1 parameters are equal\n322 were not read on both sides\n")
+    saved.write(paths[1], stem, drive, 1, {row.address: "refused 2" for row in rows(drive)} | {0x100: 2})
+    got = parameters("compare", *map(str, paths))
+    assert got.exit_code == 1
+    assert got.stdout.splitlines()[-2:] == ["1 of 1 parameters differ", "322 were not read on both sides"]
+    saved.write(paths[1], stem, drive, 1, {row.address: 7 for row in rows(drive)})
+    assert parameters("compare", *map(str, paths)).stdout.splitlines()[-1] == "323 of 323 parameters differ"
+
+
 def test_files_of_a_map_of_ones_own_are_compared(tmp_path: Path) -> None:
     paths = [str(tmp_path / name) for name in ("a.csv", "b.csv")]
     for path in paths:

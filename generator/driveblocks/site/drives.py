@@ -174,9 +174,10 @@ def _taken(one: One, place: Place) -> Saved:
 
 
 def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -> tuple[list[RenderableType], bool]:
-    """The rows that differ, in the order of the manual; what only one side knows is counted."""
+    """The rows that differ, in the order of the manual; what was not read on both sides is counted."""
     compared = [each for each in rows(model) if everything or each.set]
     both = [each for each in compared if each.address in left.words and each.address in right.words]
+    both = [each for each in both if any(isinstance(one.words[each.address], int) for one in (left, right))]
     differing = [each for each in both if left.words[each.address] != right.words[each.address]]
     heads = [Path(each.where).name for each in (left, right)]
     heads = [left.where, right.where] if heads[0] == heads[1] else heads
