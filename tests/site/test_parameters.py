@@ -401,6 +401,28 @@ def test_what_neither_side_has_given_is_not_taken_for_equal(tmp_path: Path) -> N
     assert parameters("compare", *map(str, paths)).stdout.splitlines()[-1] == "323 of 323 parameters differ"
 
 
+def test_what_the_map_does_not_list_now_is_not_passed_over(tmp_path: Path) -> None:
+    paths, (stem, drive) = [tmp_path / name for name in ("a.csv", "b.csv")], MAPS["SN300G5"]
+    words: dict[int, Word] = {row.address: 1 for row in rows(drive)}
+
+    def compared(left: str, right: str) -> tuple[int, list[str]]:
+        for path, more in zip(paths, (left, right), strict=True):
+            saved.write(path, stem, drive, 1, words)
+            path.write_text(path.read_text(encoding="utf-8") + more, encoding="utf-8")
+        got = parameters("compare", *map(str, paths))
+        return got.exit_code, " ".join(got.stdout.split()).splitlines()
+
+    says = "323 parameters are equal 1 that the map does not list now differ, or were not read on both sides: FFF0H"
+    row, gone, silent = "FFF0H,,x,7,7,,\n", "FFF0H,,x,8,8,,\n", "FFF0H,,x,no reply,,,\n"
+    assert compared(row, row) == (0, ["323 parameters are equal"])
+    for left, right in ((row, gone), (row, ""), ("", row), (silent, silent), (silent, row)):
+        assert compared(left, right) == (1, [says])
+    status, (said,) = compared("".join(f"FF{at:02X}H,,x,{at},,,\n" for at in range(9)), "")
+    assert status == 1
+    assert said.startswith("323 parameters are equal 9 that")
+    assert said.endswith(", FF07H, ...")
+
+
 def test_files_of_a_map_of_ones_own_are_compared(tmp_path: Path) -> None:
     paths = [str(tmp_path / name) for name in ("a.csv", "b.csv")]
     for path in paths:

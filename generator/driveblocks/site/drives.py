@@ -31,6 +31,8 @@ from driveblocks.site.saved import Saved, Word, read, write
 from structured_text.visible import file_name
 
 HIGHEST_PATIENCE_US = 3_600_000_000
+MOST_NAMED = 8
+"""Registers in one line."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,7 +193,17 @@ def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -
         lines.append(f"{len(compared) - len(both)} were not read on both sides")
     if {left.revision, right.revision} != {f"{revision(model):08X}"}:
         lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
-    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing)
+    if strange := sorted(_unlisted(model, left.words, right.words)):
+        shown = ", ".join(map(address_text, strange[:MOST_NAMED])) + (", ..." if len(strange) > MOST_NAMED else "")
+        lines.append(f"{len(strange)} that the map does not list now differ, or were not read on both sides: {shown}")
+    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing or strange)
+
+
+def _unlisted(model: Drive, left: dict[int, Word], right: dict[int, Word]) -> Iterator[int]:
+    """What only another version of the map lists, and is not known to be equal."""
+    for address in (left.keys() | right.keys()) - {each.address for each in rows(model)}:
+        if left.get(address) != right.get(address) or not isinstance(left[address], int):
+            yield address
 
 
 def _shown(row: Row, side: Saved) -> str:
