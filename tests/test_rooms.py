@@ -78,10 +78,10 @@ MOST = {
     # `listen`: frames from bytes, who asks whom, rate and format, a table per unit, a log
     # a file that its user edits is kept with every comment; what was found before is not replaced unasked
     # ... echoes, late and doubled replies and the first moments of a line, as a thousand random lines showed them
-    # site: what neither side has given is not equal; nor is what the map does not list any more passed over
+    # site: what neither side has given is not equal; nor is what the map does not list any more passed over; what is replaced is copied
     # structured_text: a paragraph without hyphens is broken like any other line
     # structured_text: where decisions stand is noted in place, not copied for each statement
-    "site": 3678, "show": 1114, "structured_text": 16081,
+    "site": 3706, "show": 1114, "structured_text": 16081,
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
     # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
     # processes that compile and run a share of the programs each
