@@ -194,8 +194,8 @@ def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -
     if {left.revision, right.revision} != {f"{revision(model):08X}"}:
         lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
     if strange := sorted(_unlisted(model, left.words, right.words)):
-        shown = ", ".join(map(address_text, strange[:MOST_NAMED])) + (", ..." if len(strange) > MOST_NAMED else "")
-        lines.append(f"{len(strange)} that the map does not list now differ, or were not read on both sides: {shown}")
+        which = ", ".join(map(address_text, strange[:MOST_NAMED])) + (", ..." if len(strange) > MOST_NAMED else "")
+        lines.append(f"{len(strange)} that the map does not list now differ, or were not read on both sides: {which}")
     return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing or strange)
 
 
