@@ -20,11 +20,12 @@ FLOORS = ("structured_text", "visible", "files", "language", "findings", "engine
 # sees what it is given; so are the tables of the drives' pages (docs).
 # output: what is tested together is a module of its own, so that `test` need not import what builds a folder.
 MOST = {
+    # commands: which files of `listen` are not complete
     # commands: `listen`; trust in `list`; the options of `line`, of `parameters` and of `diff`, in their help
     # maps: a register table from a spreadsheet becomes rows of a map
     # diff: what differs between two versions of a map or of the blocks
     # commission and site: theirs; docs, output: pages with what was measured on one drive, where they are built with it
-    "commands": 1735, "diff": 328, "desk": 1629, "docs": 1181, "explain": 2007, "export": 2055,
+    "commands": 1738, "diff": 328, "desk": 1629, "docs": 1181, "explain": 2007, "export": 2055,
     # maps: `on_site`, which marks the gaps for commissioning, and its rule; trust by document, `never`, and their rules
     # maps: a watchdog that trips the drive names the fault
     # docs: a reset that waits until a tripped drive is proved to be at standstill
@@ -78,10 +79,11 @@ MOST = {
     # `listen`: frames from bytes, who asks whom, rate and format, a table per unit, a log
     # a file that its user edits is kept with every comment; what was found before is not replaced unasked
     # ... echoes, late and doubled replies and the first moments of a line, as a thousand random lines showed them
-    # site: what neither side has given is not equal; nor is what the map does not list any more passed over; what is replaced is copied
+    # site: what neither side has given is not equal; nor is what the map does not list any more passed over;
+    # what is replaced is copied; files of which a full disk takes the end alone
     # structured_text: a paragraph without hyphens is broken like any other line
     # structured_text: where decisions stand is noted in place, not copied for each statement
-    "site": 3706, "show": 1114, "structured_text": 16081,
+    "site": 3734, "show": 1114, "structured_text": 16081,
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
     # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
     # processes that compile and run a share of the programs each
