@@ -80,10 +80,10 @@ MOST = {
     # a file that its user edits is kept with every comment; what was found before is not replaced unasked
     # ... echoes, late and doubled replies and the first moments of a line, as a thousand random lines showed them
     # site: what neither side has given is not equal; nor is what the map does not list any more passed over;
-    # what is replaced is copied; files of which a full disk takes the end alone
+    # what is replaced is copied; files of which a full disk takes the end alone; what was read before is read again
     # structured_text: a paragraph without hyphens is broken like any other line
     # structured_text: where decisions stand is noted in place, not copied for each statement
-    "site": 3734, "show": 1114, "structured_text": 16081,
+    "site": 3752, "show": 1114, "structured_text": 16081,
     # a meter beside a motor has scenes of its own; a read and a store that are not answered, a reference refused;
     # the blocks that others are made of are called by themselves, by a table, and those of a family by its map
     # processes that compile and run a share of the programs each

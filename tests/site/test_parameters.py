@@ -150,6 +150,17 @@ def test_a_line_that_was_lost_is_waited_for_and_what_was_read_is_kept() -> None:
     assert not asked & partly.keys()
 
 
+def test_what_was_read_before_is_read_again_before_the_rest_is() -> None:
+    clock = VirtualClock()
+    unit = Unit(clock, lambda span: 2 if 0x101 in span else "")
+    reader = Reader(unit, clock, one("SN300G5"), SPEECH, 0)
+    assert (reader.changed({}), unit.sent) == ("", [])
+    assert reader.changed({0x20: 5, 0x100: 0x100, 0x101: "refused 2"}) == ""  # what is measured may differ
+    assert {int.from_bytes(frame[2:4], "big") for frame in unit.sent} == {0x100, 0x101}
+    assert reader.changed({0x100: 7, 0x101: "refused 2"}) == "0100H was 7 and is 256"
+    assert reader.changed({0x100: 0x100, 0x101: 9}) == "0101H was 9 and is refused 2"
+
+
 def test_nothing_but_reads_passes() -> None:
     unit = Unit(VirtualClock(), lambda _: "silent")
     port = Reads(unit)
@@ -307,6 +318,30 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, f"SN300G5 at unit 1: 388 registers, in {path}\n")
     assert len(saved.read(path).words) == 388
+
+
+def test_a_file_of_another_drive_at_the_address_is_not_continued(tmp_path: Path) -> None:
+    path, (stem, drive) = tmp_path / "pump.csv", MAPS["SN300G5"]
+    with simulated("sn300g5", "--tcp", ":0") as place:
+        assert parameters("save", "sn300g5", str(tmp_path / "all.csv"), "--tcp", place).exit_code == 0
+        whole = saved.read(tmp_path / "all.csv").words
+        begun: dict[int, Word] = dict([*whole.items()][:205])
+        changed = next(row.address for row in rows(drive) if row.set and row.address in begun)
+        saved.write(path, stem, drive, 1, begun | {changed: 12345})
+        path.write_text(path.read_text(encoding="utf-8") + "# pump 1 of hall 2\n", encoding="utf-8")
+        before = path.read_bytes()
+        got = parameters("save", "sn300g5", str(path), "--tcp", place)
+        assert (got.exit_code, got.stderr) == (
+            2,
+            f"{path} is of another drive, or it was changed since: "
+            f"{changed:04X}H was 12345 and is {whole[changed]}; name another file\n",
+        )
+        assert path.read_bytes() == before
+        saved.write(path, stem, drive, 1, begun)
+        assert parameters("save", "sn300g5", str(path), "--tcp", place).exit_code == 0
+    assert saved.read(path).words.keys() == whole.keys()
+    notes = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    assert (notes[3:], len({*notes})) == (["# read: 388 of 388", "# pump 1 of hall 2"], 5)
 
 
 def test_a_line_on_which_somebody_speaks_is_left_alone(tmp_path: Path) -> None:

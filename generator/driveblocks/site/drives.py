@@ -70,8 +70,8 @@ class Place:
         finally:
             made.close()
 
-    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None]) -> None:
-        """Read a drive. Raises Refused, LostError."""
+    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> None:
+        """Read a drive; `name` is the file of what was found before. Raises Refused, LostError."""
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
         speech = Speech(self.ascii, 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
@@ -86,6 +86,8 @@ class Place:
             reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
             if why := reader.stranger():
                 raise Refused(why)
+            if why := reader.changed(found):
+                raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
             reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
 
 
@@ -116,7 +118,7 @@ def save(word: str, path: Path, place: Place) -> str:
     ((one, found),) = ready
     every = len(rows(one.drive))
     try:
-        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found))
+        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found), file_name(path))
     except (LostError, KeyboardInterrupt) as error:
         kept = f"{file_name(path)} has {len(found)} of {every} registers; the same command reads the rest"
         raise LostError(f"{str(error) or 'Ctrl-C'}; {kept if found else 'nothing was written'}") from error
