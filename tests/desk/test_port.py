@@ -37,6 +37,32 @@ def test_a_connection_carries_bytes_and_says_when_it_has_gone() -> None:
         port.tcp("127.0.0.1", number, clock)
 
 
+def test_a_name_is_looked_up_once_and_its_address_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, real, asked = VirtualClock(), socket.getaddrinfo, list[Any]()
+
+    def slow(*words: Any, **options: Any) -> Any:
+        asked.append(words)
+        dead = (
+            socket.AF_INET,
+            socket.SOCK_STREAM,
+            0,
+            "",
+            ("127.0.0.1", 1),
+        )
+        return [dead, *real("127.0.0.1", *words[1:], **options)]
+
+    monkeypatch.setattr(socket, "getaddrinfo", slow)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        made = port.tcp("a.name", server.getsockname()[1], clock)
+        server.accept()[0].close()
+        while not made.error:
+            made.receive()
+        clock.sleep_until(port.AGAIN_US)
+        assert (made.receive(), made.error) == (b"", "")
+        made.close()
+    assert [words[0] for words in asked] == ["a.name"]
+
+
 class Fake:
     """A serial port that is no port."""
 

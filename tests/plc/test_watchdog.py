@@ -297,3 +297,61 @@ def test_no_stop_is_sent_past_a_call_that_is_stuck_in_the_port(monkeypatch: pyte
     assert result.crashed
     assert result.unconfirmed == {"Motor (unit 7)": STUCK}
     port.released.set()
+
+
+class Reopened(Blocked):
+    """A port that is being opened again: its first call comes back late, all after it at once."""
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk.ending.bell)
+        self._line = desk.line
+
+    def send(self, data: bytes) -> None:
+        """After the first, onto the line."""
+        if not self.released.is_set():
+            super().send(data)
+        self._line.send(data)
+
+    def receive(self) -> bytes:
+        """From the line."""
+        return self._line.receive()
+
+
+def test_the_last_stop_waits_for_a_port_that_is_being_opened_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    desk = Desk()
+    port = Reopened(desk)
+    time = Time(port.entered.is_set)
+    desk.session.watchdog = Watchdog(LIMIT_US, time.now_us, time.wait)
+    desk.session.connect(port, None)
+    take, taken = Gate.take, list[bool]()
+
+    def late(self: Gate, *words: Any) -> bool:
+        if taken:
+            port.released.set()
+        taken.append(take(self, *words))
+        return taken[-1]
+
+    monkeypatch.setattr(Gate, "take", late)
+    try:
+        result = desk.session.run()
+    finally:
+        port.released.set()
+    assert (taken, result.crashed, result.unconfirmed, result.stopped) == ([False, True], True, {}, ("Motor",))
+    assert "the port takes nothing yet: the stop waits for it; Ctrl-C ends the waiting" in desk.told()
+
+
+def test_a_port_is_not_waited_for_by_who_hurries(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gate, "PATIENCE_S", 0)
+    desk = Desk()
+    port, looks = Gate(desk.line, desk.clock), list[bool]()
+
+    def hurries() -> bool:
+        looks.append(len(looks) == 2)
+        return looks[-1]
+
+    with port._lock:
+        assert not port.take(10 * SECOND, hurries)
+        assert looks == [False, False, True]
+        assert not port.take(SECOND, hurries)
+    assert len(looks) == 5
+    assert port.take()

@@ -1,5 +1,7 @@
 """The first hour with a drive: found and named by reads alone, over lines that differ, and kept whole at any moment."""
 
+import shutil
+import socket
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -593,6 +595,49 @@ def test_what_was_found_before_is_not_replaced_unasked(tmp_path: Path) -> None:
     got = CliRunner().invoke(app, [*words, "--label", "Pump", "--replace"])
     assert "127.0.0.1:1" in got.stderr
     assert path.read_bytes() == before
+
+
+def test_what_is_replaced_is_copied_first(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    before = path.read_bytes()
+    (tmp_path / "site.1.yaml").write_text("mine", encoding="utf-8")
+    begun = Found(way=FULL.way, unit=3, family="fits", done=["quiet", "find"], ended="the terminal was closed")
+
+    def closed(_line: object, _asker: object, _wish: object, keep: Callable[[Found], None]) -> Found:
+        keep(begun)
+        keep(begun)
+        return begun
+
+    monkeypatch.setattr(hour, "commission", closed)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        place = f"127.0.0.1:{server.getsockname()[1]}"
+        words = hour.Words(map="jscc", tcp=place, label="Pump", file=path, replace=True)
+        hour.run(words, lambda _: "")
+        hour.run(replace(words, label="Fan"), lambda _: "")
+    assert (tmp_path / "site.2.yaml").read_bytes() == before
+    assert (kept.read(path)["Pump"].measured, kept.read(tmp_path / "site.2.yaml")["Pump"].plate) == (None, FULL.plate)
+    assert {each.name for each in tmp_path.iterdir()} == {"site.yaml", "site.1.yaml", "site.2.yaml"}
+    said = "".join(capsys.readouterr().out.split())
+    assert "".join(f"What {path} had before, Pump among it, is in {tmp_path / 'site.2.yaml'}".split()) in said
+
+
+def test_nothing_is_replaced_where_it_could_not_be_copied(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    path = tmp_path / "site.yaml"
+    kept.write(path, ABOUT, FULL)
+    before = path.read_bytes()
+
+    def full(_: Path, copy: Path) -> None:
+        copy.write_bytes(before[:10])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(shutil, "copy", full)
+    shelf = hour.Shelf(path, ABOUT, replaces=True)
+    shelf.keep(replace(FULL, unit=4))
+    assert (shelf.wrong, shelf.copy) == ("No space left on device", None)
+    assert (path.read_bytes(), [*tmp_path.iterdir()]) == (before, [path])
 
 
 def test_a_folder_that_is_not_there_is_named_before_anything_is_sent(tmp_path: Path) -> None:

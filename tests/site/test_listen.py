@@ -282,9 +282,9 @@ class Fake:
 def test_a_port_is_opened_once_with_both_signals_low_and_nothing_to_send_with(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(serial, "Serial", Fake)
     Fake.made.clear()
-    way, traffic, ended = listen.run(listen.Words(port="COM3", rate=19200, form="8e1"), VirtualClock())
+    way, traffic, ended, wrong = listen.run(listen.Words(port="COM3", rate=19200, form="8e1"), VirtualClock())
     (port,) = Fake.made
-    assert (way, traffic.requests, ended) == (Way(19200, "8E1"), 3, "")
+    assert (way, traffic.requests, ended, wrong) == (Way(19200, "8E1"), 3, "", [])
     assert port.options == {"timeout": 0, "exclusive": EXCLUSIVE}
     assert (vars(port)["baudrate"], vars(port)["bytesize"], vars(port)["parity"], port.is_open) == (
         19200,
@@ -567,6 +567,25 @@ def test_a_port_of_windows_is_listened_to(tmp_path: Path) -> None:
     )
     assert (done.returncode, done.stderr) == (0, "")
     assert "9600 bit/s" in done.stdout
+
+
+@POSIX
+@pytest.mark.parametrize("log", [False, True])
+def test_a_full_disk_takes_nothing_of_what_was_heard(log: bool, tmp_path: Path) -> None:
+    table, other = tmp_path / "line.csv", tmp_path / "line.log"
+    limit = "import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (120, resource.RLIM_INFINITY))\n"
+    words = ["listen", "--port", "COM3", *KNOWN, "--for", "300ms", "--csv", str(table), *["--log", str(other)] * log]
+    done = subprocess.run([sys.executable, "-c", limit + COM3, *words], capture_output=True, text=True, check=False)
+    paths = [*[other] * log, table]
+    assert done.stderr.splitlines() == [f"{each} is not complete: File too large" for each in paths]
+    assert done.returncode == 1
+    assert "4 frames, " in done.stdout
+    for path in paths:
+        text = path.read_text(encoding="utf-8")
+        assert text.endswith("\n")
+        assert 1 < len(text.splitlines()) < 4
+    rows = [line.split(",") for line in table.read_text(encoding="utf-8").splitlines()]
+    assert {len(each) for each in rows} == {len(overheard.COLUMNS)}
 
 
 def test_all_wrong_words_are_reported_at_once(tmp_path: Path) -> None:

@@ -150,6 +150,17 @@ def test_a_line_that_was_lost_is_waited_for_and_what_was_read_is_kept() -> None:
     assert not asked & partly.keys()
 
 
+def test_what_was_read_before_is_read_again_before_the_rest_is() -> None:
+    clock = VirtualClock()
+    unit = Unit(clock, lambda span: 2 if 0x101 in span else "")
+    reader = Reader(unit, clock, one("SN300G5"), SPEECH, 0)
+    assert (reader.changed({}), unit.sent) == ("", [])
+    assert reader.changed({0x20: 5, 0x100: 0x100, 0x101: "refused 2"}) == ""  # what is measured may differ
+    assert {int.from_bytes(frame[2:4], "big") for frame in unit.sent} == {0x100, 0x101}
+    assert reader.changed({0x100: 7, 0x101: "refused 2"}) == "0100H was 7 and is 256"
+    assert reader.changed({0x100: 0x100, 0x101: 9}) == "0101H was 9 and is refused 2"
+
+
 def test_nothing_but_reads_passes() -> None:
     unit = Unit(VirtualClock(), lambda _: "silent")
     port = Reads(unit)
@@ -322,6 +333,30 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
     assert len(saved.read(path).words) == 388
 
 
+def test_a_file_of_another_drive_at_the_address_is_not_continued(tmp_path: Path) -> None:
+    path, (stem, drive) = tmp_path / "pump.csv", MAPS["SN300G5"]
+    with simulated("sn300g5", "--tcp", ":0") as place:
+        assert parameters("save", "sn300g5", str(tmp_path / "all.csv"), "--tcp", place).exit_code == 0
+        whole = saved.read(tmp_path / "all.csv").words
+        begun: dict[int, Word] = dict([*whole.items()][:205])
+        changed = next(row.address for row in rows(drive) if row.set and row.address in begun)
+        saved.write(path, stem, drive, 1, begun | {changed: 12345})
+        path.write_text(path.read_text(encoding="utf-8") + "# pump 1 of hall 2\n", encoding="utf-8")
+        before = path.read_bytes()
+        got = parameters("save", "sn300g5", str(path), "--tcp", place)
+        assert (got.exit_code, got.stderr) == (
+            2,
+            f"{path} is of another drive, or it was changed since: "
+            f"{changed:04X}H was 12345 and is {whole[changed]}; name another file\n",
+        )
+        assert path.read_bytes() == before
+        saved.write(path, stem, drive, 1, begun)
+        assert parameters("save", "sn300g5", str(path), "--tcp", place).exit_code == 0
+    assert saved.read(path).words.keys() == whole.keys()
+    notes = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
+    assert (notes[3:], len({*notes})) == (["# read: 388 of 388", "# pump 1 of hall 2"], 5)
+
+
 def test_a_line_on_which_somebody_speaks_is_left_alone(tmp_path: Path) -> None:
     heard = b""
     with socket.create_server(("127.0.0.1", 0)) as server:
@@ -398,6 +433,42 @@ def test_what_only_one_file_has_is_not_taken_for_equal(pump: Path, tmp_path: Pat
     assert got.stdout.splitlines()[-2:] == ["1 of 3 registers differ", "385 were not read on both sides"]
     (row,) = [line for line in got.stdout.splitlines() if line.startswith("U1-01")]
     assert row.split()[-4:] == ["50.00", "Hz", "40.00", "Hz"]
+
+
+def test_what_neither_side_has_given_is_not_taken_for_equal(tmp_path: Path) -> None:
+    paths, (stem, drive) = [tmp_path / name for name in ("a.csv", "b.csv")], MAPS["SN300G5"]
+    for path in paths:
+        saved.write(path, stem, drive, 1, {row.address: "no reply" for row in rows(drive)} | {0x100: 1})
+    got = parameters("compare", *map(str, paths))
+    assert (got.exit_code, got.stdout) == (1, "1 parameters are equal\n322 were not read on both sides\n")
+    saved.write(paths[1], stem, drive, 1, {row.address: "refused 2" for row in rows(drive)} | {0x100: 2})
+    got = parameters("compare", *map(str, paths))
+    assert got.exit_code == 1
+    assert got.stdout.splitlines()[-2:] == ["1 of 1 parameters differ", "322 were not read on both sides"]
+    saved.write(paths[1], stem, drive, 1, {row.address: 7 for row in rows(drive)})
+    assert parameters("compare", *map(str, paths)).stdout.splitlines()[-1] == "323 of 323 parameters differ"
+
+
+def test_what_the_map_does_not_list_now_is_not_passed_over(tmp_path: Path) -> None:
+    paths, (stem, drive) = [tmp_path / name for name in ("a.csv", "b.csv")], MAPS["SN300G5"]
+    words: dict[int, Word] = {row.address: 1 for row in rows(drive)}
+
+    def compared(left: str, right: str) -> tuple[int, list[str]]:
+        for path, more in zip(paths, (left, right), strict=True):
+            saved.write(path, stem, drive, 1, words)
+            path.write_text(path.read_text(encoding="utf-8") + more, encoding="utf-8")
+        got = parameters("compare", *map(str, paths))
+        return got.exit_code, " ".join(got.stdout.split()).splitlines()
+
+    says = "323 parameters are equal 1 that the map does not list now differ, or were not read on both sides: FFF0H"
+    row, gone, silent = "FFF0H,,x,7,7,,\n", "FFF0H,,x,8,8,,\n", "FFF0H,,x,no reply,,,\n"
+    assert compared(row, row) == (0, ["323 parameters are equal"])
+    for left, right in ((row, gone), (row, ""), ("", row), (silent, silent), (silent, row)):
+        assert compared(left, right) == (1, [says])
+    status, (said,) = compared("".join(f"FF{at:02X}H,,x,{at},,,\n" for at in range(9)), "")
+    assert status == 1
+    assert said.startswith("323 parameters are equal 9 that")
+    assert said.endswith(", FF07H, ...")
 
 
 def test_files_of_a_map_of_ones_own_are_compared(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ def run(json: bool, **words: Any) -> None:
     """Listen to a line that others speak on: units, functions, registers, times, and what is odd. It sends nothing.
 
     Rate and format are found by what decodes, for eight minutes at most. Open the port first, then clip the adapter on.
-    The exit status is 0; 1 if nothing decodes or the port goes away; 2 for bad input.
+    The exit status is 0; 1 if nothing decodes, the port goes away or a file is not complete; 2 for bad input.
 
     Example: driveblocks listen chf@1 jscc@2 --port /dev/ttyUSB0 --log line.log
     """
@@ -33,15 +33,18 @@ def run(json: bool, **words: Any) -> None:
     from driveblocks.site import listen, overheard
 
     try:
-        way, traffic, ended = listen.run(listen.Words(**words))
+        way, traffic, ended, wrong = listen.run(listen.Words(**words))
     except Refused as refused:
         refuse(str(refused))
     if json:
-        click.echo(dumps(overheard.plain(way, traffic) | {"ended": ended}, ensure_ascii=False, indent=2))
+        told = overheard.plain(way, traffic) | {"ended": ended, "not_complete": wrong}
+        click.echo(dumps(told, ensure_ascii=False, indent=2))
     elif way is not None:
         console.write(*overheard.tables(way, traffic))
     else:
         console.write("Nothing decoded.")
     if ended:
         click.echo(f"Ended early: {ended}", err=True)
-    sys.exit(1 if way is None or ended else 0)
+    for each in wrong:
+        click.echo(each, err=True)
+    sys.exit(1 if way is None or ended or wrong else 0)

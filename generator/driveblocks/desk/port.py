@@ -5,6 +5,7 @@ import os
 import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, Protocol
 
 from driveblocks.desk.clock import Clock
@@ -135,9 +136,15 @@ def reason(error: Exception) -> str:
 class _Socket:
     """A TCP connection as a device."""
 
-    def __init__(self, host: str, port: int) -> None:
-        self._socket = socket.create_connection((host, port), timeout=CONNECT_S)
-        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    def __init__(self, family: int, address: Any) -> None:
+        self._socket = socket.socket(family, socket.SOCK_STREAM)
+        try:
+            self._socket.settimeout(CONNECT_S)
+            self._socket.connect(address)
+            self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        except OSError:
+            self._socket.close()
+            raise
         self._socket.setblocking(False)
 
     def write(self, data: bytes) -> None:
@@ -207,8 +214,14 @@ class _Serial:
 
 
 def tcp(host: str, port: int, clock: Clock) -> DevicePort:
-    """Serial bytes over TCP. Raises OSError."""
-    return DevicePort(lambda: _Socket(host, port), clock)
+    """Serial bytes over TCP; a name is looked up once, since nobody knows how long that takes. Raises OSError."""
+    why = OSError(errno.EADDRNOTAVAIL, "the name has no address")
+    for family, _, _, _, address in socket.getaddrinfo(host, port, type=socket.SOCK_STREAM):
+        try:
+            return DevicePort(partial(_Socket, family, address), clock)
+        except OSError as error:
+            why = error
+    raise why
 
 
 def serial_port(name: str, bit_rate: int, form: str, clock: Clock) -> DevicePort:

@@ -1,12 +1,15 @@
 """The port as a program has it, until it is taken from it."""
 
 import threading
+from collections.abc import Callable
 
 from driveblocks.desk.clock import Clock
 from driveblocks.desk.port import Port
 
 PATIENCE_S = 0.5
 """How long a port may take to accept or to hand over bytes; it never should wait."""
+PATIENCE_US = 500_000
+"""The same, as it counts where a port is waited for longer."""
 
 MOST_HEARD = 1000
 """Bytes that are kept of a line on which somebody keeps speaking; no frame and its echo are longer."""
@@ -63,10 +66,13 @@ class Gate:
         if self._taken:
             raise GivenUp
 
-    def take(self) -> bool:
-        """Take the port; whether it is free: not if a call of the other thread is stuck in it."""
-        free = self._lock.acquire(timeout=PATIENCE_S)
+    def take(self, within_us: int = PATIENCE_US, hurries: Callable[[], bool] = bool) -> bool:
+        """Take the port; whether it is free: not if a call of the other thread is stuck in it for so long."""
         self._taken = True
-        if free:
-            self._lock.release()
-        return free
+        for _ in range(0, within_us, PATIENCE_US):
+            if self._lock.acquire(timeout=PATIENCE_S):
+                self._lock.release()
+                return True
+            if hurries():
+                break
+        return False

@@ -21,8 +21,8 @@ HELP = (
 LOOK_S = 0.2
 SWITCH_S = 0.0005
 """Longest time for which drawing keeps the scan waiting."""
-GRACE_S = 80
-"""For the last stop: the longest StopWithinMs, and what is under way before it. No more than a net."""
+GRACE_S = 145
+"""For the last stop: twice the longest StopWithinMs, and what is under way before it. No more than a net."""
 
 
 def run(

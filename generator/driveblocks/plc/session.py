@@ -227,6 +227,9 @@ class Session:
         told.put(f"{self.ending.reason}: stopping every drive")
         if self._crash not in self.ending.reason:
             told.put(f"the program has failed, too: {self._crash}")
+        if not free:
+            told.put("the port takes nothing yet: the stop waits for it; Ctrl-C ends the waiting")
+            free = self._gate.take(_within_us(controller), lambda: self.ending.hurry)
         units = controller.units()
         stopper = Stopper(self._gate, self._clock, self.ending, _speech(controller, units))
         found = stopper.stop(units, _within_us(controller)) if free else dict.fromkeys(units, STUCK)

@@ -31,6 +31,8 @@ from driveblocks.site.saved import Saved, Word, read, write
 from structured_text.visible import file_name
 
 HIGHEST_PATIENCE_US = 3_600_000_000
+MOST_NAMED = 8
+"""Registers in one line."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,8 +70,8 @@ class Place:
         finally:
             made.close()
 
-    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None]) -> None:
-        """Read a drive. Raises Refused, LostError."""
+    def take(self, one: One, found: dict[int, Word], keep: Callable[[], None], name: str = "") -> None:
+        """Read a drive; `name` is the file of what was found before. Raises Refused, LostError."""
         clock, screen = RealClock(), console.terminal()
         columns = TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn()
         speech = Speech(self.ascii, 1_000_000 * CHARACTER_BITS[self.form.upper()] / self.rate)
@@ -84,6 +86,8 @@ class Place:
             reader = Reader(opened, clock, one, speech, time("--patience", self.patience, 0, HIGHEST_PATIENCE_US))
             if why := reader.stranger():
                 raise Refused(why)
+            if why := reader.changed(found):
+                raise Refused(f"{name} is of another drive, or it was changed since: {why}; name another file")
             reader.read(found, kept, lambda why: bar.update(task, description=f"{one.name}: {why}"))
 
 
@@ -114,7 +118,7 @@ def save(word: str, path: Path, place: Place) -> str:
     ((one, found),) = ready
     every = len(rows(one.drive))
     try:
-        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found))
+        place.take(one, found, lambda: write(path, one.stem, one.drive, one.unit, found), file_name(path))
     except (LostError, KeyboardInterrupt) as error:
         kept = f"{file_name(path)} has {len(found)} of {every} registers; the same command reads the rest"
         raise LostError(f"{str(error) or 'Ctrl-C'}; {kept if found else 'nothing was written'}") from error
@@ -174,9 +178,10 @@ def _taken(one: One, place: Place) -> Saved:
 
 
 def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -> tuple[list[RenderableType], bool]:
-    """The rows that differ, in the order of the manual; what only one side knows is counted."""
+    """The rows that differ, in the order of the manual; what was not read on both sides is counted."""
     compared = [each for each in rows(model) if everything or each.set]
     both = [each for each in compared if each.address in left.words and each.address in right.words]
+    both = [each for each in both if any(isinstance(one.words[each.address], int) for one in (left, right))]
     differing = [each for each in both if left.words[each.address] != right.words[each.address]]
     heads = [Path(each.where).name for each in (left, right)]
     heads = [left.where, right.where] if heads[0] == heads[1] else heads
@@ -190,7 +195,17 @@ def _differences(model: Drive, left: Saved, right: Saved, *, everything: bool) -
         lines.append(f"{len(compared) - len(both)} were not read on both sides")
     if {left.revision, right.revision} != {f"{revision(model):08X}"}:
         lines.append("the revisions of the maps differ: names and units are those of the map as it is now")
-    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing)
+    if strange := sorted(_unlisted(model, left.words, right.words)):
+        which = ", ".join(map(address_text, strange[:MOST_NAMED])) + (", ..." if len(strange) > MOST_NAMED else "")
+        lines.append(f"{len(strange)} that the map does not list now differ, or were not read on both sides: {which}")
+    return [*([made] if differing else []), "\n".join(lines)], missing or bool(differing or strange)
+
+
+def _unlisted(model: Drive, left: dict[int, Word], right: dict[int, Word]) -> Iterator[int]:
+    """What only another version of the map lists, and is not known to be equal."""
+    for address in (left.keys() | right.keys()) - {each.address for each in rows(model)}:
+        if left.get(address) != right.get(address) or not isinstance(left[address], int):
+            yield address
 
 
 def _shown(row: Row, side: Saved) -> str:

@@ -52,15 +52,22 @@ class Words:
 
 @dataclass
 class Shelf:
-    """The file that findings are kept in; `wrong`: why the last of them could not be."""
+    """The file that findings are kept in; `wrong`: why the last of them could not be.
+
+    `replaces`: it has older ones of this label, which are copied before the first are written; `copy`: where to.
+    """
 
     file: Path
     about: kept.About
     wrong: str = ""
+    replaces: bool = False
+    copy: Path | None = None
 
     def keep(self, found: Found) -> None:
         """Write them; where that is impossible, the hour goes on."""
         try:
+            if self.replaces and self.copy is None:
+                self.copy = kept.copied(self.file)
             kept.write(self.file, self.about, found)
             self.wrong = ""
         except (OSError, MapError) as error:
@@ -86,7 +93,8 @@ def run(words: Words, read: Callable[[str], str]) -> Found:
     if wrong or drive is None:
         raise Refused("\n".join(wrong))
     date = f"{datetime.datetime.now():%Y-%m-%d %H:%M}"
-    shelf = Shelf(words.file, kept.About(words.label, stem, f"{revision(drive):08X}", date, words.who))
+    about = kept.About(words.label, stem, f"{revision(drive):08X}", date, words.who)
+    shelf = Shelf(words.file, about, replaces=words.label in before)
     form = words.form.upper() if words.form else None
     # a server in between has a rate and a format of its own
     fixed = (words.rate or 9600, form or "8N1") if words.tcp else (words.rate, form)
@@ -139,6 +147,8 @@ def told(person: Asker, words: Words, drive: Drive, found: Found, shelf: Shelf) 
         person.say("")
     if found.skipped:
         person.say(f"Skipped: {', '.join(found.skipped)}")
+    if shelf.copy is not None:
+        person.say(f"What {words.file} had before, {words.label} among it, is in {shelf.copy}")
     where = f"{words.file}, label {words.label}" if found.family and not shelf.wrong else "nothing was kept"
     if shelf.wrong:
         found.ended = found.ended or f"{words.file} could not be written: {shelf.wrong}"

@@ -2,8 +2,11 @@
 
 import json
 import re
+import shutil
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -146,6 +149,21 @@ def write(path: Path, about: About, found: Found) -> None:
     nodes.parse(new, report)
     report.raise_if_any()
     put(path, new)
+
+
+def copied(path: Path) -> Path:
+    """A copy of a file beside it, under a name that nothing has. Raises OSError."""
+    for number in count(1):
+        copy = path.with_name(f"{path.stem}.{number}{path.suffix}")
+        with suppress(FileExistsError):
+            copy.touch(exist_ok=False)
+            break
+    try:
+        shutil.copy(path, copy)
+    except OSError:
+        copy.unlink()
+        raise
+    return copy
 
 
 def try_out(path: Path) -> None:

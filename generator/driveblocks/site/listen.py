@@ -2,12 +2,13 @@
 
 import csv
 import datetime
+import io
 import signal
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from rich.console import Group
 from rich.live import Live
@@ -62,10 +63,10 @@ class Words:
             yield "--log and --csv name one file; name two"
 
 
-def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Traffic, str]:
-    """Listen until a person or --for ends it; how the line is spoken on, what was heard, and why it ended early.
+def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Traffic, str, list[str]]:
+    """Listen until a person or --for ends it. Raises Refused.
 
-    Raises Refused.
+    How the line is spoken on, what was heard, why it ended early, and which files are not complete.
     """
     wrong = list(words.wrong())
     try:
@@ -92,7 +93,7 @@ def run(words: Words, clock: Clock | None = None) -> tuple[Way | None, Traffic, 
         except OSError as error:
             session.ended = reason(error)
         session.end()
-    return session.way, traffic, session.ended
+    return session.way, traffic, session.ended, files.wrong
 
 
 def _drives(names: Sequence[str], wrong: list[str]) -> tuple[dict[int, Drive], Drive | None]:
@@ -131,37 +132,64 @@ def _opened(words: Words) -> Ear:
     return ear
 
 
+class File:
+    """A new file of whole lines; `wrong`: why nothing more could be written."""
+
+    def __init__(self, path: Path) -> None:
+        """Raises OSError."""
+        self._name, self.wrong = file_name(path), ""
+        self._file = path.open("xb", buffering=0)
+        self.close = self._file.close
+
+    def write(self, text: str) -> None:
+        """A line, or nothing of it."""
+        whole, data = self._file.tell(), text.encode()
+        try:
+            while data and not self.wrong:
+                data = data[self._file.write(data) :]
+        except OSError as error:
+            self.wrong = f"{self._name} is not complete: {reason(error)}"
+            with suppress(OSError):
+                self._file.truncate(whole)
+
+
 @dataclass(frozen=True)
 class Files:
     """What is kept while it is heard: whole lines only."""
 
-    log: Any = None
-    csv: Any = None
+    log: File | None = None
+    csv: File | None = None
+
+    @property
+    def wrong(self) -> list[str]:
+        """Which of them are not complete, and why."""
+        return [each.wrong for each in (self.log, self.csv) if each is not None and each.wrong]
 
     def write(self, text: str) -> None:
         """A line of the log."""
         if self.log is not None:
             self.log.write(text)
-            self.log.flush()
 
     def row(self, cells: Sequence[str]) -> None:
         """A row of the CSV file."""
         if self.csv is not None:
-            csv.writer(self.csv, lineterminator="\n").writerow(cells)
-            self.csv.flush()
+            text = io.StringIO()
+            csv.writer(text, lineterminator="\n").writerow(cells)
+            self.csv.write(text.getvalue())
 
 
 @contextmanager
 def _files(words: Words) -> Iterator[Files]:
     """New files, closed at the end. Raises Refused."""
     with ExitStack() as stack:
-        made = {}
+        made = dict[str, File]()
         for name, path in (("log", words.log), ("csv", words.csv)):
             try:
-                new = path and stack.enter_context(path.open("x", encoding="utf-8", newline="\n"))
+                if path is not None:
+                    made[name] = File(path)
+                    stack.callback(made[name].close)
             except OSError as error:
                 raise Refused(f"{path}: {reason(error)}") from None
-            made[name] = new
         files = Files(**made)
         files.row(overheard.COLUMNS)
         yield files

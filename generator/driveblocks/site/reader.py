@@ -97,6 +97,18 @@ class Reader:
             words.update(found)
             keep()
 
+    def changed(self, words: dict[int, Word]) -> str:
+        """Which parameter is not as it was read before; empty where none differs. Raises LostError."""
+        again: dict[int, Word] = {
+            row.address: "" for row in rows(self._drive) if not row.set or row.address not in words
+        }
+        left_out = {*again}
+        self.read(again, lambda: None, lambda _: None)
+        for address in again.keys() - left_out:
+            if again[address] != words[address]:
+                return f"{address_text(address)} was {words[address]} and is {again[address]}"
+        return ""
+
     def stranger(self) -> str:
         """What shows that the unit is another family's; empty where nothing does. Raises LostError."""
         read = identity_read(self._drive)

@@ -18,6 +18,7 @@ from structured_text.visible import file_name
 COLUMNS = ("address", "id", "name", "word", "value", "unit", "default")
 _HEAD = re.compile(r"# map: (?P<map>\S+), revision (?P<revision>[0-9A-F]{8})")
 _UNIT = re.compile(r"# unit: (?P<unit>[0-9]{1,3})")
+_OURS = re.compile(rf"# parameters of .+, read by driveblocks|# read: [0-9]+ of [0-9]+|{_HEAD.pattern}|{_UNIT.pattern}")
 _PLACE = re.compile("(?:(coil|discrete|input) )?([0-9A-F]{4})H")
 _WORD = re.compile(r"[0-9]{1,5}")
 
@@ -37,14 +38,17 @@ class Saved:
 
 
 def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Word]) -> None:
-    """Put the file in the place of the one that is there, in one step. Raises OSError."""
+    """Put the file in the place of the one that is there, in one step; lines of its user's stay. Raises OSError."""
     known = {address: word for address, word in words.items() if isinstance(word, int)}
     every = rows(drive)
     text = io.StringIO()
     text.write(f"# parameters of {drive.prefix}, read by driveblocks\n")
     text.write(f"# map: {stem}, revision {revision(drive):08X}\n# unit: {unit}\n")
     text.write(f"# read: {len(words)} of {len(every)}\n")
-    text.writelines(f"# {line}\n" for line in unread(drive))
+    left_out = [f"# {line}" for line in unread(drive)]
+    old = path.read_text(encoding="utf-8-sig", errors="replace").splitlines() if path.exists() else []
+    notes = (line for line in old if line.startswith("#") and line not in left_out and not _OURS.fullmatch(line))
+    text.writelines(f"{line}\n" for line in (*left_out, *notes))
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
     for row in every:
