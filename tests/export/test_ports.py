@@ -150,7 +150,6 @@ def test_a_disturbed_character_is_shown_and_is_no_port_that_does_not_work(maker:
     assert rig.number("Bus.PortErrorID") != 0
 
 
-
 @platforms
 @pytest.mark.parametrize("end", FAILURES, ids=str)
 def test_a_stop_is_sent_in_time_after_a_frame_that_failed(maker: Maker, end: End) -> None:
