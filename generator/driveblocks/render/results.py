@@ -70,7 +70,7 @@ RESULTS = (
     Result(53, "STOP_ALL", "all drives are being stopped", "全部停机中"),
     Result(54, "FOREIGN", "another master is on the line", "总线上有其他主站"),
     Result(55, "DOUBLED", "two slots have one unit address", "从机地址重复"),
-    Result(56, "SHARED", "two drive blocks use one slot, or two lines the same slots", "同一槽位被两个功能块使用,或两条总线使用同一组槽位"),
+    Result(56, "SHARED", "two drive blocks, or two lines, use one slot", "同一槽位被两个功能块或两条总线使用"),
     Result(57, "PORT", "the serial port does not work", "串口故障"),
     Result(58, "TIME_STANDS", "ElapsedMs stays 0", "ElapsedMs一直为0"),
     Result(59, "UNATTENDED", "the drive block is no longer called", "驱动功能块未被调用"),
