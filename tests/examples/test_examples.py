@@ -300,7 +300,7 @@ def test_three_makes(engine: Engine) -> None:
     # one trips and the others run on; reset at its keypad, it waits for a new edge
     pump, fan = plant.drives[0], plant.drives[2]
     pump.trip(7)
-    plant.run(1000)
+    plant.run(1500)
     assert plant.says("Pump1.Reason", "Pump1.FaultCode", "Pump2.Reason", "Fan.Reason") == [40, 7, 0, 0]
     pump.clear_cause()
     plant.run(10000)
