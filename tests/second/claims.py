@@ -494,7 +494,8 @@ class Claims:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
             self._fault(index, claim)
-            self._measures(index, claim)
+            if not self.mistaken(index, now):
+                self._measures(index, claim)
             self._able(index)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
