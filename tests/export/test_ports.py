@@ -9,6 +9,8 @@ from driveblocks.render import library
 from driveblocks.render.text import languages
 
 platforms = pytest.mark.parametrize("maker", MAKERS, ids=str)
+RECEIVER = {"siemens": ("Receive.Fails", True), "codesys": ("Reading.Fails", True), "twincat": ("Receiver.Error", 24)}
+"""What the maker's block has while it cannot receive."""
 
 
 def alone(maker: Maker) -> Rig:
@@ -98,11 +100,7 @@ def test_a_port_that_stays_broken_is_reported_all_the_time_and_tried_again_and_a
 @platforms
 def test_a_receiver_that_stays_broken_is_reported_and_holds_no_frame_up(maker: Maker) -> None:
     rig = alone(maker)
-    name, value = {
-        "siemens": ("Receive.Fails", True),
-        "codesys": ("Reading.Fails", True),
-        "twincat": ("Receiver.Error", 24),
-    }[maker.target]
+    name, value = RECEIVER[maker.target]
     wait, shown = 0, set[int]()
     for scans in range(300):
         before = rig.attempts
@@ -138,11 +136,7 @@ def turn(rig: Rig) -> None:
 def test_a_disturbed_character_is_shown_and_is_no_port_that_does_not_work(maker: Maker) -> None:
     """The line judges itself what it receives: one bad character stopped all its motors."""
     rig = lined(maker)
-    name, value = {
-        "siemens": ("Receive.Fails", True),
-        "codesys": ("Reading.Fails", True),
-        "twincat": ("Receiver.Error", 24),
-    }[maker.target]
+    name, value = RECEIVER[maker.target]
     for scan in range(200):
         rig.program[f"Bus.Port.{name}"] = value if scan % 40 in (10, 11, 12) else type(value)(0)
         turn(rig)
