@@ -1,7 +1,7 @@
 """Where two rules meet: a mode and a restart, an address and a late scan, the drive's own keys and a refresh."""
 
 import pytest
-from tests.drives.bench import Bench, Frame
+from tests.drives.bench import Bench, Faults, Frame
 from tests.drives.rules import watched
 from tests.drives.station import FAMILIES
 from tests.drives.test_start import motions
@@ -74,10 +74,12 @@ def test_with_speed_only_a_stop_pin_sends_its_stop_and_no_speed(kind: str, pin: 
 
 @pytest.mark.parametrize("kind", FAMILIES)
 @pytest.mark.parametrize("scale", [0.0, 0.01])
-def test_the_stop_key_of_a_drive_is_never_overridden(kind: str, scale: float) -> None:
+@pytest.mark.parametrize(("step", "lost"), [(60, 0), pytest.param(11, 30, marks=pytest.mark.long)])
+def test_the_stop_key_of_a_drive_is_never_overridden(kind: str, scale: float, step: int, lost: int) -> None:
     """Pressed at any moment of a round of polls and of a refresh; two are due while it falls, two after that."""
     bench = Bench(kind).put(FrequencyScale=scale)
-    for moment in range(0, 1100, 60):
+    bench.faults = Faults(unanswered=lost)
+    for moment in range(0, 1100, step):
         bench.put(RunForward=False).run(100)
         bench.stopped().put(RunForward=True)
         assert at_speed(bench)
