@@ -144,6 +144,7 @@ class Claim:
     """When a start was asked for that the block has shown as possible."""
     crowd_us: int = 0
     """When stops of many others, each sent again every second, last had the line before a start."""
+    replaced: bool = False
     stop_us: int | None = None
     armed_us: int | None = None
     """When a pin has asked for a stop that is not sent yet."""
@@ -444,7 +445,9 @@ class Claims:
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
         watched = pins.get("MonitorOnly") and self.judge.units[index].lied_us > 0  # it had acknowledged its stop before
-        good = self.willing(index) and hears and not self.lies(index) and not watched
+        # another block has its slot, without supply and with nobody else to serve it: that unit is not asked any more
+        claim.replaced = bool(pins.get("Left") and pins.get("SupplyOff") and (claim.replaced or pins.get("Shared")))
+        good = self.willing(index) and hears and not self.lies(index) and not watched and not claim.replaced
         if not good or pins.get("SpeedOnly"):
             claim.stop_us = claim.armed_us = None
         elif owed and (claim.stop_us is None or pins.get("Restart")):
@@ -459,6 +462,7 @@ class Claims:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
             if bench.models[index].jogging and now - self.judge.units[index].unknown_us < CALM_US:
                 most += 2 * round_us(bench)  # a restart has forgotten that it jogs: the end of a jog is sent second
+            most += PROBE_US if left and pins.get("SupplyOff") else 0
             self._once(index, "prompt", bad=now - claim.stop_us > most)
 
     def _once(self, index: int, rule: str, *, bad: bool, seen: Seen = ()) -> None:
@@ -641,7 +645,7 @@ class Claims:
         dead = any(now - each.away_us < most for each in self.judge.units)
         most += 2 * round_us(bench) if dead else 0  # stops that are not answered come first
         old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
-        old = old and self.judge.known(index, CALM_US // 2)
+        old = old and self.judge.known(index, CALM_US // 2) and not bench.pins[index].get("SupplyOff")
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
 
         recorded = old and claim.alone

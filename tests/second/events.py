@@ -434,6 +434,22 @@ def _switched_off(b: Second, _: Random) -> None:
     b.models[0].power(False, b.now)
 
 
+def _switched_off_and_left(b: Second, _: Random) -> None:
+    """Its supply returns while nobody attends: whatever goes on by itself then has to be found and stopped."""
+    b.put(0, SupplyOff=True)
+    b.models[0].power(False, b.now)
+    b.run(200)
+    _leave(b, True)
+    b.run(1000)
+    b.models[0].power(True, b.now)
+
+
+def _attended(b: Second, _: Random) -> None:
+    _leave(b, False)
+    b.run(100)
+    b.put(0, SupplyOff=False)
+
+
 def _switched_on(b: Second, _: Random) -> None:
     b.models[0].power(True, b.now)
     b.run(100)
@@ -512,6 +528,7 @@ AIMED = {
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
     "another address while a frame waits": Event(_waiting, 1000, _taken),
     "a meter": Event(_metered, 1000, _no_meter, stops_all=True),
+    "its supply returns while its block is not called": Event(_switched_off_and_left, 20_000, _attended),
 }
 """Events that look at one rule each."""
 LONG = ("nothing", "two stores")

@@ -40,6 +40,8 @@ JOG_US = 500_000
 """After a restart the stop of a jog is sent so much later, and only then the reference is taken back."""
 BACK_US = 2_000_000
 """Silence is no alarm for so long once its user says that it has its supply again."""
+PROBED_US = 10_500_000
+"""So long may it take until the line finds that a drive answers whose user says that it has no supply."""
 BOOT_US = 10_000_000
 """After a restart silence is no alarm for so long, unless the drive has answered since."""
 STORE_US = 60_000_000
@@ -113,8 +115,10 @@ class Unit:
     """For how long it could be reached since then."""
     turned_us: int = 0
     """When it last stood, or was asked to turn: it turns unasked since then."""
-    off_us: int = -BACK_US
-    """When its user last said that it has no supply."""
+    dark_us: int = -PROBED_US
+    """When it was last silent while its user said that it has no supply."""
+    back_us: int = 0
+    """From when on its silence is an alarm again, after its user has said that it has no supply."""
     off: bool = False
     """Its block was called with SupplyOff."""
     excused_us: int = 0
@@ -272,6 +276,8 @@ class Judge:
         # silence is no alarm yet; a line that is not called can do nothing, which the drive block shows
         unit.lied_us = now if one.o.ignores else unit.lied_us
         off = bool(pins.get("SupplyOff")) and not bench.hears(index)
+        unit.dark_us = now if off else unit.dark_us
+        off = off or bool(pins.get("SupplyOff") and now - unit.dark_us < PROBED_US)
         anew = pins.get("Restart") or (unit.restarted_us and now - unit.restarted_us < RESTARTED_US)
         unit.forgotten = bool(pins.get("SpeedOnly") and (unit.forgotten or (one.o.ignores and anew)))
         lied = pins.get("MonitorOnly") and unit.lied_us > 0  # it has acknowledged the stop before that
@@ -312,7 +318,7 @@ class Judge:
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
             unit.away_us = now
-        unit.off = bool(pins.get("SupplyOff")) and (unit.off or not pins.get("Left"))
+        unit.off = bool(pins.get("SupplyOff")) and not hears and (unit.off or not pins.get("Left"))
         if away and (pins.get("Shared") or not unit.off):  # that excuses silence alone
             unit.excused_us = now
         if away or pins.get("Restart"):
@@ -352,9 +358,9 @@ class Judge:
         silent = index + 1 in bench.deaf or one.cut
         silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
-        if bench.pins[index].get("SupplyOff"):  # its user says that it is off, and afterwards it boots
-            unit.off_us = bench.now
-        owed = owed and not bench.lineless and bench.now - unit.off_us > BACK_US
+        if bench.pins[index].get("SupplyOff"):  # its user says that it is off; if it was silent, it boots afterwards
+            unit.back_us = bench.now + (BOOT_US if silent else BACK_US)
+        owed = owed and not bench.lineless and bench.now > unit.back_us
         owed = owed and bench.out("State", index) != READING  # after a restart whose stop the drive has ignored
         if not owed:
             unit.silent_since = None
@@ -409,7 +415,9 @@ class Judge:
         bench, now = self.bench, self.bench.now
         if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
             return
-        calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1)  # the dead have their turn on the wire, too
+        # the dead have their turn on the wire, too; and one that was away is probed every 8 s, which it may answer late
+        missed = bench.models[index].o.late_per_1000 and unit.unknown_us == unit.away_us
+        calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf or missed else 1)
         good = bench.shows("CommOk", index)
         since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
         most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)
