@@ -415,9 +415,9 @@ class Judge:
         bench, now = self.bench, self.bench.now
         if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
             return
-        # the dead have their turn on the wire, too; and one that was away is probed every 8 s, which it may answer late
+        # the dead have their turn on the wire; one that was away is probed every 8 s, and may answer late twice
         missed = bench.models[index].o.late_per_1000 and unit.unknown_us == unit.away_us
-        calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf or missed else 1)
+        calm = now - unit.unknown_us > CALM_US * (3 if missed else 2 if bench.deaf else 1)
         good = bench.shows("CommOk", index)
         since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
         most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)

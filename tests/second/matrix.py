@@ -57,6 +57,10 @@ START_MS = 6000
 """From an edge to its speed: 25 Hz at 10 Hz/s, and retries."""
 FOLLOW_MS = 8000
 """From an edge to the reason that it is not followed: FollowWithinMs, 5 s, from the answer to run."""
+READY_MS = 14_000
+"""From the end of an event until it can be started again."""
+PROBE_MS = 8000
+"""The longest time between probes of a drive that was dead, each of which it may answer late."""
 RESET_MS = 8000
 """For a reset, which is given up after 10 s."""
 FOREIGN_MS = 15_000
@@ -243,9 +247,10 @@ class Run:
     def ready(self, index: int = 0) -> bool:
         """Wait until the block would start its drive, or without its command, until it reads it."""
         b = self.bench
+        most = READY_MS + (2 * PROBE_MS if self.row["late_per_1000"] else 0)
         if index or self.by_bus:
-            return b.wait(lambda: b.shows("Ready", index) and b.shows("StopConfirmed", index), 14_000)
-        good = b.wait(lambda: b.shows("CommOk", index), 14_000)
+            return b.wait(lambda: b.shows("Ready", index) and b.shows("StopConfirmed", index), most)
+        good = b.wait(lambda: b.shows("CommOk", index), most)
         b.run(2000)  # stops of a restart, which may end what terminals run
         return good
 
