@@ -59,8 +59,6 @@ FOLLOW_MS = 8000
 """From an edge to the reason that it is not followed: FollowWithinMs, 5 s, from the answer to run."""
 READY_MS = 14_000
 """From the end of an event until it can be started again."""
-PROBE_MS = 8000
-"""The longest time between probes of a drive that was dead, each of which it may answer late."""
 RESET_MS = 8000
 """For a reset, which is given up after 10 s."""
 FOREIGN_MS = 15_000
@@ -247,7 +245,7 @@ class Run:
     def ready(self, index: int = 0) -> bool:
         """Wait until the block would start its drive, or without its command, until it reads it."""
         b = self.bench
-        most = READY_MS + (2 * PROBE_MS if self.row["late_per_1000"] else 0)
+        most = READY_MS + self.judge.late_us(index) // 1000
         if index or self.by_bus:
             return b.wait(lambda: b.shows("Ready", index) and b.shows("StopConfirmed", index), most)
         good = b.wait(lambda: b.shows("CommOk", index), most)
