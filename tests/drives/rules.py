@@ -23,6 +23,8 @@ READ_US = 100_000
 it, and the line stop it."""
 UNATTENDED_US = 950_000
 """From then on the line may stop a drive whose block is not called: `AttendMs` is 1 s."""
+FINISH_US = 500_000
+"""A reset of several writes that is on its way is finished although its fault has gone: a coil has to fall again."""
 BACK_US = 500_000
 """For so long a stop that the line has begun without the block may be sent again, or the other one after it."""
 LEFT_US = 1_050_000
@@ -116,6 +118,7 @@ class Observer:
         self.now: tuple[int, ...] = ()
         self.only_reads = self.owed = False
         self.asked_before = self.reset_before = True
+        self.fault_us = -FINISH_US
 
     def fail(self, what: str) -> None:
         """Tell which rule is broken."""
@@ -217,9 +220,11 @@ class Observer:
         self.acknowledged = len(self.bench.acknowledged)
 
     def _reset(self, pins: dict[str, Value], asked: list[str], shows: dict[str, bool]) -> None:
-        gone = not shows["CommOk"] or not shows["Fault"] or pins.get("SupplyOff") or self.bench.line_pins.get("Restart")
+        self.fault_us = self.bench.now if shows["Fault"] else self.fault_us
+        gone = not shows["CommOk"] or pins.get("SupplyOff") or self.bench.line_pins.get("Restart")
+        gone = gone or self.bench.now - self.fault_us > FINISH_US
         rising = pins.get("FaultReset") and not self.reset_before
-        self.resets = not gone and (self.resets or bool(rising and not asked))
+        self.resets = not gone and (self.resets or bool(rising and not asked and shows["Fault"]))
         self.reset_before = bool(pins.get("FaultReset")) or bool(self.bench.line_pins.get("Restart"))
 
     def _stopped_from_outside(self, pins: dict[str, Value]) -> bool:
