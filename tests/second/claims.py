@@ -145,6 +145,7 @@ class Claim:
     crowd_us: int = 0
     """When stops of many others, each sent again every second, last had the line before a start."""
     replaced: bool = False
+    """Another block has had its slot since nobody calls its own, which has said that there is no supply."""
     stop_us: int | None = None
     armed_us: int | None = None
     """When a pin has asked for a stop that is not sent yet."""
@@ -445,7 +446,7 @@ class Claims:
         lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
         watched = pins.get("MonitorOnly") and self.judge.units[index].lied_us > 0  # it had acknowledged its stop before
-        # another block has its slot, without supply and with nobody else to serve it: that unit is not asked any more
+        # then the slot has the other block's address, and this unit is not asked any more
         claim.replaced = bool(pins.get("Left") and pins.get("SupplyOff") and (claim.replaced or pins.get("Shared")))
         good = self.willing(index) and hears and not self.lies(index) and not watched and not claim.replaced
         if not good or pins.get("SpeedOnly"):

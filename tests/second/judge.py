@@ -40,8 +40,8 @@ JOG_US = 500_000
 """After a restart the stop of a jog is sent so much later, and only then the reference is taken back."""
 BACK_US = 2_000_000
 """Silence is no alarm for so long once its user says that it has its supply again."""
-PROBE_US = 8_000_000
-"""The longest time between probes of a drive that was dead."""
+PAUSE_US = 8_000_000
+"""The longest pause between probes of a drive that was dead."""
 PROBED_US = 10_500_000
 """So long may it take until the line finds that a drive answers whose user says that it has no supply."""
 BOOT_US = 10_000_000
@@ -385,7 +385,7 @@ class Judge:
     def late_us(self, index: int) -> int:
         """How much later one that was away may be found: probes come every 8 s, and it may answer two of them late."""
         unit = self.units[index]
-        return 2 * PROBE_US if self.bench.models[index].o.late_per_1000 and unit.unknown_us == unit.away_us else 0
+        return 2 * PAUSE_US if self.bench.models[index].o.late_per_1000 and unit.unknown_us == unit.away_us else 0
 
     def _all_dead(self, index: int) -> bool:
         """It is alone on the line, for which the line says how long it takes."""
@@ -422,8 +422,8 @@ class Judge:
         bench, now = self.bench, self.bench.now
         if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
             return
-        most = CALM_US * (2 if bench.deaf else 1)  # the dead have their turn on the wire, too
-        calm = now - unit.unknown_us > most + self.late_us(index)
+        # the dead have their turn on the wire, too
+        calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1) + self.late_us(index)
         good = bench.shows("CommOk", index)
         since = max(unit.reads_us, unit.unknown_us, self.claims.claims[index].changed_us)
         most = 1000 * int(bench.number("StaleMs", index)) + REFUSED_US + CODE_MOST * round_us(bench)
