@@ -360,7 +360,8 @@ class Claims:
         pins, now = self.bench.pins[index], self.bench.now
         alone = pins.get("SpeedOnly") and not any_of(("Left", "Shared", "MonitorOnly"), pins)
         since = CALM_US if len(self.claims) > 3 else CALM_US // 2  # a restart has stopped all drives before
-        quiet = now - max(claim.changed_us, self.judge.units[index].unknown_us) > since
+        unit = self.judge.units[index]
+        quiet = now - max(claim.changed_us, unit.unknown_us, unit.refuses_us) > since
         quiet = quiet and not self.bench.models[index].local  # the stop before SpeedOnly is repeated until it is obeyed
         return bool(alone and quiet and self.bench.shows("CommOk", index) and self.bench.reason(index) == "SPEED_ONLY")
 
@@ -454,7 +455,8 @@ class Claims:
         elif owed and (claim.stop_us is None or pins.get("Restart")):
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
-            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again)
+            dead = pins.get("SupplyOff") and not self.well(index, ATTEND_US)  # the line finds in its time that it is not
+            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again) + PROBE_US * bool(dead)
             plain = (
                 claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
             )
