@@ -649,6 +649,7 @@ class Claims:
         most += 2 * round_us(bench) if dead else 0  # stops that are not answered come first
         old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
         old = old and self.judge.known(index, CALM_US // 2) and not bench.pins[index].get("SupplyOff")
+        old = old and not self.mistaken(index, now)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
 
         recorded = old and claim.alone
