@@ -42,6 +42,8 @@ LATE_US = 600_000
 """A stop that meets a late reply is sent again."""
 RESTART_US = 2_500_000
 """Stops of a restart wait out what may still be answered."""
+EVERY_US = 200_000
+"""How often outputs are looked at."""
 ATTEND_US = 1_000_000
 """AttendMs."""
 CALM_US = 10_000_000
@@ -455,7 +457,7 @@ class Claims:
         elif owed and (claim.stop_us is None or pins.get("Restart")):
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
-            dead = pins.get("SupplyOff") and not self.well(index, ATTEND_US)  # the line finds in its time that it is not
+            dead = pins.get("SupplyOff") and not self.well(index, ATTEND_US)  # the line looks for it from time to time
             claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again) + PROBE_US * bool(dead)
             plain = (
                 claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
@@ -594,7 +596,9 @@ class Claims:
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
-        claim.early = claim.early + 1 if bench.reason(index) == "READY" and not bench.shows("Ready", index) else 0
+        early = bench.reason(index) == "READY" and not bench.shows("Ready", index)
+        again = now - claim.changed_us > EVERY_US  # not a second time since other pins
+        claim.early = 1 + claim.early * again if early else 0
         self._once(index, "says ready", bad=claim.early > 1 and not bench.flicker)
         if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
             claim.odd = 0

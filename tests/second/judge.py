@@ -9,15 +9,23 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import CODE_MOST, JOG_ENDS, MAX_SCAN_US, REFUSED_US, UNLEARNED_MS, Claims, crowded, round_us
+from tests.second.claims import (
+    CODE_MOST,
+    EVERY_US,
+    JOG_ENDS,
+    MAX_SCAN_US,
+    REFUSED_US,
+    UNLEARNED_MS,
+    Claims,
+    crowded,
+    round_us,
+)
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
 
-EVERY_US = 200_000
-"""How often outputs are looked at."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 READING = 5
