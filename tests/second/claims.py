@@ -597,8 +597,8 @@ class Claims:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
         bench, pins, now = self.bench, self.bench.pins[index], self.bench.now
         early = bench.reason(index) == "READY" and not bench.shows("Ready", index)
-        again = now - claim.changed_us > EVERY_US  # not a second time since other pins
-        claim.early = 1 + claim.early * again if early else 0
+        same = now - claim.changed_us > EVERY_US  # the last look was at these pins, too
+        claim.early = 1 + claim.early * same if early else 0
         self._once(index, "says ready", bad=claim.early > 1 and not bench.flicker)
         if now - claim.changed_us < ATTEND_US or bench.block["TheLine.ErrorID"] not in LINE_ERRORS or bench.flicker:
             claim.odd = 0
