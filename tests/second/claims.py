@@ -457,8 +457,7 @@ class Claims:
         elif owed and (claim.stop_us is None or pins.get("Restart")):
             restarted = self.judge.units[index].unknown_us > now - CALM_US // 5 and not pins.get("Left")
             again = now - claim.unwilling_us < ATTEND_US  # it has ignored the last one, and gets the next
-            dead = pins.get("SupplyOff") and not self.well(index, ATTEND_US)  # the line looks for it from time to time
-            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again) + PROBE_US * bool(dead)
+            claim.stop_us = now + RESTART_US * restarted + ATTEND_US * (left or again)
             plain = (
                 claim.permitted and not restarted and not left and self.attended(index) and self.well(index, ATTEND_US)
             )
@@ -467,7 +466,8 @@ class Claims:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
             if bench.models[index].jogging and now - self.judge.units[index].unknown_us < CALM_US:
                 most += 2 * round_us(bench)  # a restart has forgotten that it jogs: the end of a jog is sent second
-            most += PROBE_US if left and pins.get("SupplyOff") else 0
+            if pins.get("SupplyOff") and (left or not self.well(index, PROBE_US)):
+                most += PROBE_US  # the line looks for it from time to time
             self._once(index, "prompt", bad=now - claim.stop_us > most)
 
     def _once(self, index: int, rule: str, *, bad: bool, seen: Seen = ()) -> None:
