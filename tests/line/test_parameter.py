@@ -675,3 +675,31 @@ def test_an_attempt_that_is_withdrawn_from_the_port_gives_no_more_of_them() -> N
     scene.run(2000)
     stored = [each for each in scene.written() if each[1:3].hex() == "fffd"]
     assert (scene.result("Keep"), len(stored), scene["Stores"]) == ("SILENCE", 2, 2)
+
+
+@pytest.mark.parametrize("block", ["Keep", "Store2"])
+@pytest.mark.parametrize("within", range(10, 90, 8))
+def test_a_store_that_was_not_sent_counts_none(block: str, within: int) -> None:
+    """Called after the drive block it said "not sent" in the scan that sent it, and counted nothing."""
+    scene = Scene("SN300G5").rested()
+    scene.put(0, PollEveryMs=0)
+    scene.execute(block, WithinMs=within)
+    while not scene.result(block):
+        scene.scan()
+    said = scene.result(block)
+    scene.run(300)
+    sent = len([each for each in scene.written() if each[1:3].hex() == "fffd"])
+    assert sent == (0 if said == "NOT_SENT" else 1)
+    assert scene["Stores" if block == "Keep" else "Stores2"] == sent
+
+
+@pytest.mark.parametrize("scans", range(0, 12, 2))
+@pytest.mark.parametrize("name", ["Get1", "Put1", "Keep"])
+def test_another_address_while_it_is_busy_is_no_missing_call(name: str, scans: int) -> None:
+    """It said "not called while Busy", though it was called in every scan."""
+    scene = Scene("SN300G5").rested()
+    scene.execute(name, **ASKING[name])
+    scene.run(10 * scans)
+    scene.put(0, UnitAddress=9)
+    scene.run(6000)
+    assert scene.result(name) in ("OK", "RESTARTED", "OFFLINE", "NOT_SENT")
