@@ -443,6 +443,17 @@ def test_one_address_with_a_drive_is_reported() -> None:
     assert (bench.error(), bench["Meter.Valid"]) == ("DOUBLED", False)
 
 
+@pytest.mark.parametrize("address", [9, 0])
+def test_it_is_over_once_the_address_is_another_or_none(address: int) -> None:
+    bench = Scene()
+    bench.wire("Meter", Address=3)
+    bench.run(300)
+    assert bench["Slots[2].LineErrorID"] == bench["Meter.ErrorID"] == 55
+    bench.wire("Meter", Address=address)
+    bench.run(100)
+    assert bench["Slots[2].LineErrorID"] == 0
+
+
 def figures(bench: Bench) -> tuple[int, int, int]:
     """How late a stop can be."""
     bench.ready()

@@ -60,8 +60,15 @@ USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
-AWAY = ("Left", "Shared", "SpeedOnly", "MonitorOnly")
-"""Pins with which no block alone serves a drive, or not in full control."""
+TAKEN = {"Shared": ("SHARED", 56), "Doubled": ("LINE", 0)}
+"""Pins of a drive that gets nothing but stops, each with the reason that says so, and ErrorID: a slot with two blocks,
+an address in two slots, whose error is the line's own."""
+ASTRAY = ("Left", *TAKEN)
+"""Pins with which no block alone serves a drive."""
+AWAY = (*ASTRAY, "SpeedOnly", "MonitorOnly")
+"""The same, or not in full control."""
+CHANGED_US = 100_000
+"""For so long a change of pins is young: the scans in which its stop waits for the wire."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
 ABLE = alike({
     "ATV312": (True, False, True, True, True),  # CMD, page 12
@@ -82,8 +89,6 @@ CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up."""
 SPEEDING = 6
 """State: the block gives the reference alone."""
-SHARED = 56
-"""ErrorID: two drive blocks use the slot."""
 SHARED_US = 4_000_000
 """Within this time the line has stopped a drive whose slot two blocks use."""
 STANDS_US = 5_000_000
@@ -224,8 +229,8 @@ class Claims:
         claim, pins = self.claims[index], self.bench.pins[index]
         writes = body[1] in (5, 6, 16)
         self._kept(index, body)
-        shared = pins.get("Shared") and not pins.get("Left") and now_us - claim.changed_us > ATTEND_US
-        if shared and not writes and index + 1 not in self.bench.deaf:
+        taken = self._taken(index) and now_us - claim.changed_us > ATTEND_US
+        if taken and not writes and index + 1 not in self.bench.deaf:
             self._once(index, "barred", bad=True, seen=(body.hex(),))
         if writes:
             self._again(now_us, index, claim, body)
@@ -272,6 +277,7 @@ class Claims:
             claim.pins, claim.changed_us = Pins(pins), now
             began = not before.get("SpeedOnly") or claim.handed_over
             claim.handed_over = bool(pins.get("SpeedOnly")) and began and not pins.get("Restart")
+        self._stop_all(index, now - claim.changed_us)
         ready = bench.shows("Ready", index)
         settled = ready and bench.shows("StopConfirmed", index)
         claim.still_us = (claim.still_us or now) if settled and self.attended(index) else None
@@ -328,6 +334,20 @@ class Claims:
         claim.hasty = claim.hasty + 1 if often and self.bench.turn_round(index) < UNLEARNED_MS else 0
         self._once(index, "hurries", bad=claim.hasty > HASTY, seen=(body.hex(),))
 
+    def _taken(self, index: int) -> str:
+        """The pin for which a drive whose block is called gets nothing but stops."""
+        pins = self.bench.pins[index]
+        here = "Doubled" if pins.get("Doubled") and pins.get("Address") == index + 1 else ""
+        return "" if pins.get("Left") else "Shared" if pins.get("Shared") else here
+
+    def _stop_all(self, index: int, since_us: int) -> None:
+        """A stop of the block's own, for which its pins have changed just now, is none of all drives."""
+        if since_us > CHANGED_US:
+            return
+        calm = self.attended(index) and self.well(index, ATTEND_US) and self.bench.now - self.all_us > ATTEND_US
+        calm = calm and not self.bench.pins[index].get("Restart") and not self.lies(index)
+        self._once(index, "stop all", bad=calm and self.bench.reason(index) == "STOP_ALL")
+
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
         """The stop of the last order is sent first: after a jog its own, unless it is to coast or a restart came."""
         known = (claim.armed_us or 0) > self.judge.units[index].unknown_us
@@ -360,7 +380,7 @@ class Claims:
     def _supplies(self, index: int, claim: Claim) -> bool:
         """It gives its reference to a drive that terminals run, and nothing has happened for long."""
         pins, now = self.bench.pins[index], self.bench.now
-        alone = pins.get("SpeedOnly") and not any_of(("Left", "Shared", "MonitorOnly"), pins)
+        alone = pins.get("SpeedOnly") and not any_of((*ASTRAY, "MonitorOnly"), pins)
         since = CALM_US if len(self.claims) > 3 else CALM_US // 2  # a restart has stopped all drives before
         unit = self.judge.units[index]
         quiet = now - max(claim.changed_us, unit.unknown_us, unit.refuses_us) > since
@@ -446,7 +466,7 @@ class Claims:
         left = bool(pins.get("Left")) and not all_
         owed = left or all_ or bool(pin or pins.get("Restart") or pins.get("MonitorOnly"))
         late = LATE_US if bench.models[index].o.late_per_1000 else 0
-        lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or pins.get("Shared")
+        lossy = bench.faults.lost or bench.faults.unanswered or bench.strange or any_of(TAKEN, pins)
         hears = bench.reachable(index) and not lossy and not bench.lineless and now >= bench.models[index].busy_us
         watched = pins.get("MonitorOnly") and self.judge.units[index].lied_us > 0  # it had acknowledged its stop before
         # then the slot has the other block's address, and this unit is not asked any more
@@ -483,12 +503,14 @@ class Claims:
         told = bench.shows("StopOverdue", index) and not bench.shows("CommOk", index)
         self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
         pins = bench.pins[index]
-        shared = bool(pins.get("Shared")) and not pins.get("Left") and now - claim.changed_us > ATTEND_US
-        told = bench.reason(index) in ("SHARED", "NO_LINE") and bench.out("ErrorID", index) == SHARED
-        told = told or bool(bench.pins[index].get("SupplyOff"))
-        self._once(index, "shared", bad=shared and not told, seen=(bench.reason(index),))
-        runs_on = shared and driven and self.willing(index) and bench.reachable(index) and not self.lies(index)
-        self._once(index, "shared stop", bad=runs_on and now - claim.changed_us > SHARED_US and not bench.lineless)
+        taken = self._taken(index) if now - claim.changed_us > ATTEND_US else ""
+        reason, error = TAKEN.get(taken, ("", 0))
+        shown = bench.reason(index), bench.out("ErrorID", index)
+        told = shown in ((reason, error), ("NO_LINE", error)) or bool(pins.get("SupplyOff"))
+        self._once(index, "shared", bad=bool(taken) and not told, seen=shown)
+        runs_on = taken and driven and self.willing(index) and bench.reachable(index) and not self.lies(index)
+        runs_on = runs_on and now - claim.changed_us > SHARED_US and not bench.lineless
+        self._once(index, "shared stop", bad=bool(runs_on))
         if index == 0:
             self._line()
         heard = self.well(index, CALM_US // 5) and bench.shows("CommOk", index)
@@ -684,7 +706,7 @@ class Claims:
         """A drive that does not answer is asked again and again."""
         pins, unit, now = self.bench.pins[index], self.judge.units[index], self.bench.now
         forgotten = now - claim.sent_us > PROBE_US and now - unit.unknown_us > 0
-        elsewhere = any_of(("SupplyOff", "Left", "Shared"), pins) or pins.get("Address") != index + 1
+        elsewhere = any_of((*ASTRAY, "SupplyOff"), pins) or pins.get("Address") != index + 1
         if elsewhere or self.bench.faults.lost:  # a probe that is lost is not seen here
             claim.sent_us = now
         self._once(index, "probe", bad=forgotten and claim.sent_us < now)

@@ -188,6 +188,22 @@ def _waiting(b: Second, chance: Random) -> None:
         b.run(4000)
 
 
+def _typed_twice(b: Second, _: Random) -> None:
+    """A meter is given the address of the drive; where no slot is left for a meter, nothing happens."""
+    b.meter(on=True, address=1)
+    b.pins[0]["Doubled"] = b.metered
+
+
+def _typed_right(b: Second, chance: Random) -> None:
+    """By the meter's own address, or by none."""
+    b.pins[0]["Doubled"] = False
+    if b.metered and chance.random() < 0.5:
+        b.meter(on=True)
+        b.run(1000)
+        _measures(b)
+    _no_meter(b, chance)
+
+
 def _taken(b: Second, chance: Random) -> None:
     b.slow_port(on=False)
     _no_meter(b, chance)
@@ -527,6 +543,7 @@ AIMED = {
     "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
     "another address while a frame waits": Event(_waiting, 1000, _taken),
+    "its address is typed twice": Event(_typed_twice, 4000, _typed_right),
     "a meter": Event(_metered, 1000, _no_meter, stops_all=True),
     "its supply returns while its block is not called": Event(_switched_off_and_left, 20_000, _attended),
 }

@@ -10,11 +10,13 @@ from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import (
+    ASTRAY,
     CODE_MOST,
     EVERY_US,
     JOG_ENDS,
     MAX_SCAN_US,
     REFUSED_US,
+    TAKEN,
     UNLEARNED_MS,
     Claims,
     crowded,
@@ -323,13 +325,13 @@ class Judge:
         if hears:
             unit.heard_us = now
         unit.reachable = hears and bench.models[index].unit == pins["Address"]
-        reached = unit.reachable and not pins.get("Left") and not pins.get("Shared")
+        reached = unit.reachable and not any_of(ASTRAY, pins)
         lossy = faults.lost or faults.unanswered or bench.strange or bench.lineless
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
             unit.away_us = now
         unit.off = bool(pins.get("SupplyOff")) and not hears and (unit.off or not pins.get("Left"))
-        if away and (pins.get("Shared") or not unit.off):  # that excuses silence alone
+        if away and (any_of(TAKEN, pins) or not unit.off):  # that excuses silence alone
             unit.excused_us = now
         if away or pins.get("Restart"):
             unit.unknown_us = now
@@ -428,7 +430,7 @@ class Judge:
 
     def _outputs(self, index: int, unit: Unit) -> None:
         bench, now = self.bench, self.bench.now
-        if bench.pins[index].get("Left") or bench.pins[index].get("Shared"):
+        if any_of(ASTRAY, bench.pins[index]):
             return
         # the dead have their turn on the wire, too
         calm = now - unit.unknown_us > CALM_US * (2 if bench.deaf else 1) + self.late_us(index)

@@ -3,7 +3,7 @@
 It knows no vendor map, no state of a block, and no reply.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,8 +11,9 @@ from tests.second.frames import ascii_opened, opened
 
 RUN, JOG = ("RunForward", "RunReverse"), ("JogForward", "JogReverse")
 MOVES = RUN + JOG
-STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "SupplyOff", "Left")
-"""Pins that stop while they are TRUE; `Left` is for a block that is not called. Enable stops while it is FALSE."""
+STOPPING = ("QuickStop", "CoastStop", "StopAll", "Restart", "MonitorOnly", "SpeedOnly", "SupplyOff", "Left", "Doubled")
+"""Pins that stop while they are TRUE; `Left` is for a block that is not called, `Doubled` for an address that two slots
+have. Enable stops while it is FALSE."""
 
 RAMP_US = 100_000
 """What a second model takes for 1 Hz."""
@@ -94,7 +95,7 @@ class Truth:
     """When it last showed that it does not run; None: nobody looks."""
 
 
-def any_of(names: tuple[str, ...], pins: Mapping[str, object]) -> bool:
+def any_of(names: Iterable[str], pins: Mapping[str, object]) -> bool:
     """Whether one of these pins is TRUE; by their set where there is one: this is asked thousands of times a second."""
     return not pins.true.isdisjoint(names) if isinstance(pins, Pins) else any(pins.get(name) for name in names)
 

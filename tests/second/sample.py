@@ -27,6 +27,7 @@ def aimed() -> list[tuple[Cell, int]]:
         for state, seed in (("standstill", 0), ("at speed", 2))
     ]
     found = [each for each in found if ONE_STATE.get(each[0].event, each[0].state) == each[0].state]
+    found += [(Cell(family, "full control", "a trip", "at speed"), 2) for family in FAMILIES]
     found.append((Cell("PF4", "full control", "a trip", "standstill"), 4))  # one whose stop does not reset its fault
     found.append((Cell("CHF", "jog", "a stop while it is busy", "at speed"), 0))  # 5 does not end this one's jog
     found.append((Cell("JSCC", "full control", "a dead drive", "at speed"), 0))  # beside others that live
