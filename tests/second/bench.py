@@ -181,7 +181,12 @@ class Second(Bench):
         self.block["Contact.Reset"] = self.hand = False
 
     def ask(self, name: str, index: int, address: int, value: int, *, permitted: bool = True) -> None:
-        """A rising edge of a parameter block: where, and what; and whether its user permits what no manual has."""
+        """A rising edge of a parameter block: where, and what; and whether its user permits what no manual has.
+
+        One that is at work goes on, and is not asked for anything else.
+        """
+        if any(each.name == name for each in self.judge.asked):
+            return
         if name.startswith("Reader"):
             self.models[index].ram[address] = value
         listed = name.startswith("Reader")  # those rows are in every manual, which needs no permission
