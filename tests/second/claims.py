@@ -60,8 +60,10 @@ USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
-TAKEN: dict[str, tuple[str, int | None]] = {"Shared": ("SHARED", 56), "Doubled": ("LINE", None)}
-"""Pins of a drive that gets nothing but stops, each with the reason that says so, and ErrorID: a slot with two blocks,
+TAKEN: dict[str, tuple[tuple[str, ...], int | None]] = {
+    "Shared": (("SHARED", "NO_LINE"), 56), "Doubled": (("LINE",), None),
+}  # fmt: skip
+"""Pins of a drive that gets nothing but stops, each with the reasons that say so, and ErrorID: a slot with two blocks,
 an address in two slots, which is an error of the line's own."""
 ASTRAY = ("Left", *TAKEN)
 """Pins with which no block alone serves a drive."""
@@ -504,9 +506,9 @@ class Claims:
         self._once(index, "no line", bad=alone and not told and not bench.pins[index].get("SupplyOff"))
         pins = bench.pins[index]
         taken = self._taken(index) if now - claim.changed_us > ATTEND_US else ""
-        reason, error = TAKEN.get(taken, ("", None))
+        reasons, error = TAKEN.get(taken, ((), None))
         shown = bench.reason(index), bench.out("ErrorID", index)
-        told = shown[0] in (reason, "NO_LINE") and error in (None, shown[1])
+        told = shown[0] in reasons and error in (None, shown[1])
         self._once(index, "shared", bad=bool(taken) and not told and not pins.get("SupplyOff"), seen=shown)
         runs_on = taken and driven and self.willing(index) and bench.reachable(index) and not self.lies(index)
         runs_on = runs_on and now - claim.changed_us > SHARED_US and not bench.lineless

@@ -171,19 +171,22 @@ def main() -> int:
     parser.add_argument("--cells", type=int, help="cells for each, all unless said")
     options = parser.parse_args()
     known = survivors()
-    number = found = same = 0
+    number = found = missed = same = 0
     for one in drawn(options.seed):
         if number - same >= NUMBER:
             break
         row = known.get(one.says, {"open": "no reason yet"})
         mine = number in options.only if options.only else number % options.step == options.first
-        by = apart(one, number, options.cells) if mine else "" if mutated(one) else None
+        if not mine and mutated(one) is None:
+            continue
+        by = apart(one, number, options.cells) if mine else ""
         if by is None:
             continue
         if mine:
             print(f"{number:2} {one}: {by or f'SURVIVES, {row}'}", flush=True)
-        number, found, same = number + 1, found + bool(by), same + (not by and "same" in row)
-    print(f"{found} of {number - same} found; {same} more are the same to every drive of the lines")
+        number, found = number + 1, found + bool(by)
+        same, missed = same + (not by and "same" in row), missed + (mine and not by and "open" in row)
+    print(f"{found} of {found + missed} found; {same} more are the same to every drive of the lines")
     return 0
 
 
