@@ -67,12 +67,13 @@ def odd_replies(bench: Bench) -> None:
 
 
 def full_counts(bench: Bench) -> None:
-    """Attempts at the end of their count; StopAll, and a stop, on a port that takes nothing."""
+    """Attempts, and the time since a store, at the end of their count; then a port that takes no stop."""
     bench.ready().drives[0].alive = False
     bench.stop(0)
     bench.run(1500)
     for count in ("Slots[0].Answer[0].Tries", "Track[0].Stop.Tries", "LineTries"):
         bench.block[count] = 255
+    bench.block["Slots[0].SinceStoreMs"] = 65_535
     bench.run(3000)
     bench.port_takes = False
     bench.set(StopAll=True)
