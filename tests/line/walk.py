@@ -6,6 +6,7 @@ A seed is a walk; a failure names it, and the command above walks it again.
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from random import Random
 
 from tests.line.drives import KINDS
@@ -93,6 +94,8 @@ class Walk:
             passes = not bench.answer(slot, PARAMETER) and bench.slot(slot, "ParameterCleared") == 0
             if passes and bench["Phase"] == 1 and (bench["Slot"], bench["Box"]) == (slot, PARAMETER):
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} sends a parameter unasked")
+        if not bench["Scan.Asks"] and any(map(self._asks, range(len(bench.drives)))):
+            raise BrokenRuleError(f"seed {self.seed}, scan {number}: a slot asks, and the line looks for none")
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
@@ -102,6 +105,12 @@ class Walk:
                 raise BrokenRuleError(
                     f"seed {self.seed}, scan {number}: {sent} leaves though ErrorID {bench['ErrorID']}"
                 )
+
+    def _asks(self, slot: int) -> bool:
+        track = f"Track[{slot}]"
+        due = self.bench[f"{track}.PauseMs"] == 0 or self.bench[f"{track}.Stop.Unsent"]
+        asks = due or self.bench[f"{track}.Stop.Forced"] > 0 or not all(map(partial(self.bench.answer, slot), (0, 1, 2)))
+        return bool(self.bench[f"{track}.UnitAddress"]) and asks
 
     def _stops(self, frame: bytes) -> bool:
         return frame[1] == self.bench.kind.stop_function and frame[2:4] == self.bench.kind.stop_address.to_bytes(
