@@ -6,11 +6,10 @@ A seed is a walk; a failure names it, and the command above walks it again.
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from random import Random
 
 from tests.line.drives import KINDS
-from tests.line.vline import PARAMETER, POLL, STOP, Bench, Config
+from tests.line.vline import COMMAND, PARAMETER, POLL, STOP, Bench, Config
 
 from structured_text.engines.engine import Instance
 
@@ -75,6 +74,8 @@ class Walk:
             self.bench.scan(self.took, self.elapsed)
             self.took = None
             self._check(number, waiting, fresh, before)
+            if not self.bench["Scan.Asks"] and any(map(self._asks, range(len(self.bench.drives)))):
+                raise BrokenRuleError(f"seed {self.seed}, scan {number}: a slot asks, and the line looks for none")
 
     def _check(self, number: int, waiting: set[int], fresh: list[tuple[int, int]], before: int) -> None:
         bench = self.bench
@@ -94,8 +95,6 @@ class Walk:
             passes = not bench.answer(slot, PARAMETER) and bench.slot(slot, "ParameterCleared") == 0
             if passes and bench["Phase"] == 1 and (bench["Slot"], bench["Box"]) == (slot, PARAMETER):
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: slot {slot} sends a parameter unasked")
-        if not bench["Scan.Asks"] and any(map(self._asks, range(len(bench.drives)))):
-            raise BrokenRuleError(f"seed {self.seed}, scan {number}: a slot asks, and the line looks for none")
         for sent in bench.sent[before:]:
             if sent.unit == 0:
                 raise BrokenRuleError(f"seed {self.seed}, scan {number}: a broadcast")
@@ -107,10 +106,10 @@ class Walk:
                 )
 
     def _asks(self, slot: int) -> bool:
-        track = f"Track[{slot}]"
-        due = self.bench[f"{track}.PauseMs"] == 0 or self.bench[f"{track}.Stop.Unsent"]
-        asks = due or self.bench[f"{track}.Stop.Forced"] > 0 or not all(map(partial(self.bench.answer, slot), (0, 1, 2)))
-        return bool(self.bench[f"{track}.UnitAddress"]) and asks
+        track = f"Track[{slot}]."
+        own = any(self.bench[f"{track}Stop.{name}"] for name in ("Unsent", "Forced"))
+        waits = not all(self.bench.answer(slot, box) for box in (STOP, COMMAND, PARAMETER))
+        return bool(self.bench[f"{track}UnitAddress"]) and (own or waits or self.bench[f"{track}PauseMs"] == 0)
 
     def _stops(self, frame: bytes) -> bool:
         return frame[1] == self.bench.kind.stop_function and frame[2:4] == self.bench.kind.stop_address.to_bytes(
