@@ -34,8 +34,8 @@ METER_US = 5000
 """How long it takes to answer."""
 COUNTS = bytes((METER, 3, 4, 0x12, 0x34, 0x56, 0x78))
 """What it answers."""
-STRANGER = bytes((77, 3, 0, 1, 0, 1))
-"""A request of another master to a unit of its own."""
+STRANGERS = bytes((77, 3, 0, 1, 0, 1)), bytes((77, 3, 2, 0x12, 0x34))
+"""A request of another master to a unit of its own, and what that answers, by turns."""
 STOP_WITHIN_MS = {1: 7000, 3: 7000, 8: 14_000}
 """By drives on the line: 5 s for the motor, and twice what a round of reads takes."""
 STALE_MS = {1: 5000, 3: 5000, 8: 12_000}
@@ -303,7 +303,8 @@ class Second(Bench):
         if self.strange and often:
             self.strange_us = self.now
             self.strangers.append(self.now)
-            other = ascii_frame(STRANGER) if self.ascii else rtu(STRANGER)
+            frame_of_others = STRANGERS[len(self.strangers) % len(STRANGERS)]
+            other = ascii_frame(frame_of_others) if self.ascii else rtu(frame_of_others)
             self.transmit(other, at + CHAR_US * (len(text) + 6), None)
         if self._happens(self.faults.twice):
             self.transmit(text, at + CHAR_US * (len(text) + 6), None)

@@ -23,6 +23,8 @@ QUIET_US = 2_000_000
 """A drive that has been stopped for so long is written to no more."""
 START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
+AT_ONCE_US, AT_ONCE_ROUNDS = 700_000, 2
+"""The same where no reply is late: and two rounds of the line, for other drives' turns and the answers."""
 PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
 """Rounds of the line by which a start of several writes is longer; a drive gets one write and one read in a round.
 
@@ -47,6 +49,8 @@ EVERY_US = 200_000
 ATTEND_US = 1_000_000
 """AttendMs."""
 CALM_US = 10_000_000
+COUNTS_US = 10_000_000
+"""How long a frame of another master counts, by the pin ForeignFrames."""
 FOREIGN_US = 45_000_000
 """Doubled replies may pass for frames of others; it takes half a minute until they are forgotten."""
 PROBE_US = 12_000_000
@@ -93,8 +97,8 @@ SPEEDING = 6
 """State: the block gives the reference alone."""
 SHARED_US = 4_000_000
 """Within this time the line has stopped a drive whose slot two blocks use."""
-STANDS_US = 5_000_000
-"""From standstill, or a pin that stops, to StopConfirmed."""
+STANDS_US, STANDS_ROUNDS = 600_000, 4
+"""From standstill, or a pin that stops, to StopConfirmed: some rounds in which all that proves it is read."""
 SILENT_US = 6_000_000
 """A drive that does not answer is stopped again within this time: each second, in turn with others and its identity."""
 UNLINKED_CALLS = 100
@@ -446,7 +450,7 @@ class Claims:
             gave_up = one.busy_us > claim.edge_us + most and bench.reason(index) in UNANSWERED
             if others or gave_up or one.fault is not None or (not ignores and not self.willing(index)):
                 claim.edge_us = None
-            elif not ignores and now - max(claim.edge_us, claim.crowd_us) > self._start_us(index) * (
+            elif not ignores and now - max(claim.edge_us, claim.crowd_us, one.busy_us) > self._start_us(index) * (
                 2 if one.o.late_per_1000 and many else 1
             ):
                 self._once(index, "starts", bad=True)
@@ -556,11 +560,15 @@ class Claims:
         """A drive that has been standing for long, and that nobody starts, is shown so."""
         bench, now = self.bench, self.bench.now
         pins = bench.pins[index]
-        since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, self.judge.units[index].unknown_us)
+        begun = self.judge.units[index].unknown_us + RESTART_US
+        since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, begun)
         # the dead have their turn on the wire, too, and in slow scans each exchange takes longer than was promised
         late = now - self.judge.slow_us < CALM_US or any(now - each.away_us < CALM_US for each in self.judge.units)
         calm = (
-            now - since > STANDS_US * (1 + late) and self.willing(index) and not bench.flicker and len(bench.models) < 8
+            now - since > (STANDS_US + STANDS_ROUNDS * round_us(bench)) * (1 + 4 * late)
+            and self.willing(index)
+            and not bench.flicker
+            and len(bench.models) < 8
         )
         held = any_of(MOVES, pins) and pins["Enable"]
         quiet = calm and not held and not pins.get("SupplyOff") and not bench.strange and not pins.get("StopAll")
@@ -597,6 +605,9 @@ class Claims:
         self._once(
             index, "at speed", bad=quiet and not (bench.shows("AtSpeed", index) and bench.shows("Running", index))
         )
+        well = ("RUNS", "SLOW_LINE", *["HEARTBEAT"] * bool(pins.get("WatchdogMs")))
+        alone, reason = not any_of(AWAY, pins), bench.reason(index)
+        self._once(index, "says that it runs", bad=quiet and alone and reason not in well, seen=(reason,))
         wrong = (
             bench.shows("AtSpeed", index) and one.by == "bus" and self._was_far(index, asked) and not self.lies(index)
         )
@@ -615,7 +626,10 @@ class Claims:
         return True
 
     def _start_us(self, index: int) -> int:
-        return START_US + path_us(self.bench, index)
+        bench = self.bench
+        late = any(one.o.late_per_1000 for one in bench.models) or max(self.judge.late) > MAX_SCAN_US
+        at_once = AT_ONCE_US + AT_ONCE_ROUNDS * round_us(bench)
+        return (START_US if late else at_once) + path_us(bench, index)
 
     def _reason(self, index: int, claim: Claim) -> None:
         """The reason that the pins give, once the block has had time to say it. A pin may be a scan ahead of it."""
@@ -640,6 +654,8 @@ class Claims:
             right = reason == first if first else reason != "READY" or (ready and not held)
         claim.odd = 0 if right else claim.odd + 1
         self._once(index, "why", bad=claim.odd > 1, seen=(reason,))
+        few = bench.unsaid and not index and reason == "NO_RUN" and 0 < claim.runs < RUNS
+        self._once(index, "attempts", bad=few, seen=(claim.runs, "of", RUNS))
         running = bench.shows("Running", index)
         self._once(index, "runs", bad=reason == "RUNS" and not running, seen=(reason,))
         idle = bench.shows("StopConfirmed", index) or not ready
@@ -713,6 +729,18 @@ class Claims:
             claim.sent_us = now
         self._once(index, "probe", bad=forgotten and claim.sent_us < now)
 
+    def _strangers(self, shown: int) -> None:
+        """Frames of another master count for ten seconds, and for less than one more."""
+        bench, now = self.bench, self.bench.now
+        plain = not (bench.faults.twice or bench.faults.garbled or any(one.o.late_per_1000 for one in bench.models))
+        began = max(bench.acknowledged_us, *(each.restarted_us for each in self.judge.units)) + SEEN_US
+        heard = [at for at in bench.strangers if at > now - COUNTS_US - ATTEND_US]
+        least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
+        calm = plain and bench.strangers and not bench.line_pins.get("Acknowledge") and not bench.lineless
+        calm = calm and now - max(self.judge.slow_us, self.doubled_us) > CALM_US
+        wrong = bool(calm) and not least <= shown <= len(heard)
+        self._once(0, "foreign frames", bad=wrong, seen=(shown, "shown,", least, "to", len(heard), "heard"))
+
     def _line(self) -> None:
         """What the line says of itself."""
         bench, block, now = self.bench, self.bench.block, self.bench.now
@@ -730,6 +758,7 @@ class Claims:
         began = max(self.judge.units[i].unknown_us for i in units)
         forgotten = good and now - began > CALM_US + 1_000_000  # echoes that a restart has cut in two
         self._once(0, "strange", bad=forgotten and strange > most, seen=(strange, "foreign frames"))
+        self._strangers(strange)
         if not all(self.willing(i) for i in units):
             self.all_us = now
         retries, steady = block["TheLine.Retries"], good and now - self.all_us > ATTEND_US

@@ -32,8 +32,12 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 READING = 5
 """State of MonitorOnly: the motor is that of others."""
-CUT_US = 2_500_000
-"""From the silence of a drive that turns, or a shared slot, to the open contact: offline, then a stop and retries."""
+CUT_US = 1_500_000
+"""From the silence of a drive that turns to the open contact: offline, then a stop and retries."""
+LATE_US = 1_000_000
+"""How much later where replies are late: the line waits longer for each."""
+SHARED_SCANS = 3
+"""From a second block on a slot to the open contact, in calls of the line."""
 MORE_US = 500_000
 """How much later with three drives, again with eight, and again in slow scans: their requests are between."""
 SLOW_US = 1_500_000
@@ -91,6 +95,8 @@ STATUS = alike(
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
+UNPERMITTED = (50, OFFLINE, 65, 66, NOT_SENT, 69, 70)
+"""What may come of a write that nobody has permitted: it is not in the map, or it does not come so far."""
 
 
 @dataclass(slots=True)
@@ -162,6 +168,14 @@ class Asked:
     stood: bool = False
     """It was shown at standstill then."""
 
+    def _refused(self, judge: "Judge", *, sent: bool) -> None:
+        """What nobody has permitted is not sent, and its error says so."""
+        said = judge.bench.block[f"{self.name}.ErrorID"]
+        if sent:
+            judge.tell(self.index, "parameter", f"{self.name} writes what no manual has, and nobody has permitted")
+        elif said not in UNPERMITTED:
+            judge.tell(self.index, "parameter", f"{self.name} says {said!r}")
+
     def over(self, judge: "Judge") -> bool:
         """Whether it has ended; what it says is then judged."""
         bench, one = judge.bench, judge.bench.models[self.index]
@@ -173,8 +187,8 @@ class Asked:
             return True
         bench.block[f"{self.name}.Execute"] = False
         mine = [f for f in bench.frames[self.frames :] if (f.unit, f.address) == (one.unit, self.address)]
-        if not self.permitted and (done or mine):
-            judge.tell(self.index, "parameter", f"{self.name} writes what no manual has, and nobody has permitted")
+        if not self.permitted:
+            self._refused(judge, sent=bool(done or mine))
         if self.name.startswith(READ):
             value = bench.block[f"{self.name}.Value"]
             wrong = done and value not in (self.value, one.ram.get(self.address))
@@ -384,7 +398,10 @@ class Judge:
         if bench.turn_round(index) >= UNLEARNED_MS:
             beside = self.figures.stop_us + CUT_US if many > 1 else 0  # an attempt costs 0.5 s, then come others
             most = max(most, 1000 * bench.promised_cut, beside)
-        if self._all_dead(index) and not slow:
+        most += LATE_US if any(each.o.late_per_1000 for each in bench.models) else 0
+        if bench.pins[index].get("Shared"):
+            most = SHARED_SCANS * max(self.late)
+        elif len(self.units) == 1 and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))
         self.once(index, "cut", bad=bench.now - unit.silent_since > most)
 
@@ -396,10 +413,6 @@ class Judge:
         """How much later one that was away may be found: probes come every 8 s, and it may answer two of them late."""
         unit = self.units[index]
         return 2 * PAUSE_US if self.bench.models[index].o.late_per_1000 and unit.unknown_us == unit.away_us else 0
-
-    def _all_dead(self, index: int) -> bool:
-        """It is alone on the line, for which the line says how long it takes."""
-        return len(self.units) == 1 and not self.bench.pins[index].get("Shared")
 
     def _boots(self, index: int) -> bool:
         """It has not answered since the restart, which nobody can expect yet."""
