@@ -351,7 +351,8 @@ class Claims:
         if since_us > CHANGED_US:
             return
         calm = self.attended(index) and self.well(index, ATTEND_US) and self.bench.now - self.all_us > ATTEND_US
-        calm = calm and not self.bench.pins[index].get("Restart") and not self.lies(index)
+        ran = self.claims[index].run_us > self.all_us  # else that is still what keeps it from running
+        calm = calm and ran and not self.bench.pins[index].get("Restart") and not self.lies(index)
         self._once(index, "stop all", bad=calm and self.bench.reason(index) == "STOP_ALL")
 
     def _jog(self, index: int, claim: Claim, body: bytes) -> None:
@@ -435,8 +436,9 @@ class Claims:
         hz = pins["SpeedReferenceHz"]
         assert isinstance(hz, float)
         stops = not pins["Enable"] or any_of(STOPPING, pins) or hz < 0 or both(pins)
-        if stops or not self.attended(index) or not self.well(index, QUIET_US):
-            claim.edge_us = None
+        other = any_of(MOVES, before) and [pins.get(each) for each in MOVES] != [before.get(each) for each in MOVES]
+        if stops or other or not self.attended(index) or not self.well(index, QUIET_US):
+            claim.edge_us = None  # another direction begins with a stop, and needs an edge of its own
         elif claim.ready and not any_of((*MOVES, "Restart"), before):
             claim.edge_us = now
         ramping = [i for i, each in enumerate(self.claims) if not (each.driven_us or bench.shows("StopConfirmed", i))]
@@ -738,7 +740,9 @@ class Claims:
         least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
         calm = plain and bench.strangers and not bench.line_pins.get("Acknowledge") and not bench.lineless
         calm = calm and now - max(self.judge.slow_us, self.doubled_us) > CALM_US
-        wrong = bool(calm) and not least <= shown <= len(heard)
+        anew = max(*(each.unknown_us for each in self.judge.units), *(each.changed_us for each in self.claims))
+        few = now - anew > CALM_US + ATTEND_US  # what was asked for before may be answered to nobody
+        wrong = bool(calm) and (shown < least or (few and shown > len(heard)))
         self._once(0, "foreign frames", bad=wrong, seen=(shown, "shown,", least, "to", len(heard), "heard"))
 
     def _line(self) -> None:

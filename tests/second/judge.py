@@ -32,7 +32,7 @@ LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 READING = 5
 """State of MonitorOnly: the motor is that of others."""
-CUT_US = 1_500_000
+CUT_US = 2_200_000
 """From the silence of a drive that turns to the open contact: offline, then a stop and retries."""
 LATE_US = 1_000_000
 """How much later where replies are late: the line waits longer for each."""
