@@ -1,19 +1,21 @@
 """Sixty one-token mistakes in the blocks that run a motor, drawn by a seed: which of them does the matrix find?
 
-`python -m tests.second.mutants` draws changes that lint and build, runs the sample of `sample.py` on each until a cell
-fails, which none does on the real text, and prints which; the survivors are for a person to judge: what does the judge
-not look at, or can nobody tell the change from the text? `survivors.yaml` says so; the latter are no mistakes, and are
-not counted. `--only N` repeats one. A judge that has never been wrong is worthless; so this is the judge of the judge.
+`python -m tests.second.mutants` draws changes that lint and build, runs the sample of `sample.py` on each, and then walks,
+until one fails, which none does on the real text, and prints which; the survivors are for a person to judge: what does
+the judge not look at, or can nobody tell the change from the text? `survivors.yaml` says so; the latter are no mistakes,
+and are not counted. `--only N` repeats one. A judge that has never been wrong is worthless; so this is the judge of the
+judge.
 """
 
 import argparse
 import re
 import sys
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from random import Random
@@ -22,14 +24,16 @@ import yaml
 from tests.drives import station as first
 from tests.drives.station import FAMILIES
 from tests.second.long import fastest
-from tests.second.matrix import Cell, Run, run
+from tests.second.matrix import Cell, Outcome, Run, run
 from tests.second.sample import aimed, sample
 from tests.second.station import built
+from tests.second.walk import walk
 
 from structured_text.engines.engine import EngineError, Library, Source
 from structured_text.language.lint import lint_sources
 
 SEEDS, NUMBER = (734, 421, 411, 412, 911, 1203, 1517), 60
+WALKS = 100
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
 DRIVE = ("Link", "Unit", "Usual", "Identity", "Diagnose")
@@ -131,18 +135,26 @@ def ordered(one: Mutant, number: int) -> list[tuple[Cell, int]]:
     return sorted(found, key=dear)
 
 
+def looks(one: Mutant, number: int, most: int | None) -> Iterator[tuple[str, Callable[[Library], Outcome]]]:
+    """The cells, or so many of them; after all of them walks."""
+    for cell, seed in ordered(one, number)[:most]:
+        yield f"{cell}, seed {seed}", partial(run, cell, seed)
+    for seed in range(WALKS if most is None else 0):
+        yield f"walk {seed}", partial(walk, seed)
+
+
 def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
-    """Of this many cells the one that finds a change, with its rule; empty: none does. None: it is no change."""
+    """What finds a change, with its rule; empty: nothing does. None: it is no change."""
     stations = mutated(one)
     if stations is None:
         return None
-    for cell, seed in ordered(one, number)[:most]:
+    for name, look in looks(one, number, most):
         try:
-            outcome = run(cell, seed, stations)
+            outcome = look(stations)
         except Exception as error:
-            return f"{cell}, seed {seed}: {type(error).__name__}"
+            return f"{name}: {type(error).__name__}"
         if outcome.rules:
-            return f"{cell}, seed {seed}: {outcome.rules[0]}"
+            return f"{name}: {outcome.rules[0]}"
     return ""
 
 
