@@ -1,10 +1,10 @@
 """Sixty one-token mistakes in the blocks that run a motor, drawn by a seed: which of them does the matrix find?
 
-`python -m tests.second.mutants` draws changes that lint and build, runs the sample of `sample.py` on each, and then walks,
+`python -m tests.second.mutants` draws changes that lint and build, runs the sample of `sample.py` on each, then walks,
 until one fails, which none does on the real text, and prints which; the survivors are for a person to judge: what does
-the judge not look at, or can nobody tell the change from the text? `survivors.yaml` says so; the latter are no mistakes,
-and are not counted. `--only N` repeats one. A judge that has never been wrong is worthless; so this is the judge of the
-judge.
+the judge not look at, or can nobody tell the change from the text? `survivors.yaml` says so; the latter are no
+mistakes, and are not counted. `--only N` repeats one. A judge that has never been wrong is worthless; so this is the
+judge of the judge.
 """
 
 import argparse
