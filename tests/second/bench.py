@@ -286,13 +286,17 @@ class Second(Bench):
         if data[0] == METER:
             self.judge.once(0, "meter", bad=data != METERED, seen=(data.hex(),))
             self.transmit(ascii_frame(COUNTS) if self.ascii else rtu(COUNTS), end + METER_US, None)
+        replies = refused = 0
         for index, one in enumerate(self.models):
             if index + 1 in self.deaf:
                 continue
             for at, text in one.receive(raw, end):
                 unsaid = self.unsaid and not index and runs(self.types[0], data)
                 if not unsaid and not self._happens(self.faults.unanswered):
+                    code = int(text[3:5], 16) if self.ascii else text[1]
+                    replies, refused = replies + 1, refused + (code != frame.function)
                     self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
+        self.judge.counts.answered(replies=replies + (data[0] == METER), refused=refused)
 
     def _reply(self, index: int, text: bytes, at: int, frame: Any) -> None:
         if self._happens(self.faults.garbled):

@@ -22,6 +22,7 @@ from tests.second.claims import (
     crowded,
     round_us,
 )
+from tests.second.counts import Counts
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 
@@ -243,6 +244,7 @@ class Judge:
         """When the line was last not called."""
         self.asked: list[Asked] = []
         self.claims = Claims(self)
+        self.counts = Counts(self)
 
     def sent(self, now_us: int, frame: bytes) -> None:
         """A frame of the master."""
@@ -284,8 +286,10 @@ class Judge:
         self.open_now = not contact or bench.lineless
         for index in range(len(self.units)):
             self._drive(index, looks=looks)
+        self.counts.scan()
         if looks:
             self.next_us = now + EVERY_US
+            self.counts.look()
         if opened and not any(self._excused(index) for index in range(len(self.units))):
             self.tell(-1, "contact", f"opens for nothing; {bench.told()}")
         if contact and not self.contact and not bench.hand:

@@ -21,6 +21,9 @@ PLANTED = (
     # the mode is taken in the call of the restart, and no stop is sent
     ("PostStop := Rounds.Posts;", "PostStop := Rounds.Posts AND NOT Asked.SpeedOnly;",
      "CHF, full control, Restart into SpeedOnly, at speed", {"stop", "prompt"}),
+    # what the line counts is what was on the wire
+    (" Good := Good + 1;", " Good := Good + 2;", "CHF, full control, nothing, at speed", {"ends"}),
+    ("CycleMs := Times.RoundMs;", "CycleMs := Times.SinceMs;", "CHF, full control, nothing, at speed", {"round"}),
 )  # fmt: skip
 SEEDS = 6
 

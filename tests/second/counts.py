@@ -1,0 +1,139 @@
+"""What the line and the blocks count, against what was on the wire."""
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from tests.second.claims import ATTEND_US, MAX_SCAN_US
+
+if TYPE_CHECKING:
+    from tests.second.judge import Judge
+
+ENDS = ("Good", "Timeouts", "Bad")
+"""How a request ends: what a drive has refused it has answered."""
+SLOT = (*ENDS, "Refusals", "Requests", "Retries")
+"""What slots count, too."""
+ROUNDS_MS, CALM_US = 3000, 5_000_000
+"""What is looked at of the rounds of reads, where nothing has been lost for so long."""
+ECHOES = {True: (0, 2), False: (0, 1)}
+"""Echo, by whether the port hears what it sends."""
+
+
+class Counts:
+    """Looks at counters. After a restart, or while a request may be taken back, they are counted anew."""
+
+    def __init__(self, judge: "Judge") -> None:
+        """Begin at power-up."""
+        self.judge, self.bench = judge, judge.bench
+        self.scans = self.longest_ms = self.late = 0
+        self.before: dict[str, int] | None = None
+        self.refused = self.unanswered = 0
+        """Since then, on the wire."""
+        self.starts: list[int | None] = [None] * len(judge.units)
+        self.ran = [True] * len(judge.units)
+
+    def answered(self, *, replies: int, refused: int) -> None:
+        """A request was on the wire; it may be that nobody has answered it."""
+        self.unanswered += not replies
+        self.refused += refused
+
+    def scan(self) -> None:
+        """In each scan: times, and starts that are shown."""
+        bench = self.bench
+        if not bench.lineless:
+            if self.scans:
+                self.longest_ms = max(self.longest_ms, bench.elapsed)
+                self.late += 1000 * bench.elapsed > MAX_SCAN_US
+            self.scans += 1
+        for index, count in enumerate(self.starts):
+            runs, knows = bench.shows("Running", index), bench.shows("CommOk", index)
+            if count is not None and knows and runs and not self.ran[index]:
+                self.starts[index] = count + 1
+            self.ran[index] = runs if knows else self.ran[index]
+
+    def look(self) -> None:
+        """What is shown by now."""
+        self._times()
+        self._ends()
+        self._sums()
+        self._rounds()
+        for index in range(len(self.starts)):
+            self._starts(index)
+
+    def _count(self, name: str) -> int:
+        value = self.bench.block[name]
+        assert isinstance(value, int)
+        return value
+
+    def _line(self, name: str) -> int:
+        return self._count(f"TheLine.{name}")
+
+    def _once(self, rule: str, *, bad: bool, seen: tuple[object, ...], index: int = 0) -> None:
+        self.judge.once(index, rule, bad=bad, seen=seen)
+
+    def _times(self) -> None:
+        seen = self._line("LongestScanMs"), self._line("LateScans"), self.longest_ms, self.late
+        self._once("scans", bad=seen[:2] != seen[2:], seen=seen)
+        echo, load = self._line("Echo"), self._line("LoadPercent")
+        self._once("echo", bad=echo not in ECHOES[self.bench.echo], seen=("Echo", echo))
+        self._once("load", bad=load > 100, seen=("LoadPercent", load))
+
+    def _steady(self) -> bool:
+        """Nothing has begun anew, and no request is taken back or given up unseen."""
+        bench, now = self.bench, self.bench.now
+        units = self.judge.units
+        anew = any(now - each.unknown_us < 2 * ATTEND_US for each in units)
+        left = any(each.get("SupplyOff") or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
+        return not (anew or left or bench.was_slow_port or bench.lineless or now - self.judge.slow_us < ATTEND_US)
+
+    def _ends(self) -> None:
+        """Each request ends in one way."""
+        now = {name: self._line(name) for name in (*ENDS, "Refusals", "Requests", "LateReplies")}
+        if self.before is None or not self._steady():
+            self.before = now if self._steady() else None
+            self.refused = self.unanswered = 0
+            return
+        grown = {name: now[name] - self.before[name] for name in now}
+        open_ = grown["Requests"] - sum(grown[name] for name in ENDS)
+        self._once("ends", bad=abs(open_) > 1, seen=(grown,))
+        faults = self.bench.faults
+        plain = not (faults.lost or faults.garbled or faults.twice or self.bench.strange)
+        if not plain or any(one.o.late_per_1000 for one in self.bench.models):
+            self.before = None
+            return
+        wrong = abs(grown["Timeouts"] - self.unanswered) > 1 or abs(grown["Refusals"] - self.refused) > 1
+        wrong = wrong or grown["Bad"] > 0 or grown["LateReplies"] > 0
+        self._once("ends as", bad=wrong, seen=(grown, self.unanswered, "unanswered", self.refused, "refused"))
+
+    def _sums(self) -> None:
+        """The slots have no more and no less than the line."""
+        for name in SLOT:
+            parts = [self._count(f"Slots[{i}].{name}") for i in range(8)]
+            self._once(f"sum of {name}", bad=sum(parts) != self._line(name), seen=(name, parts, self._line(name)))
+
+    def _rounds(self) -> None:
+        """Each drive has its turn to be read, and a round takes as long as the line says."""
+        bench, units, now = self.bench, self.judge.units, self.bench.now
+        faults = bench.faults.lost or bench.faults.garbled or bench.faults.unanswered or bench.deaf
+        late = any(one.o.late_per_1000 for one in bench.models)
+        well = all(now - max(each.unknown_us, each.away_us) > CALM_US for each in units)
+        if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
+            return
+        reads = [each for each in bench.frames[-200:] if each.read and each.ms > now // 1000 - ROUNDS_MS]
+        numbers = [sum(each.unit == i + 1 for each in reads) for i in range(len(units))]
+        self._once("turns", bad=max(numbers) - min(numbers) > 2, seen=(numbers, "reads"))
+        times = [each.ms for each in reads if each.unit == 1]
+        rounds = [two - one for one, two in pairwise(times)][-6:]
+        scans_ms, shown = 2 * max(self.judge.late) // 1000, self._line("CycleMs")
+        wrong = len(rounds) > 4 and not min(rounds) - scans_ms <= shown <= max(rounds) + scans_ms
+        self._once("round", bad=wrong, seen=("CycleMs", shown, "of", rounds))
+
+    def _starts(self, index: int) -> None:
+        bench, unit = self.bench, self.judge.units[index]
+        shown = self._count(f"Drive{index}.Diagnosis.Starts")
+        count = self.starts[index]
+        known = bench.now - unit.unknown_us > ATTEND_US and bench.shows("CommOk", index)
+        known = known and not bench.pins[index].get("Left")
+        if count is None or not known:
+            self.starts[index] = shown if known else None
+        else:
+            self._once("starts shown", bad=shown != count, seen=(shown, "of", count), index=index)
