@@ -293,8 +293,9 @@ class Second(Bench):
             for at, text in one.receive(raw, end):
                 unsaid = self.unsaid and not index and runs(self.types[0], data)
                 if not unsaid and not self._happens(self.faults.unanswered):
-                    code = int(text[3:5], 16) if self.ascii else text[1]
-                    replies, refused = replies + 1, refused + (code != frame.function)
+                    same = 2 if frame.read else 6  # bytes that repeat the request's
+                    replies += 1
+                    refused += (self.judge.observer.opened(text) or b"")[:same] != data[:same]
                     self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
         self.judge.counts.answered(replies=replies + (data[0] == METER), refused=refused)
 

@@ -25,9 +25,10 @@ class Counts:
         """Begin at power-up."""
         self.judge, self.bench = judge, judge.bench
         self.scans = self.longest_ms = self.late = 0
-        self.before: dict[str, int] | None = None
-        self.refused = self.unanswered = 0
-        """Since then, on the wire."""
+        self.before: dict[str, dict[str, int]] = {}
+        """Counters, since when they are compared."""
+        self.unclean_us = self.refused = self.unanswered = 0
+        """When something was last lost or doubled; requests that a drive has refused, and that none has answered."""
         self.starts: list[int | None] = [None] * len(judge.units)
         self.ran = [True] * len(judge.units)
 
@@ -86,23 +87,24 @@ class Counts:
         return not (anew or left or bench.was_slow_port or bench.lineless or now - self.judge.slow_us < ATTEND_US)
 
     def _ends(self) -> None:
-        """Each request ends in one way."""
-        now = {name: self._line(name) for name in (*ENDS, "Refusals", "Requests", "LateReplies")}
-        if self.before is None or not self._steady():
-            self.before = now if self._steady() else None
-            self.refused = self.unanswered = 0
-            return
-        grown = {name: now[name] - self.before[name] for name in now}
-        open_ = grown["Requests"] - sum(grown[name] for name in ENDS)
-        self._once("ends", bad=abs(open_) > 1, seen=(grown,))
-        faults = self.bench.faults
-        plain = not (faults.lost or faults.garbled or faults.twice or self.bench.strange)
-        if not plain or any(one.o.late_per_1000 for one in self.bench.models):
-            self.before = None
-            return
-        wrong = abs(grown["Timeouts"] - self.unanswered) > 1 or abs(grown["Refusals"] - self.refused) > 1
-        wrong = wrong or grown["Bad"] > 0 or grown["LateReplies"] > 0
-        self._once("ends as", bad=wrong, seen=(grown, self.unanswered, "unanswered", self.refused, "refused"))
+        """Each request ends in one way; where nothing is lost or doubled, in the one that the wire shows."""
+        shown = {name: self._line(name) for name in (*ENDS, "Refusals", "Requests", "LateReplies")}
+        shown |= {"unanswered": self.unanswered, "refused": self.refused}
+        steady, faults = self._steady(), self.bench.faults
+        late = any(one.o.late_per_1000 for one in self.bench.models)
+        if late or faults.lost or faults.garbled or faults.twice or self.bench.strange or not steady:
+            self.unclean_us = self.bench.now
+        grown = self._grown("steady", shown, well=steady)
+        self._once("ends", bad=abs(grown["Requests"] - sum(grown[name] for name in ENDS)) > 1, seen=(grown,))
+        grown = self._grown("clean", shown, well=self.bench.now - self.unclean_us > ATTEND_US)
+        wrong = abs(grown["Timeouts"] - grown["unanswered"]) > 1 or abs(grown["Refusals"] - grown["refused"]) > 1
+        self._once("ends as", bad=wrong or grown["Bad"] > 0 or grown["LateReplies"] > 0, seen=(grown,))
+
+    def _grown(self, since: str, shown: dict[str, int], *, well: bool) -> dict[str, int]:
+        """By how much counters have grown since all has been well for the last time."""
+        if not well or since not in self.before:
+            self.before[since] = shown
+        return {name: count - self.before[since][name] for name, count in shown.items()}
 
     def _sums(self) -> None:
         """The slots have no more and no less than the line."""
