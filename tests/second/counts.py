@@ -14,6 +14,8 @@ SLOT = (*ENDS, "Refusals", "Requests", "Retries")
 """What slots count, too."""
 ROUNDS_MS, CALM_US = 3000, 5_000_000
 """What is looked at of the rounds of reads, where nothing has been lost for so long."""
+LAST_READ = 4
+"""Function codes up to this one read: bits, too."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 
@@ -120,7 +122,9 @@ class Counts:
         well = all(now - max(each.unknown_us, each.away_us) > CALM_US for each in units)
         if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
             return
-        reads = [each for each in bench.frames[-200:] if each.read and each.ms > now // 1000 - ROUNDS_MS]
+        reads = [
+            each for each in bench.frames[-200:] if each.function <= LAST_READ and each.ms > now // 1000 - ROUNDS_MS
+        ]
         numbers = [sum(each.unit == i + 1 for each in reads) for i in range(len(units))]
         self._once("turns", bad=max(numbers) - min(numbers) > 2, seen=(numbers, "reads"))
         times = [each.ms for each in reads if each.unit == 1]
