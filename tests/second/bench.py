@@ -6,8 +6,8 @@ from typing import Any
 from tests.drives.bench import RUNS, Bench
 from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
+from tests.second.frames import LAST_READ, rtu, runs
 from tests.second.frames import ascii_ as ascii_frame
-from tests.second.frames import rtu, runs
 from tests.second.judge import Asked, Judge
 from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
@@ -293,7 +293,7 @@ class Second(Bench):
             for at, text in one.receive(raw, end):
                 unsaid = self.unsaid and not index and runs(self.types[0], data)
                 if not unsaid and not self._happens(self.faults.unanswered):
-                    same = 2 if frame.read else 6  # bytes that repeat the request's
+                    same = 2 if data[1] <= LAST_READ else 6  # bytes that repeat the request's
                     replies += 1
                     refused += (self.judge.observer.opened(text) or b"")[:same] != data[:same]
                     self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)

@@ -4,6 +4,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from tests.second.claims import ATTEND_US, MAX_SCAN_US
+from tests.second.frames import LAST_READ
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -14,8 +15,6 @@ SLOT = (*ENDS, "Refusals", "Requests", "Retries")
 """What slots count, too."""
 ROUNDS_MS, CALM_US = 3000, 5_000_000
 """What is looked at of the rounds of reads, where nothing has been lost for so long."""
-LAST_READ = 4
-"""Function codes up to this one read: bits, too."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 

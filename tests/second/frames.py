@@ -12,6 +12,8 @@ def _entry(byte: int) -> int:
 
 RUNS = {"CHF": (1, 2, 3, 4), "JSCC": (1, 2)}
 """Values of 1000H: CHF lines 319 to 326, JSCC lines 105 to 108."""
+LAST_READ = 4
+"""Function codes up to this one read registers, or bits."""
 TABLE = tuple(_entry(byte) for byte in range(256))
 
 
