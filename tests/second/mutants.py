@@ -136,7 +136,7 @@ def ordered(one: Mutant, number: int) -> list[tuple[Cell, int]]:
 
 
 def looks(one: Mutant, number: int, most: int | None) -> Iterator[tuple[str, Callable[[Library], Outcome]]]:
-    """The cells, or so many of them; after all of them walks."""
+    """The cells, or the first of them; after all of them walks."""
     for cell, seed in ordered(one, number)[:most]:
         yield f"{cell}, seed {seed}", partial(run, cell, seed)
     for seed in range(WALKS if most is None else 0):
