@@ -25,6 +25,7 @@ from tests.second.claims import (
 from tests.second.counts import Counts
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
+from tests.second.shown import Shown
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -245,6 +246,7 @@ class Judge:
         self.asked: list[Asked] = []
         self.claims = Claims(self)
         self.counts = Counts(self)
+        self.shown = [Shown(self, index) for index in range(len(self.units))]
 
     def sent(self, now_us: int, frame: bytes) -> None:
         """A frame of the master."""
@@ -287,9 +289,13 @@ class Judge:
         for index in range(len(self.units)):
             self._drive(index, looks=looks)
         self.counts.scan()
+        for each in self.shown:
+            each.scan()
         if looks:
             self.next_us = now + EVERY_US
             self.counts.look()
+            for each in self.shown:
+                each.look()
         if opened and not any(self._excused(index) for index in range(len(self.units))):
             self.tell(-1, "contact", f"opens for nothing; {bench.told()}")
         if contact and not self.contact and not bench.hand:

@@ -1,0 +1,108 @@
+"""Outputs of a drive block that must agree with each other, and with the drive."""
+
+from typing import TYPE_CHECKING, Any
+
+from tests.drives.station import FAMILIES
+
+if TYPE_CHECKING:
+    from tests.second.judge import Judge
+
+FOLLOW = (
+    ("Ready", "StopConfirmed"), ("Running", "CommOk"), ("AtSpeed", "Running"), ("ZeroSpeed", "CommOk"),
+    ("StopConfirmed", "CommOk"), ("Fault", "CommOk"),
+)  # fmt: skip
+"""What the first says, the second has to say, too."""
+NEVER = (("Ready", "Fault"), ("Ready", "Running"), ("StopConfirmed", "Running"))
+"""What is not shown at the same time."""
+UNSCALED = {
+    "CHF": ("OutputVoltage", "OutputCurrent", "OutputPower"), "SN300G5": ("OutputCurrent", "OutputPower"),
+}  # fmt: skip
+"""Whose scale the program has not given."""
+MEASURED = ("OutputFrequencyHz", "OutputCurrentA")
+LAG_US = 300_000
+"""What an age of words does not say: the reply's way, and the scan in which it is shown."""
+LAST, FIRST = tuple(f"FaultBack{i}" for i in range(1, 9)), ("FirstFaultHz", "FirstFaultA", "FirstFaultV")
+
+
+class Shown:
+    """What one drive block shows, scan by scan."""
+
+    def __init__(self, judge: "Judge", index: int) -> None:
+        """Begin at power-up."""
+        self.judge, self.bench, self.index = judge, judge.bench, index
+        self.kind = self.bench.types[index]
+        self.fault = False
+        self.state: object = None
+        self.faults: list[object] | None = None
+        self.reverse, self.turned_us = False, 0
+        """Whether it turns in reverse, and since when it turns as it does."""
+
+    def _out(self, name: str) -> Any:
+        return self.bench.block[f"Drive{self.index}.Diagnosis.{name}"]
+
+    def _once(self, rule: str, *, bad: bool, seen: tuple[object, ...]) -> None:
+        self.judge.once(self.index, rule, bad=bad, seen=seen)
+
+    def scan(self) -> None:
+        """In each scan: what agrees, and the first fault."""
+        bench, index = self.bench, self.index
+        if bench.pins[index].get("Left"):
+            return
+        for one, other in FOLLOW:
+            self._once(f"{one} with {other}", bad=bench.shows(one, index) and not bench.shows(other, index), seen=())
+        for one, other in NEVER:
+            self._once(f"{one} or {other}", bad=bench.shows(one, index) and bench.shows(other, index), seen=())
+        hz = bench.models[index].shaft_hz(bench.now)
+        if hz == 0 or self.reverse != (hz < 0):
+            self.reverse, self.turned_us = hz < 0, bench.now
+        fault, claim = bench.shows("Fault", index), self.judge.claims.claims[index]
+        if fault and not self.fault and claim.first and claim.alone:
+            now = (
+                bench.out("OutputFrequencyHz", index),
+                bench.out("OutputCurrentA", index),
+                self._out("DcBusVoltageV"),
+            )
+            kept = tuple(map(self._out, FIRST))
+            self._once("first fault", bad=kept != now, seen=(kept, "of", now))
+            was = self._out("FirstFaultState")
+            self._once("first fault's state", bad=was != self.state, seen=(was, "of", self.state))
+        self.fault, self.state = fault, self._out("State")
+
+    def look(self) -> None:
+        """Now and then: validity, direction, errors, faults of before, the longest reply."""
+        if self.bench.pins[self.index].get("Left"):
+            self.faults = None
+            return
+        self._valid()
+        self._direction()
+        self._faults()
+        error = self.bench.out("Error", self.index), self.bench.out("ErrorID", self.index)
+        self._once("error", bad=error[0] != (error[1] != 0), seen=error)
+
+    def _valid(self) -> None:
+        bench, index = self.bench, self.index
+        knows, age = bench.shows("CommOk", index), bench.number("MeasuresAgeMs", index)
+        fresh = knows and age <= bench.number("StaleMs", index)
+        for pin in bench.models[index].MEASURES:
+            name = pin.removeprefix("Diagnosis.").rstrip("AVKWRpm").removesuffix("Percent").removesuffix("K")
+            scaled = name not in UNSCALED.get(self.kind, ())
+            shown = self._out(f"{name}Valid")
+            may = fresh if self.kind in FAMILIES else knows  # others read their measures by parts
+            wrong = (shown and not (may and scaled)) or (fresh and scaled and not shown)
+            self._once(f"{name} valid", bad=wrong, seen=(shown, age, knows))
+
+    def _direction(self) -> None:
+        bench, index = self.bench, self.index
+        lag = 1000 * int(bench.number("StatusAgeMs", index)) + LAG_US + max(self.judge.late)
+        known = bench.shows("Running", index) and not self.judge.claims.mistaken(index, bench.now)
+        if known and bench.now - self.turned_us > lag:
+            shown = bench.out("Reverse", index)
+            self._once("direction", bad=shown != self.reverse, seen=(shown, "of", self.reverse))
+
+    def _faults(self) -> None:
+        """The last faults move on by one; more than one in the time between two looks is not looked at."""
+        now = list(map(self._out, LAST))
+        moved = self.faults is not None and now != self.faults
+        if moved and self.faults is not None:
+            self._once("faults", bad=now[1:] != self.faults[:-1], seen=(now, "after", self.faults))
+        self.faults = now
