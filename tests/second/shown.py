@@ -1,5 +1,6 @@
 """Outputs of a drive block that must agree with each other, and with the drive."""
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from tests.drives.station import FAMILIES
@@ -14,6 +15,10 @@ FOLLOW = (
 """What the first says, the second has to say, too."""
 NEVER = (("Ready", "Fault"), ("Ready", "Running"), ("StopConfirmed", "Running"))
 """What is not shown at the same time."""
+KINDS = {2: "CanQuickStop", 3: "CanCoastStop", 4: "CanJog"}
+"""StopKind, and what the drive has to be able to; 1 is the stop that every drive has."""
+UNIT = re.compile("(A|V|KW|Rpm|Percent)$")
+"""The end of an output's name."""
 UNSCALED = {
     "CHF": ("OutputVoltage", "OutputCurrent", "OutputPower"), "SN300G5": ("OutputCurrent", "OutputPower"),
 }  # fmt: skip
@@ -77,6 +82,9 @@ class Shown:
         self._direction()
         self._faults()
         error = self.bench.out("Error", self.index), self.bench.out("ErrorID", self.index)
+        kind = self._out("StopKind")
+        able = kind not in KINDS or self._out(KINDS[kind])
+        self._once("stop kind", bad=not able or kind > len(KINDS) + 1, seen=(kind,))
         self._once("error", bad=error[0] != (error[1] != 0), seen=error)
 
     def _valid(self) -> None:
@@ -84,7 +92,7 @@ class Shown:
         knows, age = bench.shows("CommOk", index), bench.number("MeasuresAgeMs", index)
         fresh = knows and age <= bench.number("StaleMs", index)
         for pin in bench.models[index].MEASURES:
-            name = pin.removeprefix("Diagnosis.").rstrip("AVKWRpm").removesuffix("Percent").removesuffix("K")
+            name = UNIT.sub("", pin.removeprefix("Diagnosis."))
             scaled = name not in UNSCALED.get(self.kind, ())
             shown = self._out(f"{name}Valid")
             may = fresh if self.kind in FAMILIES else knows  # others read their measures by parts
