@@ -30,6 +30,8 @@ class Counts:
         """Counters, since when they are compared."""
         self.unclean_us = self.refused = self.unanswered = 0
         """When something was last lost or doubled; requests that a drive has refused, and that none has answered."""
+        self.asked_us = 0
+        """When a parameter block was last at work, whose reads are none of the rounds."""
         self.starts: list[int | None] = [None] * len(judge.units)
         self.ran = [True] * len(judge.units)
 
@@ -41,6 +43,8 @@ class Counts:
     def scan(self) -> None:
         """In each scan: times, and starts that are shown."""
         bench = self.bench
+        if self.judge.asked:
+            self.asked_us = bench.now
         if not bench.lineless:
             if self.scans:
                 self.longest_ms = max(self.longest_ms, bench.elapsed)
@@ -118,7 +122,7 @@ class Counts:
         bench, units, now = self.bench, self.judge.units, self.bench.now
         faults = bench.faults.lost or bench.faults.garbled or bench.faults.unanswered or bench.deaf
         late = any(one.o.late_per_1000 for one in bench.models)
-        well = all(now - max(each.unknown_us, each.away_us) > CALM_US for each in units)
+        well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
         if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
             return
         reads = [
