@@ -25,13 +25,11 @@ from tests.second.claims import (
 from tests.second.counts import Counts
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
-from tests.second.shown import Shown
+from tests.second.shown import LAG_US, Shown
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
 
-LAG_US = 300_000
-"""What an age of words does not say: the reply's way, and the scan in which it is shown."""
 READING = 5
 """State of MonitorOnly: the motor is that of others."""
 CUT_US = 2_200_000

@@ -24,6 +24,11 @@ PLANTED = (
     # what the line counts is what was on the wire
     (" Good := Good + 1;", " Good := Good + 2;", "CHF, full control, nothing, at speed", {"ends"}),
     ("CycleMs := Times.RoundMs;", "CycleMs := Times.SinceMs;", "CHF, full control, nothing, at speed", {"round"}),
+    # what is kept of a fault, and which way it turns
+    ("FirstFaultA := Amps;", "FirstFaultA := Volts;", "CHF, full control, a trip, at speed", {"first fault"}),
+    ("FaultBack2 := Diagnosis.FaultBack1;", "FaultBack2 := Code;", "CHF, full control, a trip, at speed", {"faults"}),
+    ("Reverse := CommOk AND DriveStatusBits.RunningReverse;", "Reverse := DriveStatusBits.RunningForward;",
+     "CHF, MonitorOnly, nothing, at speed", {"direction"}),
 )  # fmt: skip
 SEEDS = 6
 
