@@ -6,12 +6,13 @@ from typing import Any
 from tests.drives.bench import RUNS, Bench
 from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
-from tests.second.frames import LAST_READ, rtu, runs
 from tests.second.frames import ascii_ as ascii_frame
+from tests.second.frames import rtu, runs
 from tests.second.judge import Asked, Judge
 from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
+from tests.second.wire import Exchange
 
 from driveblocks.simulator.drive import SimulatedDrive
 from structured_text.engines.engine import Library, Value
@@ -90,6 +91,10 @@ class Second(Bench):
         """When somebody has last acknowledged its frames."""
         self.unsaid = False
         """Nobody hears the first drive acknowledge a run."""
+        self.mute: int | None = None
+        """Nobody hears what it answers to requests about this register."""
+        self.noise = 0
+        """How often characters of nobody come right before a reply, in 1000."""
         self.lineless = False
         """The line is not called."""
         self.was_slow_port = False
@@ -203,6 +208,11 @@ class Second(Bench):
     hand = False
 
     @property
+    def damages(self) -> bool:
+        """Whether replies are damaged."""
+        return bool(self.faults.garbled or self.faults.truncated or self.noise)
+
+    @property
     def contact(self) -> bool:
         """Whether the contact of the hard stop is closed."""
         return bool(self.seen & CONTACT)
@@ -275,6 +285,7 @@ class Second(Bench):
         count = self.block["Port.TxCount"]
         assert isinstance(count, int)
         if count >= SHORTEST:
+            self.judge.wire.posting()
             super()._send()
         else:
             self.judge.tell(-1, "frame", f"{count} characters")
@@ -283,25 +294,32 @@ class Second(Bench):
         raw = ascii_frame(data) if self.ascii else rtu(data)
         self.judge.sent(end, raw)
         self._hear_others(end)
+        counts = ascii_frame(COUNTS) if self.ascii else rtu(COUNTS)
         if data[0] == METER:
             self.judge.once(0, "meter", bad=data != METERED, seen=(data.hex(),))
-            self.transmit(ascii_frame(COUNTS) if self.ascii else rtu(COUNTS), end + METER_US, None)
-        replies = refused = 0
+            self.transmit(counts, end + METER_US, None)
+        replies: list[tuple[int, int, bytes]] = []
         for index, one in enumerate(self.models):
             if index + 1 in self.deaf:
                 continue
             for at, text in one.receive(raw, end):
                 unsaid = self.unsaid and not index and runs(self.types[0], data)
-                if not unsaid and not self._happens(self.faults.unanswered):
-                    same = 2 if data[1] <= LAST_READ else 6  # bytes that repeat the request's
-                    replies += 1
-                    refused += (self.judge.observer.opened(text) or b"")[:same] != data[:same]
+                muted = not index and int.from_bytes(data[2:4], "big") == self.mute
+                if not (unsaid or muted) and not self._happens(self.faults.unanswered):
+                    replies.append((at, at + CHAR_US * len(text), self.judge.observer.opened(text) or b""))
                     self._reply(index, text, at, frame if text[1] == frame.function or self.ascii else None)
-        self.judge.counts.answered(replies=replies + (data[0] == METER), refused=refused)
+        if data[0] == METER:
+            replies.append((end + METER_US, end + METER_US + CHAR_US * len(counts), COUNTS))
+        self.judge.answered(Exchange(data, end, replies))
 
     def _reply(self, index: int, text: bytes, at: int, frame: Any) -> None:
         if self._happens(self.faults.garbled):
             text, frame = self._garbled(text), None
+        if self._happens(self.faults.truncated):
+            text, frame = text[: self.chance.randrange(1, len(text))], None
+        if self._happens(self.noise):
+            noise = self.chance.randbytes(self.chance.randint(1, 3))
+            text, frame = noise + text, None
         self.transmit(text, at, frame)
         self._later.append((at + CHAR_US * len(text), index, text))
         often = self.now - self.strange_us >= 1000 * self.strange_ms if self.strange_ms else self._happens(400)

@@ -734,7 +734,7 @@ class Claims:
     def _strangers(self, shown: int) -> None:
         """Frames of another master count for ten seconds, and for less than one more."""
         bench, now = self.bench, self.bench.now
-        plain = not (bench.faults.twice or bench.faults.garbled or any(one.o.late_per_1000 for one in bench.models))
+        plain = not (bench.faults.twice or bench.damages or any(one.o.late_per_1000 for one in bench.models))
         began = max(bench.acknowledged_us, *(each.restarted_us for each in self.judge.units)) + SEEN_US
         heard = [at for at in bench.strangers if at > now - COUNTS_US - ATTEND_US]
         least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
@@ -769,7 +769,8 @@ class Claims:
         plain = steady and not any(one.o.late_per_1000 or now < one.busy_us + ATTEND_US for one in bench.models)
         proved = all(self.claims[i].driven_us or bench.shows("StopConfirmed", i) for i in units)
         self.open_us = self.open_us if proved else now
-        plain = plain and now - self.open_us > ATTEND_US
+        plain = plain and now - self.open_us > ATTEND_US and not self.judge.asked
+        plain = plain and now - self.judge.counts.unclean_us > ATTEND_US
         self._once(0, "retries", bad=plain and retries != self.retries, seen=(retries, "after", self.retries))
         self.retries = retries
         asked = block["TheLine.Requests"]

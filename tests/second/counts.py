@@ -8,6 +8,7 @@ from tests.second.frames import LAST_READ
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
+    from tests.second.wire import Exchange
 
 ENDS = ("Good", "Timeouts", "Bad")
 """How a request ends: what a drive has refused it has answered."""
@@ -35,10 +36,10 @@ class Counts:
         self.starts: list[int | None] = [None] * len(judge.units)
         self.ran = [True] * len(judge.units)
 
-    def answered(self, *, replies: int, refused: int) -> None:
+    def answered(self, exchange: "Exchange") -> None:
         """A request was on the wire; it may be that nobody has answered it."""
-        self.unanswered += not replies
-        self.refused += refused
+        self.unanswered += not exchange.replies
+        self.refused += exchange.refused
 
     def scan(self) -> None:
         """In each scan: times, and starts that are shown."""
@@ -97,7 +98,7 @@ class Counts:
         shown |= {"unanswered": self.unanswered, "refused": self.refused}
         steady, faults = self._steady(), self.bench.faults
         late = any(one.o.late_per_1000 for one in self.bench.models)
-        if late or faults.lost or faults.garbled or faults.twice or self.bench.strange or not steady:
+        if late or faults.lost or self.bench.damages or faults.twice or self.bench.strange or not steady:
             self.unclean_us = self.bench.now
         grown = self._grown("steady", shown, well=steady)
         self._once("ends", bad=abs(grown["Requests"] - sum(grown[name] for name in ENDS)) > 1, seen=(grown,))
@@ -120,8 +121,8 @@ class Counts:
     def _rounds(self) -> None:
         """Each drive has its turn to be read, and a round takes as long as the line says."""
         bench, units, now = self.bench, self.judge.units, self.bench.now
-        faults = bench.faults.lost or bench.faults.garbled or bench.faults.unanswered or bench.deaf
-        late = any(one.o.late_per_1000 for one in bench.models)
+        faults = bench.faults.lost or bench.damages or bench.faults.unanswered or bench.deaf
+        late = any(one.o.late_per_1000 for one in bench.models) or now - self.unclean_us < 1000 * ROUNDS_MS
         well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
         if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
             return

@@ -149,6 +149,21 @@ def _unpermitted(b: Second, chance: Random) -> None:
     b.ask("Writer", 0, WRITES[b.types[0]] | PARAMETER[b.types[0]], chance.randrange(1, 500))
 
 
+def _unanswered(b: Second, chance: Random) -> None:
+    """At standstill: a read and a write that nobody answers, and a read that the drive refuses."""
+    _stop(b)
+    row, kind, one = PARAMETER[b.types[0]], b.types[0], b.models[0]
+    for name, place in (("Reader", row + 1), ("Writer", WRITES[kind] | row)):
+        b.mute = place
+        b.ask(name, 0, place, chance.randrange(1, 500))
+        b.wait(lambda: not b.judge.asked, 3000)
+    b.mute, options = None, one.o
+    one.o = replace(options, forbidden=frozenset([row + 2]))
+    b.ask("Reader0", 0, row + 2, 0)
+    b.wait(lambda: not b.judge.asked, 3000)
+    one.o = options
+
+
 def _stopped_after_a_write(b: Second, chance: Random) -> None:
     """A start that is stopped soon after its first write."""
     written = len(b.frames)
@@ -349,6 +364,14 @@ def _wire(lasts: int, **faults: int) -> Event:
     return Event(begin, lasts, end, stops="lost" in faults, stops_all="lost" in faults)
 
 
+def _noise(b: Second, _: Random) -> None:
+    b.noise = 150
+
+
+def _no_noise(b: Second, _: Random) -> None:
+    b.noise = 0
+
+
 def _slow(b: Second, _: Random) -> None:
     b.was_ms, b.ms = b.ms, 50 if len(b.models) > 3 else 80
 
@@ -539,6 +562,9 @@ AIMED = {
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
+    "parameters that are not answered, or refused": Event(_unanswered, 2000),
+    "replies cut short": _wire(6000, truncated=150),
+    "noise before replies": Event(_noise, 6000, _no_noise, stops=False),
     "a stop while it is busy": Event(_busy_stop, 5000),
     "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),

@@ -65,6 +65,8 @@ def opened(frame: bytes) -> bytes | None:
 @lru_cache(maxsize=1 << 16)
 def ascii_opened(frame: bytes) -> bytes | None:
     """... of an ASCII frame; None: damaged, or written in small letters."""
+    if len(frame) < len(b":\r\n"):
+        return None
     digits = frame[1:-2]
     if frame[:1] != b":" or frame[-2:] != b"\r\n" or digits.strip(b"0123456789ABCDEF") or len(digits) % 2:
         return None

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.second.claims import (
     ASTRAY,
+    ATTEND_US,
     CODE_MOST,
     EVERY_US,
     JOG_ENDS,
@@ -26,6 +27,7 @@ from tests.second.counts import Counts
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 from tests.second.shown import LAG_US, Shown
+from tests.second.wire import REFUSED, SILENCE, STATUS, Exchange, Wire
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -89,12 +91,10 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
 )
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
-STATUS = alike(
-    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
-)
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
+TAKEN_BACK, ATTEMPTS = 52, 2
 UNPERMITTED = (50, OFFLINE, 65, 66, NOT_SENT, 69, 70)
 """What may come of a write that nobody has permitted: it is not in the map, or it does not come so far."""
 
@@ -176,6 +176,22 @@ class Asked:
         elif said not in UNPERMITTED:
             judge.tell(self.index, "parameter", f"{self.name} says {said!r}")
 
+    def _ended(self, judge: "Judge", said: object, *, known: bool) -> None:
+        """It ends as its last request does; one that nobody answers is sent twice."""
+        one = judge.bench.models[self.index]
+        if not known or one.o.late_per_1000 or judge.bench.now < one.busy_us + ATTEND_US:
+            return
+        mine = [each for each in judge.wire.since(self.since_us) if each.about(one.unit, self.address)]
+        if not self.name.startswith(READ):
+            mine = [each for each in mine if each.data[4:6] == self.value.to_bytes(2, "big") or each.data[1] == 16]
+        if not mine:
+            return
+        last = mine[-1]
+        right = {0} if last.good else {REFUSED} if last.refused else {SILENCE}
+        if not last.good or not (said in UNPERMITTED or said in (0, TAKEN_BACK)):
+            wrong = said not in right or (said == SILENCE and len(mine) != ATTEMPTS)
+            judge.once(self.index, "ends with", bad=wrong, seen=(self.name, said, "of", right, len(mine)))
+
     def over(self, judge: "Judge") -> bool:
         """Whether it has ended; what it says is then judged."""
         bench, one = judge.bench, judge.bench.models[self.index]
@@ -213,6 +229,7 @@ class Asked:
         unsent = error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and self.permitted
         if unsent and stood and not full and judge.known(self.index, calm):
             judge.tell(self.index, "parameter", f"{self.name} was taken back, and nothing has stopped the drive")
+        self._ended(judge, bench.block[f"{self.name}.ErrorID"], known=judge.known(self.index, calm) and not full)
         mine = [each for each in mine if each.word == self.value]  # others may write there, too
         if error and bench.block[f"{self.name}.ErrorID"] == NOT_SENT and mine and not self.name.startswith(READ):
             judge.tell(self.index, "parameter", f"{self.name} was sent, and says that it was not")
@@ -244,6 +261,7 @@ class Judge:
         self.asked: list[Asked] = []
         self.claims = Claims(self)
         self.counts = Counts(self)
+        self.wire = Wire(self)
         self.shown = [Shown(self, index) for index in range(len(self.units))]
 
     def sent(self, now_us: int, frame: bytes) -> None:
@@ -258,6 +276,11 @@ class Judge:
         if body[1] == 16 and now_us - unit.stored_us < STORE_US:
             self.tell(body[0] - 1, "stores", f"{(now_us - unit.stored_us) // 1000} ms after the last one")
         unit.stored_us = now_us
+
+    def answered(self, exchange: Exchange) -> None:
+        """A request was on the wire, and what was answered."""
+        self.counts.answered(exchange)
+        self.wire.answered(exchange)
 
     def tell(self, index: int, rule: str, seen: str) -> None:
         """A broken rule."""
@@ -287,11 +310,13 @@ class Judge:
         for index in range(len(self.units)):
             self._drive(index, looks=looks)
         self.counts.scan()
+        self.wire.scan()
         for each in self.shown:
             each.scan()
         if looks:
             self.next_us = now + EVERY_US
             self.counts.look()
+            self.wire.look()
             for each in self.shown:
                 each.look()
         if opened and not any(self._excused(index) for index in range(len(self.units))):

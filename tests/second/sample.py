@@ -13,6 +13,8 @@ SIZE = 120
 """Cells of the sample."""
 ONE_STATE = {
     "the motor turns round": "at speed", "a write without permission and one with it": "standstill",
+    "parameters that are not answered, or refused": "standstill",
+    "replies cut short": "at speed", "noise before replies": "at speed",
     "a slow port": "at speed", "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""

@@ -1,0 +1,243 @@
+"""What happens on the wire, and when: no time is wasted, nobody is interrupted, and ages, errors and the longest reply
+are those of the wire."""
+
+from collections import deque
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import TYPE_CHECKING, Any
+
+from tests.second.claims import ASTRAY, AWAY, ONE_WORD
+from tests.second.frames import LAST_READ
+from tests.second.observer import any_of
+from tests.second.pf4 import alike
+
+if TYPE_CHECKING:
+    from tests.second.judge import Judge
+
+IDLE_MS = 20
+"""How long the wire stays unused after a reply, or one scan, where somebody may be read: a read that might be taken for
+the one before waits for its drive block."""
+WAITS_SCANS, REPLY_MS = 3, 45
+"""How much longer than the drive may take the line waits for a reply: for its characters, in scans that see no more."""
+SETTLED_US = 3_000_000
+"""Since the last restart, or since a drive could be reached again."""
+SPEED = alike({"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN300G5": 0x0021})
+"""Where the output frequency is."""
+CONTROL = alike({"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000, "SN300G5": 0})
+"""Where stops are written."""
+ENOUGH, MANY, DEAD_US = 3, 4, 1_600_000
+"""Good replies in a row after which a drive counts as one that answers; so many without one, for so long, and it does
+not."""
+SEVERAL = 200
+"""How many requests are remembered."""
+SILENCE, REFUSED = 20, 40
+"""Errors of a request."""
+EXCEPTION = 0x80
+"""What a refusal adds to the function code, in most families."""
+STATUS = alike(
+    {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
+)
+"""Where the status begins."""
+
+
+@dataclass(slots=True)
+class Exchange:
+    """A request that was on the wire, and what was answered."""
+
+    data: bytes
+    """Without checksum."""
+    end: int
+    """When its last character was there, us."""
+    replies: list[tuple[int, int, bytes]]
+    """When each began and ended, us, and what it says."""
+    waits_ms: int = 0
+    """How long its drive might take then."""
+
+    def reads(self, register: int) -> bool:
+        """Whether it reads a register, among others."""
+        first, count = int.from_bytes(self.data[2:4], "big"), int.from_bytes(self.data[4:6], "big")
+        return self.data[1] <= LAST_READ and first <= register < first + count
+
+    def about(self, unit: int, register: int) -> bool:
+        """Whether it is to this unit, and its first register is this."""
+        return self.data[0] == unit and int.from_bytes(self.data[2:4], "big") == register
+
+    @property
+    def index(self) -> int:
+        """Whose unit it is; a meter comes after all drives."""
+        return self.data[0] - 1
+
+    @property
+    def good(self) -> bool:
+        """It was answered, and not refused."""
+        same = 2 if self.data[1] <= LAST_READ else 6  # bytes that repeat the request's
+        return bool(self.replies) and self.replies[0][2][:same] == self.data[:same]
+
+    @property
+    def refused(self) -> bool:
+        """It was answered otherwise."""
+        return bool(self.replies) and not self.good
+
+
+class Wire:
+    """Looks at each request."""
+
+    def __init__(self, judge: "Judge") -> None:
+        """Begin at power-up."""
+        self.judge, self.bench = judge, judge.bench
+        self.last: Exchange | None = None
+        self.exchanges: deque[Exchange] = deque(maxlen=SEVERAL)
+        self.idle = 0
+        """Scans since its reply was there."""
+        self.read_us: list[int | None] = [None] * len(judge.units)
+        """When the status of each was last read."""
+        self.longest_us = [0] * len(judge.units)
+        """The longest that each has taken to answer, since all began anew."""
+        self.slowest_us = [0] * len(judge.units)
+        """The longest scan since then, in which nobody knows when a reply came."""
+        self.confirmed = [False] * len(judge.units)
+        self.lossy_us = -SETTLED_US
+        """When something else than silence was last wrong on the wire."""
+
+    def waits_ms(self, index: int) -> int:
+        """How long the line waits for a reply of a drive to begin."""
+        return self.bench.turn_round(index) if index < len(self.judge.units) else 0
+
+    def since(self, us: int) -> list[Exchange]:
+        """The last requests, those after a time."""
+        return [each for each in self.exchanges if each.end > us]
+
+    def posting(self) -> None:
+        """A request is in the mailbox: whether that is too soon, or too late, after the last one."""
+        last, now, judge = self.last, self.bench.now, self.judge
+        self.last = None
+        if last is None or not self._plain():
+            return
+        if last.index < len(judge.units):
+            self._shown(last)
+            self._varies(last)
+        if last.replies:
+            idle_ms = self.idle * self.bench.ms
+            judge.once(0, "idle", bad=self._somebody() and idle_ms > max(IDLE_MS, self.bench.ms), seen=(idle_ms, "ms"))
+        elif last.index < len(judge.units):
+            waited, least = (now - last.end) // 1000, min(last.waits_ms, self.waits_ms(last.index))
+            judge.once(last.index, "interrupts", bad=waited < least, seen=(waited, "of", least, "ms"))
+            most = max(last.waits_ms, self.waits_ms(last.index)) + WAITS_SCANS * self.bench.ms + REPLY_MS
+            judge.once(last.index, "waits", bad=self._somebody() and waited > most, seen=(waited, "of", most, "ms"))
+
+    def _somebody(self) -> bool:
+        """Whether there is a drive that answers, and may be read at any time."""
+        well = [index for index in range(len(self.judge.units)) if self.judge.known(index, SETTLED_US)]
+        return any(self.bench.shows("CommOk", index) for index in well)
+
+    def answered(self, exchange: Exchange) -> None:
+        """A request was on the wire."""
+        exchange.waits_ms = self.waits_ms(exchange.index)
+        self.last, self.idle = exchange, 0
+        self.exchanges.append(exchange)
+        index = exchange.index
+        if index < len(self.judge.units) and exchange.good:
+            begins, ends, _ = exchange.replies[0]
+            self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
+            if exchange.reads(STATUS[self.bench.types[index]]):
+                self.read_us[index] = ends
+
+    def _shown(self, last: Exchange) -> None:
+        """What the slot holds of how it ended."""
+        if self.bench.pins[last.index].get("SupplyOff"):
+            return
+        block: Any = self.bench.block
+        slot = f"Slots[{last.index}]"
+        error = block[f"{slot}.LastErrorID"]
+        if not last.good:
+            right = REFUSED if last.refused else SILENCE
+            self.judge.once(last.index, "last error", bad=error != right, seen=(error, "of", right))
+        if last.refused and last.replies[0][2][1] == last.data[1] | EXCEPTION:
+            shown = [block[f"{slot}.Refused{name}"] for name in ("Address", "Reason")]
+            true = [int.from_bytes(last.data[2:4], "big"), last.replies[0][2][2]]
+            self.judge.once(last.index, "refused what", bad=shown != true, seen=(shown, "of", true))
+        self._online(last.index, block[f"{slot}.Online"])
+        words = last.replies[0][2][3:] if last.good else b""
+        if last.data[1] in (3, 4) and len(words) == 2 * last.data[5]:
+            shown = block[f"{slot}.PollWords"][: last.data[5]]
+            true = [int.from_bytes(words[i : i + 2], "big") for i in range(0, len(words), 2)]
+            self.judge.once(last.index, "words", bad=shown != true, seen=(shown, "of", true))
+
+    def _mine(self, index: int) -> list[Exchange]:
+        """Requests to a drive since the last restart, the last one first."""
+        since = self.judge.units[index].restarted_us
+        return [each for each in reversed(self.exchanges) if each.index == index and each.end > since]
+
+    def _online(self, index: int, online: object) -> None:
+        """Whether the line knows that a drive answers, or that it does not."""
+        mine = self._mine(index)
+        answers = len(list(takewhile(lambda each: each.replies, mine)))
+        silent = list(takewhile(lambda each: not each.replies, mine))
+        dead = len(silent) >= MANY and self.bench.now - silent[-1].end > DEAD_US
+        wrong = (answers >= ENOUGH and not online) or (dead and online)
+        self.judge.once(index, "online", bad=bool(wrong), seen=(online, answers, len(silent)))
+
+    def _varies(self, last: Exchange) -> None:
+        """A read that was not answered is repeated with another length, so that a late reply is none of it."""
+        kind, mine = self.bench.types[last.index], self._mine(last.index)
+        reads = [each for each in mine if each.data[1] == last.data[1] and each.data[2:4] == last.data[2:4]]
+        same = len(reads) > 1 and reads[1] is mine[1] and not reads[1].replies and reads[1].data == last.data
+        judged = last.data[1] <= LAST_READ and kind not in ONE_WORD
+        self.judge.once(last.index, "length", bad=judged and same, seen=(last.data.hex(),))
+
+    def _proved(self, index: int) -> None:
+        """Standstill that is shown anew was read after the last order: status and frequency."""
+        shown, kind, now = self.bench.shows("StopConfirmed", index), self.bench.types[index], self.bench.now
+        rises, self.confirmed[index] = shown and not self.confirmed[index], shown
+        if not rises or kind not in SPEED or any_of(AWAY, self.bench.pins[index]) or not self._plain():
+            return
+        mine = [each for each in self._mine(index) if each.replies and each.replies[0][1] <= now]
+        since = list(
+            takewhile(lambda each: each.data[1] <= LAST_READ or not each.about(index + 1, CONTROL[kind]), mine)
+        )
+        read = [any(each.good and each.reads(place[kind]) for each in since) for place in (STATUS, SPEED)]
+        self.judge.once(index, "proved", bad=not all(read), seen=(read, len(since)))
+
+    def look(self) -> None:
+        """Now and then: ages, and the longest reply."""
+        plain, now, bench = self._plain(), self.bench.now, self.bench
+        for index, unit in enumerate(self.judge.units):
+            if now - unit.unknown_us < SETTLED_US:
+                self.longest_us[index] = self.slowest_us[index] = 0
+                self.read_us[index] = None
+                continue
+            read_us = self.read_us[index]
+            if plain and read_us is not None and read_us <= now:
+                age, true = bench.number("StatusAgeMs", index), (now - read_us) // 1000
+                self.judge.once(index, "younger", bad=age + bench.ms < true, seen=(age, "of", true))
+            if plain and self.longest_us[index]:
+                longest, true = bench.number("LongestReplyMs", index), self.longest_us[index] // 1000
+                off = not true - bench.ms <= longest <= true + 2 * self.slowest_us[index] // 1000
+                self.judge.once(index, "longest reply", bad=off, seen=(longest, "of", true))
+
+    def _plain(self) -> bool:
+        """Nothing is wrong but that drives do not answer."""
+        bench, judge, now = self.bench, self.judge, self.bench.now
+        faults = bench.faults
+        lossy = faults.lost or bench.damages or faults.twice or bench.strange or bench.flicker or bench.was_slow_port
+        late = any(one.o.late_per_1000 for one in bench.models)
+        astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
+        if lossy or late or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
+            self.slowest_us = [0] * len(judge.units)
+        """The longest scan since then, in which nobody knows when a reply came."""
+        self.confirmed = [False] * len(judge.units)
+        self.lossy_us = now
+        anew = any(
+            now - each.restarted_us < SETTLED_US or any_of(("Restart",), pins)
+            for each, pins in zip(judge.units, bench.pins, strict=True)
+        )
+        return now - self.lossy_us > SETTLED_US and not anew
+
+    def scan(self) -> None:
+        """In each scan, after what was sent."""
+        last, now = self.last, self.bench.now
+        for index in range(len(self.confirmed)):
+            self._proved(index)
+        self.slowest_us = [max(each, 1000 * self.bench.elapsed) for each in self.slowest_us]
+        if last is not None and last.replies and now >= last.replies[-1][1]:
+            self.idle += 1
