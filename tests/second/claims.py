@@ -651,7 +651,7 @@ class Claims:
             most = CALM_US if refuses else RESETS_US + CODE_MOST * round_us(bench)  # no stop of it is acknowledged
             right = now - self.judge.units[index].fault[True] < most
         else:
-            first = next((name for name, is_so in self._told(index) if is_so), None)
+            first = next((name for name, is_so in self.told(index) if is_so), None)
             held = any_of(MOVES, pins)  # then nothing starts until it is released
             right = reason == first if first else reason != "READY" or (ready and not held)
         claim.odd = 0 if right else claim.odd + 1
@@ -663,7 +663,8 @@ class Claims:
         idle = bench.shows("StopConfirmed", index) or not ready
         self._once(index, "ready", bad=not idle, seen=("Ready without StopConfirmed",))
 
-    def _told(self, index: int) -> list[tuple[str, bool]]:
+    def told(self, index: int) -> list[tuple[str, bool]]:
+        """Reasons that pins give, the first first."""
         pins = self.bench.pins[index]
         return [
             ("NO_SUPPLY", bool(pins.get("SupplyOff"))), ("STOP_ALL", bool(pins.get("StopAll"))),

@@ -89,6 +89,15 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
     }
 )
+SAYS_ZERO: dict[str, Callable[[Any, int], bool]] = alike(
+    {
+        "CHF": lambda one, now: not one.LIVE[0x3000](one, now),  # 3000H: running frequency
+        "JSCC": lambda one, now: not one.LIVE[0x2000](one, now),  # 2000H
+        "GD200A": lambda one, now: not one.LIVE[0x3000](one, now),  # 3000H
+        "PF4": lambda one, now: not one.LIVE[8451](one, now),
+        "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 2),  # 0010H: bit 1
+    }
+)
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
@@ -109,6 +118,8 @@ class Unit:
     """When it last said that it does not, and that it does."""
     fault: list[int] = field(default_factory=lambda: [-1, -1])
     """The same of a fault."""
+    zero: list[int] = field(default_factory=lambda: [-1, -1])
+    """The same of a frequency of 0."""
     shaft: deque[tuple[int, float]] = field(default_factory=lambda: deque(maxlen=SHAFT))
     """Frequencies that the drive showed, with their times."""
     away_us: int = 0
@@ -361,6 +372,8 @@ class Judge:
             self.once(index, "kept", bad=index in self.kept and not driven)
         unit.running[unit.says_running(one, now)] = now
         unit.fault[one.fault is not None] = now
+        if bench.types[index] in SAYS_ZERO:
+            unit.zero[SAYS_ZERO[bench.types[index]](one, now)] = now
         unit.shaft.append((now, one.shown_hz(now)))
         if looks:
             self._outputs(index, unit)
@@ -507,6 +520,9 @@ class Judge:
             shown = bench.shows(name, index)
             late = seen[shown] < since
             self.once(index, rule, bad=late and since > 0, seen=(rule, shown))
+        if bench.types[index] in SAYS_ZERO:
+            shown = bench.shows("ZeroSpeed", index)
+            self.once(index, "shows ZeroSpeed", bad=unit.zero[shown] < since and since > 0, seen=("ZeroSpeed", shown))
         if bench.out("OutputFrequencyValid", index):
             self._frequency(index, unit, now - int(1000 * bench.number("MeasuresAgeMs", index)) - lag)
 

@@ -3,7 +3,9 @@
 import re
 from typing import TYPE_CHECKING, Any
 
+from tests.drives.bench import REASON
 from tests.drives.station import FAMILIES
+from tests.second.observer import MOVES, any_of
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -23,7 +25,10 @@ UNSCALED = {
     "CHF": ("OutputVoltage", "OutputCurrent", "OutputPower"), "SN300G5": ("OutputCurrent", "OutputPower"),
 }  # fmt: skip
 """Whose scale the program has not given."""
-MEASURED = ("OutputFrequencyHz", "OutputCurrentA")
+STARTS, RUNNING = (2, 3), 4
+"""States: a start is sent; it runs."""
+OWN_MAXIMUM = ("ATV312", "GD200A")
+"""Families that show their maximum frequency."""
 LAG_US = 300_000
 """What an age of words does not say: the reply's way, and the scan in which it is shown."""
 LAST, FIRST = tuple(f"FaultBack{i}" for i in range(1, 9)), ("FirstFaultHz", "FirstFaultA", "FirstFaultV")
@@ -39,6 +44,8 @@ class Shown:
         self.fault = False
         self.state: object = None
         self.faults: list[object] | None = None
+        self.began_us = 0
+        """When it was last started."""
         self.reverse, self.turned_us = False, 0
         """Whether it turns in reverse, and since when it turns as it does."""
 
@@ -71,7 +78,25 @@ class Shown:
             self._once("first fault", bad=kept != now, seen=(kept, "of", now))
             was = self._out("FirstFaultState")
             self._once("first fault's state", bad=was != self.state, seen=(was, "of", self.state))
-        self.fault, self.state = fault, self._out("State")
+        state = self._out("State")
+        self._ended(state)
+        if state in STARTS and self.state not in STARTS:
+            self.began_us = bench.now
+        if fault and not self.fault and claim.first and claim.alone:
+            took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
+            self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
+        self.fault, self.state = fault, state
+
+    def _ended(self, state: object) -> None:
+        """Why a run has ended, where pins say so."""
+        bench, claims, index = self.bench, self.judge.claims, self.index
+        pins = bench.pins[index]
+        ended = self.state == RUNNING != state and bench.shows("CommOk", index) and claims.attended(index)
+        if not ended or pins.get("Restart") or bench.shows("Fault", index):
+            return
+        causes = [name for name, is_so in claims.told(index) if is_so] or ["RELEASED"] * (not any_of(MOVES, pins))
+        shown = REASON[self._out("StopReason")]
+        self._once("why it ended", bad=bool(causes) and shown not in causes, seen=(shown, "of", causes))
 
     def look(self) -> None:
         """Now and then: validity, direction, errors, faults of before, the longest reply."""
@@ -85,6 +110,13 @@ class Shown:
         kind = self._out("StopKind")
         able = kind not in KINDS or self._out(KINDS[kind])
         self._once("stop kind", bad=not able or kind > len(KINDS) + 1, seen=(kind,))
+        own = self._out("OwnMaximumHz")
+        true = self.bench.models[self.index].o.maximum_hz if self.kind in OWN_MAXIMUM else 0.0
+        self._once(
+            "own maximum",
+            bad=own not in (0.0, true) or (own != true and self.bench.shows("Ready", self.index)),
+            seen=(own, "of", true),
+        )
         self._once("error", bad=error[0] != (error[1] != 0), seen=error)
 
     def _valid(self) -> None:
