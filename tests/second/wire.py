@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import ASTRAY, AWAY, ONE_WORD
-from tests.second.frames import LAST_READ
+from tests.second.claims import ASTRAY, ATTEND_US, AWAY
+from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
 from tests.second.pf4 import alike
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 IDLE_MS = 20
 """How long the wire stays unused after a reply, or one scan, where somebody may be read: a read that might be taken for
 the one before waits for its drive block."""
-WAITS_SCANS, REPLY_MS = 3, 45
+WAITS_SCANS, REPLY_MS = 3, 60
 """How much longer than the drive may take the line waits for a reply: for its characters, in scans that see no more."""
 SETTLED_US = 3_000_000
 """Since the last restart, or since a drive could be reached again."""
@@ -115,7 +115,6 @@ class Wire:
             return
         if last.index < len(judge.units):
             self._shown(last)
-            self._varies(last)
         if last.replies:
             idle_ms = self.idle * self.bench.ms
             judge.once(0, "idle", bad=self._somebody() and idle_ms > max(IDLE_MS, self.bench.ms), seen=(idle_ms, "ms"))
@@ -138,13 +137,15 @@ class Wire:
         index = exchange.index
         if index < len(self.judge.units) and exchange.good:
             begins, ends, _ = exchange.replies[0]
-            self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
+            if not self.bench.damages:
+                self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
             if exchange.reads(STATUS[self.bench.types[index]]):
                 self.read_us[index] = ends
 
     def _shown(self, last: Exchange) -> None:
         """What the slot holds of how it ended."""
-        if self.bench.pins[last.index].get("SupplyOff"):
+        young = self.bench.now - self.judge.claims.claims[last.index].changed_us < ATTEND_US
+        if young or self.bench.pins[last.index].get("SupplyOff"):
             return
         block: Any = self.bench.block
         slot = f"Slots[{last.index}]"
@@ -177,14 +178,6 @@ class Wire:
         wrong = (answers >= ENOUGH and not online) or (dead and online)
         self.judge.once(index, "online", bad=bool(wrong), seen=(online, answers, len(silent)))
 
-    def _varies(self, last: Exchange) -> None:
-        """A read that was not answered is repeated with another length, so that a late reply is none of it."""
-        kind, mine = self.bench.types[last.index], self._mine(last.index)
-        reads = [each for each in mine if each.data[1] == last.data[1] and each.data[2:4] == last.data[2:4]]
-        same = len(reads) > 1 and reads[1] is mine[1] and not reads[1].replies and reads[1].data == last.data
-        judged = last.data[1] <= LAST_READ and kind not in ONE_WORD
-        self.judge.once(last.index, "length", bad=judged and same, seen=(last.data.hex(),))
-
     def _proved(self, index: int) -> None:
         """Standstill that is shown anew was read after the last order: status and frequency."""
         shown, kind, now = self.bench.shows("StopConfirmed", index), self.bench.types[index], self.bench.now
@@ -192,9 +185,9 @@ class Wire:
         if not rises or kind not in SPEED or any_of(AWAY, self.bench.pins[index]) or not self._plain():
             return
         mine = [each for each in self._mine(index) if each.replies and each.replies[0][1] <= now]
-        since = list(
-            takewhile(lambda each: each.data[1] <= LAST_READ or not each.about(index + 1, CONTROL[kind]), mine)
-        )
+        orders = [each for each in mine if each.data[1] > LAST_READ and each.about(index + 1, CONTROL[kind])]
+        stops = list(takewhile(lambda each: not runs(kind, each.data), orders))  # sent again and again
+        since = [each for each in mine if not stops or each.end > stops[-1].end]
         read = [any(each.good and each.reads(place[kind]) for each in since) for place in (STATUS, SPEED)]
         self.judge.once(index, "proved", bad=not all(read), seen=(read, len(since)))
 
@@ -202,8 +195,9 @@ class Wire:
         """Now and then: ages, and the longest reply."""
         plain, now, bench = self._plain(), self.bench.now, self.bench
         for index, unit in enumerate(self.judge.units):
-            if now - unit.unknown_us < SETTLED_US:
+            if now - unit.restarted_us < SETTLED_US:
                 self.longest_us[index] = self.slowest_us[index] = 0
+            if now - unit.unknown_us < SETTLED_US:
                 self.read_us[index] = None
                 continue
             read_us = self.read_us[index]
@@ -223,10 +217,7 @@ class Wire:
         late = any(one.o.late_per_1000 for one in bench.models)
         astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
         if lossy or late or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
-            self.slowest_us = [0] * len(judge.units)
-        """The longest scan since then, in which nobody knows when a reply came."""
-        self.confirmed = [False] * len(judge.units)
-        self.lossy_us = now
+            self.lossy_us = now
         anew = any(
             now - each.restarted_us < SETTLED_US or any_of(("Restart",), pins)
             for each, pins in zip(judge.units, bench.pins, strict=True)
