@@ -1,10 +1,12 @@
 """Outputs of a drive block that must agree with each other, and with the drive."""
 
 import re
+from collections import deque
 from typing import TYPE_CHECKING, Any
 
 from tests.drives.bench import REASON
 from tests.drives.station import FAMILIES
+from tests.second.claims import ATTEND_US
 from tests.second.observer import MOVES, any_of
 
 if TYPE_CHECKING:
@@ -27,6 +29,8 @@ UNSCALED = {
 """Whose scale the program has not given."""
 STARTS, RUNNING = (2, 3), 4
 """States: a start is sent; it runs."""
+YOUNG = 3
+"""Scans."""
 OWN_MAXIMUM = ("ATV312", "GD200A")
 """Families that show their maximum frequency."""
 LAG_US = 300_000
@@ -44,6 +48,8 @@ class Shown:
         self.fault = False
         self.state: object = None
         self.faults: list[object] | None = None
+        self.causes: deque[list[str]] = deque(maxlen=YOUNG)
+        """What pins said against a run in the last scans: what the line tells is a scan old."""
         self.began_us = 0
         """When it was last started."""
         self.reverse, self.turned_us = False, 0
@@ -91,12 +97,14 @@ class Shown:
         """Why a run has ended, where pins say so."""
         bench, claims, index = self.bench, self.judge.claims, self.index
         pins = bench.pins[index]
+        now = [name for name, is_so in claims.told(index) if is_so] or ["RELEASED"] * (not any_of(MOVES, pins))
+        self.causes.append(now)
         ended = self.state == RUNNING != state and bench.shows("CommOk", index) and claims.attended(index)
-        if not ended or pins.get("Restart") or bench.shows("Fault", index):
+        if not ended or not self.judge.known(index, ATTEND_US) or bench.shows("Fault", index):
             return
-        causes = [name for name, is_so in claims.told(index) if is_so] or ["RELEASED"] * (not any_of(MOVES, pins))
+        causes = [each for names in self.causes for each in names]
         shown = REASON[self._out("StopReason")]
-        self._once("why it ended", bad=bool(causes) and shown not in causes, seen=(shown, "of", causes))
+        self._once("why it ended", bad=bool(now) and shown not in causes, seen=(shown, "of", causes))
 
     def look(self) -> None:
         """Now and then: validity, direction, errors, faults of before, the longest reply."""

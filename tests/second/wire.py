@@ -111,7 +111,7 @@ class Wire:
         """A request is in the mailbox: whether that is too soon, or too late, after the last one."""
         last, now, judge = self.last, self.bench.now, self.judge
         self.last = None
-        if last is None or not self._plain():
+        if last is None or not self._plain() or now - last.end > SETTLED_US:
             return
         if last.index < len(judge.units):
             self._shown(last)
@@ -204,7 +204,7 @@ class Wire:
             if plain and read_us is not None and read_us <= now:
                 age, true = bench.number("StatusAgeMs", index), (now - read_us) // 1000
                 self.judge.once(index, "younger", bad=age + bench.ms < true, seen=(age, "of", true))
-            if plain and self.longest_us[index]:
+            if plain and self.longest_us[index] and self.lossy_us < unit.restarted_us:
                 longest, true = bench.number("LongestReplyMs", index), self.longest_us[index] // 1000
                 off = not true - bench.ms <= longest <= true + 2 * self.slowest_us[index] // 1000
                 self.judge.once(index, "longest reply", bad=off, seen=(longest, "of", true))
