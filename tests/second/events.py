@@ -562,7 +562,7 @@ AIMED = {
     "a trip and its reset": Event(_trip_and_reset, 3000),
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
-    "parameters that are not answered, or refused": Event(_unanswered, 2000),
+    "parameters without an answer": Event(_unanswered, 2000),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),
     "a stop while it is busy": Event(_busy_stop, 5000),

@@ -13,7 +13,7 @@ SIZE = 120
 """Cells of the sample."""
 ONE_STATE = {
     "the motor turns round": "at speed", "a write without permission and one with it": "standstill",
-    "parameters that are not answered, or refused": "standstill",
+    "parameters without an answer": "standstill",
     "replies cut short": "at speed", "noise before replies": "at speed",
     "a slow port": "at speed", "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
 }  # fmt: skip

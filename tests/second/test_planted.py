@@ -29,6 +29,26 @@ PLANTED = (
     ("FaultBack2 := Diagnosis.FaultBack1;", "FaultBack2 := Code;", "CHF, full control, a trip, at speed", {"faults"}),
     ("Reverse := CommOk AND DriveStatusBits.RunningReverse;", "Reverse := DriveStatusBits.RunningForward;",
      "CHF, MonitorOnly, nothing, at speed", {"direction"}),
+    # the wire is neither left unused nor spoken on while a drive may answer, and what it says is kept
+    ("AND (Times.SinceMs > Open.DueMs) THEN\n    IF", "AND (Times.SinceMs > Open.DueMs + 200) THEN\n    IF",
+     "CHF, full control, a dead neighbour, at speed", {"waits"}),
+    ("AND (Times.SinceMs > Open.DueMs) THEN\n    IF", "AND (Times.SinceMs > Open.OwnMs) THEN\n    IF",
+     "CHF, full control, a dead neighbour, at speed", {"interrupts", "comm"}),
+    ("Slots[Slot].LastErrorID := Talk.ErrorOf;", "Slots[Slot].LastErrorID := 0;",
+     "CHF, full control, a dead neighbour, at speed", {"last error"}),
+    ("Slots[Slot].RefusedAddress := Open.Register;", "Slots[Slot].RefusedReason := 0;",
+     "GD200A, full control, it refuses to be read, at speed", {"refused what"}),
+    ("Number := ParameterRetries, Usual := 1", "Number := ParameterRetries, Usual := 2",
+     "CHF, full control, parameters without an answer, standstill", {"ends with"}),
+    # what proves standstill is read after the stop; why a run has ended
+    ("IF Anew OR Forget OR Reread THEN", "IF Anew OR Forget THEN",
+     "CHF, full control, a start of 60 ms, standstill", {"proved"}),
+    ("  ELSIF Ends <> 0 THEN\n    StopReason := Ends;", "  ELSIF Ends <> 0 THEN\n    StopReason := WHY_HELD;",
+     "CHF, full control, the pin falls, at speed", {"why it ended"}),
+    ("ZeroSpeed := CommOk AND", "ZeroSpeed := CommOk AND NOT",
+     "CHF, full control, nothing, at speed", {"shows ZeroSpeed"}),
+    ("FirstFaultMs := SinceStartMs;", "FirstFaultMs := 0;",
+     "CHF, full control, a trip, at speed", {"first fault's time"}),
 )  # fmt: skip
 SEEDS = 6
 
@@ -43,5 +63,9 @@ def test_a_planted_mistake_is_seen(old: str, new: str, cell: str, rules: set[str
 
     stations = built(EmbeddedEngine(), edit)
     assert any(counted), "the mistake has its place"
-    found = [set(run(named(cell), seed, stations).rules) for seed in range(SEEDS)]
-    assert any(each & rules for each in found), found
+    found: set[str] = set()
+    for seed in range(SEEDS):
+        found |= set(run(named(cell), seed, stations).rules)
+        if found & rules:
+            return
+    pytest.fail(f"no {rules}: {found or 'nothing'}")
