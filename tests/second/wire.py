@@ -26,8 +26,8 @@ SPEED = alike({"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN
 CONTROL = alike({"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000, "SN300G5": 0})
 """Where stops are written."""
 ENOUGH, MANY, DEAD_US = 3, 4, 1_600_000
-"""Good replies in a row after which a drive counts as one that answers; so many without one, for so long, and it does
-not."""
+"""A drive counts as one that answers after three good replies in a row, and as dead after four requests without one
+in this time."""
 SEVERAL = 200
 """How many requests are remembered."""
 SILENCE, REFUSED = 20, 40
