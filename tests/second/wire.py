@@ -219,7 +219,7 @@ class Wire:
         if lossy or late or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
             self.lossy_us = now
         anew = any(
-            now - each.restarted_us < SETTLED_US or any_of(("Restart",), pins)
+            now - each.restarted_us < SETTLED_US or pins.get("Restart")
             for each, pins in zip(judge.units, bench.pins, strict=True)
         )
         return now - self.lossy_us > SETTLED_US and not anew
