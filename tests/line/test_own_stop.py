@@ -124,6 +124,49 @@ def test_a_restart_voids_the_copy_for_what_the_slot_holds(has_stop: bool, sent: 
     assert set(words(bench.run(2500))) == {PLAIN, JOG}
 
 
+CHANGED = {
+    "StopWord": (COAST, [(6, 0x1000, COAST), (6, 0x1000, JOG)]),
+    "StopRegister": (0x1007, [(6, 0x1007, PLAIN), (6, 0x1000, JOG)]),
+    "JogStopWord": (COAST, [(6, 0x1000, PLAIN), (6, 0x1000, COAST)]),
+    "JogStopRegister": (0x1007, [(6, 0x1000, PLAIN), (6, 0x1007, JOG)]),
+    "JogStop": (2, [(6, 0x1000, JOG), (6, 0x1000, PLAIN)]),
+    "FunctionCode": (5, [(5, 0x1000, PLAIN), (5, 0x1000, JOG)]),
+}
+"""A field of a slot, what it becomes, and the stops of the line's own from then on."""
+
+
+@pytest.mark.parametrize("field", CHANGED)
+@pytest.mark.parametrize("jogged", [0, 1])
+def test_each_field_that_changes_alone_is_copied(field: str, jogged: int) -> None:
+    """Also where no jog had to be stopped before, and its words were of no use."""
+    bench = copied(jog_stop=jogged)
+    new, stops = CHANGED[field]
+    if field == "FunctionCode":
+        bench.fill(1, STOP, new, bench.kind.stop_address)
+    else:
+        bench.put(1, **{field: new})
+    if not jogged and field != "JogStop":
+        stops = stops[:1]
+    bench.run(50)
+    bench.attended.discard(1)
+    sent = [each.pdu for each in bench.run(3000) if each.unit == 2 and not each.read]
+    found = [(pdu[1], *(int.from_bytes(pdu[at : at + 2], "big") for at in (2, 4))) for pdu in sent]
+    assert found[: len(stops)] == stops
+
+
+def test_a_jog_whose_stop_is_no_longer_needed_leaves_no_stop_of_another_drive() -> None:
+    """Its place is taken by a block with the same stop, and other words for a jog that it does not have to stop."""
+    bench = copied(jog_stop=1)
+    bench.put(1, JogStop=0)
+    bench.run(50)
+    bench.put(1, JogStopRegister=0x1007, JogStopWord=COAST)
+    bench.run(50)
+    bench.put(1, JogStop=2)
+    bench.run(50)
+    bench.attended.discard(1)
+    assert words(bench.run(3000))[:2] == [COAST, PLAIN]
+
+
 def test_the_refusal_of_the_other_is_no_failure() -> None:
     bench = copied(StopWithinMs=0)
     word = JOG.to_bytes(2, "big")
