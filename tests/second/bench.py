@@ -8,7 +8,7 @@ from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
-from tests.second.judge import Asked, Judge
+from tests.second.judge import VALUES, Asked, Judge
 from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library, name_of
@@ -25,6 +25,8 @@ MODELS = pf4.alike(
 STORES = {family: module.stores for family, module in MODELS.items()}
 CHAR_US = 521
 """A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
+LISTED = 2
+"""Rows after `PARAMETER` that each manual lists."""
 SHORTEST = 4
 """Characters of a frame."""
 METER = 40
@@ -185,25 +187,33 @@ class Second(Bench):
         self.scan()
         self.block["Contact.Reset"] = self.hand = False
 
-    def ask(self, name: str, index: int, address: int, value: int, *, permitted: bool = True) -> None:
+    def ask(
+        self, name: str, index: int, address: int, *values: int, permitted: bool = True, commands: bool = False
+    ) -> None:
         """A rising edge of a parameter block: where, and what; and whether its user permits what no manual has.
+
+        Nobody can permit words of which one commands the motor.
 
         One that is at work goes on, and is not asked for anything else.
         """
         if any(each.name == name for each in self.judge.asked):
             return
-        if name.startswith("Reader"):
-            self.models[index].ram[address] = value
-        listed = name.startswith("Reader")  # those rows are in every manual, which needs no permission
-        pins = {"Address": address, "Value": value, "AllowUnknown": permitted and not listed}
+        reads = name.startswith("Reader")
+        if reads:
+            self.models[index].ram.update(enumerate(values, address))
+        listed = reads and len(values) <= LISTED  # those rows are in every manual, which needs no permission
+        pins: dict[str, Value] = {"Address": address, "AllowUnknown": permitted and not listed}
+        pins["Quantity"] = len(values)
+        pins |= {} if reads else dict(zip(VALUES, values, strict=False))
         for pin, given in pins.items() if not name.startswith("Storer") else ():
-            if not (pin == "Value" and name.startswith("Reader")):
-                self.block[f"{name}.{pin}"] = given
+            self.block[f"{name}.{pin}"] = given
         self.block[f"{name}.Execute"] = True
         if permitted:
             self.judge.observer.may_store.add(index + 1)
         shown = self.shows("CommOk", index), self.shows("StopConfirmed", index)
-        self.judge.asked.append(Asked(name, index, address, value, self.now, len(self.frames), permitted, *shown))
+        most = min(self.models[index].MOST[3], len(VALUES)) if reads else self.models[index].MOST.get(16, 1)
+        may = permitted and len(values) <= most and not commands
+        self.judge.asked.append(Asked(name, index, address, values, self.now, len(self.frames), may, *shown))
 
     hand = False
 

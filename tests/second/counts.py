@@ -16,6 +16,8 @@ SLOT = (*ENDS, "Refusals", "Requests", "Retries")
 """What slots count, too."""
 ROUNDS_MS, CALM_US = 3000, 5_000_000
 """What is looked at of the rounds of reads, where nothing has been lost for so long."""
+SCAN_LATE_US = 10_000_000
+"""For how long a late scan is shown."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 
@@ -26,7 +28,9 @@ class Counts:
     def __init__(self, judge: "Judge") -> None:
         """Begin at power-up."""
         self.judge, self.bench = judge, judge.bench
-        self.scans = self.longest_ms = self.late = 0
+        self.scans = self.longest_ms = self.late = self.worst_ms = 0
+        self.late_us = -SCAN_LATE_US
+        """When a scan was last late."""
         self.before: dict[str, dict[str, int]] = {}
         """Counters, since when they are compared."""
         self.unclean_us = self.refused = self.unanswered = 0
@@ -47,6 +51,7 @@ class Counts:
         if self.judge.asked:
             self.asked_us = bench.now
         if not bench.lineless:
+            self._figures()
             if self.scans:
                 self.longest_ms = max(self.longest_ms, bench.elapsed)
                 self.late += 1000 * bench.elapsed > MAX_SCAN_US
@@ -56,6 +61,24 @@ class Counts:
             if count is not None and knows and runs and not self.ran[index]:
                 self.starts[index] = count + 1
             self.ran[index] = runs if knows else self.ran[index]
+
+    def _figures(self) -> None:
+        """What the line shows of its rounds and of its scans."""
+        cycle, worst = self._line("CycleMs"), self._line("WorstCycleMs")
+        self.worst_ms = worst if self._anew() else max(self.worst_ms, cycle)
+        self._once("worst round", bad=worst != self.worst_ms, seen=(worst, "of", self.worst_ms, "ms"))
+        if any(each.restarted_us == self.bench.now for each in self.judge.units):
+            self.late_us = -SCAN_LATE_US
+        elif 1000 * self.bench.elapsed > MAX_SCAN_US:
+            self.late_us = self.bench.now
+        since_us, late = self.bench.now - self.late_us, self.bench.block["Slots[0].ScanLate"]
+        near = abs(since_us - SCAN_LATE_US) <= max(self.judge.late)
+        wrong = late != (since_us < SCAN_LATE_US) and not near and not self._anew()
+        self._once("scan late", bad=bool(wrong), seen=(late, since_us // 1000, "ms"))
+
+    def _anew(self) -> bool:
+        """A restart is just over."""
+        return any(self.bench.now - each.restarted_us < ATTEND_US for each in self.judge.units)
 
     def look(self) -> None:
         """What is shown by now."""

@@ -20,6 +20,10 @@ PARAMETER = alike({
 })  # fmt: skip
 """Before two that its manual lists."""
 WRITES = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
+SEVERAL = {"GD200A": 0x0400}
+"""Rows on which neither the connection nor the full scale rests."""
+COMMANDS = {"ATV312": 8501, "GD200A": 0x2000, "JSCC": 0x1000}
+"""Where commands are, in families that take several words at once."""
 UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
 NOWHERE = 0xFFF5
@@ -147,6 +151,26 @@ def _unpermitted(b: Second, chance: Random) -> None:
     b.ask("Writer", 0, NOWHERE, 1, permitted=False)
     b.run(1000)
     b.ask("Writer", 0, WRITES[b.types[0]] | PARAMETER[b.types[0]], chance.randrange(1, 500))
+
+
+def _several(b: Second, chance: Random) -> None:
+    """At standstill, words that all differ: as many as a block can ask for, and such that end in a command."""
+    _stop(b)
+    kind, words = b.types[0], chance.sample(range(1, 500), 4)
+    row, command = PARAMETER[kind], COMMANDS.get(kind, 0)
+    asked = [("Reader", row + 1, count) for count in (2, 4, 3)]
+    asked += [("Writer", row if count == 1 else SEVERAL.get(kind, row + 1), count) for count in (2, 3, 1)]
+    asked += [("Writer", command - at, 1 + at) for at in (1, 2) if command]
+    for name, place, count in asked:
+        commands = place < command < place + count
+        first = place if name == "Reader" or commands else WRITES[kind] | place
+        b.ask(name, 0, first, *words[-count:], commands=commands)
+        b.wait(lambda: not b.judge.asked, 3000)
+        b.scan()
+
+
+def _millisecond(b: Second, _: Random) -> None:
+    b.was_ms, b.ms = b.ms, 1
 
 
 def _unanswered(b: Second, chance: Random) -> None:
@@ -563,6 +587,8 @@ AIMED = {
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
     "parameters without an answer": Event(_unanswered, 2000),
+    "parameters of several words": Event(_several, 1000),
+    "scans of a millisecond": Event(_millisecond, 1000, _fast, stops=False),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),
     "a stop while it is busy": Event(_busy_stop, 5000),

@@ -103,7 +103,11 @@ SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
 """The bit of an address that leaves EEPROM alone."""
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
+VALUES = ("Value", "Value2", "Value3", "Value4")
+"""Words of a parameter block."""
 TAKEN_BACK, ATTEMPTS = 52, 2
+REFUSED_WORDS = (3, 62)
+"""What comes of several words: they are too many, or one commands the motor."""
 UNPERMITTED = (50, OFFLINE, 65, 66, NOT_SENT, 69, 70)
 """What may come of a write that nobody has permitted: it is not in the map, or it does not come so far."""
 
@@ -168,7 +172,8 @@ class Asked:
     name: str
     index: int
     address: int
-    value: int
+    values: tuple[int, ...]
+    """What is written, or has to be read."""
     since_us: int
     frames: int
     """Frames before."""
@@ -179,12 +184,23 @@ class Asked:
     stood: bool = False
     """It was shown at standstill then."""
 
+    @property
+    def value(self) -> int:
+        """The first."""
+        return self.values[0]
+
+    def _kept(self, judge: "Judge") -> list[int | None]:
+        """What the drive holds there."""
+        one = judge.bench.models[self.index]
+        first = self.address if self.name.startswith(READ) else self.address & ~RAM_ONLY[judge.bench.types[self.index]]
+        return [one.ram.get(first + at) for at in range(len(self.values))]
+
     def _refused(self, judge: "Judge", *, sent: bool) -> None:
         """What nobody has permitted is not sent, and its error says so."""
         said = judge.bench.block[f"{self.name}.ErrorID"]
         if sent:
             judge.tell(self.index, "parameter", f"{self.name} writes what no manual has, and nobody has permitted")
-        elif said not in UNPERMITTED:
+        elif said not in (UNPERMITTED if len(self.values) == 1 else (*UNPERMITTED, *REFUSED_WORDS)):
             judge.tell(self.index, "parameter", f"{self.name} says {said!r}")
 
     def _ended(self, judge: "Judge", said: object, *, known: bool) -> None:
@@ -217,15 +233,11 @@ class Asked:
         if not self.permitted:
             self._refused(judge, sent=bool(done or mine))
         if self.name.startswith(READ):
-            value = bench.block[f"{self.name}.Value"]
-            wrong = done and value not in (self.value, one.ram.get(self.address))
+            read = [bench.block[f"{self.name}.{pin}"] for pin in VALUES[: len(self.values)]]
+            wrong = done and read not in (list(self.values), self._kept(judge))
             if wrong and not judge.claims.mistaken(self.index, bench.now):
-                judge.tell(self.index, "parameter", f"{self.name} has read {value!r}")
-        elif (
-            self.name.startswith(WRITE)
-            and done
-            and (one.ram.get(self.address & ~RAM_ONLY[bench.types[self.index]]) != self.value or not mine)
-        ):
+                judge.tell(self.index, "parameter", f"{self.name} has read {read!r}")
+        elif self.name.startswith(WRITE) and done and (self._kept(judge) != list(self.values) or not mine):
             judge.tell(self.index, "parameter", f"{self.name} is done, and nothing was written")
         stood = self.stood and bench.shows("StopConfirmed", self.index) and bench.types[self.index] != "MX2"
         may = self.name.startswith(READ) or (self.name.startswith(WRITE) and stood)
@@ -284,7 +296,8 @@ class Judge:
         if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):
             return
         unit = self.units[body[0] - 1]
-        if body[1] == 16 and now_us - unit.stored_us < STORE_US:
+        asked = any(each.name.startswith(WRITE) and each.address == int.from_bytes(body[2:4]) for each in self.asked)
+        if body[1] == 16 and now_us - unit.stored_us < STORE_US and not asked:
             self.tell(body[0] - 1, "stores", f"{(now_us - unit.stored_us) // 1000} ms after the last one")
         unit.stored_us = now_us
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.drives.bench import REASON
 from tests.drives.station import FAMILIES
-from tests.second.claims import ATTEND_US
+from tests.second.claims import ATTEND_US, AWAY
 from tests.second.observer import MOVES, any_of
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ FOLLOW = (
 """What the first says, the second has to say, too."""
 NEVER = (("Ready", "Fault"), ("Ready", "Running"), ("StopConfirmed", "Running"))
 """What is not shown at the same time."""
+RANKS = (0, 1, 2, 3, 1, 0)
+"""How strong each StopKind is; the end of a jog is a ramp."""
 KINDS = {2: "CanQuickStop", 3: "CanCoastStop", 4: "CanJog"}
 """StopKind, and what the drive has to be able to; 1 is the stop that every drive has."""
 UNIT = re.compile("(A|V|KW|Rpm|Percent)$")
@@ -50,6 +52,8 @@ class Shown:
         self.faults: list[object] | None = None
         self.causes: deque[list[str]] = deque(maxlen=YOUNG)
         """What pins said against a run in the last scans: what the line tells is a scan old."""
+        self.rank = 0
+        """Of the stops since the last standstill."""
         self.began_us = 0
         """When it was last started."""
         self.reverse, self.turned_us = False, 0
@@ -92,6 +96,18 @@ class Shown:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
         self.fault, self.state = fault, state
+        self._kinds()
+
+    def _kinds(self) -> None:
+        """The kind of a stop only rises until the motor is at standstill."""
+        bench, index = self.bench, self.index
+        kind, confirmed = self._out("StopKind"), bench.shows("StopConfirmed", index)
+        pins, now = bench.pins[index], bench.now
+        anew = now - self.judge.units[index].restarted_us < ATTEND_US or pins.get("Restart")
+        if confirmed or anew or any_of(AWAY, pins) or pins.get("Address") != index + 1:
+            self.rank = 0
+        self._once("kind", bad=RANKS[kind] < self.rank, seen=(kind, "after", self.rank))
+        self.rank = max(self.rank, RANKS[kind]) if not confirmed else 0
 
     def _ended(self, state: object) -> None:
         """Why a run has ended, where pins say so."""

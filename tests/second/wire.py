@@ -32,6 +32,9 @@ SEVERAL = 200
 """How many requests are remembered."""
 SILENCE, REFUSED = 20, 40
 """Errors of a request."""
+COUNTERS = ("Good", "Timeouts", "Refusals", "Bad", "Late", "Fresh", "Replies")
+"""Of a slot: how requests have ended, good reads, and all replies, which are counted up to `MOST`."""
+MOST = 255
 EXCEPTION = 0x80
 """What a refusal adds to the function code, in most families."""
 STATUS = alike(
@@ -96,6 +99,10 @@ class Wire:
         self.slowest_us = [0] * len(judge.units)
         """The longest scan since then, in which nobody knows when a reply came."""
         self.confirmed = [False] * len(judge.units)
+        self.number = [0] * len(judge.units)
+        """How many requests each has got."""
+        self.counters: list[tuple[int, list[Any]]] = [(-1, [])] * len(judge.units)
+        """What its slot had counted, after which of them."""
         self.lossy_us = -SETTLED_US
         """When something else than silence was last wrong on the wire."""
 
@@ -111,6 +118,7 @@ class Wire:
         """A request is in the mailbox: whether that is too soon, or too late, after the last one."""
         last, now, judge = self.last, self.bench.now, self.judge
         self.last = None
+        self._echo()
         if last is None or not self._plain() or now - last.end > SETTLED_US:
             return
         if last.index < len(judge.units):
@@ -124,6 +132,14 @@ class Wire:
             most = max(last.waits_ms, self.waits_ms(last.index)) + WAITS_SCANS * self.bench.ms + REPLY_MS
             judge.once(last.index, "waits", bad=self._somebody() and waited > most, seen=(waited, "of", most, "ms"))
 
+    def _echo(self) -> None:
+        """That the port hears nothing of its own is known once three reads have been answered, and not before."""
+        since, echo = max(each.restarted_us for each in self.judge.units), self.bench.block["TheLine.Echo"]
+        mine = self.since(since)
+        reads = sum(each.good and each.data[1] <= LAST_READ for each in mine)
+        if self.lossy_us < since and not self.bench.echo and len(mine) < SEVERAL and self._whole():
+            self.judge.once(0, "echo known", bad=(echo == 1) != (reads >= ENOUGH), seen=(echo, reads, "reads"))
+
     def _somebody(self) -> bool:
         """Whether there is a drive that answers, and may be read at any time."""
         well = [index for index in range(len(self.judge.units)) if self.judge.known(index, SETTLED_US)]
@@ -135,6 +151,8 @@ class Wire:
         self.last, self.idle = exchange, 0
         self.exchanges.append(exchange)
         index = exchange.index
+        if index < len(self.judge.units):
+            self.number[index] += 1
         if index < len(self.judge.units) and exchange.good:
             begins, ends, _ = exchange.replies[0]
             if not self.bench.damages:
@@ -152,17 +170,35 @@ class Wire:
         error = block[f"{slot}.LastErrorID"]
         if not last.good:
             right = REFUSED if last.refused else SILENCE
-            self.judge.once(last.index, "last error", bad=error != right, seen=(error, "of", right))
+            shown = block["TheLine.LastErrorID"]
+            self.judge.once(last.index, "last error", bad=not error == shown == right, seen=(error, shown, "of", right))
         if last.refused and last.replies[0][2][1] == last.data[1] | EXCEPTION:
             shown = [block[f"{slot}.Refused{name}"] for name in ("Address", "Reason")]
             true = [int.from_bytes(last.data[2:4], "big"), last.replies[0][2][2]]
             self.judge.once(last.index, "refused what", bad=shown != true, seen=(shown, "of", true))
         self._online(last.index, block[f"{slot}.Online"])
+        self._counted(last)
         words = last.replies[0][2][3:] if last.good else b""
         if last.data[1] in (3, 4) and len(words) == 2 * last.data[5]:
             shown = block[f"{slot}.PollWords"][: last.data[5]]
             true = [int.from_bytes(words[i : i + 2], "big") for i in range(0, len(words), 2)]
             self.judge.once(last.index, "words", bad=shown != true, seen=(shown, "of", true))
+
+    def _counted(self, last: Exchange) -> None:
+        """How the last request of a slot has ended is what its counters have counted since the one before."""
+        index, block = last.index, self.bench.block
+        shown: list[Any] = [block[f"Slots[{index}].{name}"] for name in COUNTERS]
+        number, before = self.counters[index]
+        self.counters[index] = self.number[index], shown
+        if number == self.number[index] - 1 and block["TheLine.Echo"]:  # else an answer may be the port's own
+            grown = [now - was for now, was in zip(shown, before, strict=True)]
+            reads = last.good and last.data[1] <= LAST_READ
+            replied = bool(last.replies)
+            true = [replied, not replied, last.refused, False, False, reads, replied and before[-1] < MOST]
+            self.judge.once(index, "counters", bad=grown != list(map(int, true)), seen=(grown, "of", true))
+        count = block[f"Slots[{index}].PollCount"]
+        if last.good and last.data[1] == LAST_READ - 1:
+            self.judge.once(index, "poll count", bad=count != last.data[5], seen=(count, "of", last.data[5]))
 
     def _mine(self, index: int) -> list[Exchange]:
         """Requests to a drive since the last restart, the last one first."""
@@ -206,11 +242,12 @@ class Wire:
                 self.judge.once(index, "younger", bad=age + bench.ms < true, seen=(age, "of", true))
             if plain and self.longest_us[index] and self.lossy_us < unit.restarted_us:
                 longest, true = bench.number("LongestReplyMs", index), self.longest_us[index] // 1000
-                off = not true - bench.ms <= longest <= true + 2 * self.slowest_us[index] // 1000
+                slowest = self.slowest_us[index] // 1000
+                off = not true - slowest <= longest <= true + 2 * slowest
                 self.judge.once(index, "longest reply", bad=off, seen=(longest, "of", true))
 
-    def _plain(self) -> bool:
-        """Nothing is wrong but that drives do not answer."""
+    def _whole(self) -> bool:
+        """Nothing is wrong but that drives do not answer, or that all has just begun."""
         bench, judge, now = self.bench, self.judge, self.bench.now
         faults = bench.faults
         lossy = faults.lost or bench.damages or faults.twice or bench.strange or bench.flicker or bench.was_slow_port
@@ -218,11 +255,16 @@ class Wire:
         astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
         if lossy or late or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
             self.lossy_us = now
+        return self.lossy_us < now
+
+    def _plain(self) -> bool:
+        """The same, since long."""
+        now = self.bench.now
         anew = any(
             now - each.restarted_us < SETTLED_US or pins.get("Restart")
-            for each, pins in zip(judge.units, bench.pins, strict=True)
+            for each, pins in zip(self.judge.units, self.bench.pins, strict=True)
         )
-        return now - self.lossy_us > SETTLED_US and not anew
+        return self._whole() and now - self.lossy_us > SETTLED_US and not anew
 
     def scan(self) -> None:
         """In each scan, after what was sent."""
