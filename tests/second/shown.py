@@ -29,8 +29,8 @@ UNSCALED = {
     "CHF": ("OutputVoltage", "OutputCurrent", "OutputPower"), "SN300G5": ("OutputCurrent", "OutputPower"),
 }  # fmt: skip
 """Whose scale the program has not given."""
-STARTS, RUNNING = (2, 3), 4
-"""States: a start is sent; it runs."""
+STOPPING, STARTS, RUNNING = 0, (2, 3), 4
+"""States: a stop is sent, or standstill is not proved; a start is sent; it runs."""
 YOUNG = 3
 """Scans."""
 OWN_MAXIMUM = ("ATV312", "GD200A")
@@ -95,19 +95,20 @@ class Shown:
         if fault and not self.fault and claim.first and claim.alone:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
+        self._kinds(stopping=state == self.state == STOPPING)
         self.fault, self.state = fault, state
-        self._kinds()
 
-    def _kinds(self) -> None:
+    def _kinds(self, *, stopping: bool) -> None:
         """The kind of a stop only rises until the motor is at standstill."""
         bench, index = self.bench, self.index
         kind, confirmed = self._out("StopKind"), bench.shows("StopConfirmed", index)
         pins, now = bench.pins[index], bench.now
         anew = now - self.judge.units[index].restarted_us < ATTEND_US or pins.get("Restart")
-        if confirmed or anew or any_of(AWAY, pins) or pins.get("Address") != index + 1:
+        if confirmed or not stopping or anew or any_of(AWAY, pins) or pins.get("Address") != index + 1:
             self.rank = 0
+            return
         self._once("kind", bad=RANKS[kind] < self.rank, seen=(kind, "after", self.rank))
-        self.rank = max(self.rank, RANKS[kind]) if not confirmed else 0
+        self.rank = max(self.rank, RANKS[kind])
 
     def _ended(self, state: object) -> None:
         """Why a run has ended, where pins say so."""
