@@ -169,6 +169,13 @@ def _several(b: Second, chance: Random) -> None:
         b.scan()
 
 
+def _weaker(b: Second, chance: Random) -> None:
+    """Stop pins that are released before the motor stands, and weaker ones after them."""
+    for name, on, off in (("CoastStop", True, False), ("QuickStop", True, False), ("Enable", False, True)):
+        b.put(0, **{name: on}).run(100)
+        b.put(0, **{name: off}).run(chance.choice([40, 200, 600]))
+
+
 def _millisecond(b: Second, _: Random) -> None:
     b.was_ms, b.ms = b.ms, 1
 
@@ -588,6 +595,7 @@ AIMED = {
     "a write without permission and one with it": Event(_unpermitted, 2000),
     "parameters without an answer": Event(_unanswered, 2000),
     "parameters of several words": Event(_several, 1000),
+    "weaker and weaker stops": Event(_weaker, 2000, _whole),
     "scans of a millisecond": Event(_millisecond, 1000, _fast, stops=False),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),

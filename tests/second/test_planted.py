@@ -49,6 +49,24 @@ PLANTED = (
      "CHF, full control, nothing, at speed", {"shows ZeroSpeed"}),
     ("FirstFaultMs := SinceStartMs;", "FirstFaultMs := 0;",
      "CHF, full control, a trip, at speed", {"first fault's time"}),
+    # each slot counts its own requests, and the line its own scans and rounds; several words are those of the registers
+    ("Slots[Slot].Replies := MIN(Slots[Slot].Replies, 254) + 1;", "Slots[0].Replies := MIN(Slots[0].Replies, 254) + 1;",
+     "CHF, full control, a dead neighbour, at speed", {"counters"}),
+    ("PollCount := UINT_TO_USINT(Open.Quantity MOD 17);", "PollCount := 16;",
+     "CHF, full control, nothing, at speed", {"poll count"}),
+    ("Times.LateScanMs := 10000;", "Times.LateScanMs := 9000;",
+     "CHF, full control, a stall of 300 ms, at speed", {"scan late"}),
+    ("WorstCycleMs := MAX(WorstCycleMs, CycleMs);", "WorstCycleMs := CycleMs;",
+     "CHF, full control, a dead neighbour, at speed", {"worst round"}),
+    ("ELSIF Why2 <> 0 THEN", "ELSIF Why3 <> 0 THEN",
+     "JSCC, full control, parameters of several words, standstill", {"parameter"}),
+    ("IF ElapsedMs > 0 THEN", "IF ElapsedMs > 1 THEN",
+     "CHF, full control, scans of a millisecond, at speed", {"idle", "contact", "comm"}),
+    ("IF Talk.ClearReads < 2 THEN", "IF Talk.ClearReads <= 2 THEN",
+     "CHF, full control, nothing, at speed", {"echo known"}),
+    # a stop does not become a weaker one
+    ("    Rank := MAX(Rank, Asked.StopKind);", "    Rank := Asked.StopKind;",
+     "CHF, full control, weaker and weaker stops, at speed", {"kind"}),
 )  # fmt: skip
 SEEDS = 6
 
