@@ -19,8 +19,8 @@ FOLLOW = (
 """What the first says, the second has to say, too."""
 NEVER = (("Ready", "Fault"), ("Ready", "Running"), ("StopConfirmed", "Running"))
 """What is not shown at the same time."""
-RANKS = (0, 1, 2, 3, 1, 0)
-"""How strong each StopKind is; the end of a jog is a ramp."""
+JOG_ENDS = 4
+"""StopKind of the stop that ends a jog, which may come after any other."""
 KINDS = {2: "CanQuickStop", 3: "CanCoastStop", 4: "CanJog"}
 """StopKind, and what the drive has to be able to; 1 is the stop that every drive has."""
 UNIT = re.compile("(A|V|KW|Rpm|Percent)$")
@@ -107,8 +107,9 @@ class Shown:
         if confirmed or not stopping or anew or any_of(AWAY, pins) or pins.get("Address") != index + 1:
             self.rank = 0
             return
-        self._once("kind", bad=RANKS[kind] < self.rank, seen=(kind, "after", self.rank))
-        self.rank = max(self.rank, RANKS[kind])
+        if kind != JOG_ENDS:
+            self._once("kind", bad=kind < self.rank, seen=(kind, "after", self.rank))
+            self.rank = max(self.rank, kind)
 
     def _ended(self, state: object) -> None:
         """Why a run has ended, where pins say so."""
