@@ -392,7 +392,8 @@ def _wire(lasts: int, **faults: int) -> Event:
     def end(b: Second, _: Random) -> None:
         b.faults = Faults()
 
-    return Event(begin, lasts, end, stops="lost" in faults, stops_all="lost" in faults)
+    lossy = not faults.keys().isdisjoint(("lost", "unanswered"))
+    return Event(begin, lasts, end, stops=lossy, stops_all=lossy)
 
 
 def _noise(b: Second, _: Random) -> None:
@@ -597,6 +598,7 @@ AIMED = {
     "parameters of several words": Event(_several, 1000),
     "weaker and weaker stops": Event(_weaker, 2000, _whole),
     "scans of a millisecond": Event(_millisecond, 1000, _fast, stops=False),
+    "replies lost": _wire(8000, unanswered=100),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),
     "a stop while it is busy": Event(_busy_stop, 5000),

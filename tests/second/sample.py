@@ -15,7 +15,7 @@ ONE_STATE = {
     "the motor turns round": "at speed", "a write without permission and one with it": "standstill",
     "parameters without an answer": "standstill", "parameters of several words": "standstill",
     "scans of a millisecond": "at speed", "weaker and weaker stops": "at speed",
-    "replies cut short": "at speed", "noise before replies": "at speed",
+    "replies lost": "at speed", "replies cut short": "at speed", "noise before replies": "at speed",
     "a slow port": "at speed", "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""

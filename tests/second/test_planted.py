@@ -64,6 +64,15 @@ PLANTED = (
      "CHF, full control, scans of a millisecond, at speed", {"idle", "contact", "comm"}),
     ("IF Talk.ClearReads < 2 THEN", "IF Talk.ClearReads <= 2 THEN",
      "CHF, full control, nothing, at speed", {"echo known"}),
+    # a lost read is repeated at once, with another length, once late replies are waited out; reads come between writes
+    ("        Times.DrainMs := MAX(Times.DrainMs, Times.AttemptMs);", "        Times.DrainMs := Times.DrainMs;",
+     "CHF, full control, replies lost, at speed", {"drains"}),
+    ("IF Talk.Believed OR (Talk.Tries > Talk.More) OR NOT", "IF Talk.Believed OR TRUE OR NOT",
+     "CHF, full control, replies lost, at speed", {"again at once"}),
+    ("Track[Slot].Varied := NOT Track[Slot].Varied;", "Track[Slot].Varied := FALSE;",
+     "CHF, full control, replies lost, at speed", {"other length"}),
+    ("(Next.After >= MAX(PollAfter, 1))", "(Next.After >= 9)",
+     "CHF, full control, replies lost, at speed", {"reads between"}),
     # a stop does not become a weaker one
     ("    Rank := MAX(Rank, Asked.StopKind);", "    Rank := Asked.StopKind;",
      "CHF, full control, weaker and weaker stops, at speed", {"kind"}),

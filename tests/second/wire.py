@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import ASTRAY, ATTEND_US, AWAY
+from tests.second.claims import ASTRAY, ATTEND_US, AWAY, CHAR_US
 from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
 from tests.second.pf4 import alike
@@ -148,6 +148,8 @@ class Wire:
 
     def answered(self, exchange: Exchange) -> None:
         """A request was on the wire."""
+        if self.exchanges and exchange.index < len(self.judge.units) and self._plain():
+            self._order(self.exchanges[-1], exchange)
         exchange.waits_ms = self.waits_ms(exchange.index)
         self.last, self.idle = exchange, 0
         self.exchanges.append(exchange)
@@ -160,6 +162,37 @@ class Wire:
                 self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
             if exchange.reads(STATUS[self.bench.types[index]]):
                 self.read_us[index] = ends
+
+    def _order(self, last: Exchange, now: Exchange) -> None:
+        """What comes after what: reads after writes, and a lost read again, which has another length if it can."""
+        index, once, block = now.index, self.judge.once, self.bench.block
+        free = self._free(last) and self._free(now) and self._somebody()
+        once(index, "reads between", bad=free, seen=(last.data.hex(), now.data.hex()))
+        reads = now.data[1] <= LAST_READ >= last.data[1]
+        lost = not last.replies and last.index < len(self.judge.units) and block[f"Slots[{last.index}].Online"]
+        if not (reads and lost):
+            return
+        characters = 2 * len(now.data) + 5 if self.bench.ascii else len(now.data) + 2
+        gap_ms = (now.end - CHAR_US * characters - last.end) // 1000
+        least = self._slot(last.index, "LongestMs")
+        once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
+        first = next((bool(each.replies) for each in self._mine(last.index)[1:]), False)
+        once(index, "again at once", bad=first and index != last.index, seen=(last.data.hex(), now.data.hex()))
+        same = index == last.index and now.data[:4] == last.data[:4]
+        other = self._slot(index, "OtherQuantity") not in (0, self._slot(index, "Ask[3].Quantity"))
+        once(index, "other length", bad=same and other and now.data[5] == last.data[5], seen=(now.data.hex(),))
+
+    def _free(self, each: Exchange) -> bool:
+        """Whether it is a write, and no stop."""
+        if each.data[1] <= LAST_READ or self.bench.types[each.index] not in CONTROL:
+            return False
+        kind = self.bench.types[each.index]
+        return not each.about(each.index + 1, CONTROL[kind]) or runs(kind, each.data)
+
+    def _slot(self, index: int, name: str) -> int:
+        value = self.bench.block[f"Slots[{index}].{name}"]
+        assert isinstance(value, int)
+        return value
 
     def _shown(self, last: Exchange) -> None:
         """What the slot holds of how it ended."""
