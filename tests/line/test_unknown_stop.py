@@ -77,7 +77,7 @@ def test_once_it_is_known_it_is_sent_at_once(how: str) -> None:
 def test_a_copy_of_before_is_not_sent_either() -> None:
     """The drive was silent for long, and its block asks again whom it talks to; then the block is gone."""
     bench = Bench().ready()
-    assert bench["Track[1].Copy.FunctionCode"]
+    assert bench["Track[1].Copy.Written"]
     bench.fill(1, STOP, 0, 0)
     bench.run(50)
     bench.attended.discard(1)
@@ -142,7 +142,7 @@ def test_the_copy_does_not_stand_in_for_the_stop_of_the_block_itself() -> None:
     bench._alive[1] += 1
     bench.stop(1)
     bench.scan()
-    assert bench["Track[1].Copy.FunctionCode"]
+    assert bench["Track[1].Copy.Written"]
     for _ in range(20):
         bench._alive[1] += bench["Track[1].AliveStep"]  # more calls each time
         bench.scan()

@@ -240,6 +240,10 @@ class Second(Bench):
         assert isinstance(value, int)
         return value
 
+    def characters_ms(self, count: int) -> int:
+        """How long bytes of a frame take, in ms."""
+        return CHAR_US * (2 * count + 2 if self.ascii else count) // 1000
+
     def reachable(self, drive: int) -> bool:
         """Whether the drive hears what is sent to the address of its pins."""
         return self.hears(drive) and self.models[drive].unit == self.pins[drive]["Address"]

@@ -18,6 +18,12 @@ ROUNDS_MS, CALM_US = 3000, 5_000_000
 """What is looked at of the rounds of reads, where nothing has been lost for so long."""
 SCAN_LATE_US = 10_000_000
 """For how long a late scan is shown."""
+SILENCE_MS, JSCC_MS = 2, 10
+"""Between frames: 3.5 characters, and what JSCC wants."""
+READ_BYTES, STOP_BYTES = 38, 19
+"""Of the longest read and of a stop, with their replies."""
+SURE_US, NEAR_MS = 3_000_000, 3
+"""Since when what promises are made of has been the same; how exact they are, for each drive."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 
@@ -31,6 +37,10 @@ class Counts:
         self.scans = self.longest_ms = self.late = self.worst_ms = 0
         self.late_us = -SCAN_LATE_US
         """When a scan was last late."""
+        self.turns: list[int] = []
+        """LateMs of the port, and TurnRoundMs of each drive."""
+        self.turns_us = 0
+        """Since when."""
         self.before: dict[str, dict[str, int]] = {}
         """Counters, since when they are compared."""
         self.unclean_us = self.refused = self.unanswered = 0
@@ -86,6 +96,7 @@ class Counts:
         self._ends()
         self._sums()
         self._rounds()
+        self._promises()
         for index in range(len(self.starts)):
             self._starts(index)
 
@@ -159,6 +170,25 @@ class Counts:
         scans_ms, shown = 2 * max(self.judge.late) // 1000, self._line("CycleMs")
         wrong = len(rounds) > 4 and not min(rounds) - scans_ms <= shown <= max(rounds) + scans_ms
         self._once("round", bad=wrong, seen=("CycleMs", shown, "of", rounds))
+
+    def _promises(self) -> None:
+        """The figures of docs/stop.md, with its formulas, where the times that they are made of are long known."""
+        bench, count = self.bench, len(self.starts)
+        turns = [self._count("Port.LateMs"), *(bench.turn_round(index) for index in range(count))]
+        away = bench.metered or any(pins.get("Address") != index + 1 for index, pins in enumerate(bench.pins))
+        if turns != self.turns or away or self._anew():
+            self.turns, self.turns_us = turns, bench.now
+        if bench.now - self.turns_us < SURE_US:
+            return
+        (delay, *drives), keeps = turns, "JSCC" in bench.types
+        silence = JSCC_MS if keeps else SILENCE_MS
+        once = MAX_SCAN_US // 1000 * (1 + keeps) + silence + 2 * delay + 2
+        wire = [bench.characters_ms(number) for number in (READ_BYTES, STOP_BYTES)]
+        alone = wire[0] + max(drives) + once + delay + silence
+        others = [wire[1] + each + once for each in drives]
+        for name, true in (("StopAloneMs", alone), ("WorstStopMs", alone + sum(others) - min(others))):
+            far = abs(self._line(name) - true) > NEAR_MS * count
+            self._once(name, bad=far, seen=(self._line(name), "of", true, "ms"))
 
     def _starts(self, index: int) -> None:
         bench, unit = self.bench, self.judge.units[index]

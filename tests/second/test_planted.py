@@ -73,6 +73,8 @@ PLANTED = (
      "CHF, full control, replies lost, at speed", {"other length"}),
     ("(Next.After >= MAX(PollAfter, 1))", "(Next.After >= 9)",
      "CHF, full control, replies lost, at speed", {"reads between"}),
+    ("(USINT_TO_UDINT(Motors) - 1) * OnTop", "USINT_TO_UDINT(Motors) * OnTop",
+     "CHF, full control, a dead neighbour, at speed", {"WorstStopMs"}),
     # a stop does not become a weaker one
     ("    Rank := MAX(Rank, Asked.StopKind);", "    Rank := Asked.StopKind;",
      "CHF, full control, weaker and weaker stops, at speed", {"kind"}),
