@@ -3,8 +3,9 @@
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from tests.second.claims import ATTEND_US, MAX_SCAN_US
+from tests.second.claims import ASTRAY, ATTEND_US, MAX_SCAN_US
 from tests.second.frames import LAST_READ
+from tests.second.observer import any_of
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -175,7 +176,9 @@ class Counts:
         """The figures of docs/stop.md, with its formulas, where the times that they are made of are long known."""
         bench, count = self.bench, len(self.starts)
         turns = [self._count("Port.LateMs"), *(bench.turn_round(index) for index in range(count))]
-        away = bench.metered or any(pins.get("Address") != index + 1 for index, pins in enumerate(bench.pins))
+        away = bench.metered or any(
+            any_of(ASTRAY, pins) or pins.get("Address") != index + 1 for index, pins in enumerate(bench.pins)
+        )
         if turns != self.turns or away or self._anew():
             self.turns, self.turns_us = turns, bench.now
         if bench.now - self.turns_us < SURE_US:
