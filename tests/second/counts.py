@@ -22,9 +22,9 @@ SCAN_LATE_US = 10_000_000
 SILENCE_MS, JSCC_MS = 2, 10
 """Between frames: 3.5 characters, and what JSCC wants."""
 READ_BYTES, STOP_BYTES = 38, 19
-"""Of the longest read and of a stop, with their replies."""
+"""Of a read of twelve registers, the least that the line counts with, and of a stop, each with its reply."""
 SURE_US, NEAR_MS = 3_000_000, 3
-"""Since when what promises are made of has been the same; how exact they are, for each drive."""
+"""For how long the times that a promise is made of have to be the same; how exact it is, for each drive."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 

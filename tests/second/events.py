@@ -154,7 +154,7 @@ def _unpermitted(b: Second, chance: Random) -> None:
 
 
 def _several(b: Second, chance: Random) -> None:
-    """At standstill, words that all differ: as many as a block can ask for, and such that end in a command."""
+    """At standstill, words that all differ: as many as a block can ask for, and some that end in a command."""
     _stop(b)
     kind, words = b.types[0], chance.sample(range(1, 500), 4)
     row, command = PARAMETER[kind], COMMANDS.get(kind, 0)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import ASTRAY, ATTEND_US, AWAY, CHAR_US
+from tests.second.claims import ASTRAY, ATTEND_US, AWAY
 from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
 from tests.second.pf4 import alike
@@ -172,8 +172,7 @@ class Wire:
         lost = not last.replies and last.index < len(self.judge.units) and block[f"Slots[{last.index}].Online"]
         if not (reads and lost):
             return
-        characters = 2 * len(now.data) + 5 if self.bench.ascii else len(now.data) + 2
-        gap_ms = (now.end - CHAR_US * characters - last.end) // 1000
+        gap_ms = (now.end - last.end) // 1000 - self.bench.characters_ms(len(now.data) + 2)
         least = self._slot(last.index, "LongestMs")
         once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
         first = next((bool(each.replies) for each in self._mine(last.index)[1:]), False)
