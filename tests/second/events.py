@@ -170,7 +170,7 @@ def _several(b: Second, chance: Random) -> None:
 
 
 def _weaker(b: Second, chance: Random) -> None:
-    """Stop pins that are released before the motor stands, and weaker ones after them."""
+    """Stop pins that are released before the motor is at standstill, and weaker ones after them."""
     for name, on, off in (("CoastStop", True, False), ("QuickStop", True, False), ("Enable", False, True)):
         b.put(0, **{name: on}).run(100)
         b.put(0, **{name: off}).run(chance.choice([40, 200, 600]))
