@@ -296,9 +296,8 @@ class Judge:
         if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):
             return
         unit = self.units[body[0] - 1]
-        asked = any(
-            each.name.startswith(WRITE) and each.address == int.from_bytes(body[2:4], "big") for each in self.asked
-        )
+        place = body[0] - 1, int.from_bytes(body[2:4], "big")
+        asked = any(each.name.startswith(WRITE) and (each.index, each.address) == place for each in self.asked)
         if body[1] == 16 and now_us - unit.stored_us < STORE_US and not asked:
             self.tell(body[0] - 1, "stores", f"{(now_us - unit.stored_us) // 1000} ms after the last one")
         unit.stored_us = now_us
