@@ -37,6 +37,8 @@ EXCHANGE_US = 50_000
 """A request and its reply at 19,200 bit/s, up to 18 ms after it; or three scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
+BARS = ("STOPPING", "FOREIGN", "UNREAD", "SETTING", "REFERENCE", "NOT_READY", "WRITE_WAITS", "STARTING", "RUNS")
+"""Reasons with which nothing can be started."""
 UNANSWERED = ("NO_REFERENCE", "NO_RUN", "REFUSED")
 FOLLOW_US = 7_500_000
 """FollowWithinMs is 5 s, from the answer to run."""
@@ -398,7 +400,9 @@ class Claims:
         period = self._period(index)
         claim.writes.append(now_us)
         one = self.bench.models[index]
-        late = one.o.late_per_1000 or now_us < one.busy_us + START_US
+        late = (
+            one.o.late_per_1000 or now_us < one.busy_us + START_US or now_us < self.judge.counts.unclean_us + START_US
+        )
         asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
         if self.bench.pins[index] != claim.pins:  # a stop pin that has just risen
             return
@@ -662,6 +666,7 @@ class Claims:
         self._once(index, "runs", bad=reason == "RUNS" and not running, seen=(reason,))
         idle = bench.shows("StopConfirmed", index) or not ready
         self._once(index, "ready", bad=not idle, seen=("Ready without StopConfirmed",))
+        self._once(index, "bars", bad=ready and reason in BARS, seen=("Ready, and the reason is", reason))
 
     def told(self, index: int) -> list[tuple[str, bool]]:
         """Reasons that pins give, the first first."""
@@ -699,6 +704,9 @@ class Claims:
         old = old and not self.mistaken(index, now)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
 
+        age_us = 1000 * int(bench.number("StatusAgeMs", index)) + SEEN_US + max(self.judge.late)
+        alone = claim.fault_us is not None and now - claim.fault_us > age_us and shown
+        self._once(index, "another code", bad=alone and code not in (0, number), seen=(code, "of", number))
         recorded = old and claim.alone
         for pin, asked in (("FaultBack1", recorded), ("FirstFaultCode", recorded and claim.first)):
             kept = bench.out(pin, index)

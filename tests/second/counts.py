@@ -24,7 +24,13 @@ SILENCE_MS, JSCC_MS = 2, 10
 READ_BYTES, STOP_BYTES = 38, 19
 """Of a read of twelve registers, the least that the line counts with, and of a stop, each with its reply."""
 SURE_US, NEAR_MS = 3_000_000, 3
-"""For how long the times that a promise is made of have to be the same; how exact it is, for each drive."""
+"""For how long the times that a promise is made of have to be the same; how exact it is, for each
+request."""
+MINUTE_MS, MINUTES_NEAR_MS = 60_000, 1500
+OFFLINE_MS, ATTEMPTS = 1000, 4
+"""From a drive's silence until it is dead; of a stop."""
+LEARNED, MARGIN_MS, LEAST_MS, HALF_MS, UNLEARNED_MS = 20, 20, 50, 240, 500
+"""TurnRoundMs: after so many replies twice the longest and a margin, but not less, or so much if that takes longer."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 
@@ -50,6 +56,10 @@ class Counts:
         """When a parameter block was last at work, whose reads are none of the rounds."""
         self.starts: list[int | None] = [None] * len(judge.units)
         self.ran = [True] * len(judge.units)
+        self.run_ms = [0] * len(judge.units)
+        """How long each has been shown to run."""
+        self.learned: list[object] = [None] * len(judge.units)
+        """What TurnRoundMs had to be at the last look."""
 
     def answered(self, exchange: "Exchange") -> None:
         """A request was on the wire; it may be that nobody has answered it."""
@@ -72,6 +82,8 @@ class Counts:
             if count is not None and knows and runs and not self.ran[index]:
                 self.starts[index] = count + 1
             self.ran[index] = runs if knows else self.ran[index]
+            anew = self.judge.units[index].restarted_us == bench.now or bench.pins[index].get("Address") != index + 1
+            self.run_ms[index] = 0 if anew else self.run_ms[index] + bench.elapsed * (runs and knows)
 
     def _figures(self) -> None:
         """What the line shows of its rounds and of its scans."""
@@ -100,6 +112,8 @@ class Counts:
         self._promises()
         for index in range(len(self.starts)):
             self._starts(index)
+            self._learned(index)
+            self._minutes(index)
 
     def _count(self, name: str) -> int:
         value = self.bench.block[name]
@@ -159,6 +173,7 @@ class Counts:
         faults = bench.faults.lost or bench.damages or bench.faults.unanswered or bench.deaf
         late = any(one.o.late_per_1000 for one in bench.models) or now - self.unclean_us < 1000 * ROUNDS_MS
         well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
+        well = well and all(bench.shows("CommOk", index) for index in range(len(units)))  # else it is probed
         if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
             return
         reads = [
@@ -189,9 +204,33 @@ class Counts:
         wire = [bench.characters_ms(number) for number in (READ_BYTES, STOP_BYTES)]
         alone = wire[0] + max(drives) + once + delay + silence
         others = [wire[1] + each + once for each in drives]
-        for name, true in (("StopAloneMs", alone), ("WorstStopMs", alone + sum(others) - min(others))):
-            far = abs(self._line(name) - true) > NEAR_MS * count
+        poll, stop = wire[0] + max(drives) + once, wire[1] + max(drives) + once
+        longest = [self._count(f"Slots[{index}].LongestMs") for index in range(count)]
+        waits = max(late - turn for late, turn in zip(longest, drives, strict=True))
+        cut = max(min(count + 2, 4) * (poll + waits), OFFLINE_MS + once) + count * (poll + stop)
+        cut += max(ATTEMPTS * stop, *longest) + 2 * MAX_SCAN_US // 1000
+        worst = alone + sum(others) - min(others)
+        promised = ("StopAloneMs", alone, count), ("WorstStopMs", worst, count), ("CutToContactMs", cut, 2 * count + 8)
+        for name, true, requests in promised:
+            far = abs(self._line(name) - true) > NEAR_MS * requests
             self._once(name, bad=far, seen=(self._line(name), "of", true, "ms"))
+
+    def _minutes(self, index: int) -> None:
+        """How long it has been shown to run since all began anew."""
+        shown, true = self._count(f"Drive{index}.Diagnosis.RunMinutes"), self.run_ms[index]
+        near = abs((true + MINUTE_MS // 2) % MINUTE_MS - MINUTE_MS // 2) < MINUTES_NEAR_MS
+        known = self.starts[index] is not None and not near
+        self._once("minutes", bad=known and shown != true // MINUTE_MS, seen=(shown, "of", true, "ms"), index=index)
+
+    def _learned(self, index: int) -> None:
+        """TurnRoundMs, as the page of each drive block says: given, or learned from the replies, once both are old."""
+        bench = self.bench
+        replies, longest = (self._count(f"Slots[{index}].{name}") for name in ("Replies", "LongestReplyMs"))
+        learned = max(2 * longest + MARGIN_MS, LEAST_MS) if replies >= LEARNED and longest <= HALF_MS else UNLEARNED_MS
+        now, shown = (bench.number("TurnRoundMs", index) or learned), bench.turn_round(index)
+        wrong = shown != now and now == self.learned[index] and not bench.pins[index].get("Left")
+        self._once("turn-round", bad=wrong, seen=(shown, "of", now, "ms"), index=index)
+        self.learned[index] = now
 
     def _starts(self, index: int) -> None:
         bench, unit = self.bench, self.judge.units[index]

@@ -11,6 +11,9 @@ from tests.second.pf4 import alike
 
 Does = Callable[[Second, Random], None]
 FAULT: dict[str, Fault] = alike({"ATV312": 9, "CHF": 3, "GD200A": 4, "JSCC": 1, "MX2": 3, "PF4": 12, "SN300G5": "OC"})
+OTHER_FAULT: dict[str, Fault] = alike(
+    {"ATV312": 18, "CHF": 2, "GD200A": 5, "JSCC": 2, "MX2": 7, "PF4": 7, "SN300G5": "OV"}
+)
 STATUS = alike(
     {"ATV312": 3201, "CHF": 0x1001, "GD200A": 0x2100, "JSCC": 0x2001, "MX2": 0x1000, "PF4": 0x2100, "SN300G5": 0x0010}
 )
@@ -28,6 +31,10 @@ UNUSED = {"SN300G5": 0x0013}
 """A row that the manual lists as unused, between two that can be read."""
 NOWHERE = 0xFFF5
 """An address that no manual has."""
+HIGHEST = alike({
+    "ATV312": 247, "CHF": 247, "GD200A": 247, "JSCC": 247, "MX2": 247, "PF4": 247, "PF4M": 127, "SN300G5": 32,
+})  # fmt: skip
+"""Unit addresses."""
 ABSENT = 29
 """A unit address that no drive here has, and each could have."""
 FOREIGN, SHARED = 54, 56
@@ -161,6 +168,7 @@ def _several(b: Second, chance: Random) -> None:
     asked = [("Reader", row + 1, count) for count in (2, 4, 3)]
     asked += [("Writer", row if count == 1 else SEVERAL.get(kind, row + 1), count) for count in (2, 3, 1)]
     asked += [("Writer", command - at, 1 + at) for at in (1, 2) if command]
+    asked += [("Writer", command - at, at) for at in (2, 3) if command]
     for name, place, count in asked:
         commands = place < command < place + count
         first = place if name == "Reader" or commands else WRITES[kind] | place
@@ -281,6 +289,32 @@ def _no_meter(b: Second, _: Random) -> None:
     b.call_meter(called=True)
     b.run(100)
     b.call_meter(called=False)
+
+
+def _highest(b: Second, _: Random) -> None:
+    """The highest address that its family can have is asked, where nobody answers, and the next one is not."""
+    _stop(b)
+    highest = HIGHEST[b.types[0]]
+    for address in (highest, highest + 1):
+        b.judge.stores[address] = lambda _: False
+        before = len(b.frames)
+        b.put(0, Address=address).run(2500)
+        asked = any(each.unit == address for each in b.frames[before:])
+        if asked != (address == highest) or (b.reason() == "MISSING") == asked:
+            b.judge.tell(0, "address", f"{address}: asked {asked}, {b.reason()}")
+        _right(b, _)
+        b.run(2500)
+
+
+def _faults(b: Second, _: Random) -> None:
+    """One fault, then another one, after a person has reset the first at the drive."""
+    one = b.models[0]
+    for fault in (FAULT[b.types[0]], OTHER_FAULT[b.types[0]]):
+        one.trip(fault, b.now)
+        b.wait(lambda: b.shows("Fault"), 3000)
+        b.run(3000)
+        one.reset(b.now)
+        b.run(2000)
 
 
 def _stores(b: Second, _: Random) -> None:
@@ -598,6 +632,9 @@ AIMED = {
     "parameters of several words": Event(_several, 1000),
     "weaker and weaker stops": Event(_weaker, 2000, _whole),
     "scans of a millisecond": Event(_millisecond, 1000, _fast, stops=False),
+    "its highest address": Event(_highest, 1000, _right),
+    "one fault after another": Event(_faults, 3000),
+    "a run of more than a minute": Event(nothing, 63_000, stops=False),
     "replies lost": _wire(8000, unanswered=100),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),

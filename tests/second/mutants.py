@@ -32,7 +32,7 @@ from tests.second.walk import walk
 from structured_text.engines.engine import EngineError, Library, Source
 from structured_text.language.lint import lint_sources
 
-SEEDS, NUMBER = (734, 421, 411, 412, 911, 1203, 1517, 1811, 2027), 60
+SEEDS, NUMBER = (734, 421, 411, 412, 911, 1203, 1517, 1811, 2027, 3011), 60
 WALKS = 100
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")

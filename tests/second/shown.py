@@ -92,7 +92,8 @@ class Shown:
         self._ended(state)
         if state in STARTS and self.state not in STARTS:
             self.began_us = bench.now
-        if fault and not self.fault and claim.first and claim.alone:
+        known = self.began_us > self.judge.units[index].restarted_us
+        if fault and not self.fault and claim.first and claim.alone and known:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
         self._kinds(stopping=state == self.state == STOPPING)

@@ -10,6 +10,7 @@ from tests.second.claims import ASTRAY, ATTEND_US, AWAY
 from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
 from tests.second.pf4 import alike
+from tests.second.turns import CONTROL, Turns
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -23,8 +24,6 @@ SETTLED_US = 3_000_000
 """Since the last restart, or since a drive could be reached again."""
 SPEED = alike({"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN300G5": 0x0021})
 """Where the output frequency is."""
-CONTROL = alike({"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000, "SN300G5": 0})
-"""Where stops are written."""
 ENOUGH, MANY, DEAD_US = 3, 4, 1_600_000
 """A drive counts as one that answers after three good replies in a row, and as dead after four requests without one
 in this time."""
@@ -88,10 +87,11 @@ class Wire:
     def __init__(self, judge: "Judge") -> None:
         """Begin at power-up."""
         self.judge, self.bench = judge, judge.bench
+        self.turns = Turns(self)
         self.last: Exchange | None = None
         self.exchanges: deque[Exchange] = deque(maxlen=SEVERAL)
-        self.idle = 0
-        """Scans since its reply was there."""
+        self.idle_ms = 0
+        """Time of the scans since its reply was there."""
         self.read_us: list[int | None] = [None] * len(judge.units)
         """When the status of each was last read."""
         self.longest_us = [0] * len(judge.units)
@@ -103,8 +103,12 @@ class Wire:
         """How many requests each has got."""
         self.counters: list[tuple[int, list[Any]]] = [(-1, [])] * len(judge.units)
         """What its slot had counted, after which of them."""
-        self.lossy_us = -SETTLED_US
-        """When something else than silence was last wrong on the wire."""
+        self.lossy_us = self.spoilt_us = -SETTLED_US
+        """When something else than silence was last wrong on the wire, and something else than late replies."""
+        self.hasty_us = 0
+        """When a request was last sent so soon after a timeout that a late reply could still come."""
+        self.late = 0, 0
+        """Timeouts and LateReplies of the line when the last request was sent."""
 
     def waits_ms(self, index: int) -> int:
         """How long the line waits for a reply of a drive to begin."""
@@ -118,19 +122,37 @@ class Wire:
         """A request is in the mailbox: whether that is too soon, or too late, after the last one."""
         last, now, judge = self.last, self.bench.now, self.judge
         self.last = None
+        self.turns.posting(last)
         self._echo()
-        if last is None or not self._plain() or now - last.end > SETTLED_US:
+        self._late(last)
+        if last is None or not self.plain() or now - last.end > SETTLED_US:
             return
         if last.index < len(judge.units):
             self._shown(last)
         if last.replies:
-            idle_ms = self.idle * self.bench.ms
-            judge.once(0, "idle", bad=self._somebody() and idle_ms > max(IDLE_MS, self.bench.ms), seen=(idle_ms, "ms"))
+            least, most = min(judge.late) // 1000, max(judge.late) // 1000
+            idle = self.idle_ms > max(IDLE_MS, most) + most - least  # its scans may have been longer
+            judge.once(0, "idle", bad=self.somebody() and idle, seen=(self.idle_ms, "ms"))
         elif last.index < len(judge.units):
             waited, least = (now - last.end) // 1000, min(last.waits_ms, self.waits_ms(last.index))
             judge.once(last.index, "interrupts", bad=waited < least, seen=(waited, "of", least, "ms"))
             most = max(last.waits_ms, self.waits_ms(last.index)) + WAITS_SCANS * self.bench.ms + REPLY_MS
-            judge.once(last.index, "waits", bad=self._somebody() and waited > most, seen=(waited, "of", most, "ms"))
+            judge.once(last.index, "waits", bad=self.somebody() and waited > most, seen=(waited, "of", most, "ms"))
+
+    def _late(self, last: Exchange | None) -> None:
+        """A reply after its timeout is counted as late, where it was waited for before the next request."""
+        block: Any = self.bench.block
+        shown, was = (block["TheLine.Timeouts"], block["TheLine.LateReplies"]), self.late
+        self.late = shown
+        anew = max(self.spoilt_us, *(each.restarted_us for each in self.judge.units))
+        if last is None or last.index >= len(self.judge.units) or last.end < anew + SETTLED_US:
+            return
+        timeout = shown[0] > was[0]
+        if timeout and self.bench.now - last.end < 1000 * self.turns.slot(last.index, "LongestMs"):
+            self.hasty_us = self.bench.now  # a stop does not wait, and may meet the reply
+        if self.bench.now - self.hasty_us > ATTEND_US:
+            late = timeout and bool(last.replies) and block[f"Slots[{last.index}].Online"]
+            self.judge.once(0, "late", bad=shown[1] - was[1] != late, seen=(shown, "after", was))
 
     def _echo(self) -> None:
         """That the port hears nothing of its own is known once three reads have been answered, and not before."""
@@ -141,17 +163,17 @@ class Wire:
         if self.lossy_us < since and not (self.bench.echo or anew) and len(mine) < SEVERAL and self._whole():
             self.judge.once(0, "echo known", bad=(echo == 1) != (reads >= ENOUGH), seen=(echo, reads, "reads"))
 
-    def _somebody(self) -> bool:
+    def somebody(self) -> bool:
         """Whether there is a drive that answers, and may be read at any time."""
         well = [index for index in range(len(self.judge.units)) if self.judge.known(index, SETTLED_US)]
         return any(self.bench.shows("CommOk", index) for index in well)
 
     def answered(self, exchange: Exchange) -> None:
         """A request was on the wire."""
-        if self.exchanges and exchange.index < len(self.judge.units) and self._plain():
-            self._order(self.exchanges[-1], exchange)
+        if self.exchanges:
+            self.turns.answered(self.exchanges[-1], exchange)
         exchange.waits_ms = self.waits_ms(exchange.index)
-        self.last, self.idle = exchange, 0
+        self.last, self.idle_ms = exchange, 0
         self.exchanges.append(exchange)
         index = exchange.index
         if index < len(self.judge.units):
@@ -162,36 +184,6 @@ class Wire:
                 self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
             if exchange.reads(STATUS[self.bench.types[index]]):
                 self.read_us[index] = ends
-
-    def _order(self, last: Exchange, now: Exchange) -> None:
-        """What comes after what: reads after writes, and a lost read again, which has another length if it can."""
-        index, once, block = now.index, self.judge.once, self.bench.block
-        free = self._free(last) and self._free(now) and self._somebody()
-        once(index, "reads between", bad=free, seen=(last.data.hex(), now.data.hex()))
-        reads = now.data[1] <= LAST_READ >= last.data[1]
-        lost = not last.replies and last.index < len(self.judge.units) and block[f"Slots[{last.index}].Online"]
-        if not (reads and lost):
-            return
-        gap_ms = (now.end - last.end) // 1000 - self.bench.characters_ms(len(now.data) + 2)
-        least = self._slot(last.index, "LongestMs")
-        once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
-        first = next((bool(each.replies) for each in self._mine(last.index)[1:]), False)
-        once(index, "again at once", bad=first and index != last.index, seen=(last.data.hex(), now.data.hex()))
-        same = index == last.index and now.data[:4] == last.data[:4]
-        other = self._slot(index, "OtherQuantity") not in (0, self._slot(index, "Ask[3].Quantity"))
-        once(index, "other length", bad=same and other and now.data[5] == last.data[5], seen=(now.data.hex(),))
-
-    def _free(self, each: Exchange) -> bool:
-        """Whether it is a write, and no stop."""
-        if each.data[1] <= LAST_READ or self.bench.types[each.index] not in CONTROL:
-            return False
-        kind = self.bench.types[each.index]
-        return not each.about(each.index + 1, CONTROL[kind]) or runs(kind, each.data)
-
-    def _slot(self, index: int, name: str) -> int:
-        value = self.bench.block[f"Slots[{index}].{name}"]
-        assert isinstance(value, int)
-        return value
 
     def _shown(self, last: Exchange) -> None:
         """What the slot holds of how it ended."""
@@ -233,14 +225,14 @@ class Wire:
         if last.good and last.data[1] == LAST_READ - 1:
             self.judge.once(index, "poll count", bad=count != last.data[5], seen=(count, "of", last.data[5]))
 
-    def _mine(self, index: int) -> list[Exchange]:
+    def mine(self, index: int) -> list[Exchange]:
         """Requests to a drive since the last restart, the last one first."""
         since = self.judge.units[index].restarted_us
         return [each for each in reversed(self.exchanges) if each.index == index and each.end > since]
 
     def _online(self, index: int, online: object) -> None:
         """Whether the line knows that a drive answers, or that it does not."""
-        mine = self._mine(index)
+        mine = self.mine(index)
         answers = len(list(takewhile(lambda each: each.replies, mine)))
         silent = list(takewhile(lambda each: not each.replies, mine))
         dead = len(silent) >= MANY and self.bench.now - silent[-1].end > DEAD_US
@@ -251,18 +243,20 @@ class Wire:
         """Standstill that is shown anew was read after the last order: status and frequency."""
         shown, kind, now = self.bench.shows("StopConfirmed", index), self.bench.types[index], self.bench.now
         rises, self.confirmed[index] = shown and not self.confirmed[index], shown
-        if not rises or kind not in SPEED or any_of(AWAY, self.bench.pins[index]) or not self._plain():
+        if not rises or kind not in SPEED or any_of(AWAY, self.bench.pins[index]) or not self.plain():
             return
-        mine = [each for each in self._mine(index) if each.replies and each.replies[0][1] <= now]
+        mine = [each for each in self.mine(index) if each.replies and each.replies[0][1] <= now]
         orders = [each for each in mine if each.data[1] > LAST_READ and each.about(index + 1, CONTROL[kind])]
         stops = list(takewhile(lambda each: not runs(kind, each.data), orders))  # sent again and again
-        since = [each for each in mine if not stops or each.end > stops[-1].end]
-        read = [any(each.good and each.reads(place[kind]) for each in since) for place in (STATUS, SPEED)]
-        self.judge.once(index, "proved", bad=not all(read), seen=(read, len(since)))
+        since = [each for each in mine if each.good and (not stops or each.end > stops[-1].end)]
+        status, speed = ([each.end for each in since if each.reads(place[kind])] for place in (STATUS, SPEED))
+        right = status and speed and max(speed) >= min(status)
+        self.judge.once(index, "proved", bad=not right, seen=(status, "then", speed))
 
     def look(self) -> None:
         """Now and then: ages, and the longest reply."""
-        plain, now, bench = self._plain(), self.bench.now, self.bench
+        self.turns.look()
+        plain, now, bench = self.plain(), self.bench.now, self.bench
         for index, unit in enumerate(self.judge.units):
             if now - unit.restarted_us < SETTLED_US:
                 self.longest_us[index] = self.slowest_us[index] = 0
@@ -286,11 +280,12 @@ class Wire:
         lossy = faults.lost or bench.damages or faults.twice or bench.strange or bench.flicker or bench.was_slow_port
         late = any(one.o.late_per_1000 for one in bench.models)
         astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
-        if lossy or late or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
-            self.lossy_us = now
+        if lossy or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
+            self.spoilt_us = now
+        self.lossy_us = now if late else max(self.lossy_us, self.spoilt_us)
         return self.lossy_us < now
 
-    def _plain(self) -> bool:
+    def plain(self) -> bool:
         """The same, since long."""
         now = self.bench.now
         anew = any(
@@ -301,9 +296,10 @@ class Wire:
 
     def scan(self) -> None:
         """In each scan, after what was sent."""
+        self.turns.scan()
         last, now = self.last, self.bench.now
         for index in range(len(self.confirmed)):
             self._proved(index)
         self.slowest_us = [max(each, 1000 * self.bench.elapsed) for each in self.slowest_us]
         if last is not None and last.replies and now >= last.replies[-1][1]:
-            self.idle += 1
+            self.idle_ms += self.bench.elapsed
