@@ -114,6 +114,9 @@ RARELY_US, HASTY = 2_100_000, 4
 anew when what excused its silence ends, as the trip of a drive does, so that a few may come sooner."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
+UNHURRIED_MS, ASKS, QUARTER = 250, 3, 4
+"""Attempts of drives that take longer to answer are spread over time; a stop, a probe and their silence, of which the
+dead have a quarter of the wire."""
 UNLEARNED_MS = 500
 """How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
 RUNS = 4
@@ -734,7 +737,10 @@ class Claims:
     def _probe(self, index: int, claim: Claim) -> None:
         """A drive that does not answer is asked again and again."""
         pins, unit, now = self.bench.pins[index], self.judge.units[index], self.bench.now
-        forgotten = now - claim.sent_us > PROBE_US and now - unit.unknown_us > 0
+        units = enumerate(self.judge.units)
+        turns = [self.bench.turn_round(i) for i, each in units if now - each.away_us < CALM_US]
+        slow = sum(ASKS * QUARTER * 1000 * turn for turn in turns if turn > UNHURRIED_MS)  # all the dead have a quarter
+        forgotten = now - claim.sent_us > PROBE_US + slow and now - unit.unknown_us > 0
         elsewhere = any_of((*ASTRAY, "SupplyOff"), pins) or pins.get("Address") != index + 1
         if elsewhere or self.bench.faults.lost:  # a probe that is lost is not seen here
             claim.sent_us = now

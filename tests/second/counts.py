@@ -54,10 +54,13 @@ class Counts:
         """When something was last lost or doubled; requests that a drive has refused, and that none has answered."""
         self.asked_us = 0
         """When a parameter block was last at work, whose reads are none of the rounds."""
+        self.mute_us = 0
+        """When a drive was last not known to answer, and so is only probed."""
         self.starts: list[int | None] = [None] * len(judge.units)
         self.ran = [True] * len(judge.units)
         self.run_ms = [0] * len(judge.units)
-        """How long each has been shown to run."""
+        self.run_known = [False] * len(judge.units)
+        """How long each has been shown to run since the last restart, and whether its block was always called."""
         self.learned: list[object] = [None] * len(judge.units)
         """What TurnRoundMs had to be at the last look."""
 
@@ -79,10 +82,13 @@ class Counts:
             self.scans += 1
         for index, count in enumerate(self.starts):
             runs, knows = bench.shows("Running", index), bench.shows("CommOk", index)
+            self.mute_us = self.mute_us if knows else bench.now
             if count is not None and knows and runs and not self.ran[index]:
                 self.starts[index] = count + 1
             self.ran[index] = runs if knows else self.ran[index]
-            anew = self.judge.units[index].restarted_us == bench.now or bench.pins[index].get("Address") != index + 1
+            anew, pins = self.judge.units[index].restarted_us == bench.now, bench.pins[index]
+            known = self.run_known[index] or anew
+            self.run_known[index] = known and not any_of(ASTRAY, pins) and pins.get("Address") == index + 1
             self.run_ms[index] = 0 if anew else self.run_ms[index] + bench.elapsed * (runs and knows)
 
     def _figures(self) -> None:
@@ -173,7 +179,7 @@ class Counts:
         faults = bench.faults.lost or bench.damages or bench.faults.unanswered or bench.deaf
         late = any(one.o.late_per_1000 for one in bench.models) or now - self.unclean_us < 1000 * ROUNDS_MS
         well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
-        well = well and all(bench.shows("CommOk", index) for index in range(len(units)))  # else it is probed
+        well = well and now - self.mute_us > 1000 * ROUNDS_MS
         if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
             return
         reads = [
@@ -219,7 +225,7 @@ class Counts:
         """How long it has been shown to run since all began anew."""
         shown, true = self._count(f"Drive{index}.Diagnosis.RunMinutes"), self.run_ms[index]
         near = abs((true + MINUTE_MS // 2) % MINUTE_MS - MINUTE_MS // 2) < MINUTES_NEAR_MS
-        known = self.starts[index] is not None and not near
+        known = self.run_known[index] and not near
         self._once("minutes", bad=known and shown != true // MINUTE_MS, seen=(shown, "of", true, "ms"), index=index)
 
     def _learned(self, index: int) -> None:

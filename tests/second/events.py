@@ -35,6 +35,8 @@ HIGHEST = alike({
     "ATV312": 247, "CHF": 247, "GD200A": 247, "JSCC": 247, "MX2": 247, "PF4": 247, "PF4M": 127, "SN300G5": 32,
 })  # fmt: skip
 """Unit addresses."""
+LONG_MS = 400
+"""How long a drive may take to answer."""
 ABSENT = 29
 """A unit address that no drive here has, and each could have."""
 FOREIGN, SHARED = 54, 56
@@ -339,6 +341,18 @@ def _neighbour_dead(b: Second, _: Random) -> None:
         b.deaf.add(2)
 
 
+def _all_but_one_dead(b: Second, _: Random) -> None:
+    """... of which each takes long to answer."""
+    for index in range(1, len(b.models)):
+        b.put(index, TurnRoundMs=LONG_MS, LongestMs=LONG_MS)
+        b.deaf.add(index + 1)
+
+
+def _all_back(b: Second, _: Random) -> None:
+    for index in range(1, len(b.models)):
+        b.deaf.discard(index + 1)
+
+
 def _neighbour_back(b: Second, _: Random) -> None:
     b.deaf.discard(2)
 
@@ -635,6 +649,7 @@ AIMED = {
     "its highest address": Event(_highest, 1000, _right),
     "one fault after another": Event(_faults, 3000),
     "a run of more than a minute": Event(nothing, 63_000, stops=False),
+    "all but one are dead": Event(_all_but_one_dead, 30_000, _all_back, stops=False, stops_all=True),
     "replies lost": _wire(8000, unanswered=100),
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),

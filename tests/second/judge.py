@@ -18,6 +18,7 @@ from tests.second.claims import (
     MAX_SCAN_US,
     REFUSED_US,
     TAKEN,
+    UNHURRIED_MS,
     UNLEARNED_MS,
     Claims,
     crowded,
@@ -38,6 +39,8 @@ CUT_US = 2_200_000
 """From the silence of a drive that turns to the open contact: offline, then a stop and retries."""
 LATE_US = 1_000_000
 """How much later where replies are late: the line waits longer for each."""
+STOPS = 4
+"""Attempts."""
 SHARED_SCANS = 3
 """From a second block on a slot to the open contact, in calls of the line."""
 MORE_US = 500_000
@@ -458,6 +461,9 @@ class Judge:
         if bench.turn_round(index) >= UNLEARNED_MS:
             beside = self.figures.stop_us + CUT_US if many > 1 else 0  # an attempt costs 0.5 s, then come others
             most = max(most, 1000 * bench.promised_cut, beside)
+        deaf = [1000 * bench.turn_round(each - 1) for each in bench.deaf]
+        if len(deaf) > 1 and max(deaf) > 1000 * UNHURRIED_MS:
+            most += STOPS * 2 * sum(deaf)  # all attempts of all of them, each with the silence after it
         most += LATE_US if any(each.o.late_per_1000 for each in bench.models) else 0
         if bench.pins[index].get("Shared"):
             most = SHARED_SCANS * max(self.late)

@@ -78,6 +78,30 @@ PLANTED = (
     # a stop does not become a weaker one
     ("    Rank := MAX(Rank, Asked.StopKind);", "    Rank := Asked.StopKind;",
      "CHF, full control, weaker and weaker stops, at speed", {"kind"}),
+    # whose the time on the wire is, and what is made of it
+    ("SilenceMs := 10,", "SilenceMs := 0,", "JSCC, full control, nothing, at speed", {"silence"}),
+    ("Times.BusyMs := MB_Plus(Number := Times.BusyMs, More := Times.Passed);",
+     "Times.BusyMs := MB_Plus(Number := Times.BusyMs, More := Times.Passed / 2);",
+     "GD200A, full control, a run of more than a minute, at speed", {"load"}),
+    ("IF (OnlineCount > 0) AND NOT Scan.Dark THEN", "IF FALSE THEN",
+     "GD200A, full control, all but one are dead, at speed", {"quarter"}),
+    ("LateReplies := MB_Plus(Number := LateReplies, More := 1);",
+     "LateReplies := MB_Plus(Number := LateReplies, More := 2);",
+     "CHF, full control, a run of more than a minute, at speed", {"late"}),
+    ("* 2 + MARGIN_MS;", "* 2 + LEAST_MS;", "CHF, full control, nothing, at speed", {"turn-round"}),
+    ("+ 2 * UINT_TO_UDINT(ScanMs);", "+ 5 * UINT_TO_UDINT(ScanMs);",
+     "CHF, full control, a dead neighbour, at speed", {"CutToContactMs"}),
+    # what is seldom: the highest address, a second minute, another fault, a drive that is not ready
+    ("(Number <= Highest)", "(Number < Highest)",
+     "CHF, full control, its highest address, standstill", {"address"}),
+    ("RunMs := RunMs - MINUTE_MS;", "RunMs := RunMs;",
+     "CHF, full control, a run of more than a minute, at speed", {"minutes"}),
+    ("IF Fault AND NOT Rest.CodeOpen THEN", "IF Fault THEN",
+     "CHF, full control, one fault after another, at speed", {"another code"}),
+    ("ELSIF NOT Seen.ReadyShown THEN", "ELSIF Seen.ReadyShown THEN",
+     "SN300G5, full control, nothing, standstill", {"bars"}),
+    ("SpeedRead := FALSE;", "SpeedRead := TRUE;",
+     "PF4, full control, a start of 300 ms, standstill", {"proved"}),
 )  # fmt: skip
 SEEDS = 6
 

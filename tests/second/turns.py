@@ -17,7 +17,7 @@ SILENCE_US = {True: 10_000, False: 1750}
 SECOND_MS, NEAR = 1000, 3
 """What LoadPercent looks at, and how exact it is, in percent."""
 DYING_US, LONG_US = 3_000_000, 4_000_000
-"""For so long a drive that has fallen silent is asked more often; for how long it is looked at after that, at least."""
+"""For so long the attempts of a stop go on once a drive is known to be silent; how long it is looked at after that."""
 KNOWN_US = 6_000_000
 """For so long every reply has been good, and none doubted: after a restart it might be an echo."""
 QUARTER = 4
@@ -36,12 +36,10 @@ class Turns:
         """Time of each, in ms, and whether a request was open in it."""
         self.posted_us = self.vain_us = 0
         """When a request was last sent, and when one was last not answered, or refused."""
-        self.silent_us: list[int | None] = [None] * len(self.judge.units)
-        """Since when each drive has been silent, and the others not."""
-        self.vain: list[int] = [0] * len(self.judge.units)
-        """How long requests to it have had the wire since `DYING_US` after that."""
-        self.longest_us = 0
-        """The longest of them."""
+        self.deaf: set[int] = set()
+        self.silent_us, self.spent_us, self.longest_us = 0, 0, 0
+        """Drives that are silent, while others answer, and since when that is known; how long requests to them have had
+        the wire since `DYING_US` after that, and the longest of them."""
 
     def answered(self, last: "Exchange", now: "Exchange") -> None:
         """A request after another."""
@@ -89,13 +87,8 @@ class Turns:
     def posting(self, last: "Exchange | None") -> None:
         """A request is sent: how long the last one has had the wire."""
         took, self.posted, self.posted_us = self.bench.now - self.posted_us, True, self.bench.now
-        if last is not None and last.index < len(self.vain) and self._dying(last.index):
-            self.vain[last.index] += took
-            self.longest_us = max(self.longest_us, took)
-
-    def _dying(self, index: int) -> bool:
-        since = self.silent_us[index]
-        return since is not None and self.bench.now - since > DYING_US
+        if last is not None and last.index + 1 in self.deaf and self.bench.now - self.silent_us > DYING_US:
+            self.spent_us, self.longest_us = self.spent_us + took, max(self.longest_us, took)
 
     def scan(self) -> None:
         """In each scan: whether a request was open in it."""
@@ -107,25 +100,21 @@ class Turns:
             self.open = False
         if last is not None and not last.good:
             self.vain_us = now
-        for index, pins in enumerate(self.bench.pins):
-            silent = index + 1 in self.bench.deaf and not pins.get("SupplyOff")
-            others = any(self.judge.known(i, DYING_US) for i in range(len(self.vain)) if i != index)
-            if not (silent and others and self.wire.plain()):
-                self.silent_us[index], self.vain[index] = None, 0
-            elif self.silent_us[index] is None:
-                self.silent_us[index] = now
+        deaf = self.bench.deaf if self.wire.plain() and self.wire.somebody() else set()
+        slots = [f"Slots[{unit - 1}]" for unit in deaf]
+        dying = any(self.bench.block[f"{slot}.Online"] or self.bench.block[f"{slot}.SupplyOff"] for slot in slots)
+        if dying or deaf != self.deaf:
+            self.deaf, self.silent_us, self.spent_us, self.longest_us = set(deaf), now, 0, 0
 
     def look(self) -> None:
         """Now and then: the load, and what the dead take of the time."""
         anew_us = max(self.vain_us, *(each.restarted_us for each in self.judge.units))
         if self.wire.plain() and self.bench.now - anew_us > KNOWN_US:
             self._load()
-        for index, since in enumerate(self.silent_us):
-            time_us = 0 if since is None else self.bench.now - since - DYING_US
-            if time_us > LONG_US:
-                took_us = self.vain[index]
-                far = took_us - 2 * self.longest_us > time_us // QUARTER
-                self.judge.once(index, "quarter", bad=far, seen=(took_us, "of", time_us, "us"))
+        time_us = self.bench.now - self.silent_us - DYING_US
+        if self.deaf and time_us > LONG_US:
+            far = self.spent_us - 2 * self.longest_us > time_us // QUARTER
+            self.judge.once(0, "quarter", bad=far, seen=(self.spent_us, "of", time_us, "us"))
 
     def _load(self) -> None:
         """LoadPercent is the share of a second, the end of which is not longer ago than another."""

@@ -106,7 +106,7 @@ class Wire:
         self.lossy_us = self.spoilt_us = -SETTLED_US
         """When something else than silence was last wrong on the wire, and something else than late replies."""
         self.hasty_us = 0
-        """When a request was last sent so soon after a timeout that a late reply could still come."""
+        """When a request last came so soon after a timeout that a late reply still could, or a drive was dead."""
         self.late = 0, 0
         """Timeouts and LateReplies of the line when the last request was sent."""
 
@@ -147,11 +147,13 @@ class Wire:
         anew = max(self.spoilt_us, *(each.restarted_us for each in self.judge.units))
         if last is None or last.index >= len(self.judge.units) or last.end < anew + SETTLED_US:
             return
-        timeout = shown[0] > was[0]
-        if timeout and self.bench.now - last.end < 1000 * self.turns.slot(last.index, "LongestMs"):
-            self.hasty_us = self.bench.now  # a stop does not wait, and may meet the reply
-        if self.bench.now - self.hasty_us > ATTEND_US:
-            late = timeout and bool(last.replies) and block[f"Slots[{last.index}].Online"]
+        timeout, now = shown[0] > was[0], self.bench.now
+        hasty = timeout and now - last.end < 1000 * self.turns.slot(last.index, "LongestMs")
+        dead = any(block[f"Slots[{i}].SupplyOff"] or not block[f"Slots[{i}].Online"] for i in range(len(self.number)))
+        if hasty or dead:
+            self.hasty_us = now  # a stop does not wait, and may meet the reply
+        if now - self.hasty_us > ATTEND_US:
+            late = timeout and bool(last.replies)
             self.judge.once(0, "late", bad=shown[1] - was[1] != late, seen=(shown, "after", was))
 
     def _echo(self) -> None:
