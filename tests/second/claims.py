@@ -693,6 +693,11 @@ class Claims:
             claim.fault, claim.fault_us, claim.first = one.fault, now, claim.run_us > claim.faulty_us
         claim.alone = claim.alone and self.attended(index) and self.bench.shows("CommOk", index)
         claim.faulty_us = now
+        read_us, code = self.judge.wire.read_us[index], self.bench.out("FaultCode", index)
+        shown = claim.alone and read_us is not None and read_us > claim.fault_us and self.bench.shows("Fault", index)
+        number = getattr(one, "number", lambda fault: fault)(one.fault)
+        wrong = shown and code not in (0, number) and not self.mistaken(index, now)
+        self._once(index, "another code", bad=wrong, seen=(code, "of", number))
 
     def _fault(self, index: int, claim: Claim) -> None:
         """The code of a fault that has been there for some time; without one there is none."""
@@ -707,9 +712,6 @@ class Claims:
         old = old and not self.mistaken(index, now)
         self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
 
-        age_us = 1000 * int(bench.number("StatusAgeMs", index)) + SEEN_US + max(self.judge.late)
-        alone = claim.fault_us is not None and now - claim.fault_us > age_us and shown
-        self._once(index, "another code", bad=alone and code not in (0, number), seen=(code, "of", number))
         recorded = old and claim.alone
         for pin, asked in (("FaultBack1", recorded), ("FirstFaultCode", recorded and claim.first)):
             kept = bench.out(pin, index)

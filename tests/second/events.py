@@ -308,15 +308,16 @@ def _highest(b: Second, _: Random) -> None:
         b.run(2500)
 
 
-def _faults(b: Second, _: Random) -> None:
-    """One fault, then another one, after a person has reset the first at the drive."""
+def _faults(b: Second, chance: Random) -> None:
+    """Two faults by turns, at any place in a round of reads; a person resets each at the drive."""
     one = b.models[0]
-    for fault in (FAULT[b.types[0]], OTHER_FAULT[b.types[0]]):
+    for fault in 3 * (FAULT[b.types[0]], OTHER_FAULT[b.types[0]]):
         one.trip(fault, b.now)
-        b.wait(lambda: b.shows("Fault"), 3000)
-        b.run(3000)
-        one.reset(b.now)
+        b.wait(lambda: b.shows("Fault"), 4000)
         b.run(2000)
+        one.reset(b.now)
+        b.wait(lambda: not b.shows("Fault"), 4000)
+        b.run(chance.randrange(1000, 2000, 20))
 
 
 def _stores(b: Second, _: Random) -> None:
