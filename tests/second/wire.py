@@ -238,7 +238,8 @@ class Wire:
         answers = len(list(takewhile(lambda each: each.replies, mine)))
         silent = list(takewhile(lambda each: not each.replies, mine))
         dead = len(silent) >= MANY and self.bench.now - silent[-1].end > DEAD_US
-        wrong = (answers >= ENOUGH and not online) or (dead and online)
+        believed = answers >= ENOUGH and self.bench.block["TheLine.Echo"]  # else they may be the port's own
+        wrong = (believed and not online) or (dead and online)
         self.judge.once(index, "online", bad=bool(wrong), seen=(online, answers, len(silent)))
 
     def _proved(self, index: int) -> None:
