@@ -669,7 +669,8 @@ class Claims:
         self._once(index, "runs", bad=reason == "RUNS" and not running, seen=(reason,))
         idle = bench.shows("StopConfirmed", index) or not ready
         self._once(index, "ready", bad=not idle, seen=("Ready without StopConfirmed",))
-        self._once(index, "bars", bad=ready and reason in BARS, seen=("Ready, and the reason is", reason))
+        barred = ready and reason in BARS and not any_of(MOVES, pins)  # else it says why the last edge was lost
+        self._once(index, "bars", bad=barred, seen=("Ready, and the reason is", reason))
 
     def told(self, index: int) -> list[tuple[str, bool]]:
         """Reasons that pins give, the first first."""

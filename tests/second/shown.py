@@ -162,7 +162,8 @@ class Shown:
         bench, index = self.bench, self.index
         lag = 1000 * int(bench.number("StatusAgeMs", index)) + LAG_US + max(self.judge.late)
         known = bench.shows("Running", index) and not self.judge.claims.mistaken(index, bench.now)
-        if known and bench.now - self.turned_us > lag:
+        faulty_us = self.judge.units[index].fault[True]  # the word of a fault may say anything
+        if known and bench.now - max(self.turned_us, faulty_us) > lag:
             shown = bench.out("Reverse", index)
             self._once("direction", bad=shown != self.reverse, seen=(shown, "of", self.reverse))
 

@@ -184,6 +184,8 @@ class Wire:
             begins, ends, _ = exchange.replies[0]
             if not self.bench.damages:
                 self.longest_us[index] = max(self.longest_us[index], begins - exchange.end)
+                waited = exchange.end - self.bench.now - 1000 * self.bench.characters_ms(len(exchange.data) + 2)
+                self.slowest_us[index] = max(self.slowest_us[index], waited)  # after a restart the port is not free yet
             if exchange.reads(STATUS[self.bench.types[index]]):
                 self.read_us[index] = ends
 
