@@ -263,8 +263,6 @@ class Wire:
         self.turns.look()
         plain, now, bench = self.plain(), self.bench.now, self.bench
         for index, unit in enumerate(self.judge.units):
-            if now - unit.restarted_us < SETTLED_US:
-                self.longest_us[index] = self.slowest_us[index] = 0
             if now - unit.unknown_us < SETTLED_US:
                 self.read_us[index] = None
                 continue
@@ -305,6 +303,9 @@ class Wire:
         last, now = self.last, self.bench.now
         for index in range(len(self.confirmed)):
             self._proved(index)
+        for index, unit in enumerate(self.judge.units):
+            if unit.restarted_us == now:
+                self.longest_us[index] = self.slowest_us[index] = 0
         self.slowest_us = [max(each, 1000 * self.bench.elapsed) for each in self.slowest_us]
         if last is not None and last.replies and now >= last.replies[-1][1]:
             self.idle_ms += self.bench.elapsed
