@@ -115,8 +115,8 @@ anew when what excused its silence ends, as the trip of a drive does, so that a 
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
 UNHURRIED_MS, ASKS, QUARTER = 250, 3, 4
-"""Attempts of drives that take longer to answer are spread over time; a stop, a probe and their silence, of which the
-dead have a quarter of the wire."""
+"""The attempts of drives that may take longer than this to answer are spread over time. A stop, a probe and a read of a
+dead drive each wait for its reply, and the dead have a quarter of the wire."""
 UNLEARNED_MS = 500
 """How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
 RUNS = 4
@@ -403,9 +403,7 @@ class Claims:
         period = self._period(index)
         claim.writes.append(now_us)
         one = self.bench.models[index]
-        late = (
-            one.o.late_per_1000 or now_us < one.busy_us + START_US or now_us < self.judge.counts.unclean_us + START_US
-        )
+        late = one.o.late_per_1000 or now_us < max(one.busy_us, self.judge.counts.unclean_us) + START_US
         asks = any(each.index == index for each in self.judge.asked) or index + 1 in self.judge.observer.may_store
         if self.bench.pins[index] != claim.pins:  # a stop pin that has just risen
             return

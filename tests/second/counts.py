@@ -24,13 +24,13 @@ SILENCE_MS, JSCC_MS = 2, 10
 READ_BYTES, STOP_BYTES = 38, 19
 """Of a read of twelve registers, the least that the line counts with, and of a stop, each with its reply."""
 SURE_US, NEAR_MS = 3_000_000, 3
-"""For how long the times that a promise is made of have to be the same; how exact it is, for each
-request."""
+"""For how long the times that a promise is made of have to be the same; how exact it is, for each request."""
 MINUTE_MS, MINUTES_NEAR_MS = 60_000, 1500
 OFFLINE_MS, ATTEMPTS = 1000, 4
 """From a drive's silence until it is dead; of a stop."""
 LEARNED, MARGIN_MS, LEAST_MS, HALF_MS, UNLEARNED_MS = 20, 20, 50, 240, 500
-"""TurnRoundMs: after so many replies twice the longest and a margin, but not less, or so much if that takes longer."""
+"""TurnRoundMs: replies until it is learned; what is added to twice the longest; the least; where the longest is longer
+than the fourth, or nothing is learned yet, the fifth."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 

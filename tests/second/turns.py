@@ -17,7 +17,7 @@ SILENCE_US = {True: 10_000, False: 1750}
 SECOND_MS, NEAR = 1000, 3
 """What LoadPercent looks at, and how exact it is, in percent."""
 DYING_US, LONG_US = 3_000_000, 4_000_000
-"""For so long the attempts of a stop go on once a drive is known to be silent; how long it is looked at after that."""
+"""For how long the stop of a drive that is known to be silent is tried again at once; how long it is then looked at."""
 KNOWN_US = 6_000_000
 """For so long every reply has been good, and none doubted: after a restart it might be an echo."""
 QUARTER = 4
@@ -100,7 +100,7 @@ class Turns:
             self.open = False
         if last is not None and not last.good:
             self.vain_us = now
-        deaf = self.bench.deaf if self.wire.plain() and self.wire.somebody() else set()
+        deaf = self.bench.deaf if self.bench.deaf and self.wire.plain() and self.wire.somebody() else set()
         slots = [f"Slots[{unit - 1}]" for unit in deaf]
         dying = any(self.bench.block[f"{slot}.Online"] or self.bench.block[f"{slot}.SupplyOff"] for slot in slots)
         if dying or deaf != self.deaf:
