@@ -210,6 +210,10 @@ class Claim:
     """Its fault is the first since then."""
     hasty: int = 0
     """Stops in a row that came too soon after those before."""
+    ran: bool = False
+    """The bus has run it since it was last shown at standstill, or all began anew."""
+    bound: bool = False
+    """It has been started, has another address since, and is not shown at standstill: it still is its block's."""
     handed_over: bool = False
     """Its terminals were to run it from now on, and nothing has begun anew since."""
     fault: Any = None
@@ -284,6 +288,7 @@ class Claims:
         before, pins = claim.pins, bench.pins[index]
         if pins.get("StopAll"):
             self.all_us = now
+        self._bound(index, claim, driven=driven)
         if pins != before:
             claim.pins, claim.changed_us = Pins(pins), now
             began = not before.get("SpeedOnly") or claim.handed_over
@@ -312,6 +317,14 @@ class Claims:
             claim.unlinked = claim.unlinked + 1 if bench.lineless else 0
         if looks:
             self._look(index, claim, driven=driven)
+
+    def _bound(self, index: int, claim: Claim, *, driven: bool) -> None:
+        """Whether a drive that may move has been given another address, which its block must not take yet."""
+        before, pins, confirmed = claim.pins, self.bench.pins[index], self.bench.shows("StopConfirmed", index)
+        moved = before.get("Address") == index + 1 != pins.get("Address")
+        off = any_of((*ASTRAY, "SupplyOff", "Restart"), pins) or confirmed
+        claim.bound = not off and pins.get("Address") != index + 1 and (claim.bound or (moved and claim.ran))
+        claim.ran = (claim.ran or driven) and not confirmed and not pins.get("Restart")
 
     def lies(self, index: int) -> bool:
         """It acknowledges orders that it does not obey, or did so just now: nothing is claimed of what it does."""
@@ -659,6 +672,8 @@ class Claims:
             first = next((name for name, is_so in self.told(index) if is_so), None)
             held = any_of(MOVES, pins)  # then nothing starts until it is released
             right = reason == first if first else reason != "READY" or (ready and not held)
+        refused = claim.pins.get("FaultReset") and not ABLE[bench.types[index]][-1] and bench.shows("Fault", index)
+        right = right and (not refused or bool(pins.get("SupplyOff")) or reason == "NO_RESET")
         claim.odd = 0 if right else claim.odd + 1
         self._once(index, "why", bad=claim.odd > 1, seen=(reason,))
         few = bench.unsaid and not index and reason == "NO_RUN" and 0 < claim.runs < RUNS

@@ -329,6 +329,18 @@ def _stores(b: Second, _: Random) -> None:
         b.run(2000)
 
 
+def _dead_and_readdressed(b: Second, chance: Random) -> None:
+    """It runs on and does not answer; a new address is not taken before it is at standstill."""
+    b.deaf.add(1)
+    b.run(chance.choice([20, 100, 2000]))
+    _absent(b, chance)
+
+
+def _found_again(b: Second, chance: Random) -> None:
+    _right(b, chance)
+    b.deaf.discard(1)
+
+
 def _right(b: Second, _: Random) -> None:
     b.put(0, Address=1)
 
@@ -413,6 +425,15 @@ def _trip_and_reset(b: Second, _: Random) -> None:
     b.wait(lambda: b.shows("Fault"), 3000)
     b.put(0, FaultReset=True).run(100)
     b.put(0, FaultReset=False)
+
+
+def _trip_and_held_reset(b: Second, _: Random) -> None:
+    """... whose button is held; not every drive is reset by the bus."""
+    b.release()
+    b.models[0].trip(FAULT[b.types[0]], b.now)
+    b.wait(lambda: b.shows("Fault"), 3000)
+    b.run(3000)
+    b.put(0, FaultReset=True)
 
 
 def _power(on: bool) -> Does:
@@ -641,6 +662,7 @@ AIMED = {
     "a run is not acknowledged": Event(_unsaid, 6000, _said),
     "a run is neither acknowledged nor obeyed": Event(_unsaid_and_ignored, 9000, _said),
     "a trip and its reset": Event(_trip_and_reset, 3000),
+    "a trip and a held reset": Event(_trip_and_held_reset, 3000, lambda b, _: _put(b, "FaultReset", False)),
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
     "parameters without an answer": Event(_unanswered, 2000),
@@ -650,6 +672,7 @@ AIMED = {
     "its highest address": Event(_highest, 1000, _right),
     "one fault after another": Event(_faults, 3000),
     "a run of more than a minute": Event(nothing, 63_000, stops=False),
+    "another address for a dead drive": Event(_dead_and_readdressed, 6000, _found_again),
     "all but one are dead": Event(_all_but_one_dead, 30_000, _all_back, stops=False, stops_all=True),
     "replies lost": _wire(8000, unanswered=100),
     "replies cut short": _wire(6000, truncated=150),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.drives.bench import REASON
 from tests.drives.station import FAMILIES
-from tests.second.claims import ATTEND_US, AWAY
+from tests.second.claims import ASTRAY, ATTEND_US, AWAY
 from tests.second.observer import MOVES, any_of
 
 if TYPE_CHECKING:
@@ -52,8 +52,14 @@ class Shown:
         self.faults: list[object] | None = None
         self.causes: deque[list[str]] = deque(maxlen=YOUNG)
         """What pins said against a run in the last scans: what the line tells is a scan old."""
+        self.anew = False
+        """The scan before was a restart."""
+        self.replied: bool | None = None
+        """Whether it has been shown to answer since the last restart; None: nobody knows."""
         self.rank = 0
         """Of the stops since the last standstill."""
+        self.left_us = 0
+        """When its block was last not called, which then does not know the time."""
         self.began_us = 0
         """When it was last started."""
         self.reverse, self.turned_us = False, 0
@@ -69,7 +75,9 @@ class Shown:
         """In each scan: what agrees, and the first fault."""
         bench, index = self.bench, self.index
         if bench.pins[index].get("Left"):
+            self.left_us = bench.now
             return
+        self._restarted()
         for one, other in FOLLOW:
             self._once(f"{one} with {other}", bad=bench.shows(one, index) and not bench.shows(other, index), seen=())
         for one, other in NEVER:
@@ -92,12 +100,31 @@ class Shown:
         self._ended(state)
         if state in STARTS and self.state not in STARTS:
             self.began_us = bench.now
-        known = self.began_us > self.judge.units[index].restarted_us
+        known = self.began_us > max(self.left_us, self.judge.units[index].restarted_us)
         if fault and not self.fault and claim.first and claim.alone and known:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
         self._kinds(stopping=state == self.state == STOPPING)
         self.fault, self.state = fault, state
+
+    def _restarted(self) -> None:
+        """In the scan after a restart nothing is left of what was before; then a drive has answered, or it has not."""
+        bench, index, unit = self.bench, self.index, self.judge.units[self.index]
+        pins, since = bench.pins[index], bench.now - unit.restarted_us
+        if pins.get("Restart") or bench.lineless or any_of(ASTRAY, pins) or pins.get("Address") != index + 1:
+            self.replied, self.anew = None, bool(pins.get("Restart")) and not bench.lineless
+            return
+        if self.anew and since == 1000 * bench.elapsed:
+            kept = [self._out("Starts"), self._out("RunMinutes"), REASON[self._out("StopReason")]]
+            self._once("keeps", bad=kept != [0, 0, "RESTARTED"], seen=(kept, "after a restart"))
+            self.replied = False
+        self.anew = False
+        if self.replied is None:
+            return
+        self.replied = self.replied or bench.shows("CommOk", index)
+        reason = bench.reason(index)
+        wrong = reason == ("NO_REPLY" if self.replied else "OFFLINE")
+        self._once("silence", bad=wrong, seen=(reason, "has answered" if self.replied else "has not answered"))
 
     def _kinds(self, *, stopping: bool) -> None:
         """The kind of a stop only rises until the motor is at standstill."""

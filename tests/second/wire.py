@@ -192,7 +192,8 @@ class Wire:
     def _shown(self, last: Exchange) -> None:
         """What the slot holds of how it ended."""
         young = self.bench.now - self.judge.claims.claims[last.index].changed_us < ATTEND_US
-        if young or self.bench.pins[last.index].get("SupplyOff"):
+        dark = self.judge.units[last.index].dark_us >= last.end  # nobody has expected a reply
+        if young or dark or self.bench.pins[last.index].get("SupplyOff"):
             return
         block: Any = self.bench.block
         slot = f"Slots[{last.index}]"
@@ -285,6 +286,7 @@ class Wire:
         astray = any(any_of(ASTRAY, each) or each.get("Address") != i + 1 for i, each in enumerate(bench.pins))
         if lossy or astray or bench.lineless or judge.asked or now - judge.slow_us < SETTLED_US:
             self.spoilt_us = now
+            self.counters = [(-1, [])] * len(judge.units)
         self.lossy_us = now if late else max(self.lossy_us, self.spoilt_us)
         return self.lossy_us < now
 
