@@ -124,7 +124,7 @@ class Shown:
         self.replied = self.replied or bench.shows("CommOk", index)
         reason = bench.reason(index)
         wrong = reason == ("NO_REPLY" if self.replied else "OFFLINE")
-        self._once("silence", bad=wrong, seen=(reason, "has answered" if self.replied else "has not answered"))
+        self._once("silent since", bad=wrong, seen=(reason, "has answered" if self.replied else "has not answered"))
 
     def _kinds(self, *, stopping: bool) -> None:
         """The kind of a stop only rises until the motor is at standstill."""

@@ -100,6 +100,15 @@ PLANTED = (
      "CHF, full control, one fault after another, at speed", {"another code"}),
     ("ELSIF NOT Seen.ReadyShown THEN", "ELSIF Seen.ReadyShown THEN",
      "SN300G5, full control, nothing, standstill", {"bars"}),
+    # what a restart leaves, why nobody answers, and whose a drive is that may move
+    ("Anew := Link.Restarted OR Unit.Moved;", "Anew := Link.Restarted AND Unit.Moved;",
+     "PF4, full control, Restart, at speed", {"keeps"}),
+    ("Replied := Replied AND NOT Seen.Restarted;", "Replied := Replied OR NOT Seen.Restarted;",
+     "CHF, full control, a restart while it is dead, at speed", {"silent since"}),
+    ("Dark := SupplyOff AND NOT Slot.Online", "Dark := SupplyOff OR NOT Slot.Online",
+     "SN300G5, full control, another address for a dead drive, at speed", {"bound"}),
+    ("Refuses := Asked.Motion OR NOT CanResetFault OR", "Refuses := Asked.Motion OR",
+     "SN300G5, full control, a trip and a held reset, at speed", {"why"}),
     ("SpeedRead := FALSE;", "SpeedRead := TRUE;",
      "PF4, full control, a start of 300 ms, standstill", {"proved"}),
 )  # fmt: skip

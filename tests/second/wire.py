@@ -160,7 +160,7 @@ class Wire:
         """That the port hears nothing of its own is known once three reads have been answered, and not before."""
         since, echo = max(each.restarted_us for each in self.judge.units), self.bench.block["TheLine.Echo"]
         mine = self.since(since)
-        reads = sum(each.good and each.data[1] <= LAST_READ for each in mine)
+        reads = sum(bool(each.replies) and each.data[1] <= LAST_READ for each in mine)
         anew = any(pins.get("Restart") for pins in self.bench.pins)  # in this scan
         if self.lossy_us < since and not (self.bench.echo or anew) and len(mine) < SEVERAL and self._whole():
             self.judge.once(0, "echo known", bad=(echo == 1) != (reads >= ENOUGH), seen=(echo, reads, "reads"))
