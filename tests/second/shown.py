@@ -75,7 +75,7 @@ class Shown:
         """In each scan: what agrees, and the first fault."""
         bench, index = self.bench, self.index
         if bench.pins[index].get("Left"):
-            self.left_us = bench.now
+            self.left_us, self.anew, self.replied = bench.now, False, None
             return
         self._restarted()
         for one, other in FOLLOW:
