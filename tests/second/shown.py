@@ -123,7 +123,7 @@ class Shown:
             return
         self.replied = self.replied or bench.shows("CommOk", index)
         reason = bench.reason(index)
-        wrong = reason == ("NO_REPLY" if self.replied else "OFFLINE")
+        wrong = reason == ("NO_REPLY" if self.replied else "OFFLINE") and not any_of(MOVES, pins)
         self._once("silent since", bad=wrong, seen=(reason, "has answered" if self.replied else "has not answered"))
 
     def _kinds(self, *, stopping: bool) -> None:

@@ -14,7 +14,7 @@ CONTROL = alike({"CHF": 0x1000, "GD200A": 0x2000, "JSCC": 0x1000, "PF4": 0x2000,
 """Where stops are written."""
 SILENCE_US = {True: 10_000, False: 1750}
 """Between a frame and the next request, by whether JSCC is on the line: its manual, and 3.5 characters."""
-SECOND_MS, NEAR = 1000, 3
+SECOND_MS, NEAR = 1000, 5
 """What LoadPercent looks at, and how exact it is, in percent."""
 DYING_US, LONG_US = 3_000_000, 4_000_000
 """For how long the stop of a drive that is known to be silent is tried again at once; how long it is then looked at."""
