@@ -6,6 +6,7 @@ from typing import Any
 from tests.drives.bench import RUNS, Bench
 from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
+from tests.second.figures import CHAR_US
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
 from tests.second.judge import VALUES, Asked, Judge
@@ -23,8 +24,6 @@ MODELS = pf4.alike(
     {"ATV312": atv312, "CHF": chf, "GD200A": gd200a, "JSCC": jscc, "MX2": mx2, "PF4": pf4, "SN300G5": sn300g5}
 )
 STORES = {family: module.stores for family, module in MODELS.items()}
-CHAR_US = 521
-"""A character of 10 bits at 19,200 bit/s, rounded up as the bench does."""
 LISTED = 2
 """Rows after `PARAMETER` that each manual lists."""
 SHORTEST = 4

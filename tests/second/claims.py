@@ -7,12 +7,28 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tests.second.figures import (
+    ASTRAY,
+    ATTEND_US,
+    AWAY,
+    CHAR_US,
+    CODE_MOST,
+    EVERY_US,
+    FOREIGN,
+    JOG_ENDS,
+    MAX_SCAN_US,
+    QUARTER,
+    TAKEN,
+    UNHURRIED_MS,
+    UNLEARNED_MS,
+    path_us,
+    round_us,
+)
 from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, Pins, Seen, any_of, both, wish
 from tests.second.pf4 import VARIANTS, alike
 
 if TYPE_CHECKING:
-    from tests.second.bench import Second
     from tests.second.judge import Judge
 
 ONE_WORD = ("PF4", *VARIANTS)
@@ -25,16 +41,6 @@ START_US = 3_000_000
 """From the edge to the first turn: reference, run, and attempts."""
 AT_ONCE_US, AT_ONCE_ROUNDS = 700_000, 2
 """The same where no reply is late: and two rounds of the line, for other drives' turns and the answers."""
-PATH_ROUNDS = {"ATV312": 5, "MX2": 1}
-"""Rounds of the line by which a start of several writes is longer; a drive gets one write and one read in a round.
-
-MX2 has one write more, its direction. Three writes of ATV312 each wait for a status that was read after them (BBV51701,
-page 10), which is two reads of three: of any five in a row at least three.
-"""
-CODE_MOST = 5
-"""Rounds until the code of a fault is read: three until the status shows the fault, and two more."""
-EXCHANGE_US = 50_000
-"""A request and its reply at 19,200 bit/s, up to 18 ms after it; or three scans, where those are longer."""
 SPEED_US = 6_000_000
 """From an edge or another reference to that speed: 25 Hz at 10 Hz/s, in scans of 50 ms with 8 drives."""
 BARS = ("STOPPING", "FOREIGN", "UNREAD", "SETTING", "REFERENCE", "NOT_READY", "WRITE_WAITS", "STARTING", "RUNS")
@@ -46,10 +52,6 @@ LATE_US = 600_000
 """A stop that meets a late reply is sent again."""
 RESTART_US = 2_500_000
 """Stops of a restart wait out what may still be answered."""
-EVERY_US = 200_000
-"""How often outputs are looked at."""
-ATTEND_US = 1_000_000
-"""AttendMs."""
 CALM_US = 10_000_000
 COUNTS_US = 10_000_000
 """How long a frame of another master counts, by the pin ForeignFrames."""
@@ -66,15 +68,6 @@ USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
-TAKEN: dict[str, tuple[tuple[str, ...], int | None]] = {
-    "Shared": (("SHARED", "NO_LINE"), 56), "Doubled": (("LINE",), None),
-}  # fmt: skip
-"""Pins of a drive that gets nothing but stops, each with the reasons that say so, and ErrorID: a slot with two blocks,
-an address in two slots, which is an error of the line's own."""
-ASTRAY = ("Left", *TAKEN)
-"""Pins with which no block alone serves a drive."""
-AWAY = (*ASTRAY, "SpeedOnly", "MonitorOnly")
-"""The same, or not in full control."""
 CHANGED_US = 100_000
 """For so long a change of pins is young: the scans in which its stop waits for the wire."""
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
@@ -89,12 +82,6 @@ ABLE = alike({
 })  # fmt: skip
 RESETS_US = 3_000_000
 """From the end of a fault until a reset has seen it: its status and its code are read again, and standstill."""
-REFUSED_US = 1_500_000
-"""From the first refused read to its reason: StaleMs, this time, and the rounds of CODE_MOST."""
-MAX_SCAN_US = 60_000
-"""MaxScanMs of the bench."""
-CHAR_US = 521
-"""A character of 10 bits at 19,200 bit/s, rounded up."""
 SPEEDING = 6
 """State: the block gives the reference alone."""
 SHARED_US = 4_000_000
@@ -114,37 +101,16 @@ RARELY_US, HASTY = 2_100_000, 4
 anew when what excused its silence ends, as the trip of a drive does, so that a few may come sooner."""
 SAME_US = 400_000
 """An acknowledged stop is sent again 500 ms after its acknowledgement."""
-UNHURRIED_MS, ASKS, QUARTER = 250, 3, 4
-"""The attempts of drives that may take longer than this to answer are spread over time. A stop, a probe and a read of a
-dead drive each wait for its reply, and the dead have a quarter of the wire."""
-UNLEARNED_MS = 500
-"""How long the line waits for a drive whose replies it has not learned yet: then only what it promises is owed."""
+ASKS = 3
+"""A stop, a probe and a read of a dead drive each wait for its reply."""
 RUNS = 4
 """Orders to run that an edge is worth: one, and three more while nobody knows whether it was heard."""
-JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
-"""8 ends a jog: at 1000H, line 326 of CHF's manual; at 2000H, page 139 of GD200A's."""
 LATE_ECHOES = 4
 """A late reply that meets the echo of the next request may pass for a frame of others; the line bears five."""
 TAKEN_BACK = 100
 """Requests that a slow port can find in the mailbox no longer, in a whole walk."""
 LINE_ERRORS = (0, 61)
 """None, and a stop that is overdue."""
-
-
-def round_us(bench: "Second") -> int:
-    """A round of the line: two exchanges of each drive, a write and a read."""
-    return 2 * len(bench.types) * max(EXCHANGE_US, 3000 * max(bench.ms, bench.was_ms))
-
-
-def crowded(bench: "Second") -> bool:
-    """Whether references and reads of the running drives have all the line: eight drives in slow scans."""
-    return len(bench.types) > 3 and bench.ms > 20
-
-
-def path_us(bench: "Second", index: int) -> int:
-    """How much longer a start of this drive takes than one by one write; in slow scans its reference has a round."""
-    rounds = PATH_ROUNDS.get(bench.types[index], 0) + (len(bench.types) > 3 and max(bench.ms, bench.was_ms) > 20)
-    return rounds * round_us(bench)
 
 
 @dataclass(slots=True)
@@ -683,6 +649,9 @@ class Claims:
         idle = bench.shows("StopConfirmed", index) or not ready
         self._once(index, "ready", bad=not idle, seen=("Ready without StopConfirmed",))
         barred = ready and reason in BARS and not any_of(MOVES, pins)  # else it says why the last edge was lost
+        barred = barred and (
+            reason != "FOREIGN" or bench.block["TheLine.ErrorID"] == FOREIGN
+        )  # else why the last run ended
         self._once(index, "bars", bad=barred, seen=("Ready, and the reason is", reason))
 
     def told(self, index: int) -> list[tuple[str, bool]]:

@@ -3,7 +3,7 @@
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from tests.second.claims import ASTRAY, ATTEND_US, MAX_SCAN_US
+from tests.second.figures import ASTRAY, ATTEND_US, MAX_SCAN_US, STOP_TRIES, UNLEARNED_MS
 from tests.second.frames import LAST_READ
 from tests.second.observer import any_of
 
@@ -26,11 +26,11 @@ READ_BYTES, STOP_BYTES = 38, 19
 SURE_US, NEAR_MS = 3_000_000, 3
 """For how long the times that a promise is made of have to be the same; how exact it is, for each request."""
 MINUTE_MS, MINUTES_NEAR_MS = 60_000, 1500
-OFFLINE_MS, ATTEMPTS = 1000, 4
-"""From a drive's silence until it is dead; of a stop."""
-LEARNED, MARGIN_MS, LEAST_MS, HALF_MS, UNLEARNED_MS = 20, 20, 50, 240, 500
+OFFLINE_MS = 1000
+"""From a drive's silence until it is dead."""
+LEARNED, MARGIN_MS, LEAST_MS, HALF_MS = 20, 20, 50, 240
 """TurnRoundMs: replies until it is learned; what is added to twice the longest; the least; where the longest is longer
-than the fourth, or nothing is learned yet, the fifth."""
+than the fourth, it is that of a drive whose replies are not learned yet."""
 ECHOES = {True: (0, 2), False: (0, 1)}
 """Echo, by whether the port hears what it sends."""
 
@@ -215,7 +215,7 @@ class Counts:
         longest = [self._count(f"Slots[{index}].LongestMs") for index in range(count)]
         waits = max(late - turn for late, turn in zip(longest, drives, strict=True))
         cut = max(min(count + 2, 4) * (poll + waits), OFFLINE_MS + once) + count * (poll + stop)
-        cut += max(ATTEMPTS * stop, *longest) + 2 * MAX_SCAN_US // 1000
+        cut += max(STOP_TRIES * stop, *longest) + 2 * MAX_SCAN_US // 1000
         worst = alone + sum(others) - min(others)
         promised = ("StopAloneMs", alone, count), ("WorstStopMs", worst, count), ("CutToContactMs", cut, 2 * count + 8)
         for name, true, requests in promised:

@@ -7,6 +7,7 @@ from random import Random
 from tests.drives.bench import Faults
 from tests.second.bench import METER, Second
 from tests.second.drive import RUNS, STOPS, Fault
+from tests.second.figures import FOREIGN, SHARED
 from tests.second.pf4 import alike
 
 Does = Callable[[Second, Random], None]
@@ -39,8 +40,6 @@ LONG_MS = 400
 """How long a drive may take to answer."""
 ABSENT = 29
 """A unit address that no drive here has, and each could have."""
-FOREIGN, SHARED = 54, 56
-"""ErrorID: another master is on the line; two drive blocks use one slot."""
 REMEMBERED_US = 10_000_000
 """Its frames count for so long, or until a restart."""
 FORGOTTEN_US = 41_000_000

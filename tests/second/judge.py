@@ -9,22 +9,24 @@ from dataclasses import dataclass, field
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import (
+from tests.second.claims import Claims
+from tests.second.counts import Counts
+from tests.second.figures import (
     ASTRAY,
     ATTEND_US,
     CODE_MOST,
     EVERY_US,
+    FOREIGN,
     JOG_ENDS,
     MAX_SCAN_US,
     REFUSED_US,
+    STOP_TRIES,
     TAKEN,
     UNHURRIED_MS,
     UNLEARNED_MS,
-    Claims,
     crowded,
     round_us,
 )
-from tests.second.counts import Counts
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 from tests.second.shown import LAG_US, Shown
@@ -39,8 +41,6 @@ CUT_US = 2_200_000
 """From the silence of a drive that turns to the open contact: offline, then a stop and retries."""
 LATE_US = 1_000_000
 """How much later where replies are late: the line waits longer for each."""
-STOPS = 4
-"""Attempts."""
 SHARED_SCANS = 3
 """From a second block on a slot to the open contact, in calls of the line."""
 MORE_US = 500_000
@@ -77,8 +77,6 @@ CALM_US = 10_000_000
 8 s apart at most."""
 GRACE_US = 3_000_000
 """A contact may open so long after its reason has ended, which the block cannot know at once."""
-FOREIGN = 54
-"""The line's error while another master seems to be there."""
 SHAFT = 700
 """Scans of which the frequency is remembered."""
 SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
@@ -466,7 +464,7 @@ class Judge:
             most = max(most, 1000 * bench.promised_cut, beside)
         deaf = [1000 * bench.turn_round(each - 1) for each in bench.deaf]
         if len(deaf) > 1 and max(deaf) > 1000 * UNHURRIED_MS:
-            most += STOPS * 2 * sum(deaf)  # all attempts of all of them, each with the silence after it
+            most += STOP_TRIES * 2 * sum(deaf)  # all attempts of all of them, each with the silence after it
         most += LATE_US if any(each.o.late_per_1000 for each in bench.models) else 0
         if bench.pins[index].get("Shared"):
             most = SHARED_SCANS * max(self.late)

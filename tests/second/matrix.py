@@ -15,10 +15,9 @@ from typing import Any
 
 from tests.second import pairs
 from tests.second.bench import Second
-from tests.second.claims import path_us
 from tests.second.drive import Drive
 from tests.second.events import AIMED, EVENTS, FAULT, LONG, Event
-from tests.second.judge import FOREIGN
+from tests.second.figures import FOREIGN, path_us
 from tests.second.pf4 import VARIANTS, alike
 from tests.second.station import ALONE, FAMILIES, RTU_ONLY, SIZES, types_of
 

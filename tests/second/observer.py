@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from tests.second.figures import ATTEND_US
 from tests.second.frames import ascii_opened, opened
 
 RUN, JOG = ("RunForward", "RunReverse"), ("JogForward", "JogReverse")
@@ -21,8 +22,6 @@ STANDING = {"stop", "confirmed"}
 """Rules that hold where it stands and nobody runs it."""
 Seen = tuple[object, ...]
 """What is seen of a broken rule; it becomes words only when one breaks, since rules are asked thousands of times."""
-ATTEND_US = 1_000_000
-"""AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from tests.drives.bench import REASON
 from tests.drives.station import FAMILIES
-from tests.second.claims import ASTRAY, ATTEND_US, AWAY
+from tests.second.figures import ASTRAY, ATTEND_US, AWAY
 from tests.second.observer import MOVES, any_of
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ FOLLOW = (
 """What the first says, the second has to say, too."""
 NEVER = (("Ready", "Fault"), ("Ready", "Running"), ("StopConfirmed", "Running"))
 """What is not shown at the same time."""
-JOG_ENDS = 4
+JOG_KIND = 4
 """StopKind of the stop that ends a jog, which may come after any other."""
 KINDS = {2: "CanQuickStop", 3: "CanCoastStop", 4: "CanJog"}
 """StopKind, and what the drive has to be able to; 1 is the stop that every drive has."""
@@ -135,7 +135,7 @@ class Shown:
         if confirmed or not stopping or anew or any_of(AWAY, pins) or pins.get("Address") != index + 1:
             self.rank = 0
             return
-        if kind != JOG_ENDS:
+        if kind != JOG_KIND:
             self._once("kind", bad=kind < self.rank, seen=(kind, "after", self.rank))
             self.rank = max(self.rank, kind)
 

@@ -4,6 +4,7 @@ from collections import deque
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
+from tests.second.figures import QUARTER
 from tests.second.frames import LAST_READ, runs
 from tests.second.pf4 import alike
 
@@ -20,8 +21,6 @@ DYING_US, LONG_US = 3_000_000, 4_000_000
 """For how long the stop of a drive that is known to be silent is tried again at once; how long it is then looked at."""
 KNOWN_US = 6_000_000
 """For so long every reply has been good, and none doubted: after a restart it might be an echo."""
-QUARTER = 4
-"""Stops and probes of silent drives take at most this part of the time, while others answer."""
 
 
 class Turns:

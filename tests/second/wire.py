@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
-from tests.second.claims import ASTRAY, ATTEND_US, AWAY
+from tests.second.figures import ASTRAY, ATTEND_US, AWAY
 from tests.second.frames import LAST_READ, runs
 from tests.second.observer import any_of
 from tests.second.pf4 import alike
