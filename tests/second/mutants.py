@@ -34,6 +34,8 @@ from structured_text.language.lint import lint_sources
 
 SEEDS, NUMBER = (734, 421, 411, 412, 911, 1203, 1517, 1811, 2027, 3011), 60
 WALKS = 100
+LOOK_S = 900
+"""Of a processor, after which the process of a look at a change that never ends is ended."""
 SURVIVORS = Path(__file__).with_name("survivors.yaml")
 CONTROL = ("Control", "Pins", "Run", "FaultReset", "Start", "FirstStop", "StopRound", "Send", "Why", "HardStop")
 DRIVE = ("Link", "Unit", "Usual", "Identity", "Diagnose")
@@ -149,6 +151,7 @@ def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
     if stations is None:
         return None
     for name, look in looks(one, number, most):
+        _for_seconds(LOOK_S)
         try:
             outcome = look(stations)
         except Exception as error:
@@ -158,8 +161,16 @@ def judged(one: Mutant, number: int, most: int | None = None) -> str | None:
     return ""
 
 
+def _for_seconds(more: int) -> None:
+    """This process ends when it has used so much more of a processor."""
+    import resource
+
+    used = int(sum(resource.getrusage(resource.RUSAGE_SELF)[:2]))
+    resource.setrlimit(resource.RLIMIT_CPU, (used + more, resource.getrlimit(resource.RLIMIT_CPU)[1]))
+
+
 def apart(one: Mutant, number: int, most: int | None) -> str | None:
-    """As `judged`, in a process of its own: a change that writes out of an array ends it."""
+    """As `judged`, in a process of its own: a change that writes out of an array or never ends ends it."""
     with ProcessPoolExecutor(1) as pool:
         try:
             return pool.submit(judged, one, number, most).result()
