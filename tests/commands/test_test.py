@@ -123,6 +123,12 @@ def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn(
     words = {each.text for each in drawn.iter("{http://www.w3.org/2000/svg}text")}
     assert {"QuickStop", "RunForward", "Running", "sent", "heard"} <= words
 
+    assert invoke(my_drive, "--picture", "pictures").exit_code == 1, "its own picture is replaced"
+    Path("pictures/EX100_TestMotorStop-embedded.svg").write_text("<svg/>", encoding="utf-8")
+    again = invoke(my_drive, "--picture", "pictures")
+    assert (again.exit_code, Path("pictures/EX100_TestMotorStop-embedded.svg").read_text("utf-8")) == (2, "<svg/>")
+    assert "EX100_TestMotorStop-embedded.svg: there is a file that no `driveblocks test` has written" in again.stderr
+
 
 def test_a_bad_map_gives_status_2_and_is_reported_with_its_place(my_drive: str) -> None:
     text = Path(my_drive).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")

@@ -7,7 +7,9 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
+from click.testing import CliRunner
 
+from driveblocks.cli import app
 from driveblocks.maps import decode, nodes, page, schema
 from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import Key, keys_of
@@ -91,3 +93,18 @@ def test_the_reference_lists_every_word_that_a_key_can_have() -> None:
     text = page.reference()
     for word in ("percent_of_maximum", "coast_stop", "zero_speed", "r/min", "likely", "ram_address_bit"):
         assert f"`{word}`" in text
+
+
+def test_the_command_writes_over_its_own_files_alone(tmp_path: Path) -> None:
+    command = ["schema", str(tmp_path)]
+    assert CliRunner().invoke(app, command).exit_code == 0
+    written = (tmp_path / "keys.md").read_bytes()
+    (tmp_path / "keys.md").write_bytes(written[:-1])
+    assert CliRunner().invoke(app, command).exit_code == 0
+    assert (tmp_path / "keys.md").read_bytes() == written
+    (tmp_path / "keys.md").unlink()
+    (tmp_path / "schema.json").write_text('{"mine": 1}', encoding="utf-8")
+    refused = CliRunner().invoke(app, command)
+    assert (refused.exit_code, [each.name for each in tmp_path.iterdir()]) == (2, ["schema.json"])
+    assert (tmp_path / "schema.json").read_text(encoding="utf-8") == '{"mine": 1}'
+    assert "schema.json: there is a file that no `driveblocks schema` has written" in refused.stderr

@@ -8,6 +8,9 @@ import click
 from driveblocks.commands import FILE, refuse
 from driveblocks.maps import page, schema
 
+_HEADS = {"schema.json": rb'\{\s*"\$schema": "[^"]*",\s*"title": "DriveBlocks', "keys.md": b"# Every key of a map\n"}
+"""How the files begin that this command writes."""
+
 
 @click.command()
 @click.argument(
@@ -28,12 +31,18 @@ def run(folder: Path | None, check: bool) -> None:
     if folder is None:
         click.echo(schema.text(), nl=False)
         return
+    from driveblocks.desk.words import spare
+
     try:
         files = _files(folder)
+        for name, head in _HEADS.items():
+            spare(folder / name, head, "no `driveblocks schema`")
         stale = [path for path, text in files.items() if _read(path) != text]
         for path in stale if not check else ():
             path.write_text(files[path], encoding="utf-8")
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        refuse(f"{error.filename or folder}: {error.strerror}")
+    except ValueError as error:
         refuse(f"{folder}: cannot write the schema: {error}")
     if check and stale:
         names = ", ".join(str(path) for path in stale)

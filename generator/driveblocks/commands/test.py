@@ -83,6 +83,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
             xml.write(done, junit)
         if picture is not None:
             _draw(done, picture)
+    except FileExistsError as error:
+        refuse(f"{error.filename}: {error.strerror}")
     except OSError as error:
         refuse(f"{error.filename or junit}: cannot be written: {error.strerror}")
     _print(programs, candidates, chosen)
@@ -141,14 +143,17 @@ def _unproved(sources: "list[Source]") -> None:
 
 def _draw(run: "Run", folder: Path) -> None:
     """A picture per program and engine whose scene failed. Raises OSError."""
+    from driveblocks.desk.words import spare
     from driveblocks.testing import record
 
-    for result in run.results:
-        if result.record:
-            folder.mkdir(parents=True, exist_ok=True)
-            failed = next(outcome for outcome in result.bad if outcome.scene)
-            drawn = record.picture(f"{result.program} on {result.engine}: {failed.words}", result.record)
-            (folder / f"{result.program}-{result.engine}.svg").write_text(drawn, encoding="utf-8", newline="\n")
+    results = {folder / f"{result.program}-{result.engine}.svg": result for result in run.results if result.record}
+    for path in results:
+        spare(path, record.PICTURE, "no `driveblocks test`")
+    for path, result in results.items():
+        folder.mkdir(parents=True, exist_ok=True)
+        failed = next(outcome for outcome in result.bad if outcome.scene)
+        drawn = record.picture(f"{result.program} on {result.engine}: {failed.words}", result.record)
+        path.write_text(drawn, encoding="utf-8", newline="\n")
 
 
 def _cover(measured: "list[Coverage]") -> None:

@@ -129,6 +129,8 @@ def _row(one: Moment, frame: str) -> list[str]:
 WIDTH, LEFT, TOP, ROW, HIGH = 1000, 150, 60, 24, 14
 TITLE = 105
 """Characters of a title that find room."""
+PICTURE = rb"<svg [^>]*>\n<title>\w+ on [\w-]+: "
+"""How a picture begins."""
 
 
 def picture(title: str, record: Sequence[Moment]) -> str:
