@@ -101,7 +101,7 @@ def test_everything_that_is_wrong_is_reported_at_once_with_its_place() -> None:
         ("", "s.yaml:1:1: nothing happens here; write - at 3 s: trip 4"),
         ("# later\n", "s.yaml:1:1: nothing happens here; write - at 3 s: trip 4"),
         ("at 3 s: trip 4\n", "s.yaml:1:1: a scenario is a list; write - at 3 s: trip 4"),
-        ("- at 3 s: [\n", "s.yaml:2:1: a value is missing before ``"),
+        ("- at 3 s: [\n", "s.yaml:2:1: the text ends in the middle of a `[` or `{`"),
     ],
 )
 def test_a_text_that_is_no_list(text: str, says: str) -> None:

@@ -31,6 +31,8 @@ class _Words:
     right: str
     at_start: bool = False
     """Whether the mistake is where the reading began."""
+    at_end: bool = False
+    """Only where the text ends."""
 
 
 _QUOTE_IT = "quote a text that holds , : {{ }} [ ] and close every quote"
@@ -79,6 +81,13 @@ _WORDS = (
         True,
     ),
     _Words("simple key", ("expected ':'",), "this line has no colon", "write `key: value`, or indent the line", True),
+    _Words(
+        "",
+        ("node content",),
+        "the text ends in the middle of a `[` or `{{`",
+        "write what is missing, and close it",
+        at_end=True,
+    ),
     _Words("", ("node content",), "a value is missing before `{0}`", "write it, or quote a text that starts with {0}"),
     _Words(
         "",
@@ -104,6 +113,8 @@ def explain(error: yaml.YAMLError, text: str) -> Said:
     """Turn a parser's error about `text` into place, what is wrong, and what would be right."""
     said = _complaint(error, text)
     for words in _WORDS:
+        if words.at_end and said.character:
+            continue
         if words.context in said.context and any(part in said.problem for part in words.problem):
             place = said.since if words.at_start else said.here
             wrong, right = (part.format(said.character, said.since[0]) for part in (words.wrong, words.right))
