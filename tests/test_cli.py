@@ -1,14 +1,22 @@
-"""The command as a whole: Ctrl-C ends it without a word."""
+"""The command as a whole: its list of commands; Ctrl-C ends it without a word."""
 
 import builtins
+import re
 import runpy
 import sys
 from typing import Any, NoReturn
 
 import pytest
+from click.testing import CliRunner
 
-from driveblocks.cli import main
+from driveblocks.cli import app, main
 from driveblocks.maps import catalog
+
+
+def test_the_list_of_commands_says_what_each_does_in_a_line() -> None:
+    shown = CliRunner().invoke(app, ["--help"], terminal_width=80).stdout
+    assert len(re.findall(r"^  [a-z][a-z-]* +[A-Z].*\.$", shown, re.MULTILINE)) == len(app.commands)
+    assert "..." not in shown
 
 
 def interrupted(*_arguments: object) -> NoReturn:

@@ -23,7 +23,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--file", type=FILE, default=Path("site.yaml"), metavar="FILE", help="Where what was found is kept.")
 @click.option("--replace", is_flag=True, help="Replace what FILE has of this label.")
 def run(**words: Any) -> None:
-    """Spend the first hour with a drive: find it, check its keypad, measure it; it reads, and never writes to it.
+    """Find and check a new drive; nothing is written to it.
 
     Disconnect the PLC first, and leave one drive on the line. Nothing is sent before 60 s of silence and a typed word.
     Enter skips a question. The exit status is 0 if all steps came to their end, 1 if not, 2 for bad input.

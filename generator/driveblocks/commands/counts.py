@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 )
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when a page is not current.")
 def run(pages: tuple[Path, ...], check: bool) -> None:
-    """Count what the shipped maps hold, per drive and register table.
+    """Count what the shipped maps hold, per drive and table.
 
     Registers, bits, enum values, settings, faults, errors, frames, errata and gaps are counted.
 

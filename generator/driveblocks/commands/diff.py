@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 @click.option("--changelog", is_flag=True, help="Print Markdown for a changelog; changes of words alone are counted.")
 @click.option("--json", is_flag=True, help="Print all changes as JSON.")
 def run(old: str, new: str, changelog: bool, json: bool) -> None:
-    """List what differs between two versions of a map, and what of it a PLC project notices.
+    """List what differs between two versions of a map.
 
     Of two maps, blocks and facts are compared: what no longer compiles (a pin is gone, a type is another one), what
     acts differently (an address, a scale, a command), what is new, and where only words differ. Of two folders, such

@@ -16,10 +16,10 @@ COLUMN = "address, id, name, unit, scale or access"
 @click.option("--addresses", type=click.Choice(("hex", "decimal", "4xxxx")), help="How addresses are written.")
 @click.option("-o", "output", type=FILE, metavar="ROWS.yaml", help="A new file for the rows; else they are printed.")
 def run(file: str, columns: tuple[str, ...], addresses: str | None, output: Path | None) -> None:
-    """Turn a register table into rows of a map, to be checked against the manual one by one.
+    """Turn a register table into rows of a map.
 
-    The first line names the columns. Every line that no row could be made of is reported with its number. The exit
-    status is 0 if all were understood, 1 if some were left out, 2 for bad input.
+    Check them against the manual one by one. The first line names the columns. Every line that no row could be made of
+    is reported with its number. The exit status is 0 if all were understood, 1 if some were left out, 2 for bad input.
 
     Example: driveblocks import-csv registers.csv --addresses hex
     """

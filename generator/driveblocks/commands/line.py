@@ -41,10 +41,11 @@ PICTURE = only_over(rb"<svg [^>]*>\s*<title>One round of polls: ", "line --pictu
 @click.option("--picture", type=FILE, callback=PICTURE, metavar="FILE.svg", help="Draw one round of the line.")
 @click.option("--json", is_flag=True, help="Print all figures of all rates as JSON.")
 def run(picture: Path | None, json: bool, **words: Any) -> None:
-    """Compute how often each drive is read and how late a stop can be, before anything is bought.
+    """Compute how often drives are read and how late stops can be.
 
-    The figures of stops are those of the line block itself, run for one scan at each bit rate; nothing is sent. The
-    exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's own rate; 2 for bad input.
+    It does so before anything is bought. The figures of stops are those of the line block itself, run for one scan at
+    each bit rate; nothing is sent. The exit status is 0; 1 if --stop-within or a watchdog does not hold at the line's
+    own rate; 2 for bad input.
 
     Example: driveblocks line chf@1 chf@2 jscc@3 --rate 19200 --stop-within 500ms --picture round.svg
     """

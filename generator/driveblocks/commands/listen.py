@@ -19,10 +19,11 @@ from driveblocks.commands import FILE, refuse
 @click.option("--csv", type=FILE, metavar="FILE.csv", help="Write each frame as a row.")
 @click.option("--json", is_flag=True, help="Print what was heard as JSON.")
 def run(json: bool, **words: Any) -> None:
-    """Listen to a line that others speak on: units, functions, registers, times, and what is odd. It sends nothing.
+    """Listen to a line that others speak on, and send nothing.
 
-    Rate and format are found by what decodes, for eight minutes at most. Open the port first, then clip the adapter on.
-    The exit status is 0; 1 if nothing decodes, the port goes away or a file is not complete; 2 for bad input.
+    Units, functions, registers, times and what is odd are shown. Rate and format are found by what decodes, for eight
+    minutes at most. Open the port first, then clip the adapter on. The exit status is 0; 1 if nothing decodes, the port
+    goes away or a file is not complete; 2 for bad input.
 
     Example: driveblocks listen chf@1 jscc@2 --port /dev/ttyUSB0 --log line.log
     """

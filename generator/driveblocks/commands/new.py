@@ -11,7 +11,7 @@ from driveblocks.commands import FILE, refuse, write
 @click.argument("prefix", metavar="PREFIX", help="What the names of the blocks start with, such as SN300G5.")
 @click.option("-o", "--output", type=FILE, metavar="FILE", help="File to write; without it, PREFIX in small letters.")
 def run(prefix: str, output: Path | None) -> None:
-    """Write a first map to a new file, with comments that say what to replace.
+    """Write a first map, with comments that say what to replace.
 
     It is valid as it is, so every mistake that `driveblocks check` reports later is yours. A file that exists
     is never touched: the exit status is 2.

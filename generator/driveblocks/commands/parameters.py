@@ -28,7 +28,7 @@ def _placed(command: Callable[..., None]) -> Callable[..., None]:
 
 @click.group()
 def run() -> None:
-    """Save the registers of a drive, or compare them: it reads, and never writes.
+    """Save the registers of a drive, or compare them; it only reads.
 
     Disconnect the PLC first: two masters on one line damage each other's frames.
     """

@@ -47,7 +47,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--demo", is_flag=True, help="Two pumps and a fan of three makes, simulated, fifteen seconds.")
 @click.option("--fast", is_flag=True, help="With simulated drives: do not wait between scans.")
 def run(show: tuple[str, ...], **words: Any) -> None:
-    """Run a program: a soft PLC on this computer, at simulated drives or at a real line.
+    """Run a program as a soft PLC, at simulated drives or a line.
 
     On a REAL PORT only reads and the maps' stops are sent, unless --allow-run. Whatever ends the run, every drive is
     stopped first, and those that could not be confirmed are named: at Ctrl-C and every signal that can be caught,

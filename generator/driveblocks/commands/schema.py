@@ -22,9 +22,9 @@ _HEADS = {"schema.json": rb'\{\s*"\$schema": "[^"]*",\s*"title": "DriveBlocks', 
 )
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when a file is not current.")
 def run(folder: Path | None, check: bool) -> None:
-    """Write the JSON Schema and the reference of the map format, and the smallest map into its guide.
+    """Write the JSON Schema and the reference of the map format.
 
-    Schema and reference are made from the model of maps.
+    Both are made from the model of maps. The smallest map is written into the guide.
 
     Example: driveblocks schema vendor_maps
     """

@@ -25,7 +25,7 @@ from driveblocks.commands import FILE, refuse
 @click.option("--for", "length", metavar="TIME", help="End after this time, such as 60s.")
 @click.option("--schema", is_flag=True, help="Print the JSON Schema of scenarios, and nothing else.")
 def run(drives: tuple[str, ...], form: str, schema: bool, frames: bool, **words: Any) -> None:
-    """Simulate drives on one line, for a PLC, a program or a tool that speaks MODBUS.
+    """Simulate drives on a line, for a PLC or any MODBUS tool.
 
     Without --port, --tcp or --pty they are at 127.0.0.1:5020. On a REAL PORT it listens for 3 seconds, then asks each
     of its addresses, and does not start if a real unit answers. The exit status is 0, or 2 for bad input.

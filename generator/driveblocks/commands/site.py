@@ -19,10 +19,10 @@ TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
 @click.option("--report", metavar="LABEL", help="Print what was found of one drive, to be sent as an issue.")
 @click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that a drive is of, for --html.")
 def run(file: Path, target: str, html: Path | None, report: str | None, maps: tuple[str, ...]) -> None:
-    """Print one initialised VFD_Settings per drive of site.yaml, or a report.
+    """Print the settings of each drive of site.yaml, or a report.
 
-    What was measured on one drive is for that drive alone: maps and blocks do not change. The exit status is 0, or 2
-    for bad input.
+    Each is an initialised VFD_Settings. What was measured on one drive is for that drive alone: maps and blocks do not
+    change. The exit status is 0, or 2 for bad input.
 
     Example: driveblocks site --target siemens --html pump.html
     """
