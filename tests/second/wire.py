@@ -145,14 +145,14 @@ class Wire:
         shown, was = (block["TheLine.Timeouts"], block["TheLine.LateReplies"]), self.late
         self.late = shown
         anew = max(self.spoilt_us, *(each.restarted_us for each in self.judge.units))
-        if last is None or last.index >= len(self.judge.units) or last.end < anew + SETTLED_US:
+        if last is None or last.index >= len(self.judge.units):
             return
         timeout, now = shown[0] > was[0], self.bench.now
         hasty = timeout and now - last.end < 1000 * self.turns.slot(last.index, "LongestMs")
         dead = any(block[f"Slots[{i}].SupplyOff"] or not block[f"Slots[{i}].Online"] for i in range(len(self.number)))
         if hasty or dead:
             self.hasty_us = now  # a stop does not wait, and may meet the reply
-        if now - self.hasty_us > ATTEND_US:
+        if now - self.hasty_us > ATTEND_US and last.end >= anew + SETTLED_US:
             late = timeout and bool(last.replies)
             self.judge.once(0, "late", bad=shown[1] - was[1] != late, seen=(shown, "after", was))
 
