@@ -16,6 +16,7 @@ from tests.second.figures import (
     EVERY_US,
     FOREIGN,
     JOG_ENDS,
+    JOG_US,
     MAX_SCAN_US,
     QUARTER,
     TAKEN,
@@ -550,8 +551,9 @@ class Claims:
         since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, begun)
         # the dead have their turn on the wire, too, and in slow scans each exchange takes longer than was promised
         late = now - self.judge.slow_us < CALM_US or any(now - each.away_us < CALM_US for each in self.judge.units)
+        both_stops = JOG_US if bench.types[index] in JOG_ENDS else 0
         calm = (
-            now - since > (STANDS_US + STANDS_ROUNDS * round_us(bench)) * (1 + 4 * late)
+            now - since > (STANDS_US + both_stops + STANDS_ROUNDS * round_us(bench)) * (1 + 4 * late)
             and self.willing(index)
             and not bench.flicker
             and len(bench.models) < 8

@@ -45,6 +45,8 @@ AWAY = (*ASTRAY, "SpeedOnly", "MonitorOnly")
 """The same, or not in full control."""
 JOG_ENDS = {"CHF": b"\x06\x10\x00\x00\x08", "GD200A": b"\x06\x20\x00\x00\x08"}
 """8 ends a jog: at 1000H, line 326 of CHF's manual; at 2000H, page 139 of GD200A's."""
+JOG_US = 500_000
+"""How much later a drive stops that has a stop of its own for a jog: both are sent by turns, one every 500 ms."""
 
 
 def round_us(bench: "Second") -> int:

@@ -18,6 +18,7 @@ from tests.second.figures import (
     EVERY_US,
     FOREIGN,
     JOG_ENDS,
+    JOG_US,
     MAX_SCAN_US,
     REFUSED_US,
     STOP_TRIES,
@@ -55,8 +56,6 @@ RUN_HZ = 25.0
 """What runs ask for: the motor may be on its way to it."""
 ATTEMPTS_US = 1_000_000
 """How much longer it takes where each stop is refused first."""
-JOG_US = 500_000
-"""After a restart the stop of a jog is sent so much later, and only then the reference is taken back."""
 BACK_US = 2_000_000
 """Silence is no alarm for so long once its user says that it has its supply again."""
 PAUSE_US = 8_000_000
