@@ -64,7 +64,7 @@ class Counts:
         self.run_known = [False] * len(judge.units)
         """How long each has been shown to run since the last restart, and whether its block was always called."""
         self.learned: list[object] = [None] * len(judge.units)
-        """What TurnRoundMs had to be at the last look."""
+        """What TurnRoundMs had to be at the last look, and of which address."""
 
     def answered(self, exchange: "Exchange") -> None:
         """A request was on the wire; it may be that nobody has answered it."""
@@ -240,9 +240,9 @@ class Counts:
         replies, longest = (self._count(f"Slots[{index}].{name}") for name in ("Replies", "LongestReplyMs"))
         learned = max(2 * longest + MARGIN_MS, LEAST_MS) if replies >= LEARNED and longest <= HALF_MS else UNLEARNED_MS
         now, shown = (bench.number("TurnRoundMs", index) or learned), bench.turn_round(index)
-        wrong = shown != now == self.learned[index] and not (bench.pins[index].get("Left") or self._anew())
+        before, self.learned[index] = self.learned[index], (now, bench.pins[index].get("Address"))
+        wrong = shown != now and before == self.learned[index] and not (bench.pins[index].get("Left") or self._anew())
         self._once("turn-round", bad=wrong, seen=(shown, "of", now, "ms"), index=index)
-        self.learned[index] = now
 
     def _starts(self, index: int) -> None:
         bench, unit = self.bench, self.judge.units[index]
