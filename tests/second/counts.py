@@ -186,7 +186,9 @@ class Counts:
         late = any(one.o.late_per_1000 for one in bench.models) or now - self.unclean_us < 1000 * ROUNDS_MS
         well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
         well = well and now - self.mute_us > 1000 * ROUNDS_MS
-        if faults or late or not (well and self._steady() and all(map(self.judge.claims.willing, range(len(units))))):
+        # one that refuses its stops gets them before it is read
+        well = well and all(now - each.unwilling_us > 1000 * ROUNDS_MS for each in self.judge.claims.claims)
+        if faults or late or not (well and self._steady()):
             return
         reads = [
             each for each in bench.frames[-200:] if each.function <= LAST_READ and each.ms > now // 1000 - ROUNDS_MS

@@ -136,7 +136,8 @@ class Wire:
         elif last.index < len(judge.units):
             waited, least = (now - last.end) // 1000, min(last.waits_ms, self.waits_ms(last.index))
             judge.once(last.index, "interrupts", bad=waited < least, seen=(waited, "of", least, "ms"))
-            most = max(last.waits_ms, self.waits_ms(last.index)) + WAITS_SCANS * self.bench.ms + REPLY_MS
+            longer_ms = max(max(judge.late) // 1000, self.bench.elapsed) - self.bench.ms  # a scan may have been
+            most = max(last.waits_ms, self.waits_ms(last.index)) + WAITS_SCANS * self.bench.ms + longer_ms + REPLY_MS
             judge.once(last.index, "waits", bad=self.somebody() and waited > most, seen=(waited, "of", most, "ms"))
 
     def _late(self, last: Exchange | None) -> None:
