@@ -143,7 +143,9 @@ class Shown:
         """Why a run has ended, where pins say so."""
         bench, claims, index = self.bench, self.judge.claims, self.index
         pins = bench.pins[index]
-        now = [name for name, is_so in claims.told(index) if is_so] or ["RELEASED"] * (not any_of(MOVES, pins))
+        now = [name for name, is_so in claims.told(index) if is_so]
+        if now in ([], ["STOP_ALL"]) and not any_of(MOVES, pins):  # the block sees the line's pin a scan later
+            now = [*now, "RELEASED"]
         self.causes.append(now)
         ended = self.state == RUNNING != state and bench.shows("CommOk", index) and claims.attended(index)
         if not ended or not self.judge.known(index, ATTEND_US) or bench.shows("Fault", index):
