@@ -1,5 +1,6 @@
 """A drive's words in a file: all of them, by reads alone, over lines that lose, refuse and fall silent."""
 
+import csv
 import re
 import signal
 import socket
@@ -8,6 +9,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -225,6 +227,23 @@ def test_a_file_is_read_as_it_was_written_and_says_how_far_it_came(pump: Path) -
     assert "0020H,U1-01,Frequency reference,5000,50.00,Hz,\n" in text
     got = saved.read(pump)
     assert (got.stem, got.unit, got.words) == ("shuen_sn300g5", 3, {0x0F: 0, 0x20: 5000, 0x21: "refused 2", 0x100: 1})
+
+
+def test_a_file_that_a_spreadsheet_has_saved_is_read_and_its_notes_stay(pump: Path) -> None:
+    """It fills all lines up to the longest with commas, and quotes what holds one."""
+    before = saved.read(pump)
+    text = pump.read_text(encoding="utf-8") + "# ramps, as at pump 2\n"
+    cells = [line.split(",") if "," in line and line[0] != "#" else [line] for line in text.splitlines()]
+    with pump.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([*row, *[""] * (9 - len(row))] for row in cells)
+    assert '"# ramps, as at pump 2",,' in pump.read_text(encoding="utf-8")
+    assert replace(saved.read(pump), where="") == replace(before, where="")
+    saved.write(pump, *MAPS["SN300G5"], 3, {0x20: 1})
+    notes = [line for line in pump.read_text(encoding="utf-8").splitlines() if "#" in line]
+    assert [line for line in notes if "ramps" in line or "read by" in line] == [
+        "# parameters of SN300G5, read by driveblocks",
+        '"# ramps, as at pump 2",,,,,,,,',
+    ]
 
 
 def test_a_full_disk_leaves_the_file_that_was_there(pump: Path, monkeypatch: pytest.MonkeyPatch) -> None:

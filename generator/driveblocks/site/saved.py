@@ -47,7 +47,8 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
     text.write(f"# read: {len(words)} of {len(every)}\n")
     left_out = [f"# {line}" for line in unread(drive)]
     old = path.read_text(encoding="utf-8-sig", errors="replace").splitlines() if path.exists() else []
-    notes = (line for line in old if line.startswith("#") and line not in left_out and not _OURS.fullmatch(line))
+    ours = {line for line in map(_line, old) if line in left_out or _OURS.fullmatch(line)}
+    notes = (line for line in old if line.startswith(("#", '"#')) and _line(line) not in ours)
     text.writelines(f"{line}\n" for line in (*left_out, *notes))
     table = csv.writer(text, lineterminator="\n")
     table.writerow(COLUMNS)
@@ -57,6 +58,15 @@ def write(path: Path, stem: str, drive: Drive, unit: int, words: Mapping[int, Wo
             shown = value(row, word, known) if isinstance(word, int) else ("", "")
             table.writerow((address_text(row.address), row.id, row.name, word, *shown, row.default))
     put(path, text.getvalue())
+
+
+def _line(line: str) -> str:
+    """A line as it was written: spreadsheets fill each up with commas, and quote a note that holds one."""
+    cells = next(csv.reader([line]), [])
+    if cells and cells[0].startswith("#"):
+        return ",".join(cells).rstrip(",")
+    more = cells[len(COLUMNS) :]
+    return line[: -len(more)] if more and not any(more) else line
 
 
 def put(path: Path, text: str) -> None:
@@ -87,7 +97,7 @@ def read(path: Path) -> Saved:
     """A file that `write` has made. Raises Refused with everything that is wrong with it."""
     name = file_name(path)
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = [_line(line) for line in path.read_text(encoding="utf-8-sig").splitlines()]
     except (OSError, UnicodeDecodeError) as error:
         raise Refused(f"{name}:1:1: cannot be read: {getattr(error, 'strerror', None) or 'it is not UTF-8'}") from None
     head = next((found for line in lines if (found := _HEAD.fullmatch(line))), None)
