@@ -137,6 +137,7 @@ class Observer:
         if skipped:
             self.skipped_us += 1000 * bench.ms
             self.turning_us = self.stopping_us = 0
+            self.stood_us = self.stood_us if bench.drives[self.drive].motor.output else bench.now
             if self.skipped_us > LEFT_US:
                 self.wish, self.free, self.was_confirmed = None, False, False
             self.only_reads &= self.skipped_us < UNATTENDED_US
