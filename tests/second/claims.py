@@ -741,7 +741,7 @@ class Claims:
         heard = [at for at in bench.strangers if at > now - COUNTS_US - ATTEND_US]
         least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
         calm = plain and bench.strangers and not bench.line_pins.get("Acknowledge") and not bench.lineless
-        calm = calm and now - max(self.judge.slow_us, self.doubled_us) > CALM_US
+        calm = calm and now - max(self.judge.slow_us, self.doubled_us) > COUNTS_US + ATTEND_US
         anew = max(*(each.unknown_us for each in self.judge.units), *(each.changed_us for each in self.claims))
         few = now - anew > CALM_US + ATTEND_US  # what was asked for before may be answered to nobody
         wrong = bool(calm) and (shown < least or (few and shown > len(heard)))
