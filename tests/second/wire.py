@@ -20,6 +20,8 @@ IDLE_MS = 20
 the one before waits for its drive block."""
 WAITS_SCANS, REPLY_MS = 3, 60
 """How much longer than the drive may take the line waits for a reply: for its characters, in scans that see no more."""
+AHEAD_MS = 13
+"""By how much a reply may be taken for shorter while the wire is free: the silence that the port keeps, in whole ms."""
 SETTLED_US = 3_000_000
 """Since the last restart, or since a drive could be reached again."""
 SPEED = alike({"CHF": 0x3000, "GD200A": 0x3000, "JSCC": 0x2000, "PF4": 8451, "SN300G5": 0x0021})
@@ -275,7 +277,7 @@ class Wire:
             if plain and self.longest_us[index] and self.lossy_us < unit.restarted_us:
                 longest, true = bench.number("LongestReplyMs", index), self.longest_us[index] // 1000
                 slowest = self.slowest_us[index] // 1000
-                off = not true - slowest <= longest <= true + 2 * slowest
+                off = not true - slowest - AHEAD_MS <= longest <= true + 2 * slowest
                 self.judge.once(index, "longest reply", bad=off, seen=(longest, "of", true))
 
     def _whole(self) -> bool:
