@@ -8,7 +8,7 @@ import click
 from driveblocks.commands import FILE, refuse
 from driveblocks.maps import page, schema
 
-_HEADS = {"schema.json": rb'\{\s*"\$schema": "[^"]*",\s*"title": "DriveBlocks', "keys.md": b"# Every key of a map\n"}
+_HEADS = {"schema.json": rb'\{\s*"\$schema": "[^"]*",\s*"title": "DriveBlocks', "keys.md": rb"# Every key of a map\s"}
 """How the files begin that this command writes."""
 
 
