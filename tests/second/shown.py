@@ -100,6 +100,8 @@ class Shown:
         self._ended(state)
         if state in STARTS and self.state not in STARTS:
             self.began_us = bench.now
+        elif bench.pins[index].get("Address") != index + 1:
+            self.began_us = 0  # the block has forgotten it
         known = self.began_us > max(self.left_us, self.judge.units[index].restarted_us)
         if fault and not self.fault and claim.first and claim.alone and known:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")

@@ -63,7 +63,9 @@ class Turns:
         least = self.slot(last.index, "LongestMs")
         once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
         first = next((bool(each.replies) for each in self.wire.mine(last.index)[1:]), False)
-        once(index, "again at once", bad=first and index != last.index, seen=(last.data.hex(), now.data.hex()))
+        probe = not block[f"Slots[{index}].Online"]  # a dead drive's, whose turn it is
+        bad = first and index != last.index and not probe
+        once(index, "again at once", bad=bad, seen=(last.data.hex(), now.data.hex()))
         same = index == last.index and now.data[:4] == last.data[:4]
         other = self.slot(index, "OtherQuantity") not in (0, self.slot(index, "Ask[3].Quantity"))
         once(index, "other length", bad=same and other and now.data[5] == last.data[5], seen=(now.data.hex(),))
