@@ -242,7 +242,8 @@ class Counts:
         replies, longest = (self._count(f"Slots[{index}].{name}") for name in ("Replies", "LongestReplyMs"))
         learned = max(2 * longest + MARGIN_MS, LEAST_MS) if replies >= LEARNED and longest <= HALF_MS else UNLEARNED_MS
         now, shown = (bench.number("TurnRoundMs", index) or learned), bench.turn_round(index)
-        before, self.learned[index] = self.learned[index], (now, self._count(f"Slots[{index}].UnitAddress"))
+        of = now, longest, self._count(f"Slots[{index}].UnitAddress")
+        before, self.learned[index] = self.learned[index], of
         wrong = shown != now and before == self.learned[index] and not (bench.pins[index].get("Left") or self._anew())
         self._once("turn-round", bad=wrong, seen=(shown, "of", now, "ms"), index=index)
 

@@ -143,6 +143,8 @@ class Unit:
     """Since when a pin asks to stop what terminals run, and how fast that was then."""
     stored_us: int = 0
     silent_since: int | None = None
+    shared: bool = False
+    """Since when it does not hear, or two blocks use its slot, and which of them."""
     restarted_us: int = 0
     answered_us: int = 0
     """For how long it could be reached since then."""
@@ -445,7 +447,8 @@ class Judge:
         elif unit.reachable:
             unit.answered_us += 1000 * bench.elapsed
         silent = index + 1 in bench.deaf or one.cut
-        silent = (silent and not self._boots(index)) or bool(bench.pins[index].get("Shared"))
+        shared, was = bool(bench.pins[index].get("Shared")), unit.shared
+        unit.shared, silent = shared, (silent and not self._boots(index)) or shared
         owed = silent and one.by == "bus" and hz != 0 and bench.contact and not bench.pins[index].get("Left")
         if bench.pins[index].get("SupplyOff"):  # its user says that it is off; if it was silent, it boots afterwards
             unit.back_us = bench.now + (BOOT_US if silent else BACK_US)
@@ -455,7 +458,7 @@ class Judge:
             unit.silent_since = None
             unit.broken.discard("cut")
             return
-        unit.silent_since = unit.silent_since or bench.now
+        unit.silent_since = bench.now if shared > was else unit.silent_since or bench.now
         slow, many = bench.now - self.slow_us < CUT_US + SLOW_US, len(bench.models)
         most = CUT_US + (SLOW_US if slow else 0) + MORE_US * (many > 1) * (1 + (many > 3) + (bench.ms > 20))
         if bench.turn_round(index) >= UNLEARNED_MS:
@@ -465,7 +468,7 @@ class Judge:
         if len(deaf) > 1 and max(deaf) > 1000 * UNHURRIED_MS:
             most += STOP_TRIES * 2 * sum(deaf)  # all attempts of all of them, each with the silence after it
         most += LATE_US if any(each.o.late_per_1000 for each in bench.models) else 0
-        if bench.pins[index].get("Shared"):
+        if shared:
             most = SHARED_SCANS * max(self.late)
         elif len(self.units) == 1 and not slow:
             most = min(most, 1000 * bench.promised_cut + 3 * max(self.late))

@@ -101,6 +101,8 @@ class Wire:
         self.slowest_us = [0] * len(judge.units)
         """The longest scan since then, in which nobody knows when a reply came."""
         self.confirmed = [False] * len(judge.units)
+        self.stopped_us: list[tuple[int, int]] = [(0, 0)] * len(judge.units)
+        """Since its last order to run: when the first stop that was answered ended, and when its reply did; 0: none."""
         self.number = [0] * len(judge.units)
         """How many requests each has got."""
         self.counters: list[tuple[int, list[Any]]] = [(-1, [])] * len(judge.units)
@@ -183,6 +185,7 @@ class Wire:
         index = exchange.index
         if index < len(self.judge.units):
             self.number[index] += 1
+            self._ordered(exchange)
         if index < len(self.judge.units) and exchange.good:
             begins, ends, _ = exchange.replies[0]
             if not self.bench.damages:
@@ -191,6 +194,16 @@ class Wire:
                 self.slowest_us[index] = max(self.slowest_us[index], waited)  # after a restart the port is not free yet
             if exchange.reads(STATUS[self.bench.types[index]]):
                 self.read_us[index] = ends
+
+    def _ordered(self, exchange: Exchange) -> None:
+        """An order to run that was answered, or the first stop after it."""
+        index, kind = exchange.index, self.bench.types[exchange.index]
+        if not exchange.replies or exchange.data[1] <= LAST_READ or not exchange.about(index + 1, CONTROL.get(kind, -1)):
+            return
+        if runs(kind, exchange.data):
+            self.stopped_us[index] = (0, 0)
+        elif self.stopped_us[index][0] <= self.judge.units[index].restarted_us:
+            self.stopped_us[index] = (exchange.end, exchange.replies[0][1])
 
     def _shown(self, last: Exchange) -> None:
         """What the slot holds of how it ended."""
@@ -255,9 +268,8 @@ class Wire:
         if not rises or kind not in SPEED or any_of(AWAY, self.bench.pins[index]) or not self.plain():
             return
         mine = [each for each in self.mine(index) if each.replies and each.replies[0][1] <= now]
-        orders = [each for each in mine if each.data[1] > LAST_READ and each.about(index + 1, CONTROL[kind])]
-        stops = list(takewhile(lambda each: not runs(kind, each.data), orders))  # sent again and again
-        since = [each for each in mine if each.good and (not stops or each.end > stops[-1].end)]
+        stopped_us, acknowledged_us = self.stopped_us[index]  # it is sent again and again
+        since = [each for each in mine if each.good and (acknowledged_us > now or each.end > stopped_us)]
         status, speed = ([each.end for each in since if each.reads(place[kind])] for place in (STATUS, SPEED))
         right = status and speed and max(speed) >= min(status)
         self.judge.once(index, "proved", bad=not right, seen=(status, "then", speed))
