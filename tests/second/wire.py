@@ -56,6 +56,8 @@ class Exchange:
     """When each began and ended, us, and what it says."""
     waits_ms: int = 0
     """How long its drive might take then."""
+    doubted: bool = False
+    """Its answer may be its own echo: a write, and nobody knows yet whether the port hears itself."""
 
     def reads(self, register: int) -> bool:
         """Whether it reads a register, among others."""
@@ -180,6 +182,7 @@ class Wire:
         if self.exchanges:
             self.turns.answered(self.exchanges[-1], exchange)
         exchange.waits_ms = self.waits_ms(exchange.index)
+        exchange.doubted = exchange.data[1] > LAST_READ and not self.bench.block["TheLine.Echo"]
         self.last, self.idle_ms = exchange, 0
         self.exchanges.append(exchange)
         index = exchange.index
@@ -254,10 +257,10 @@ class Wire:
     def _online(self, index: int, online: object) -> None:
         """Whether the line knows that a drive answers, or that it does not."""
         mine = self.mine(index)
-        answers = len(list(takewhile(lambda each: each.replies, mine)))
+        answers = sum(not each.doubted for each in takewhile(lambda each: each.replies, mine))
         silent = list(takewhile(lambda each: not each.replies, mine))
         dead = len(silent) >= MANY and self.bench.now - silent[-1].end > DEAD_US
-        believed = answers >= ENOUGH and self.bench.block["TheLine.Echo"]  # else they may be the port's own
+        believed = answers >= ENOUGH and self.bench.block["TheLine.Echo"]
         wrong = (believed and not online) or (dead and online)
         self.judge.once(index, "online", bad=bool(wrong), seen=(online, answers, len(silent)))
 
