@@ -201,7 +201,8 @@ class Wire:
     def _ordered(self, exchange: Exchange) -> None:
         """An order to run that was answered, or the first stop after it."""
         index, kind = exchange.index, self.bench.types[exchange.index]
-        if not exchange.replies or exchange.data[1] <= LAST_READ or not exchange.about(index + 1, CONTROL.get(kind, -1)):
+        orders = exchange.data[1] > LAST_READ and exchange.about(index + 1, CONTROL.get(kind, -1))
+        if not (orders and exchange.replies):
             return
         if runs(kind, exchange.data):
             self.stopped_us[index] = (0, 0)
