@@ -8,9 +8,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tests.second.figures import (
+    AGE_MS,
     ASTRAY,
     ATTEND_US,
     AWAY,
+    CALM_US,
     CHAR_US,
     CODE_MOST,
     EVERY_US,
@@ -19,6 +21,7 @@ from tests.second.figures import (
     JOG_US,
     MAX_SCAN_US,
     QUARTER,
+    SEEN_US,
     TAKEN,
     UNHURRIED_MS,
     UNLEARNED_MS,
@@ -27,7 +30,8 @@ from tests.second.figures import (
 )
 from tests.second.frames import runs
 from tests.second.observer import MOVES, RUN, STOPPING, Pins, Seen, any_of, both, wish
-from tests.second.pf4 import VARIANTS, alike
+from tests.second.pf4 import VARIANTS
+from tests.second.trips import ABLE, Trips
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -53,34 +57,19 @@ LATE_US = 600_000
 """A stop that meets a late reply is sent again."""
 RESTART_US = 2_500_000
 """Stops of a restart wait out what may still be answered."""
-CALM_US = 10_000_000
 COUNTS_US = 10_000_000
 """How long a frame of another master counts, by the pin ForeignFrames."""
 FOREIGN_US = 45_000_000
 """Doubled replies may pass for frames of others; it takes half a minute until they are forgotten."""
 PROBE_US = 12_000_000
-AGE_MS = 2600
-"""How old words may be on a line of three drives at most."""
 NEVER_MS = 65535
 """The age of words that were not read."""
-SEEN_US = 300_000
-"""What the age of words does not say: the reply's way, and the scan in which it is shown."""
 USUAL_MS, OFF = 1000, 65535
 """RefreshMs that is not set, and switched off."""
 REFRESH_US = 1_500_000
 """How much later a refresh may be sent."""
 CHANGED_US = 100_000
 """For so long a change of pins is young: the scans in which its stop waits for the wire."""
-CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
-ABLE = alike({
-    "ATV312": (True, False, True, True, True),  # CMD, page 12
-    "CHF": (True, True, False, True, True),  # 1000H: 1 to 8, lines 319 to 326 of its manual
-    "JSCC": (True, False, False, False, False),  # 1000H: 1 to 3, lines 105 to 108
-    "GD200A": (True, True, False, True, True),  # 2000H: 1 to 8, page 139
-    "MX2": (True, False, False, False, True),  # coils 0001H to 0004H, I585 page 6-27
-    "PF4": (True, False, False, False, True),  # 2000H: bits 0 to 5, page C-4; a jog is no command of its map
-    "SN300G5": (True, False, False, False, False),  # 0000H: bits 0 and 1; the others are terminals
-})  # fmt: skip
 RESETS_US = 3_000_000
 """From the end of a fault until a reset has seen it: its status and its code are read again, and standstill."""
 SPEEDING = 6
@@ -138,7 +127,6 @@ class Claim:
     """Since when the block shows that it stands, ready for a start."""
     sent_us: int = 0
     """When a frame was last sent to it."""
-    fault_us: int | None = None
     driven_us: int | None = None
     far_us: int = 0
     """When it was last not at the speed that it is asked for."""
@@ -164,17 +152,6 @@ class Claim:
     """Looks in a row with the reason that it is ready, and it is not."""
     odd: int = 0
     """Looks in a row with a wrong reason."""
-    current: bool = False
-    flipped_us: int = 0
-    """Whether its motor has current, and since when it has, or has not."""
-    words: dict[int, tuple[int, int]] = field(default_factory=dict)
-    """Registers of measured values: the word, and since when it is that."""
-    faulty_us: int = 0
-    """When it last had a fault."""
-    run_us: int = 0
-    """When the bus last ran it, by a start that its block knows of."""
-    first: bool = False
-    """Its fault is the first since then."""
     hasty: int = 0
     """Stops in a row that came too soon after those before."""
     ran: bool = False
@@ -183,9 +160,6 @@ class Claim:
     """It has been started, has another address since, and is not shown at standstill: it still is its block's."""
     handed_over: bool = False
     """Its terminals were to run it from now on, and nothing has begun anew since."""
-    fault: Any = None
-    alone: bool = False
-    """It, and whether none was shown when it came, and it was watched since: else it need not be recorded."""
 
 
 class Claims:
@@ -195,6 +169,7 @@ class Claims:
         """Watch what the judge watches."""
         self.judge, self.bench = judge, judge.bench
         self.claims = [Claim() for _ in judge.units]
+        self.trips = [Trips(judge, index) for index in range(len(judge.units))]
         self.doubled_us = -FOREIGN_US
         self.retries: object = 0
         self.all_us = 0
@@ -274,7 +249,7 @@ class Claims:
             claim.stop_us = claim.armed_us = None
         claim.ready, claim.permitted = ready, self.judge.observer.watches[index + 1].permitted
         claim.driven_us = (claim.driven_us or now) if driven else None
-        self._trips(index, claim)
+        self.trips[index].scan(driven=driven, attended=self.attended(index))
         if claim.runs and (driven or not any_of(MOVES, before)):
             claim.runs = 0
         turns = driven or claim.output or hz != 0
@@ -336,7 +311,7 @@ class Claims:
         if since_us > CHANGED_US:
             return
         calm = self.attended(index) and self.well(index, ATTEND_US) and self.bench.now - self.all_us > ATTEND_US
-        ran = self.claims[index].run_us > self.all_us  # else that is still what keeps it from running
+        ran = self.trips[index].run_us > self.all_us  # else that is still what keeps it from running
         calm = calm and ran and not self.bench.pins[index].get("Restart") and not self.lies(index)
         self._once(index, "stop all", bad=calm and self.bench.reason(index) == "STOP_ALL")
 
@@ -517,10 +492,7 @@ class Claims:
         if heard:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
-            self._fault(index, claim)
-            if not self.mistaken(index, now):
-                self._measures(index, claim)
-            self._able(index)
+            self.trips[index].look(claim)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8
@@ -664,62 +636,6 @@ class Claims:
             ("DISABLED", not pins["Enable"]), ("STOP_PIN", bool(pins.get("QuickStop") or pins.get("CoastStop"))),
             ("BOTH", both(pins)),
         ]  # fmt: skip
-
-    def _trips(self, index: int, claim: Claim) -> None:
-        one, now = self.bench.models[index], self.bench.now
-        if one.output != claim.current:
-            claim.current, claim.flipped_us = one.output, now
-        if one.fault is None:
-            claim.fault_us = None
-            claim.run_us = now if claim.driven_us and not one.itself else claim.run_us
-            return
-        if claim.fault_us is None or one.fault != claim.fault:
-            claim.alone = not self.bench.shows("Fault", index)
-            claim.fault, claim.fault_us, claim.first = one.fault, now, claim.run_us > claim.faulty_us
-        claim.alone = claim.alone and self.attended(index) and self.bench.shows("CommOk", index)
-        claim.faulty_us = now
-        read_us, code = self.judge.wire.read_us[index], self.bench.out("FaultCode", index)
-        shown = claim.alone and read_us is not None and read_us > claim.fault_us and self.bench.shows("Fault", index)
-        number = getattr(one, "number", lambda fault: fault)(one.fault)
-        wrong = shown and code not in (0, number) and not self.mistaken(index, now)
-        self._once(index, "another code", bad=wrong, seen=(code, "of", number))
-
-    def _fault(self, index: int, claim: Claim) -> None:
-        """The code of a fault that has been there for some time; without one there is none."""
-        bench, one, now = self.bench, self.bench.models[index], self.bench.now
-        code, shown = bench.out("FaultCode", index), bench.shows("Fault", index)
-        number = getattr(one, "number", lambda fault: fault)(one.fault)
-        most = max(CALM_US // 2, CODE_MOST * round_us(bench))
-        dead = any(now - each.away_us < most for each in self.judge.units)
-        most += 2 * round_us(bench) if dead else 0  # stops that are not answered come first
-        old = claim.fault_us is not None and now - max(claim.fault_us, claim.changed_us) > most and shown
-        old = old and self.judge.known(index, CALM_US // 2) and not bench.pins[index].get("SupplyOff")
-        old = old and not self.mistaken(index, now)
-        self._once(index, "code", bad=(old and code != number) or (not shown and code != 0), seen=("code", code))
-
-        recorded = old and claim.alone
-        for pin, asked in (("FaultBack1", recorded), ("FirstFaultCode", recorded and claim.first)):
-            kept = bench.out(pin, index)
-            self._once(index, pin, bad=asked and kept != number, seen=(kept, "of", number))
-
-    def _measures(self, index: int, claim: Claim) -> None:
-        """Measured values are what the drive shows, once that has been so for longer than they are old."""
-        bench, one, now = self.bench, self.bench.models[index], self.bench.now
-        age = int(bench.number("MeasuresAgeMs", index))
-        for pin, (register, unit) in one.MEASURES.items():
-            word = one.LIVE[register](one, now)
-            if claim.words.get(register, (None, 0))[0] != word:
-                claim.words[register] = word, now
-            shown = bench.out(pin, index)
-            assert isinstance(shown, float)
-            since = max(claim.words[register][1], claim.flipped_us) + 3 * max(self.judge.late)
-            bad = now - since > 1000 * age + SEEN_US and age < AGE_MS and abs(shown - word * unit) > unit / 2
-            self._once(index, pin, bad=bad, seen=(shown, "of", word * unit))
-
-    def _able(self, index: int) -> None:
-        """The capabilities are those of the manual."""
-        shown = tuple(self.bench.out(each, index) for each in CAN)
-        self._once(index, "able", bad=shown != ABLE[self.bench.types[index]], seen=shown)
 
     def _probe(self, index: int, claim: Claim) -> None:
         """A drive that does not answer is asked again and again."""

@@ -11,6 +11,12 @@ MAX_SCAN_US = 60_000
 """MaxScanMs of the bench."""
 ATTEND_US = 1_000_000
 """AttendMs: for so long the line does not know that a block is called no longer, and sends the run that waits."""
+CALM_US = 10_000_000
+"""What is over for so long is not felt any more."""
+SEEN_US = 300_000
+"""What the age of words does not say: the reply's way, and the scan in which it is shown."""
+AGE_MS = 2600
+"""How old words may be on a line of three drives at most."""
 EVERY_US = 200_000
 """How often outputs are looked at."""
 CODE_MOST = 5

@@ -14,6 +14,7 @@ from tests.second.counts import Counts
 from tests.second.figures import (
     ASTRAY,
     ATTEND_US,
+    CALM_US,
     CODE_MOST,
     EVERY_US,
     FOREIGN,
@@ -71,7 +72,6 @@ ANSWER_US = 2_000_000
 ASKED_US = 20_000_000
 """A parameter block has ended by then."""
 QUIET_US = 2_000_000
-CALM_US = 10_000_000
 """A drive that can be reached for so long has CommOk, and no reason that says that it does not answer: probes are sent
 8 s apart at most."""
 GRACE_US = 3_000_000

@@ -85,8 +85,8 @@ class Shown:
         hz = bench.models[index].shaft_hz(bench.now)
         if hz == 0 or self.reverse != (hz < 0):
             self.reverse, self.turned_us = hz < 0, bench.now
-        fault, claim = bench.shows("Fault", index), self.judge.claims.claims[index]
-        if fault and not self.fault and claim.first and claim.alone:
+        fault, trips = bench.shows("Fault", index), self.judge.claims.trips[index]
+        if fault and not self.fault and trips.first and trips.alone:
             now = (
                 bench.out("OutputFrequencyHz", index),
                 bench.out("OutputCurrentA", index),
@@ -103,7 +103,7 @@ class Shown:
         elif bench.pins[index].get("Address") != index + 1:
             self.began_us = 0  # the block has forgotten it
         known = self.began_us > max(self.left_us, self.judge.units[index].restarted_us)
-        if fault and not self.fault and claim.first and claim.alone and known:
+        if fault and not self.fault and trips.first and trips.alone and known:
             took, shown = (bench.now - self.began_us) // 1000, self._out("FirstFaultMs")
             self._once("first fault's time", bad=abs(took - shown) > LAG_US // 1000, seen=(shown, "of", took, "ms"))
         self._kinds(stopping=state == self.state == STOPPING)
