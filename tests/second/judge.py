@@ -32,7 +32,7 @@ from tests.second.figures import (
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
 from tests.second.pf4 import alike
 from tests.second.shown import LAG_US, Shown
-from tests.second.wire import REFUSED, SILENCE, STATUS, Exchange, Wire
+from tests.second.wire import REFUSED, SILENCE, SPEED, STATUS, Exchange, Wire
 
 if TYPE_CHECKING:
     from tests.second.bench import Second
@@ -89,15 +89,6 @@ SAYS_RUNNING: dict[str, Callable[[Any, int], bool]] = alike(
         "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 1),  # 0010H: bit 0
     }
 )
-SAYS_ZERO: dict[str, Callable[[Any, int], bool]] = alike(
-    {
-        "CHF": lambda one, now: not one.LIVE[0x3000](one, now),  # 3000H: running frequency
-        "JSCC": lambda one, now: not one.LIVE[0x2000](one, now),  # 2000H
-        "GD200A": lambda one, now: not one.LIVE[0x3000](one, now),  # 3000H
-        "PF4": lambda one, now: not one.LIVE[8451](one, now),
-        "SN300G5": lambda one, now: bool(one.LIVE[0x0010](one, now) & 2),  # 0010H: bit 1
-    }
-)
 SILENT = {13: "no reply yet", 14: "the drive has stopped answering"}
 """Reasons that speak of silence, by the table of the drive block's page."""
 RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2": 0, "PF4": 0, "SN300G5": 0})
@@ -110,6 +101,11 @@ REFUSED_WORDS = (3, 62)
 """What comes of several words: they are too many, or one commands the motor."""
 UNPERMITTED = (50, OFFLINE, 65, 66, NOT_SENT, 69, 70)
 """What may come of a write that nobody has permitted: it is not in the map, or it does not come so far."""
+
+
+def says_zero(kind: str, one: Any, now: int) -> bool:
+    """Whether a drive's registers say that it is at 0 Hz: those of SN300G5 by bit 1 of 0010H, others by a frequency."""
+    return bool(one.LIVE[0x0010](one, now) & 2) if kind == "SN300G5" else not one.LIVE[SPEED[kind]](one, now)
 
 
 @dataclass(slots=True)
@@ -391,8 +387,8 @@ class Judge:
             self.once(index, "kept", bad=index in self.kept and not driven)
         unit.running[unit.says_running(one, now)] = now
         unit.fault[one.fault is not None] = now
-        if bench.types[index] in SAYS_ZERO:
-            unit.zero[SAYS_ZERO[bench.types[index]](one, now)] = now
+        if bench.types[index] in SPEED:
+            unit.zero[says_zero(bench.types[index], one, now)] = now
         unit.shaft.append((now, one.shown_hz(now)))
         if looks:
             self._outputs(index, unit)
@@ -543,7 +539,7 @@ class Judge:
             shown = bench.shows(name, index)
             late = seen[shown] < since
             self.once(index, rule, bad=late and since > 0, seen=(rule, shown))
-        if bench.types[index] in SAYS_ZERO:
+        if bench.types[index] in SPEED:
             shown = bench.shows("ZeroSpeed", index)
             self.once(index, "shows ZeroSpeed", bad=unit.zero[shown] < since and since > 0, seen=("ZeroSpeed", shown))
         if bench.out("OutputFrequencyValid", index):
