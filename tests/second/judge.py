@@ -69,6 +69,8 @@ STORE_US = 60_000_000
 """At most one store of a drive in that time, by the page of VFD_Store."""
 ANSWER_US = 2_000_000
 """Within this time a drive that can be reached has answered something."""
+WITHIN_US = 5_000_000
+"""WithinMs: a parameter block takes its request back then, even while a reply is on its way."""
 ASKED_US = 20_000_000
 """A parameter block has ended by then."""
 QUIET_US = 2_000_000
@@ -203,8 +205,8 @@ class Asked:
 
     def _ended(self, judge: "Judge", said: object, *, known: bool) -> None:
         """It ends as its last request does; one that nobody answers is sent twice."""
-        one = judge.bench.models[self.index]
-        if not known or one.o.late_per_1000 or judge.bench.now < one.busy_us + ATTEND_US:
+        one, now = judge.bench.models[self.index], judge.bench.now
+        if not known or one.o.late_per_1000 or now < one.busy_us + ATTEND_US or now >= self.since_us + WITHIN_US:
             return
         mine = [each for each in judge.wire.since(self.since_us) if each.about(one.unit, self.address)]
         if not self.name.startswith(READ):
