@@ -208,6 +208,7 @@ class Claims:
             and same
             and not asks
             and self.willing(index)
+            and now_us - claim.unwilling_us > QUIET_US  # a trip that is over may be seen now
             and self.well(index, QUIET_US)
             and not any_of((*MOVES, "Restart"), pins)
             and not self.mistaken(index, now_us)
