@@ -293,8 +293,13 @@ def _no_meter(b: Second, _: Random) -> None:
 
 
 def _highest(b: Second, _: Random) -> None:
-    """The highest address that its family can have is asked, where nobody answers, and the next one is not."""
+    """The highest address that its family can have is asked, where nobody answers, and the next one is not.
+
+    While a keypad runs the drive, its block takes no other address.
+    """
     _stop(b)
+    if b.mode in ("full control", "jog") and b.models[0].by == "keypad":
+        return
     highest = HIGHEST[b.types[0]]
     for address in (highest, highest + 1):
         b.judge.stores[address] = lambda _: False

@@ -208,6 +208,8 @@ class Asked:
         one, now = judge.bench.models[self.index], judge.bench.now
         if not known or one.o.late_per_1000 or now < one.busy_us + ATTEND_US or now >= self.since_us + WITHIN_US:
             return
+        if said == OFFLINE and not judge.bench.shows("CommOk", self.index):
+            return  # with other requests before, which nobody has answered either
         mine = [each for each in judge.wire.since(self.since_us) if each.about(one.unit, self.address)]
         if not self.name.startswith(READ):
             mine = [each for each in mine if each.data[4:6] == self.value.to_bytes(2, "big") or each.data[1] == 16]
