@@ -295,10 +295,10 @@ def _no_meter(b: Second, _: Random) -> None:
 def _highest(b: Second, _: Random) -> None:
     """The highest address that its family can have is asked, where nobody answers, and the next one is not.
 
-    While a keypad runs the drive, its block takes no other address.
+    A block takes another address only while it shows StopConfirmed, which it soon does not where others run the drive.
     """
     _stop(b)
-    if b.mode in ("full control", "jog") and b.models[0].by == "keypad":
+    if b.models[0].by == "keypad" or not b.shows("StopConfirmed"):
         return
     highest = HIGHEST[b.types[0]]
     for address in (highest, highest + 1):
