@@ -221,6 +221,12 @@ class Second(Bench):
         """Whether replies are damaged."""
         return bool(self.faults.garbled or self.faults.truncated or self.noise)
 
+    def deafened(self, drive: int) -> bool:
+        """Whether a drive may count as dead: replies are lost; or, with eight drives, seldom asked, damaged or missing."""
+        muted = not drive and self.mute is not None
+        seldom = len(self.models) > 3 and (self.damages or muted)
+        return bool(self.faults.lost or self.faults.unanswered or seldom)
+
     @property
     def contact(self) -> bool:
         """Whether the contact of the hard stop is closed."""

@@ -387,6 +387,8 @@ class Judge:
         self._cut(index, unit, hz)
         if pins.get("SpeedOnly"):
             self._stop_pin(index, unit, hz)
+        if bench.deafened(index):
+            self.kept = self.kept - {index}
         if self.kept:
             self.once(index, "kept", bad=index in self.kept and not driven)
         unit.running[unit.says_running(one, now)] = now
@@ -399,13 +401,13 @@ class Judge:
         self.claims.scan(index, hz, driven=driven, looks=looks)
 
     def _reach(self, index: int, unit: Unit) -> None:
-        bench, now, pins, faults = self.bench, self.bench.now, self.bench.pins[index], self.bench.faults
+        bench, now, pins = self.bench, self.bench.now, self.bench.pins[index]
         hears = bench.hears(index)
         if hears:
             unit.heard_us = now
         unit.reachable = hears and bench.models[index].unit == pins["Address"]
         reached = unit.reachable and not any_of(ASTRAY, pins)
-        lossy = faults.lost or faults.unanswered or bench.strange or bench.lineless
+        lossy = bench.deafened(index) or bench.strange or bench.lineless
         away = not reached or bool(lossy)  # a stop and its retries may be lost, and the connection with them
         if away:
             unit.away_us = now
