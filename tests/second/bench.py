@@ -222,7 +222,7 @@ class Second(Bench):
         return bool(self.faults.garbled or self.faults.truncated or self.noise)
 
     def deafened(self, drive: int) -> bool:
-        """Whether it may count as dead: replies are lost; or, of eight drives, each seldom asked, damaged or missing."""
+        """Whether it may count as dead: replies are lost; or, of eight drives, seldom asked, damaged or missing."""
         muted = not drive and self.mute is not None
         seldom = len(self.models) > 3 and (self.damages or muted)
         return bool(self.faults.lost or self.faults.unanswered or seldom)
