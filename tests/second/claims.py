@@ -493,7 +493,7 @@ class Claims:
         if heard:
             self._speed(index, claim, driven=driven)
             self._reason(index, claim)
-            self.trips[index].look(claim)
+            self.trips[index].look(claim.changed_us)
             self._stands(index, claim)
         period, steady = self._period(index), self._steady(index, claim)
         missed = period and steady and now - claim.written_us > period + REFRESH_US and len(bench.models) < 8

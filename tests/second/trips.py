@@ -7,7 +7,6 @@ from tests.second.observer import Seen
 from tests.second.pf4 import alike
 
 if TYPE_CHECKING:
-    from tests.second.claims import Claim
     from tests.second.judge import Judge
 
 CAN = ("CanReverse", "CanJog", "CanQuickStop", "CanCoastStop", "CanResetFault")
@@ -64,9 +63,9 @@ class Trips:
         wrong = shown and code not in (0, self._number()) and not self.judge.claims.mistaken(index, now)
         self._once("another code", bad=wrong, seen=(code, "of", self._number()))
 
-    def look(self, claim: "Claim") -> None:
-        """In quiet times: what is shown by now."""
-        self._code(claim.changed_us)
+    def look(self, changed_us: int) -> None:
+        """In quiet times, and since when the pins are what they are: what is shown by now."""
+        self._code(changed_us)
         if not self.judge.claims.mistaken(self.index, self.bench.now):
             self._measures()
         able = tuple(self.bench.out(each, self.index) for each in CAN)
