@@ -1,10 +1,13 @@
 """Dead drives are probed rarely, one at a time; they come back when they have answered several times."""
 
 from collections import Counter
+from collections.abc import Callable
 from itertools import pairwise
 
+import pytest
+
 from tests.line.drives import counted
-from tests.line.vline import COMMAND, Bench, Config
+from tests.line.vline import COMMAND, PARAMETER, Bench, Config
 
 
 def test_a_drive_is_dead_after_a_time_and_a_count() -> None:
@@ -107,23 +110,39 @@ def test_dead_drives_have_turns_of_their_own() -> None:
         assert max(numbers) - min(numbers) <= 1, asked
 
 
-def test_commands_of_others_cost_no_dead_drive_its_turn() -> None:
+@pytest.mark.parametrize("others", [Bench.command, Bench.stop])
+def test_others_cost_no_dead_drive_its_turn(others: Callable[[Bench, int], int]) -> None:
+    """While one that lives was stopped again and again, the first of two dead ones got all attempts."""
     bench = Bench(Config(drives=4)).ready()
-    for index in (0, 1):
+    for index in (1, 2):
         bench.drives[index].alive = False
         bench.put(index, TurnRoundMs=1000)
     bench.run(500)
-    for index in (0, 1):
+    for index in (1, 2):
         bench.stop(index)
     bench.run(10_000)
     before = len(bench.sent)
     for _ in range(300):
-        for index in (2, 3):
-            bench.command(index)
+        for index in (0, 3):
+            others(bench, index)
         bench.run(200)
-    asked = Counter(each.unit for each in bench.sent[before:] if each.unit <= 2)
-    assert min(asked.values()) >= 3
-    assert asked[1] - asked[2] in (-1, 0, 1), asked
+    asked = Counter(each.unit for each in bench.sent[before:] if each.unit in (2, 3))
+    assert min(asked[2], asked[3]) >= 3, asked
+    assert asked[2] - asked[3] in (-1, 0, 1), asked
+
+
+def test_commands_of_others_cost_nobody_its_parameter() -> None:
+    """While a third drive got commands, the first of two that asked for parameters all the time got all requests."""
+    bench = Bench(Config(drives=4)).ready()
+    for _ in range(100):
+        for index in (1, 2):
+            if bench.answer(index, PARAMETER):
+                bench.ask(index, PARAMETER, 3, 0x0777)
+        bench.command(0)
+        bench.run(80)
+    asked = Counter(each.unit for each in bench.sent if each.pdu[-4:-2] == b"\x07\x77")
+    assert min(asked[2], asked[3]) >= 3, asked
+    assert asked[2] - asked[3] in (-1, 0, 1), asked
 
 
 def test_the_repeated_stop_of_a_dead_drive_waits_for_nobodys_late_reply() -> None:
