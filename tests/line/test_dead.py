@@ -5,7 +5,6 @@ from collections.abc import Callable
 from itertools import pairwise
 
 import pytest
-
 from tests.line.drives import counted
 from tests.line.vline import COMMAND, PARAMETER, Bench, Config
 
