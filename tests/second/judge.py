@@ -283,6 +283,8 @@ class Judge:
         """When a scan last took longer than the program has promised."""
         self.lineless_us = -QUIET_US
         """When the line was last not called."""
+        self.many_us = 0
+        """When three or fewer were last dead: of more, each has four attempts before it rests with the dead."""
         self.asked: list[Asked] = []
         self.claims = Claims(self)
         self.counts = Counts(self)
@@ -335,6 +337,7 @@ class Judge:
         if self.late[-1] > MAX_SCAN_US:
             self.slow_us = bench.now
         self.lineless_us = now if bench.lineless else self.lineless_us
+        self.many_us = self.many_us if len(bench.deaf) > 3 else now
         opened = self.contact and not contact
         self.open_now = not contact or bench.lineless
         for index in range(len(self.units)):
@@ -528,7 +531,7 @@ class Judge:
         # in slow scans, stops that it refuses leave too few turns to read it
         refused_us = self.claims.claims[index].unwilling_us
         full = crowded(bench) or now - self.slow_us < CALM_US
-        starved = full and now - refused_us < CALM_US // 2
+        starved = (full and now - refused_us < CALM_US // 2) or 0 < now - self.many_us < 2 * CALM_US
         self.once(index, "comm", bad=calm and not good and not refuses and not starved)
         reason = bench.out("Reason", index)
         held = any_of(MOVES, bench.pins[index])  # so the reason is that of a lost edge

@@ -62,7 +62,8 @@ class Turns:
         gap_ms = (now.end - last.end) // 1000 - self.bench.characters_ms(len(now.data) + 2)
         least = self.slot(last.index, "LongestMs")
         once(index, "drains", bad=gap_ms < least, seen=(gap_ms, "of", least, "ms"))
-        first = next((bool(each.replies) for each in self.wire.mine(last.index)[1:]), False)
+        mine = [each for each in self.wire.mine(last.index)[1:] if each.data[1] <= LAST_READ]
+        first = bool(mine) and bool(mine[0].replies)
         probe = not block[f"Slots[{index}].Online"]  # a dead drive's, whose turn it is
         bad = first and index != last.index and not probe
         once(index, "again at once", bad=bad, seen=(last.data.hex(), now.data.hex()))

@@ -327,6 +327,7 @@ class Wire:
         for index, unit in enumerate(self.judge.units):
             if unit.restarted_us == now:
                 self.longest_us[index] = self.slowest_us[index] = 0
+                self.counters[index] = (-1, [])
         self.slowest_us = [max(each, 1000 * self.bench.elapsed) for each in self.slowest_us]
         if last is not None and last.replies and now >= last.replies[-1][1]:
             self.idle_ms += self.bench.elapsed
