@@ -543,7 +543,7 @@ class Claims:
         if bench.hears(index) or not self.attended(index) or elsewhere:
             claim.heard_us = now
         deaf = [unit - 1 for unit in bench.deaf]
-        slow = len(deaf) > 1 and any(bench.turn_round(each) >= UNLEARNED_MS for each in deaf)  # half a second each
+        slow = len(deaf) > 1 and any(bench.turn_round(each) > UNHURRIED_MS for each in deaf)  # each waits for the other
         silent = now - max(claim.heard_us, claim.written_us) > SILENT_US * (1 + slow) and len(bench.models) < 8
         self._once(index, "silent", bad=silent)
 

@@ -297,7 +297,8 @@ class Judge:
         body = self.observer.opened(frame)
         if body is not None and 0 < body[0] <= len(self.units):
             self.claims.sent(now_us, body[0] - 1, body)
-        strange = body is not None and body[0] == self.bench.pins[0].get("Address") != 1
+        pins = self.bench.pins[0]
+        strange = body is not None and body[0] == pins.get("Address") != 1 and not pins.get("SupplyOff")
         if strange and self.claims.claims[0].bound and now_us - self.claims.claims[0].changed_us > ATTEND_US:
             self.tell(0, "bound", f"its slot asks another unit, and it may move: {self.bench.told(0)}")
         if body is None or not 0 < body[0] <= len(self.units) or not self.observer.stores[body[0]](body):

@@ -218,7 +218,7 @@ class Wire:
         block: Any = self.bench.block
         slot = f"Slots[{last.index}]"
         error = block[f"{slot}.LastErrorID"]
-        if not last.good:
+        if not (last.good or last.doubted):
             right = REFUSED if last.refused else SILENCE
             shown = block["TheLine.LastErrorID"]
             self.judge.once(last.index, "last error", bad=not error == shown == right, seen=(error, shown, "of", right))
