@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+import pytest
 from tests.line.vline import COMMAND, PARAMETER, Bench, Config
 
 
@@ -57,6 +58,22 @@ def test_constant_commands_of_one_drive_starve_nobody() -> None:
     gained = [bench.slot(slot, "Fresh") - old for slot, old in enumerate(before)]
     assert max(gained) - min(gained) <= 1
     assert min(gained) >= 15
+
+
+@pytest.mark.parametrize("noisy", [(0,), (0, 1, 2, 3)])
+def test_constant_commands_hold_up_neither_a_reset_nor_a_parameter(noisy: tuple[int, ...]) -> None:
+    """A reference that changed in every scan left no other time: the reset of another drive was never sent."""
+    bench = Bench(Config(drives=5)).ready()
+    bench.put(4, ResetAsked=True)
+    bench.command(4)
+    for slot in (0, 4):
+        bench.ask(slot, PARAMETER, 3, 0x0777)
+    for _ in range(60):
+        for slot in noisy:
+            if bench.answer(slot, COMMAND):
+                bench.command(slot)
+        bench.scan()
+    assert [bench.answer(4, COMMAND), bench.answer(0, PARAMETER), bench.answer(4, PARAMETER)] == ["OK"] * 3
 
 
 def test_polls_are_sent_in_turn_and_as_often_as_asked() -> None:

@@ -106,6 +106,8 @@ class Second(Bench):
         """When it came, or was taken away."""
         self.flicker = ""
         """A pin of the first drive that changes in every scan."""
+        self.wavers = False
+        """The references of the other drives do."""
         self.restarts_contact = False
         """The first-scan bit goes to the contact, too, at present."""
         self._later: list[tuple[int, int, bytes]] = []
@@ -299,6 +301,9 @@ class Second(Bench):
         self.judge.scan()
         if self.flicker:
             self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
+        if self.wavers:
+            for index in range(1, len(self.models)):
+                self.put(index, SpeedReferenceHz=25.0 - self.now // 1000 % 7 / 20)  # as one of a potentiometer
 
     def _send(self) -> None:
         count = self.block["Port.TxCount"]

@@ -148,6 +148,15 @@ def _parameters(b: Second, chance: Random) -> None:
             b.run(chance.choice([0, 0, 20, 60]))
 
 
+def _wavering(b: Second, chance: Random) -> None:
+    """The references of all others never rest, not even afterwards, while parameters are asked for."""
+    b.wavers = True
+    for index in range(1, len(b.models)):
+        b.put(index, RunForward=True)
+    b.run(3000)
+    _parameters(b, chance)
+
+
 def _stop(b: Second) -> None:
     b.release()
     b.wait(lambda: b.shows("StopConfirmed"), 9000)
@@ -670,6 +679,7 @@ AIMED = {
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
     "parameters without an answer": Event(_unanswered, 2000),
+    "references of others never rest": Event(_wavering, 8000),
     "parameters of several words": Event(_several, 1000),
     "weaker and weaker stops": Event(_weaker, 2000, _whole),
     "scans of a millisecond": Event(_millisecond, 1000, _fast, stops=False),

@@ -61,11 +61,9 @@ def round_us(bench: "Second") -> int:
 
 
 def crowded(bench: "Second") -> bool:
-    """Whether references and reads of the running drives have all the line: eight drives in slow scans, or references
-    that are due sooner than a round ends; or most of eight are dead, and each has four attempts before it rests."""
-    given = [pins.get("RefreshMs") for pins in bench.pins]
-    early = any(isinstance(each, int) and 0 < each < round_us(bench) // 1000 for each in given)
-    return len(bench.types) > 3 and (bench.ms > 20 or early or len(bench.deaf) > 3)
+    """Whether references and reads of the running drives have all the line: eight drives in slow scans; or most of them
+    are dead, and each has four attempts before it rests."""
+    return len(bench.types) > 3 and (bench.ms > 20 or len(bench.deaf) > 3)
 
 
 def path_us(bench: "Second", index: int) -> int:
