@@ -98,16 +98,12 @@ class Second(Bench):
         """How often characters of nobody come right before a reply, in 1000."""
         self.lineless = False
         """The line is not called."""
-        self.was_slow_port = False
-        """Its port has been one that sends late."""
-        self.metered = False
-        """A meter is on the line."""
+        self.was_slow_port, self.metered = False, False
+        """Its port has been one that sends late; a meter is on the line."""
         self.metered_us = 0
         """When it came, or was taken away."""
-        self.flicker = ""
-        """A pin of the first drive that changes in every scan."""
-        self.wavers = False
-        """The references of the other drives do."""
+        self.flicker, self.wavers = "", False
+        """A pin of the first drive that changes in every scan, and whether the references of the others do."""
         self.restarts_contact = False
         """The first-scan bit goes to the contact, too, at present."""
         self._later: list[tuple[int, int, bytes]] = []
