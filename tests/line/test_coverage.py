@@ -236,8 +236,10 @@ def two_lines(bench: Bench) -> None:
 
 
 def reads_a_coil(bench: Bench) -> None:
-    """A parameter that is a coil."""
-    bench.ready().ask(0, PARAMETER, 1, 0x0020, quantity=1)
+    """A parameter that is a coil, while nothing else is due."""
+    bench.put(0, PollEveryMs=1000)
+    bench.ready().run(100)
+    bench.ask(0, PARAMETER, 1, 0x0020, quantity=1)
     bench.run(100)
     assert bench.answer(0, PARAMETER) == "OK"
 

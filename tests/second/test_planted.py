@@ -85,7 +85,7 @@ PLANTED = (
      "GD200A, full control, a run of more than a minute, at speed", {"load"}),
     ("IF (OnlineCount > 0) AND NOT Scan.Dark THEN", "IF FALSE THEN",
      "GD200A, full control, all but one are dead, at speed", {"quarter"}),
-    ("ELSIF Moves AND NOT Commanded THEN", "ELSIF Moves THEN",
+    ("ELSIF Free AND Moves AND NOT Commanded THEN", "ELSIF Free AND Moves THEN",
      "CHF, full control, references of others never rest, standstill", {"parameter"}),
     ("Next.TurnDead := (Next.Chosen + 1) MOD 8;", "Next.TurnDead := 0;",
      "GD200A, full control, all but one are dead, at speed", {"silent"}),

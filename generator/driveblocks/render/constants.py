@@ -49,8 +49,9 @@ NUMBERS = {
     "RANK_RESET": (3, "a fault reset"),
     "RANK_PARAMETER": (4, "a parameter"),
     "RANK_LATER": (5, "a command, after resets and parameters"),
-    "RANK_PROBE": (6, "a probe of a dead drive"),
-    "RANK_POLL": (7, "a poll"),
+    "RANK_REPEATED": (6, "a stop again, after commands and parameters"),
+    "RANK_PROBE": (7, "a probe of a dead drive"),
+    "RANK_POLL": (8, "a poll"),
     "RANK_NONE": (9, "nothing"),
     "RANK_BARRED": (10, "nothing but a stop may be sent to it"),
     # how far the line's own stop has come
