@@ -193,3 +193,16 @@ def test_one_slot_for_two_drive_blocks_lets_only_stops_out_and_the_others_go_on(
     bench.put(1, Shared=False)
     assert any(each.read and each.unit == 2 for each in bench.run(300))
     assert bench["ErrorID"] == 0
+
+
+def test_stops_that_are_repeated_leave_others_time_for_a_start() -> None:
+    """Of seven drives that nobody serves the stops were repeated all the time, and the eighth could not be started."""
+    bench = Bench(Config(drives=8, scan=40_000, max_scan=45)).ready()
+    bench.attended.intersection_update({7})
+    bench.run(6000)
+    before = len(bench.sent)
+    bench.ask(7, PARAMETER, 3, 0x0777)
+    bench.command(7)
+    bench.run(1200)
+    assert [bench.answer(7, COMMAND), bench.answer(7, PARAMETER)] == ["OK", "OK"]
+    assert sum(each.stop for each in bench.sent[before:]) >= 3

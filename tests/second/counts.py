@@ -186,8 +186,9 @@ class Counts:
         late = any(one.o.late_per_1000 for one in bench.models) or now - self.unclean_us < 1000 * ROUNDS_MS
         well = all(now - max(each.unknown_us, each.away_us, self.asked_us) > CALM_US for each in units)
         well = well and now - self.mute_us > 1000 * ROUNDS_MS
-        # one that refuses its stops gets them before it is read
-        well = well and all(now - each.unwilling_us > 1000 * ROUNDS_MS for each in self.judge.claims.claims)
+        # one that refuses its stops, or is busy, gets them before it is read
+        refused = [each.unwilling_us for each in self.judge.claims.claims] + [each.busy_us for each in bench.models]
+        well = well and now - max(refused) > 1000 * ROUNDS_MS
         if faults or late or not (well and self._steady()):
             return
         reads = [

@@ -157,6 +157,17 @@ def _wavering(b: Second, chance: Random) -> None:
     _parameters(b, chance)
 
 
+def _others_trip(b: Second, chance: Random) -> None:
+    """All others trip, so that their stops are repeated; the first one is stopped, started, and asked for parameters."""
+    for one, kind in zip(b.models[1:], b.types[1:], strict=True):
+        one.trip(FAULT[kind], b.now)
+    b.run(2000)
+    _ready_again(b)
+    _asked(b, chance)
+    b.run(2000)
+    _parameters(b, chance)
+
+
 def _stop(b: Second) -> None:
     b.release()
     b.wait(lambda: b.shows("StopConfirmed"), 9000)
@@ -679,6 +690,7 @@ AIMED = {
     "the motor turns round": Event(_turns_round, 8000),
     "a write without permission and one with it": Event(_unpermitted, 2000),
     "parameters without an answer": Event(_unanswered, 2000),
+    "all others trip": Event(_others_trip, 6000, stops_all=True),
     "references of others never rest": Event(_wavering, 8000),
     "parameters of several words": Event(_several, 1000),
     "weaker and weaker stops": Event(_weaker, 2000, _whole),

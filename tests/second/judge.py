@@ -98,7 +98,7 @@ RAM_ONLY = alike({"ATV312": 0, "CHF": 0x8000, "GD200A": 0x8000, "JSCC": 0, "MX2"
 OFFLINE, NOT_SENT, READ, WRITE = 51, 68, "Reader", "Writer"
 VALUES = ("Value", "Value2", "Value3", "Value4")
 """Words of a parameter block."""
-TAKEN_BACK, ATTEMPTS = 52, 2
+TAKEN_BACK, ATTEMPTS, MOVES_NOW = 52, 2, 66
 REFUSED_WORDS = (3, 62)
 """What comes of several words: they are too many, or one commands the motor."""
 UNPERMITTED = (50, OFFLINE, 65, 66, NOT_SENT, 69, 70)
@@ -210,6 +210,8 @@ class Asked:
             return
         if said == OFFLINE and not judge.bench.shows("CommOk", self.index):
             return  # with other requests before, which nobody has answered either
+        if said == MOVES_NOW and not judge.bench.shows("StopConfirmed", self.index):
+            return  # somebody else has started it between two attempts
         mine = [each for each in judge.wire.since(self.since_us) if each.about(one.unit, self.address)]
         if not self.name.startswith(READ):
             mine = [each for each in mine if each.data[4:6] == self.value.to_bytes(2, "big") or each.data[1] == 16]

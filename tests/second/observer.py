@@ -22,6 +22,8 @@ STANDING = {"stop", "confirmed"}
 """Rules that hold where it stands and nobody runs it."""
 Seen = tuple[object, ...]
 """What is seen of a broken rule; it becomes words only when one breaks, since rules are asked thousands of times."""
+BRIEF_US = 500_000
+"""What was driven for less than this may never have been read as running: it is still a start."""
 TURNED_US = 1_000_000
 """From the status that shows the other direction to the stop."""
 
@@ -155,8 +157,9 @@ class Watch:
     caught: bool = False
     """It was still turning the other way when it was started or its pin rose, and is braked and turned round."""
     interrupted: bool = False
+    began_us: int = 0
     ended_us: int = 0
-    """When it was last driven no longer, and whether it was permitted to be until then."""
+    """When it was last driven, and no longer; and whether it was permitted to be until then."""
     broken: set[str] = field(default_factory=set)
     """Rules that are broken at present: each is reported once."""
 
@@ -198,11 +201,11 @@ class Observer:
         watch.caught = watch.caught or (rises and turns)
         driven = truth.by == "bus" and not truth.stopping
         if driven and not watch.driven:
-            short = now_us - watch.ended_us <= self.figures.unseen_us
+            short = now_us - watch.ended_us <= self.figures.unseen_us or watch.ended_us - watch.began_us < BRIEF_US
             unseen = short or (truth.stood_us is not None and truth.stood_us < watch.ended_us)
             if truth.itself and watch.interrupted and unseen and not stops:
                 watch.permitted = True
-            watch.caught = turns
+            watch.caught, watch.began_us = turns, now_us
             waited = watch.left_us is not None and now_us - watch.left_us <= ATTEND_US
             self._judge(now_us, unit, "edge", bad=not (watch.permitted or truth.itself or waited), seen=truth)
         elif watch.driven and not driven:
@@ -245,7 +248,7 @@ class Observer:
 
     def _confirmed(self, now_us: int, unit: int, truth: Truth, *, wrong: bool) -> None:
         watch, figures = self.watches[unit], self.figures
-        if truth.by in ("", "bus") or not wrong:
+        if (truth.by in ("", "bus") and not truth.itself) or not wrong:
             watch.others_since = None
         elif watch.others_since is None:
             watch.others_since = now_us

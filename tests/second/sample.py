@@ -14,7 +14,7 @@ SIZE = 120
 ONE_STATE = {
     "the motor turns round": "at speed", "a write without permission and one with it": "standstill",
     "parameters without an answer": "standstill", "parameters of several words": "standstill",
-    "references of others never rest": "standstill",
+    "references of others never rest": "standstill", "all others trip": "at speed",
     "its highest address": "standstill", "a trip and a held reset": "at speed", "all but one are dead": "at speed",
     "another address for a dead drive": "at speed", "one fault after another": "at speed",
     "a run of more than a minute": "at speed", "scans of a millisecond": "at speed",

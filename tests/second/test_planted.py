@@ -87,6 +87,8 @@ PLANTED = (
      "GD200A, full control, all but one are dead, at speed", {"quarter"}),
     ("ELSIF Free AND Moves AND NOT Commanded THEN", "ELSIF Free AND Moves THEN",
      "CHF, full control, references of others never rest, standstill", {"parameter"}),
+    ("AND NOT (Repeated AND Online", "AND NOT (FALSE AND Online",
+     "CHF, MonitorOnly, all others trip, ramping down", {"parameter"}),
     ("Next.TurnDead := (Next.Chosen + 1) MOD 8;", "Next.TurnDead := 0;",
      "GD200A, full control, all but one are dead, at speed", {"silent"}),
     ("LateReplies := MB_Plus(Number := LateReplies, More := 1);",
