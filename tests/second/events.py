@@ -158,7 +158,7 @@ def _wavering(b: Second, chance: Random) -> None:
 
 
 def _others_trip(b: Second, chance: Random) -> None:
-    """All others trip, so that their stops are repeated; the first one is stopped, started, and asked for parameters."""
+    """All others trip, so that their stops are repeated; the first is stopped, started, and asked for parameters."""
     for one, kind in zip(b.models[1:], b.types[1:], strict=True):
         one.trip(FAULT[kind], b.now)
     b.run(2000)
