@@ -79,8 +79,8 @@ MOST = {
     # what the writes of a command wait for is said by the block that writes them
     # sums of REALs have names, which takes half of the time from a proof; all families are one library, made once
     # render: parts of the line that are functions have names; a busy drive has a result of its own; what to do about a
-    # reason says that a mode bars a reset, and that a refused start has to be given again
-    "modbus": 531, "plc": 2528, "prove": 1958, "reference": 1137, "render": 2961, "simulator": 1504, "stand": 517,
+    # reason says that a mode bars a reset, and that a refused start has to be given again; two ranks
+    "modbus": 531, "plc": 2528, "prove": 1958, "reference": 1137, "render": 2963, "simulator": 1504, "stand": 517,
     # what a person needs before and at commissioning; `line`, from the drives to the picture; `parameters`
     # `commission` and `site`: the search and the steps, what is kept and read again, the page and the report
     # `listen`: frames from bytes, who asks whom, rate and format, a table per unit, a log
