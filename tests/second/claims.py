@@ -292,7 +292,7 @@ class Claims:
         same = all(each == body for _, each in claim.orders) and now_us - claim.orders[0][0] < SAME_US
         calm = now_us - claim.changed_us > QUIET_US and self.well(index, QUIET_US) and not self.bench.flicker
         answers = one.o.not_in_command == "acknowledges" and not one.o.late_per_1000
-        answers = answers and now_us >= one.busy_us + SAME_US
+        answers = answers and now_us >= one.busy_us + SAME_US and not self.bench.damages
         hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=(body.hex(),))
         heard, restarted = self.judge.units[index].heard_us, self.judge.units[index].restarted_us
