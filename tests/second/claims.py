@@ -507,6 +507,7 @@ class Claims:
         most = AGE_MS * (3 + bench.metered) // 3
         refused = now - self.all_us < QUIET_US or now - bench.models[index].busy_us < CALM_US // 2
         most += ATTEND_US // 1000 if refused or dead else 0  # stops that are refused, or not answered, come first
+        most += 2 * ATTEND_US // 1000 if bench.damages else 0  # what is read again, and in the next round
         most += 3 * UNLEARNED_MS if any(bench.turn_round(each) > UNHURRIED_MS for each in dead) else 0
         self._once(index, "age", bad=fast and idle and age > most, seen=(age, "ms"))
         restarted = self.judge.units[index].restarted_us

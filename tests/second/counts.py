@@ -206,8 +206,10 @@ class Counts:
         """The figures of docs/stop.md, with its formulas, where the times that they are made of are long known."""
         bench, count = self.bench, len(self.starts)
         turns = [self._count("Port.LateMs"), *(bench.turn_round(index) for index in range(count))]
-        away = bench.metered or any(
-            any_of(ASTRAY, pins) or pins.get("Address") != index + 1 for index, pins in enumerate(bench.pins)
+        away = (
+            bench.metered
+            or bench.lineless
+            or any(any_of(ASTRAY, pins) or pins.get("Address") != index + 1 for index, pins in enumerate(bench.pins))
         )
         if turns != self.turns or away or self._anew():
             self.turns, self.turns_us = turns, bench.now
