@@ -3,7 +3,8 @@
 from itertools import pairwise
 
 import pytest
-from tests.line.vline import STOP, Bench, Config, Sent
+from tests.line.drives import counted
+from tests.line.vline import NAMES, STOP, Bench, Config, Sent
 
 PLAIN, JOG, COAST = 0x0005, 0x0008, 0x0006
 """Words of stops; all go to the register of the drives' kind."""
@@ -185,6 +186,33 @@ def test_the_other_goes_even_if_the_first_is_refused() -> None:
     found = words(bench.run(3000))
     assert found.count(JOG) >= 5
     assert bench.slot(1, "StopOverdue"), "the first is not acknowledged"
+
+
+def test_how_one_stop_has_failed_says_nothing_about_the_next() -> None:
+    """Else a drive block takes the end of a jog for refused, when the stop before it was."""
+    bench = copied()
+    stops = bench.kind.stop_address.to_bytes(2, "big")
+    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[2:4] == stops else counted(frame, 0)
+    bench.stop(1)
+    bench.run(100)
+    assert NAMES[bench.slot(1, "Answer[0].ErrorID")] == "REFUSED"
+    number = bench.post(1, STOP)
+    while bench.slot(1, "Answer[0].Tried") != number:
+        bench.scan()
+    assert bench.slot(1, "Answer[0].ErrorID") == 0
+    bench.run(100)
+    assert NAMES[bench.slot(1, "Answer[0].ErrorID")] == "REFUSED"
+
+
+def test_the_refusal_of_a_stop_of_the_lines_own_is_none_of_the_blocks() -> None:
+    bench = copied()
+    bench.stop(1)
+    bench.run(1000)
+    word = JOG.to_bytes(2, "big")
+    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
+    bench.attended.discard(1)
+    assert words(bench.run(4000)).count(JOG) >= 3
+    assert bench.slot(1, "Answer[0].ErrorID") == 0
 
 
 def test_a_stop_whose_answer_ends_it_is_sent_once() -> None:

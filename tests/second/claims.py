@@ -293,7 +293,11 @@ class Claims:
         calm = now_us - claim.changed_us > QUIET_US and self.well(index, QUIET_US) and not self.bench.flicker
         answers = one.o.not_in_command == "acknowledges" and not one.o.late_per_1000
         answers = answers and now_us >= one.busy_us + SAME_US and not self.bench.damages
-        hurries = now_us < one.busy_us and now_us - claim.orders[0][0] < BUSY_US and self.well(index, QUIET_US)
+        hurries = (
+            one.strict_us < now_us < one.busy_us
+            and now_us - claim.orders[0][0] < BUSY_US
+            and self.well(index, QUIET_US)
+        )
         self._once(index, "floods", bad=same and (hurries or (calm and answers)), seen=(body.hex(),))
         heard, restarted = self.judge.units[index].heard_us, self.judge.units[index].restarted_us
         silent = now_us - max(heard, claim.changed_us, self.judge.lineless_us) > SILENT_US and heard > restarted
@@ -455,6 +459,9 @@ class Claims:
             most = 1000 * int(bench.number("WorstStopMs", index)) + 3 * max(self.judge.late) + late + 150_000
             if bench.models[index].jogging and now - self.judge.units[index].unknown_us < CALM_US:
                 most += 2 * round_us(bench)  # a restart has forgotten that it jogs: the end of a jog is sent second
+            if bench.models[index].jogging and now - bench.models[index].busy_us < CALM_US:
+                most += 2 * (JOG_US + round_us(bench))  # both stops come in turn, once one is refused
+            most += ATTEND_US if now - bench.models[index].strict_us < CALM_US else 0
             if pins.get("SupplyOff") and (left or not self.well(index, PROBE_US)):
                 most += PROBE_US  # the line looks for it from time to time
             self._once(index, "prompt", bad=now - claim.stop_us > most)

@@ -143,6 +143,7 @@ class Drive:
         """Requests to it that came without the silence before them."""
         self.line_us, self.sending, self.heard_us, self.good_us = -NEVER, (-NEVER, -NEVER), at_us, at_us
         self.busy_us, self.deaf_us, self.off_us = at_us, at_us, at_us
+        self.strict_us = -NEVER
         self.hold_us = self.retry_us = self.due = NEVER
         self._chance = Random(options.seed)
         self.power(True, at_us)
@@ -233,8 +234,7 @@ class Drive:
             if first:
                 raise Refusal("function")
             return body
-        if now_us < self.busy_us and self.o.busy_refuses in (("all",) if body[1] == 3 else ("all", "writes")):
-            raise Refusal("busy")
+        self._refuse(body, now_us, reads=3)
         short = body[1] == 16 and (len(body) != 7 + 2 * number or body[6] != 2 * number)
         if short or (body[1] != 6 and not 1 <= number <= most):
             raise Refusal("count")
@@ -248,6 +248,13 @@ class Drive:
         if self.o.fed_by == "writes":
             self.heard_us = now_us
         return body[:6]
+
+    def _refuse(self, body: bytes, now_us: int, *, reads: int) -> None:
+        """What it refuses for a time. Raises Refusal."""
+        if now_us < self.busy_us and self.o.busy_refuses in (("all",) if body[1] == reads else ("all", "writes")):
+            raise Refusal("busy")
+        if now_us < self.strict_us and body[1] != reads:
+            raise Refusal("address")
 
     def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:
         addresses = range(first, first + number)
@@ -458,6 +465,10 @@ class Drive:
     def be_busy(self, now_us: int, lasts_us: int) -> None:
         """It processes parameters for a time."""
         self.busy_us = now_us + lasts_us
+
+    def be_strict(self, now_us: int, lasts_us: int) -> None:
+        """It refuses what is written to it for a time, as requests that noise has made unreadable."""
+        self.busy_us = self.strict_us = now_us + lasts_us
 
     # ------------------------------------------------------------ power and faults
 

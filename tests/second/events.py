@@ -577,6 +577,12 @@ def _busy_stop(b: Second, _: Random) -> None:
     b.release()
 
 
+def _refused_stop(b: Second, chance: Random) -> None:
+    lasts_ms = chance.choice((100, 700, 1500))
+    b.models[0].be_strict(b.now, 1000 * lasts_ms)
+    b.release().run(lasts_ms)
+
+
 def _busy_ramp(b: Second, chance: Random) -> None:
     b.release()
     b.run(chance.randrange(2000, 4000, 100))
@@ -704,6 +710,7 @@ AIMED = {
     "replies cut short": _wire(6000, truncated=150),
     "noise before replies": Event(_noise, 6000, _no_noise, stops=False),
     "a stop while it is busy": Event(_busy_stop, 5000),
+    "a stop is refused": Event(_refused_stop, 5000),
     "it is busy in its ramp": Event(_busy_ramp, 3000),
     "a slow port": Event(_slow_port, 1000, lambda b, _: b.slow_port(on=False)),
     "another address while a frame waits": Event(_waiting, 1000, _taken),

@@ -512,6 +512,7 @@ class Judge:
         unread = bool(self.bench.flicker) and self.bench.block["TheLine.ErrorID"] == FOREIGN
         # a read that a busy drive refuses is asked again in its turn: with eight drives in slow scans 6 s later
         busy = crowded(self.bench) and now - one.busy_us < self.figures.stop_us
+        busy = busy or now - one.strict_us < self.figures.stop_us  # it has refused its stops
         if self.bench.restarts_contact or refuses or obstinate or lies or slow or unread or busy:
             return True
         return away or (unit.unasked_us > 0 and now - unit.unasked_us < GRACE_US * (2 if len(self.units) > 3 else 1))

@@ -90,8 +90,7 @@ class Mx2(Drive):
         if len(body) != 6:
             return None
         first, word = unpack(">HH", body[2:6])
-        if now_us < self.busy_us and self.o.busy_refuses in (("all",) if body[1] == 1 else ("all", "writes")):
-            raise Refusal("busy")
+        self._refuse(body, now_us, reads=1)
         if body[1] == 1:
             return body[:2] + self._read_coils(first + 1, word, now_us)
         if word not in (0, 0xFF00):

@@ -20,7 +20,8 @@ ONE_STATE = {
     "a run of more than a minute": "at speed", "scans of a millisecond": "at speed",
     "weaker and weaker stops": "at speed",
     "replies lost": "at speed", "replies cut short": "at speed", "noise before replies": "at speed",
-    "a slow port": "at speed", "a stop while it is busy": "at speed", "it is busy in its ramp": "at speed",
+    "a slow port": "at speed", "a stop while it is busy": "at speed", "a stop is refused": "at speed",
+    "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""
 
@@ -37,6 +38,7 @@ def aimed() -> list[tuple[Cell, int]]:
     found += [(Cell(family, "full control", "a trip", "at speed"), 2) for family in FAMILIES]
     found.append((Cell("PF4", "full control", "a trip", "standstill"), 4))  # one whose stop does not reset its fault
     found.append((Cell("CHF", "jog", "a stop while it is busy", "at speed"), 0))  # 5 does not end this one's jog
+    found.append((Cell("CHF", "jog", "a stop is refused", "at speed"), 0))  # nor this one's
     found.append((Cell("JSCC", "full control", "a dead drive", "at speed"), 0))  # beside others that live
     found.append((Cell("CHF", "full control", "SpeedOnly", "at speed"), 0))  # the bus still runs it
     return [*found, *varied(found)]

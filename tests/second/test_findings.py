@@ -2,11 +2,14 @@
 
 import pytest
 from tests.second.bench import Second
+from tests.second.drive import Refusal
 from tests.second.observer import MOVES
 from tests.second.station import types_of
 
 EIGHT = range(8)
 RUN_HZ = 25.0
+RAMP_STOP, JOG_STOP = 5, 8
+"""Words of the stops of CHF and GD200A."""
 OVER = 3
 """A fault's code."""
 
@@ -57,6 +60,30 @@ def test_a_jog_that_only_its_own_stop_ends_is_ended(family: str, how: str) -> No
     assert (turns(b), b.models[0].by) == (0, "")
     b.put(0, JogForward=False)
     assert b.wait(lambda: b.shows("StopConfirmed"), 9000)
+
+
+@pytest.mark.parametrize("family", ["CHF", "GD200A"])
+@pytest.mark.parametrize("pin", ["JogForward", "Enable", "QuickStop"])
+@pytest.mark.parametrize(("times", "words"), [(1, [JOG_STOP]), (2, [JOG_STOP]), (3, [JOG_STOP, RAMP_STOP])])
+def test_the_end_of_a_jog_is_sent_again_after_a_refusal(
+    monkeypatch: pytest.MonkeyPatch, family: str, pin: str, times: int, words: list[int]
+) -> None:
+    """A drive refuses a request that noise has made unreadable; once that was the end of a jog, it never came again."""
+    b = ready(Second(family, options={family: {"stop_ends_jog": False}}))
+    b.put(0, JogForward=True).run(2000)
+    assert turns(b) > 0
+    left, write = [times], b.models[0]._write
+
+    def refuse(written: dict[int, int], now_us: int) -> None:
+        if left[0] and not set(words).isdisjoint(written.values()):
+            left[0] -= 1
+            raise Refusal("address")
+        write(written, now_us)
+
+    monkeypatch.setattr(b.models[0], "_write", refuse)
+    b.put(0, **{pin: pin == "QuickStop"})
+    assert b.wait(lambda: b.shows("StopConfirmed"), 4500)
+    assert (left, turns(b), b.models[0].by) == ([0], 0, "")
 
 
 @pytest.mark.parametrize("family", ["CHF", "JSCC", "SN300G5"])

@@ -75,6 +75,9 @@ PLANTED = (
      "CHF, full control, replies lost, at speed", {"reads between"}),
     ("(USINT_TO_UDINT(Motors) - 1) * OnTop", "USINT_TO_UDINT(Motors) * OnTop",
      "CHF, full control, a dead neighbour, at speed", {"WorstStopMs"}),
+    # the end of a jog that was refused is sent again
+    ("JogRefused := Drops OR (JogRefused AND NOT Closed);", "JogRefused := JogRefused OR Drops;",
+     "GD200A, jog, a stop is refused, at speed", {"prompt"}),
     # a stop does not become a weaker one
     ("    Rank := MAX(Rank, Asked.StopKind);", "    Rank := Asked.StopKind;",
      "CHF, full control, weaker and weaker stops, at speed", {"kind"}),
