@@ -42,9 +42,9 @@ PLANTED = (
     ),
     Planted(
         "a stop is given up after its retries",
-        "      IF NOT Stop.Accepted THEN\n",
+        "      IF NOT (Open.Own OR Stop.Accepted) THEN\n",
         "      IF Track[Slot].Stop.Lost THEN\n        Slots[Slot].Answer[0].Number := Talk.Asked;\n      END_IF;\n"
-        "      IF NOT Stop.Accepted THEN\n",
+        "      IF NOT (Open.Own OR Stop.Accepted) THEN\n",
     ),
     Planted(
         "a stop is acknowledged when it is sent",
