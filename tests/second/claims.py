@@ -530,9 +530,10 @@ class Claims:
         pins = bench.pins[index]
         begun = self.judge.units[index].unknown_us + RESTART_US
         since = max(claim.idle_us or now, claim.changed_us, claim.unwilling_us, begun)
-        # the dead have their turn on the wire, too, and in slow scans each exchange takes longer than was promised
+        # the dead have their turn on the wire, too; in slow scans each exchange takes longer than was promised; a stop
+        # of the line's own is sent before that of the block
         late = now - self.judge.slow_us < CALM_US or any(now - each.away_us < CALM_US for each in self.judge.units)
-        both_stops = JOG_US if bench.types[index] in JOG_ENDS else 0
+        both_stops = JOG_US * ((bench.types[index] in JOG_ENDS) + (now - self.all_us < CALM_US))
         calm = (
             now - since > (STANDS_US + both_stops + STANDS_ROUNDS * round_us(bench)) * (1 + 4 * late)
             and self.willing(index)
