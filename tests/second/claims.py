@@ -120,6 +120,8 @@ class Claim:
     """When stops of many others, each sent again every second, last had the line before a start."""
     replaced: bool = False
     """Another block has had its slot since nobody calls its own, which has said that there is no supply."""
+    off_us: int = 0
+    """When SupplyOff was last TRUE while it was to be stopped."""
     stop_us: int | None = None
     armed_us: int | None = None
     """When a pin has asked for a stop that is not sent yet."""
@@ -464,7 +466,9 @@ class Claims:
             most += ATTEND_US if now - bench.models[index].strict_us < CALM_US else 0
             if pins.get("SupplyOff") and (left or not self.well(index, PROBE_US)):
                 most += PROBE_US  # the line looks for it from time to time
-            self._once(index, "prompt", bad=now - claim.stop_us > most)
+            claim.off_us = now if pins.get("SupplyOff") else claim.off_us
+            since = claim.stop_us if pins.get("SupplyOff") else max(claim.stop_us, claim.off_us)
+            self._once(index, "prompt", bad=now - since > most)
 
     def _once(self, index: int, rule: str, *, bad: bool, seen: Seen = ()) -> None:
         self.judge.once(index, rule, bad=bad, seen=seen)
