@@ -667,7 +667,8 @@ class Claims:
         """Frames of another master count for ten seconds, and for less than one more."""
         bench, now = self.bench, self.bench.now
         plain = not (bench.faults.twice or bench.damages or any(one.o.late_per_1000 for one in bench.models))
-        began = max(bench.acknowledged_us, *(each.restarted_us for each in self.judge.units)) + SEEN_US
+        restarted = max(each.restarted_us for each in self.judge.units)  # what comes at once is waited out, not counted
+        began = max(bench.acknowledged_us, restarted + ATTEND_US) + SEEN_US
         heard = [at for at in bench.strangers if at > now - COUNTS_US - ATTEND_US]
         least = len([at for at in heard if max(now - COUNTS_US + SEEN_US, began) < at < now - SEEN_US])
         calm = plain and bench.strangers and not bench.line_pins.get("Acknowledge") and not bench.lineless
