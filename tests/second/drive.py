@@ -467,7 +467,7 @@ class Drive:
         self.busy_us = now_us + lasts_us
 
     def be_strict(self, now_us: int, lasts_us: int) -> None:
-        """It refuses what is written to it for a time, as requests that noise has made unreadable."""
+        """It refuses what is written to it for a time, for a reason that is none of a busy drive."""
         self.busy_us = self.strict_us = now_us + lasts_us
 
     # ------------------------------------------------------------ power and faults

@@ -68,7 +68,7 @@ def test_a_jog_that_only_its_own_stop_ends_is_ended(family: str, how: str) -> No
 def test_the_end_of_a_jog_is_sent_again_after_a_refusal(
     monkeypatch: pytest.MonkeyPatch, family: str, pin: str, times: int, words: list[int]
 ) -> None:
-    """A drive refuses a request that noise has made unreadable; once that was the end of a jog, it never came again."""
+    """A drive may refuse a stop now and obey the next; where that was the end of a jog, it was never sent again."""
     b = ready(Second(family, options={family: {"stop_ends_jog": False}}))
     b.put(0, JogForward=True).run(2000)
     assert turns(b) > 0
