@@ -173,12 +173,13 @@ def test_the_refusal_of_the_other_is_no_failure() -> None:
     word = JOG.to_bytes(2, "big")
     bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
     bench.attended.discard(1)
-    assert words(bench.run(4000)).count(JOG) >= 5
+    found = words(bench.run(4000))
+    assert found.count(JOG) >= 5
+    assert PLAIN in found[-2:], "both are sent by turns"
     assert not bench["StopOverdue"]
-    assert max(words(bench.sent[-8:]).count(PLAIN), 1) >= 1
 
 
-def test_the_other_goes_even_if_the_first_is_refused() -> None:
+def test_the_other_is_sent_even_if_the_first_is_refused() -> None:
     bench = copied()
     word = PLAIN.to_bytes(2, "big")
     bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
@@ -197,8 +198,10 @@ def test_how_one_stop_has_failed_says_nothing_about_the_next() -> None:
     bench.run(100)
     assert NAMES[bench.slot(1, "Answer[0].ErrorID")] == "REFUSED"
     number = bench.post(1, STOP)
-    while bench.slot(1, "Answer[0].Tried") != number:
-        bench.scan()
+    for _ in range(10):
+        if bench.slot(1, "Answer[0].Tried") != number:
+            bench.scan()
+    assert bench.slot(1, "Answer[0].Tried") == number
     assert bench.slot(1, "Answer[0].ErrorID") == 0
     bench.run(100)
     assert NAMES[bench.slot(1, "Answer[0].ErrorID")] == "REFUSED"
