@@ -19,6 +19,8 @@ SECOND_MS, NEAR = 1000, 5
 """What LoadPercent looks at, and how exact it is, in percent."""
 DYING_US, LONG_US = 3_000_000, 4_000_000
 """For how long the stop of a drive that is known to be silent is tried again at once; how long it is then looked at."""
+LOST_US = 500_000
+"""A request that is not on the wire by then never will be."""
 KNOWN_US = 6_000_000
 """For so long every reply has been good, and none doubted: after a restart it might be an echo."""
 
@@ -34,7 +36,7 @@ class Turns:
         self.scans: deque[tuple[int, bool]] = deque(maxlen=3 * SECOND_MS)
         """Time of each, in ms, and whether a request was open in it."""
         self.posted_us = self.vain_us = 0
-        """When a request was last sent, and when one was last not answered, or refused."""
+        """When a request was last sent, and when one was last lost, not answered, or refused."""
         self.deaf: set[int] = set()
         self.silent_us, self.spent_us, self.longest_us = 0, 0, 0
         """Drives that are silent, while others answer, and since when that is known; how long requests to them have had
@@ -100,7 +102,7 @@ class Turns:
             self.open, self.posted = True, False
         if last is not None and last.replies and now >= last.replies[-1][1]:
             self.open = False
-        if last is not None and not last.good:
+        if not last.good if last else now - self.posted_us > LOST_US:
             self.vain_us = now
         deaf = self.bench.deaf if self.bench.deaf and self.wire.plain() and self.wire.somebody() else set()
         slots = [f"Slots[{unit - 1}]" for unit in deaf]
