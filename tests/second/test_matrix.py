@@ -11,8 +11,9 @@ from tests.second.walk import walk
 
 PARTS = 8
 """Of the sample, for several processes."""
-WALKS = (6, 8, 9, 10, 13, 14, 18, 21, 30_114)
-"""Seeds; in the last one a request is lost before the wire, and none follows for eight seconds."""
+WALKS = (6, 8, 9, 10, 13, 14, 18, 21, 30_114, 56_923)
+"""Seeds. In the last two a request is lost before the wire, and none follows for eight seconds; and a restart sends so
+soon that each reply comes in the time of the next request."""
 
 
 def told(outcome: Outcome) -> str:

@@ -58,6 +58,8 @@ class Exchange:
     """How long its drive might take then."""
     doubted: bool = False
     """Its answer may be its own echo: a write, and nobody knows yet whether the port hears itself."""
+    hasty: bool = False
+    """It was sent before the last reply had ended, as after a restart: the line hears that reply in its time."""
 
     def reads(self, register: int) -> bool:
         """Whether it reads a register, among others."""
@@ -167,10 +169,12 @@ class Wire:
         """That the port hears nothing of its own is known once three reads have been answered, and not before."""
         since, echo = max(each.restarted_us for each in self.judge.units), self.bench.block["TheLine.Echo"]
         mine = self.since(since)
-        reads = sum(bool(each.replies) and each.data[1] <= LAST_READ for each in mine)
+        reads = [each for each in mine if each.replies and each.data[1] <= LAST_READ]
+        least, most = sum(not each.hasty for each in reads), len(reads)  # with nothing heard before the reply
         anew = any(pins.get("Restart") for pins in self.bench.pins)  # in this scan
         if self.lossy_us < since and not (self.bench.echo or anew) and len(mine) < SEVERAL and self._whole():
-            self.judge.once(0, "echo known", bad=(echo == 1) != (reads >= ENOUGH), seen=(echo, reads, "reads"))
+            bad = most < ENOUGH if echo == 1 else least >= ENOUGH
+            self.judge.once(0, "echo known", bad=bad, seen=(echo, least, "to", most, "reads"))
 
     def somebody(self) -> bool:
         """Whether there is a drive that answers, and may be read at any time."""
@@ -180,7 +184,9 @@ class Wire:
     def answered(self, exchange: Exchange) -> None:
         """A request was on the wire."""
         if self.exchanges:
-            self.turns.answered(self.exchanges[-1], exchange)
+            before = self.exchanges[-1]
+            self.turns.answered(before, exchange)
+            exchange.hasty = bool(before.replies) and before.replies[-1][1] > self.turns.posted_us
         exchange.waits_ms = self.waits_ms(exchange.index)
         exchange.doubted = exchange.data[1] > LAST_READ and not self.bench.block["TheLine.Echo"]
         self.last, self.idle_ms = exchange, 0
