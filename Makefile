@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix mutants linux-line desk-line release prove lines heard
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix mutants linux-line desk-line release prove
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -74,12 +74,6 @@ prove:                ## every rule for every family and made-up drive, 10^4 cal
 
 mutants:              ## 300 single changes of the blocks that run a motor, SEED=611: which of them `driveblocks test` finds
 	$(PY) -m tests.testing.mutants --seed $(or $(SEED),611)
-
-lines:                ## a thousand lines for commissioning, each with a second model that differs in one way
-	$(PY) -m tests.site.lines
-
-heard:                ## a thousand lines that are only listened to: late, doubled and damaged frames, two masters, echoes
-	$(PY) -m tests.site.heard
 
 linux-line:           ## an hour of a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS=3600)
 	$(PY) -m tests.stand.softplc $(or $(SECONDS),3600)

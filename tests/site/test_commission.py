@@ -10,10 +10,8 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from rich.cells import cell_len
 from tests.plc.desk import maps
 from tests.shapes import shapes
-from tests.site.test_parameters import simulated
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
@@ -396,21 +394,6 @@ FULL = Found(
 )  # fmt: skip
 
 
-def test_other_entries_and_every_comment_are_kept(tmp_path: Path) -> None:
-    path = tmp_path / "site.yaml"
-    kept.write(path, ABOUT, FULL)
-    kept.write(path, replace(ABOUT, label="Fan"), FULL)
-    text = (
-        path.read_text(encoding="utf-8")
-        .replace("Pump:\n", "# before\nPump:\n  # mine\n")
-        .replace("Fan:", "# fan\nFan:")
-    )
-    path.write_text(text, encoding="utf-8")
-    kept.write(path, ABOUT, replace(FULL, unit=4))
-    assert path.read_text(encoding="utf-8") == text.replace("unit: 3", "unit: 4", 1)
-    assert {label: one.line.unit for label, one in kept.read(path).items()} == {"Pump": 4, "Fan": 3}
-
-
 @pytest.mark.parametrize(
     ("old", "new"),
     [
@@ -714,28 +697,6 @@ def typed(folder: Path, *words: str) -> Result:
     """Run `driveblocks commission` as a person who types the word, and nothing else."""
     words = (*words, "--file", str(folder / "site.yaml"), "--label", "Pump")
     return CliRunner().invoke(app, ["commission", *words], input="alone\n" + 10 * "\n", env={"COLUMNS": "80"})
-
-
-@pytest.mark.usefixtures("quick")
-@pytest.mark.parametrize("stem", MAPS)
-def test_a_simulated_drive_is_commissioned_over_tcp(stem: str, tmp_path: Path) -> None:
-    with simulated(f"{stem}@5", "--tcp", ":0") as place:
-        got = typed(tmp_path, stem, "--tcp", place, "--unit", "5")
-    assert (got.exit_code, got.stderr) == (0, "")
-    assert max(map(cell_len, got.stdout.splitlines())) <= 160  # two questions stand in one line of a test
-    one = kept.read(tmp_path / "site.yaml")["Pump"]
-    assert (one.map, one.line.unit, one.family, one.ended) == (stem, 5, "fits", None)
-    assert one.measured is not None
-    assert one.skipped
-
-
-@pytest.mark.usefixtures("quick")
-@pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
-def test_a_simulated_drive_is_commissioned_at_a_serial_port(tmp_path: Path) -> None:
-    with simulated("chf@2", "--pty") as place:
-        got = typed(tmp_path, "chf", "--port", place, "--unit", "2", "--skip", "measure")
-    assert (got.exit_code, got.stderr) == (0, "")
-    assert kept.read(tmp_path / "site.yaml")["Pump"].finished == ("quiet", "find", "keypad", "gaps")
 
 
 @pytest.mark.usefixtures("quick")

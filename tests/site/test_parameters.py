@@ -306,6 +306,7 @@ def parameters(*words: str) -> Result:
     return CliRunner().invoke(app, ["parameters", *words], env={"COLUMNS": "80"})
 
 
+@pytest.mark.thorough
 def test_a_drive_a_file_and_a_sister_are_compared(tmp_path: Path) -> None:
     path = tmp_path / "pump.csv"
     with simulated("sn300g5@3", "sn300g5@4", "--tcp", ":0") as place:
@@ -332,6 +333,7 @@ def test_a_drive_a_file_and_a_sister_are_compared(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
+@pytest.mark.thorough
 def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path: Path) -> None:
     path = tmp_path / "pump.csv"
     with simulated("sn300g5", "--pty", "--baud", "1200") as place:
@@ -352,6 +354,7 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
     assert len(saved.read(path).words) == 388
 
 
+@pytest.mark.thorough
 def test_a_file_of_another_drive_at_the_address_is_not_continued(tmp_path: Path) -> None:
     path, (stem, drive) = tmp_path / "pump.csv", MAPS["SN300G5"]
     with simulated("sn300g5", "--tcp", ":0") as place:
@@ -403,6 +406,7 @@ def test_a_drive_that_never_answers_leaves_no_file(tmp_path: Path) -> None:
     assert [*tmp_path.iterdir()] == []
 
 
+@pytest.mark.thorough
 def test_the_lines_of_the_page_run_at_simulated_drives(tmp_path: Path) -> None:
     lines = [text for text in commands(PAGE) if " --port /dev/ttyUSB0" in text]
     with simulated("sn300g5@3", "sn300g5@4", "--tcp", ":0") as place:

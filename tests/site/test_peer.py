@@ -113,15 +113,14 @@ def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    "where",
+    ("stem", "where"),
     [
-        "tcp",
+        *((stem, "tcp") for stem in MAPS),
         pytest.param(
-            "pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
+            "jscc", "pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
         ),
     ],
 )
-@pytest.mark.parametrize("stem", MAPS)
 def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, where: str, tmp_path: Path) -> None:
     option = "--tcp" if where == "tcp" else "--port"
     with peer(where, SimDevice(UNIT, words(stem, everything=False))) as place:
