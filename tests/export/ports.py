@@ -59,8 +59,7 @@ END_PROGRAM
 
 @dataclass(frozen=True)
 class Maker:
-    """A platform: its blocks, its numbers of a frame that failed and of one that did not end, what a frame may take;
-    and a mistake in its port or line, where one is wanted."""
+    """A platform: its blocks, its numbers of a frame that failed and of one that did not end, what a frame may take."""
 
     target: str
     sender: str
@@ -70,7 +69,6 @@ class Maker:
     pins: str = ""
     buffers: str = ""
     more: str = ""
-    edit: tuple[str, str] = ("", "")
 
     def __str__(self) -> str:
         """The name of a case."""
@@ -87,10 +85,7 @@ class Maker:
         else:
             yield Source.read(HERE / "com.st")
         port, line = [name for name in parts if not name.endswith("32")]
-        both = "\0".join((parts[port], parts[line]))
-        assert both.count(self.edit[0]) == 1 or not self.edit[0]
-        edited = both.replace(*self.edit) if self.edit[0] else both
-        yield from (Source(name, text) for name, text in zip((port, line), edited.split("\0"), strict=True))
+        yield from (Source(name, parts[name]) for name in (port, line))
         shared = {"buffers": self.buffers, "more": self.more}
         yield Source("X_Alone", ALONE.format(port=port, pins=self.pins, **shared))
         yield Source("X_Lined", LINED.format(line=line, **shared))

@@ -241,10 +241,6 @@ class File:
         made.calls[node.get("instanceName", "")] = values
         return node.get("instanceName", "")
 
-    def assigned(self, pin: Node) -> str:
-        """The variable that a pin on the right is assigned to."""
-        return "".join(each.text or "" for each in self.all("connectionPointOut/expression", pin))
-
     def power(self, node: Node, drawn: dict[str, Node], made: Rung) -> str:
         """What a coil, a contact or a pin is wired to; several wires are an OR."""
         found = [self.before(drawn[each.get("refLocalId", "")], drawn, made)

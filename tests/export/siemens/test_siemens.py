@@ -7,10 +7,8 @@ from pathlib import Path
 import pytest
 from tests.export.siemens import checks
 from tests.export.siemens.checks import CHECKS, Read, opened
-from tests.export.siemens.planted import PLANTED, Planted, few
-from tests.export.siemens.scl import SclError, read
+from tests.export.siemens.planted import PLANTED, Planted
 from tests.shapes import shapes
-from tests.shipped import drives
 
 from driveblocks.export.part import Part, Shelf
 from driveblocks.export.problem import ExportError
@@ -61,85 +59,9 @@ def test_a_family_alone_has_the_same_shared_files() -> None:
     }
 
 
-def test_writing_again_gives_the_same_bytes() -> None:
-    assert library.files(checks.shelf()) == written()
-
-
-WRONG = {
-    "a local without #": ("#Length;", "Length;", "quotes or # around"),
-    "a missing END_IF": ("  END_IF;\r\n  #Crc :=", "  #Crc :=", "expected END_IF"),
-    "a missing END_FUNCTION_BLOCK": ("END_FUNCTION_BLOCK\r\n", "", "found end of file"),
-    "a missing semicolon": ("#Index := 0;", "#Index := 0", "expected ;"),
-    "a missing VERSION": ("VERSION : 0.1\r\n", "", "expected VERSION"),
-    "a missing BEGIN": ("BEGIN\r\n", "", "expected BEGIN"),
-    "access that is not optimized": ("'TRUE'", "'FALSE'", "optimized access"),
-    "an undeclared local": ("#Length;", "#Longest;", "Longest among the declarations"),
-    "a name that is declared twice": ("Length : UInt;", "Crc : UInt;", "a name that is not taken"),
-    "SHR by position": ("SHR(IN := #Crc, N := 8)", "SHR(#Crc, 8)", "expected IN"),
-    "SHR with one name": ("N := 8)", "8)", "expected N"),
-    "an array type outside a structure": ("Array[0..255] of Byte", "MB_Adu", "MB_ADU is no type of an S7"),
-    "an array of a type that is not there": ("of Byte", 'of "Byte"', "BYTE above its use"),
-    "an array of constants": ("   VAR\r\n", "   VAR CONSTANT\r\n", "a constant of an elementary type"),
-    "an initial value of an in-out": ("of Byte;", "of Byte := [1];", "no initial value"),
-    "an unknown section": ("VAR_INPUT", "VAR_GLOBAL", "expected BEGIN"),
-    "a function that SCL lacks": ("BYTE_TO_WORD", "BYTE_AS_WORD", "a function of SCL instead"),
-    "an open string": ("#Index := 0;", "#Index := '0;", "no token of SCL"),
-    "a comment in a comment": ("BEGIN\r\n", "BEGIN\r\n(* a (* b *)\r\n", "which SCL nests"),
-    "no byte order mark": ("\ufeff", "", "expected a byte order mark"),
-    "lines that end with LF": ("BEGIN\r\n", "BEGIN\n", "CR LF"),
-}
-CALLS = {
-    "an unquoted type": ('"MB_Crc16"', "MB_Crc16", "MB_CRC16 is no type of an S7"),
-    "an in-out that is left out": (", Adu := #Adu)", ")", "the parameters of MB_CRC16"),
-    "a parameter that is not there": ("(Length := #", "(Count := #", "the parameters of MB_CRC16"),
-    "an output that is not there": (".Crc", ".Lrc", "LRC as a member of MB_CRC16"),
-    "a block above what it uses": ('FUNCTION_BLOCK "MB_RtuSeal"', 'FUNCTION_BLOCK "MB_Crc16"', "of a block above"),
-}
-QUOTED = {
-    "a reserved name without quotes": ('#"Port".LateMs', "#Port.LateMs", "quotes around Port"),
-    "a reserved name declared without quotes": ('"Port" : ', "Port : ", "in quotes if SCL reserves it"),
-    "a reserved parameter without quotes": ('"Port" := ', "Port := ", "in quotes if SCL reserves it"),
-}
-MISTAKES = [
-    (block, *each)
-    for block, edits in {"MB_Crc16": WRONG, "MB_RtuSeal": CALLS, "MB_ByteLine8": QUOTED}.items()
-    for each in edits.items()
-]
-
-
-@pytest.mark.parametrize(("block", "name", "edit"), MISTAKES, ids=[each[1] for each in MISTAKES])
-def test_the_reader_finds(block: str, name: str, edit: tuple[str, str, str]) -> None:
-    old, new, said = edit
-    text, known = _one(block), {each: found for each, found in whole().blocks.items() if each != block.upper()}
-    read(text, dict(known))
-    assert old in text
-    with pytest.raises(SclError) as caught:
-        read(text.replace(old, new, 1), known)
-    assert said in str(caught.value)
-
-
-def test_the_reader_wants_a_structure_for_each_type() -> None:
-    with pytest.raises(SclError, match="STRUCT, since nothing else has a type of its own"):
-        read('\ufeffTYPE "MB_Adu"\r\nVERSION : 0.1\r\n   Array[0..255] of Byte;\r\nEND_TYPE\r\n', {})
-
-
-def _one(block: str) -> str:
-    text = written()["siemens/DriveBlocks.scl"]
-    start = text.index(f'FUNCTION_BLOCK "{block}"')
-    end = text.index("END_FUNCTION_BLOCK\r\n", start)
-    return f"\ufeff{text[start:end]}END_FUNCTION_BLOCK\r\n"
-
-
 @pytest.mark.parametrize("planted", PLANTED, ids=lambda each: each.name)
 def test_a_mistake_of_the_writer_is_found(planted: Planted) -> None:
     assert planted.found() == planted.by
-
-
-def test_there_is_a_mistake_for_each_check() -> None:
-    read_back = opened(few(), library.files(few()))
-    for check in CHECKS:
-        check(read_back)
-    assert {each.check for each in PLANTED} == {None, *CHECKS}
 
 
 CANNOT = """
@@ -477,13 +399,6 @@ def test_a_master_of_the_plc_does_not_hold_a_stop_back_by_retries() -> None:
         owned.scan(1)
         assert owned.motor["Load.RETRIES"] == 0
         assert owned.motor["Load.RESP_TO"] == 500
-
-
-def test_a_block_that_hands_memory_to_an_instruction_has_no_optimized_access_and_all_others_have() -> None:
-    """The reader refuses any other; these are the blocks that it has seen."""
-    found = {name for name, text in written().items() if "S7_Optimized_Access := 'FALSE'" in text}
-    commanded = (prefix for prefix, drive in drives().items() if drive.operation.in_one_word)
-    assert found == {f"siemens/{prefix}_Master.scl" for prefix in commanded}
 
 
 def test_a_master_of_the_plc_believes_a_standstill_only_after_the_stop() -> None:
