@@ -2,7 +2,7 @@
 PY := .venv/bin/python
 DB := .venv/bin/driveblocks
 SEED := $(shell od -An -N3 -tu4 /dev/urandom)
-.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive ci-jobs bench line drives matrix mutants linux-line desk-line release prove
+.PHONY: demo test blocks counts schema fuzz mutation promise compare compare-blocks traces verdicts coverage sanitize libfuzzer exhaustive bench line drives matrix mutants linux-line desk-line release prove
 
 demo test:            ## set up, then run the main job / every test
 	python3 generator/bootstrap.py $@
@@ -53,9 +53,6 @@ libfuzzer:            ## coverage-guided fuzzing of parsers, framing and request
 
 exhaustive:           ## CRC, decoders, permissions, standstill, lengths, all 2^32 REALs of the references, on each line of matiec
 	$(PY) -m tests.native.exhaustive
-
-ci-jobs:              ## the jobs for users' continuous integration from a fresh clone, with pip
-	$(PY) -m tests.commands.ci_jobs
 
 line:                 ## the line at length on a virtual RS-485 line: 10^6 random stop scenarios, planted mistakes; writes docs/measured/line.md
 	$(PY) -m tests.line.long --page

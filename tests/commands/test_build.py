@@ -2,8 +2,6 @@
 
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -11,7 +9,7 @@ from click.testing import CliRunner, Result
 
 from driveblocks.cli import app
 from driveblocks.maps import collection
-from driveblocks.output import build, manifest, transaction
+from driveblocks.output import build, manifest
 from driveblocks.render.text import Language
 
 ROOT = Path(__file__).parents[2]
@@ -271,13 +269,6 @@ def test_a_second_family_keeps_the_first_in_files_and_pages() -> None:
     good("two.yaml", "-o", "out", "--check")
 
 
-def test_only_removes_the_others() -> None:
-    good("one.yaml", "two.yaml", "-o", "out")
-    good("two.yaml", "-o", "out", "--only")
-    assert files("out") == FILES | {"iec61131/two/EX200.st"}
-    assert not Path("out/iec61131/one").exists()
-
-
 def test_a_map_of_the_folder_that_has_changed_is_built_anew() -> None:
     good("one.yaml", "-o", "out")
     put("one.yaml", EXAMPLE.replace("prefix: EX100", "prefix: EX300"))
@@ -337,44 +328,6 @@ def test_an_output_that_is_no_folder_is_said_plainly() -> None:
 @pytest.mark.parametrize("arguments", [["--lang", "fr"], ["--lang", ""], ["--encoding", "latin-1"], ["no_such_drive"]])
 def test_wrong_words_are_refused(arguments: list[str]) -> None:
     assert "Traceback" not in refused(*arguments, "-o", "out")
-
-
-def test_a_second_build_at_once_is_refused() -> None:
-    good("one.yaml", "-o", "out")
-    with transaction.locked(Path("out")):
-        assert "out: another build is at work there" in refused("two.yaml", "-o", "out")
-
-
-KILLED = """
-import os, signal, sys
-from driveblocks.cli import app
-from driveblocks.output import build
-from driveblocks.maps import collection
-from tests.commands.test_build import few
-replace, left = os.replace, [int(sys.argv.pop(1))]
-def last(*arguments):
-    left[0] -= 1
-    left[0] or os.kill(os.getpid(), signal.SIGKILL)
-    replace(*arguments)
-os.replace, build.files = last, few
-app()
-"""
-
-
-@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGKILL")
-def test_after_a_killed_build_check_says_so_and_the_next_build_continues() -> None:
-    good("one.yaml", "-o", "out")
-    command = [sys.executable, "-c", KILLED, "6", "build", "two.yaml", "-o", "out"]
-    killed = subprocess.run(command, env=os.environ | {"PYTHONPATH": str(ROOT)}, check=False)
-    assert killed.returncode == -9
-    assert FILES - files("out")
-    result = run("one.yaml", "-o", "out", "--check")
-    assert result.exit_code == 1
-    assert "out: another build is at work, or was interrupted" in result.stderr
-    result = run("one.yaml", "-o", "out")
-    assert result.exit_code == 0
-    assert result.stderr == "out: took back a build that was interrupted\n"
-    assert files("out") == FILES | {"iec61131/one/EX100.st"}
 
 
 def test_a_named_map_takes_the_place_of_the_shipped_one_that_a_folder_was_built_from() -> None:

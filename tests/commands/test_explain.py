@@ -1,13 +1,9 @@
 """`driveblocks explain`: status, words, JSON for scripts, standard input, and pages that fit any width."""
 
 import json
-import os
 import re
-import subprocess
-import sys
 from collections import Counter
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
@@ -62,26 +58,6 @@ def test_the_first_example_of_the_readme() -> None:
         "2000H 01F4H Output frequency 实时输出频率读取 500 = 50.0 Hz",
     ):
         assert words in shown
-
-
-def test_a_wrong_frame_is_reported_repaired_and_read() -> None:
-    result = explain("01 03 20 00 00 01 CA 8F", "--drive", "jscc")
-    assert result.exit_code == 1
-    shown = squeezed(result.stdout)
-    assert "Wrong RTU frame" in shown
-    assert "wrong the CRC does not fit: the frame has CA 8F, and 8F CA would be right" in shown
-    assert "perhaps the CRC bytes are swapped: the low byte is sent first" in shown
-    assert "Read as RTU 01 03 20 00 00 01 8F CA: Request to unit 1: read 1 register from 2000H" in shown
-
-
-def test_glued_frames_are_shown_one_after_the_other() -> None:
-    result = explain(READ + REPLY, "--drive", "jscc")
-    assert result.exit_code == 1
-    parts = re.split(r"Frame \d of 2\n", result.stdout)
-    assert len(parts) == 3
-    assert "half-duplex echo" in parts[0]
-    assert parts[1].startswith("Good RTU request")
-    assert "50.0 Hz" in parts[2]
 
 
 @pytest.mark.parametrize(
@@ -164,17 +140,3 @@ def test_an_explanation_fits_any_terminal_and_folding_loses_no_character(words: 
         assert not re.search(r"[ \t]$", result.stdout, re.MULTILINE)
     wide, *folded = (Counter(re.sub(r"[\s─]", "", pages[columns].stdout)) for columns in (1000, 120, 80))
     assert folded == [wide, wide]
-
-
-def test_a_map_by_its_path(tmp_path: Path) -> None:
-    copy = tmp_path / "mine.yaml"
-    copy.write_bytes((catalog.folder() / "jscc.yaml").read_bytes())
-    assert "Output frequency" in explain(READ, "--drive", str(copy)).stdout
-
-
-@pytest.mark.parametrize("flags", [[], ["--json"]])
-def test_chinese_under_a_c_locale(flags: list[str]) -> None:
-    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = [sys.executable, "-m", "driveblocks.cli", "explain", READ, "--drive", "jscc", *flags]
-    done = subprocess.run(command, capture_output=True, env=environment, check=True)
-    assert "实时输出频率读取" in done.stdout.decode("utf-8")

@@ -34,16 +34,6 @@ def test_clean_text_ends_with_0_and_says_nothing(tmp_path: Path) -> None:
     assert (result.exit_code, result.output) == (0, "")
 
 
-def test_findings_end_with_1_in_order_of_place(loop: Path) -> None:
-    result = run(loop)
-    assert result.exit_code == 1
-    lines = result.output.splitlines()
-    assert [line.split(": ")[0] + " " + line.split(": ")[1] for line in lines] == [
-        f"{loop}:5:3 ST301 for-zero-trips",
-        f"{loop}:7:11 ST111 empty-statement",
-    ]
-
-
 def test_json_holds_the_same(loop: Path) -> None:
     result = run("--format", "json", loop)
     assert result.exit_code == 1
@@ -164,36 +154,12 @@ def test_all_files_that_cannot_be_read_are_reported(tmp_path: Path) -> None:
     ]
 
 
-def test_files_are_taken_together(tmp_path: Path) -> None:
-    types, block = tmp_path / "types.st", tmp_path / "block.st"
-    types.write_text("TYPE\n  T_Row : ARRAY[0..9] OF INT;\nEND_TYPE\n", encoding="utf-8")
-    block.write_text(CLEAN.replace("Count : INT;", "Count : INT;\n  Row : T_Row;"), encoding="utf-8")
-    assert run(types, block).exit_code == 0
-    alone = run(block)
-    assert alone.exit_code == 1
-    assert "ST003 unknown-type: expected the name of a type, found T_Row" in alone.output
-
-
 def test_the_list_names_every_rule() -> None:
     result = run("--list")
     assert result.exit_code == 0
     assert [line.split()[1] for line in result.output.splitlines()] == list(RULES)
     rows = json.loads(run("--list", "--format", "json").output)
     assert [row["rule"] for row in rows] == list(RULES)
-
-
-@pytest.mark.parametrize("words", [[], ["--format", "xml", "a.st"]])
-def test_a_wrong_command_line_ends_with_2(words: list[str]) -> None:
-    assert run(*words).exit_code == 2
-
-
-def test_hostile_text_ends_without_a_traceback(tmp_path: Path) -> None:
-    path = tmp_path / "deep.st"
-    path.write_text("PROGRAM P1\nx := " + "(" * 100_000, encoding="utf-8")
-    result = run(path)
-    assert result.exit_code == 2
-    assert "levels of nesting" in result.output
-    assert "Traceback" not in result.output
 
 
 # ------------------------------------------------------------ the installed library

@@ -26,14 +26,14 @@ OWN = [ROOT / "README.md", ROOT / "vendor_maps/README.md", *sorted({*ROOT.glob("
 COPY = [TESTING, ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*/*.md"))]
 BLOCKS = sorted(ROOT.glob("blocks/**/*.md"))
 ELSEWHERE = {
-    r"pip ": "needs a package index, as `make ci-jobs` has",
+    r"pip ": "needs a package index",
     r"python3 generator/bootstrap.py ": "makes a virtual environment from an index, or runs this suite",
     r"pytest ": "a part of this suite",
     r"driveblocks build$": "`make blocks` runs it",
     r"make blocks$": "`rm -r blocks && make blocks` runs it, which must make all anew",
     r"driveblocks prove": "half a minute of proofs; tests/prove/test_prove.py takes these lines from their pages",
     r"driveblocks test( --|$)": "minutes for three families; tests/testing runs their programs",
-    r"driveblocks test my_drive.yaml ": "tests/commands/test_ci_jobs.py runs the job in a clone",
+    r"driveblocks test my_drive.yaml ": "tests/commands/test_test.py tests this map",
     r"driveblocks test acme.yaml$": "tests/blocks/test_promise.py tests what `driveblocks new` writes",
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
     r"driveblocks commission .": "a real port; tests/site/test_commission.py has it",
@@ -124,10 +124,12 @@ def own(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.thorough
 def test_the_lines_for_a_folder_of_ones_own_run(own: Path) -> None:
     assert faults(OWN, own) == []
 
 
+@pytest.mark.thorough
 def test_the_lines_for_the_project_run_and_change_nothing_that_is_current(tmp_path: Path) -> None:
     for name in ("blocks", "vendor_maps"):
         shutil.copytree(ROOT / name, tmp_path / name)
@@ -140,6 +142,7 @@ def test_the_lines_for_the_project_run_and_change_nothing_that_is_current(tmp_pa
     assert [path for path in kept if path.read_bytes() != (tmp_path / path.relative_to(ROOT)).read_bytes()] == []
 
 
+@pytest.mark.thorough
 def test_the_lines_for_a_folder_of_blocks_run_and_count_as_the_page_does(own: Path) -> None:
     folder = shutil.copytree(ROOT / "blocks/openplc", own / "openplc")
     shutil.copy(own / "my_drive.yaml", folder)
@@ -149,6 +152,7 @@ def test_the_lines_for_a_folder_of_blocks_run_and_count_as_the_page_does(own: Pa
     assert f"| `CHF.st` | {' | '.join(counts)} |" in page
 
 
+@pytest.mark.thorough
 def test_a_program_runs_at_the_simulated_drives_of_another_page(own: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]

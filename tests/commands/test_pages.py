@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import click
-import pytest
 
 from driveblocks.cli import app
 from driveblocks.render.reasons import REASONS
@@ -18,7 +17,6 @@ PAGES = sorted(
         *ROOT.glob("blocks/*/README.md"),
     ]
 )
-EACH = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 
 
 def code(page: Path) -> Iterator[str]:
@@ -36,9 +34,10 @@ def paths(page: Path) -> set[str]:
     }
 
 
-@EACH
-def test_files_and_modules_are_there(page: Path) -> None:
-    missing = {path for path in paths(page) if not any((ROOT / (path + end)).exists() for end in ("", ".py"))}
+def test_files_and_modules_are_there() -> None:
+    missing = {
+        path for page in PAGES for path in paths(page) if not any((ROOT / (path + end)).exists() for end in ("", ".py"))
+    }
     assert not missing
 
 
@@ -48,12 +47,12 @@ def anchors(page: Path) -> set[str]:
     return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
-@EACH
-def test_links_lead_somewhere(page: Path) -> None:
-    for name, _, anchor in re.findall(r"\]\(([^)#:]*)(#([^)]*))?\)", page.read_text(encoding="utf-8")):
-        there = page.parent / name if name else page
-        assert there.exists(), name
-        assert not anchor or anchor in anchors(there), f"{name}#{anchor}"
+def test_links_lead_somewhere() -> None:
+    for page in PAGES:
+        for name, _, anchor in re.findall(r"\]\(([^)#:]*)(#([^)]*))?\)", page.read_text(encoding="utf-8")):
+            there = page.parent / name if name else page
+            assert there.exists(), f"{page}: {name}"
+            assert not anchor or anchor in anchors(there), f"{page}: {name}#{anchor}"
 
 
 def lines(page: Path) -> Iterator[str]:
@@ -62,9 +61,8 @@ def lines(page: Path) -> Iterator[str]:
         yield from (re.split(r"   +", line)[0] for line in block.splitlines() if line.startswith("driveblocks "))
 
 
-@EACH
-def test_commands_and_their_options_are_there(page: Path) -> None:
-    for text in (*code(page), *lines(page)):
+def test_commands_and_their_options_are_there() -> None:
+    for text in {text for page in PAGES for text in (*code(page), *lines(page))}:
         name, *words = text.removeprefix("driveblocks ").split()
         if text.startswith("driveblocks ") and "*" not in text:
             command = app.commands[name]
@@ -74,11 +72,10 @@ def test_commands_and_their_options_are_there(page: Path) -> None:
             assert {word for word in words if word.startswith("-")} <= known, text
 
 
-@EACH
-def test_targets_of_make_are_there(page: Path) -> None:
+def test_targets_of_make_are_there() -> None:
     targets = set(re.findall(r"^([\w -]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE))
     known = {name for names in targets for name in names.split()}
-    assert {text.split()[1] for text in code(page) if text.startswith("make ")} <= known
+    assert {text.split()[1] for page in PAGES for text in code(page) if text.startswith("make ")} <= known
 
 
 def test_the_map_of_the_pages_names_each_of_them() -> None:
@@ -88,24 +85,9 @@ def test_the_map_of_the_pages_names_each_of_them() -> None:
     assert set(ROOT.glob("docs/**/*.md")) <= {path.resolve() for path in linked} | {ROOT / "docs/README.md"}
 
 
-def test_the_first_page_is_short_and_has_three_doors() -> None:
-    page = (ROOT / "README.md").read_text(encoding="utf-8")
-    drives = page.count("_Drive`](blocks/docs/")  # one line each
-    assert len(page.splitlines()) - drives <= 85
-    doors = [line for line in page.splitlines() if line.startswith("## You ")]
-    assert doors == ["## You program a PLC", "## You write a map", "## You run CI for a PLC project"]
-
-
 def test_the_page_of_motors_that_do_not_run_names_each_reason() -> None:
     page = (ROOT / "docs/not-running.md").read_text(encoding="utf-8")
     named = {int(each) for row in re.findall(r"`(?:Stop)?Reason` ([\d, ]+)", page) for each in re.findall(r"\d+", row)}
     running = {0, 1, 2, 3, 4, 5, 6}
     assert {each.code for each in REASONS} - running - named == {29}, "29 warns before 28"
     assert named <= {each.code for each in REASONS}
-
-
-def test_the_page_of_other_plcs_names_those_that_import_xml_and_says_that_none_was_tried() -> None:
-    text = " ".join((ROOT / "docs/other-plcs.md").read_text("utf-8").split())
-    for name in ("GX Works3", "Sysmac Studio", "KV STUDIO", "PLCnext Engineer", "3.5.21"):
-        assert name in text
-    assert "none of these systems has been tried" in text

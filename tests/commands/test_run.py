@@ -1,23 +1,19 @@
 """`driveblocks run`: what it refuses, what it writes, the demonstration, and that Windows has all that it needs."""
 
-import io
 import os
 import re
 import subprocess
 import sys
 import threading
-import tomllib
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from rich.console import Console
 from tests.plc.desk import EXAMPLE, ONE
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
 
-from driveblocks import console
 from driveblocks.commands import run as command
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
@@ -59,36 +55,22 @@ REFUSED = [
     ("", "name a program, or write --demo"),
     ("my.st --demo", "--demo brings its own program; leave yours out"),
     ("my.st --simulate jscc --port COM3", "--simulate and --port exclude each other: drives are simulated, or real"),
-    ("my.st --simulate jscc --tcp 10.0.0.1:1", "--simulate and --tcp exclude each other"),
-    ("--demo --port COM3", "--demo and --port exclude each other"),
     ("my.st --tcp nowhere", "--tcp nowhere is no address; write HOST:PORT, with a port of 1 to 65535"),
-    ("my.st --tcp 127.0.0.1:²", "--tcp 127.0.0.1:² is no address"),
-    ("my.st --tcp 127.0.0.1:70000", "--tcp 127.0.0.1:70000 is no address"),
     ("my.st --for " + 400 * "9" + "s", "is no time; write 10ms, 2.5s or 1min"),
-    ("my.st --scan " + 400 * "9" + "ms", "is no time; write 10ms, 2.5s or 1min"),
     ("my.st --allow-run", "--allow-run is for a real port; simulated drives may always run"),
-    ("my.st --tcp :502 --simulated --allow-run", "--allow-run is for a real port"),
     ("my.st --tcp 10.0.0.1:502 --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:"),
-    ("my.st --simulated", "--simulated is for a simulator of this computer; write --tcp 127.0.0.1:5020"),
     ("my.st --fast", "--fast needs --for: it would never end"),
     ("my.st --fast --for 1s --port COM3", "--fast is for simulated drives; a port has its own time"),
-    ("my.st --scan 10", "--scan: `10` is no time; write 10ms, 2.5s or 1min"),
     ("my.st --scan 0ms", "--scan 0ms is out of range; write 0.001s to 60s"),
     ("my.st --watchdog 1ms", "--watchdog 1ms is out of range; write 0.01s to 600s"),
-    ("my.st --for ever", "--for: `ever` is no time"),
     ("no.st", "no.st:1:1: cannot be read: No such file or directory"),
     ("my.st --show Motor.Speeed", "--show: the program has no variable Motor.Speeed; did you mean MOTOR."),
     ("my.st --show Motor", "--show: Motor has parts; name one of them"),
     ("my.st --program Other", "my.st:1:1: there is no PROGRAM Other; choose by --program: One"),
-    ("my.st --simulate acme", "there is no drive `acme`"),
     ("my.st --simulate jscc@7,chf@7", "--simulate chf@7: units are 1 to 247, one drive each; write chf@1"),
-    ("my.st --simulate jscc@0", "--simulate jscc@0: units are 1 to 247"),
-    ("my.st --simulate chf@7:0", "--simulate chf: `0` is no maximum; write whole Hz, 1 to 600, such as :50"),
-    ("my.st --simulate jscc:PowerScale=1", "cannot be set; the manual of JSCC does not give: ReferenceScale"),
     ("my.st --script no.txt", "no.txt:1:1: cannot be read"),
     ("my.st --trace no/trace.csv", "no/trace.csv: No such file or directory"),
     ("my.st --trace my.st", "my.st: there is a file that no run has written; name a new one, or move it away"),
-    ("my.st --picture my.st", "my.st: there is a file that no run has written"),
     ("my.st --trace x --picture x", "--trace and --picture both name x; name two files"),
     ("my.st --scenario no.yaml", "no.yaml:1:1: this file cannot be read"),
     ("my.st --tcp :1 --simulated --scenario x", "--scenario is for drives that this run simulates"),
@@ -149,19 +131,6 @@ def test_a_program_runs_by_a_script_and_leaves_a_trace_and_a_picture(program: Pa
     assert "SIMULATED, my.st" in Path("t.svg").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(("words", "hertz"), [((), 37.5), (("--simulate", "chf@7:40"), 30.0)])
-def test_what_a_program_believes_of_a_drive_does_not_make_it_so(
-    words: tuple[str, ...], hertz: float, program: Path
-) -> None:
-    text = ONE.replace("JSCC", "CHF").replace("FullScaleHz := 50.0", "FullScaleHz := 40.0")
-    program.write_text(text, encoding="utf-8")
-    Path("run.txt").write_text("at 2s: Hz := 30; Start := TRUE\n", encoding="utf-8")
-    result = run(program, *FAST, "--trace", "t.csv", "--show", "Motor.OutputFrequencyHz", *words)
-    assert result.exit_code == 0
-    last = Path("t.csv").read_text(encoding="utf-8").splitlines()[-1]
-    assert float(last.split(",")[1]) == pytest.approx(hertz)
-
-
 def test_a_line_without_rate_and_format_has_those_of_its_block(program: Path) -> None:
     program.write_text(ONE.replace("BitRate := 19200, ", ""), encoding="utf-8")
     made = Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
@@ -178,12 +147,6 @@ def test_a_program_that_fails_ends_with_1_and_says_where(program: Path) -> None:
     assert result.exit_code == 1
     assert "SIMULATED  the program has failed: my.st:17:15: division by zero: stopping every drive" in result.output
     assert "stopped, and standstill read: Motor" in result.output
-
-
-def test_a_drive_that_nobody_simulates_is_not_confirmed(program: Path) -> None:
-    result = run(program, "--fast", "--for", "1s", "--simulate", "jscc@8")
-    assert result.exit_code == 1
-    assert "SIMULATED  NOT CONFIRMED: Motor (unit 7): no reply to the stop. Go and look" in result.output
 
 
 def test_what_could_not_be_confirmed_is_printed_before_a_file_that_cannot_be_written(program: Path) -> None:
@@ -208,18 +171,6 @@ def test_a_scenario_happens_to_the_drives_of_a_program(program: Path) -> None:
     assert lines.index("SIMULATED    3.0 s  trip 4 7") < next(
         place for place, line in enumerate(lines) if line.endswith("Motor.FaultCode = 4")
     )
-
-
-def test_a_terminal_shows_that_a_program_is_compiled(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn = io.StringIO()
-    monkeypatch.setattr(console, "terminal", lambda: Console(file=drawn, force_terminal=True, color_system=None))
-    Setup(Options(program=program, fast=True, length="1s"), Keyboard(0))
-    assert drawn.getvalue() == "SIMULATED  compiling my.st\n"
-
-
-def test_an_empty_name_is_no_port(program: Path) -> None:
-    result = run(program, "--port", "")
-    assert (result.exit_code, result.stderr) == (2, "--port names no port; write one such as /dev/ttyUSB0 or COM3\n")
 
 
 @pytest.mark.parametrize("name", ["invt_chf.yaml", "mine.yaml"])
@@ -292,6 +243,7 @@ CALLS = "".join(
 """Two to the power of thirty calls, and no loop whose turns could be counted."""
 
 
+@pytest.mark.thorough
 def test_calls_that_do_not_end_are_given_up_and_the_process_ends(program: Path) -> None:
     declared = ONE.replace("  Divisor", "  Endless : BOOL;\n  Sum : LREAL;\n  Divisor", 1)
     body = "  IF Endless THEN\n    Sum := F30(1.0);\n  END_IF;\n  Quotient :="
@@ -331,33 +283,6 @@ def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[s
     assert max(map(len, lines)) <= 80
 
 
-LOOPBACK = """
-import socket, sys
-from driveblocks.plc.simulated import Simulation
-from driveblocks.plc.drives import Named
-from driveblocks.maps import catalog
-from driveblocks.maps.load import load
-from driveblocks.modbus.frame import seal
-path = catalog.resolve("chf")
-made = Simulation([Named(path, load(path), 5, 60, (("DcVoltageScale", "0.1"),))], 19200, 10, ascii_mode=False)
-with socket.create_connection(("127.0.0.1", made.port)) as line:
-    line.settimeout(600)
-    line.sendall(seal("rtu", bytes.fromhex("05 03 30 02 00 01")))
-    reply = b""
-    while len(reply) < 7:
-        reply += line.recv(7)
-    print(reply.hex(" "))
-made.close()
-"""
-
-
-def test_drives_are_simulated_in_another_process_without_what_windows_lacks(windows: dict[str, str]) -> None:
-    words = [sys.executable, "-c", LOOPBACK]
-    done = subprocess.run(words, env=windows, capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith("05 03 02 15 18 ")  # 3002H: 540 V in counts of 0.1 V
-
-
 def test_a_program_runs_in_real_time_at_drives_in_another_process(windows: dict[str, str], program: Path) -> None:
     words = [sys.executable, "-m", "driveblocks", "run", str(program), "--for", "50ms", "--watchdog", "600s"]
     done = subprocess.run(words, env=windows, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
@@ -392,15 +317,6 @@ def test_what_was_announced_and_did_not_come_true_ends_with_1(monkeypatch: pytes
     assert result.exit_code == 1
     assert "the demonstration has failed: stopping every drive" in result.output
     assert "this did not come true: the fan trips" in result.output
-
-
-def test_a_wheel_carries_the_program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    project = tomllib.loads((EXAMPLE.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
-    assert project["tool"]["hatch"]["build"]["targets"]["wheel"]["force-include"]["examples"] == "driveblocks/examples"
-    packed = tmp_path / "driveblocks" / "examples"
-    packed.mkdir(parents=True)
-    monkeypatch.setattr("driveblocks.__file__", str(tmp_path / "driveblocks" / "__init__.py"))
-    assert demo.path().parent == packed.resolve()
 
 
 def test_the_demonstration_is_the_example() -> None:

@@ -170,13 +170,6 @@ def test_an_engine_that_is_not_there_gives_status_2_and_the_reason(
     assert "engine matiec-openplc cannot be used: no iec2c found" in result.stderr
 
 
-def test_all_engines_are_those_that_are_there(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    without_matiec(monkeypatch)
-    result = invoke(brief, "--engine", "all")
-    assert result.exit_code == 0
-    assert result.stdout.splitlines()[1].startswith("engine matiec-beremiz: does not run, no iec2c found")
-
-
 def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
     class Second(EmbeddedEngine):
         name = "matiec-openplc"
@@ -256,8 +249,3 @@ def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypat
     assert re.search(r"^  iec61131/my_drive/EX100_Standstill\.st:\d+:6: never IF TRUE$", result.stdout, re.MULTILINE)
     assert re.search(r"^library\.coverage on embedded$", result.stdout, re.MULTILINE)
     assert "2 failed" in result.stdout.splitlines()[-1]
-
-
-@pytest.mark.parametrize("percent", ["101", "-1", "all"])
-def test_a_percentage_that_cannot_be_is_refused(my_drive: str, percent: str) -> None:
-    assert invoke(my_drive, "--require-coverage", percent).exit_code == 2

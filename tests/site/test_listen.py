@@ -297,12 +297,6 @@ def test_a_port_is_opened_once_with_both_signals_low_and_nothing_to_send_with(mo
 # ------------------------------------------------------------ at a port, from beginning to end
 
 
-def listened(*words: str) -> str:
-    got = CliRunner().invoke(app, ["listen", *words], env={"COLUMNS": "110"})
-    assert (got.exit_code, got.stderr) == (0, ""), (got.stdout, got.stderr)
-    return got.stdout
-
-
 class Tee:
     """A cable between a client and a server, with a third end at which both are heard."""
 
