@@ -1,9 +1,8 @@
 """The long form: `python -m tests.native.exhaustive [--short] [--line NAME] [CHECK ...]`, all checks if none is named.
 
 Each check says for each line of matiec how many cases it tried and whether any differs; its seconds are those of all
-lines together. Two checks run at a time. Without matiec the embedded engine does what it can in minutes, and it is said
-which checks that leaves out. Exit status 1 if anything differs or a check could not be done, 2 for an unknown name or
-if nothing could run.
+lines together. Two checks run at a time. Exit status 1 if anything differs or a check could not be done, 2 for an
+unknown name or if nothing could run.
 """
 
 import argparse
@@ -16,7 +15,6 @@ from tests.native.driver import lines, told_lines
 from tests.native.exhaustive import program
 from tests.native.exhaustive.bench import Bench, Finding
 from tests.native.exhaustive.checks import CHECKS, Report, run
-from tests.native.exhaustive.embedded import PARTS, embedded
 
 from structured_text.engines.discovery import MATIEC_NAMES
 
@@ -35,19 +33,9 @@ def main(arguments: Sequence[str]) -> int:
     engines = [engine for engine in lines() if not asked.line or engine.name in asked.line]
     print(told_lines(), flush=True)
     if not engines:
-        return without_matiec([] if asked.line else asked.checks or [*CHECKS])
-    return report(parallel([program.bench(engine) for engine in engines], asked.checks or [*CHECKS], asked.short))
-
-
-def without_matiec(names: Sequence[str]) -> int:
-    """What the embedded engine does of some checks, and which it leaves out. Exit status 2 if it can do none."""
-    if left_out := [name for name in names if name not in PARTS]:
-        print(f"not run without matiec: {', '.join(left_out)}", flush=True)
-    if not (parts := [name for name in names if name in PARTS]):
         print("nothing ran: needs matiec; `driveblocks doctor` says what is missing")
         return 2
-    print("the embedded engine takes what it can in minutes, not the whole spaces", flush=True)
-    return report(embedded(parts))
+    return report(parallel([program.bench(engine) for engine in engines], asked.checks or [*CHECKS], asked.short))
 
 
 def parallel(benches: Sequence[Bench], names: Sequence[str], short: bool) -> Iterator[Report]:

@@ -7,12 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.native.driver import Driver
-from tests.native.fuzz import __main__ as long
 from tests.native.fuzz import corpus
-from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets, text
+from tests.native.fuzz.program import fuzzer, libfuzzer, replayer, targets
 from tests.native.fuzz.seeds import seeds
-from tests.native.sanitize.planted import spoilt
 from tests.native.sanitize.sanitizers import compilers, found_lines, why_none
 
 from driveblocks.render.results import RESULTS
@@ -53,24 +50,6 @@ def test_every_input_gives_the_error_id_that_is_noted(target: str) -> None:
         assert codes == [each.code for each in inputs], engine.name
 
 
-@functools.cache
-def spoilt_program() -> Path:
-    """The first line's, of the library with a fault in many blocks."""
-    engine = found_lines()[0]
-    if not (found := compilers(engine)):
-        pytest.skip(why_none(engine))
-    return Driver(text(engine), (*found[0].options, "-O0"), found[0].command).build(engine, spoilt())
-
-
-@pytest.mark.parametrize("target", ["rtu_open", "ascii_decode", "parse_reply", "jscc_reply", "chf_request"])
-def test_a_fault_in_a_block_stops_the_program(target: str) -> None:
-    """A length one too high, a refusal of any length: what is kept reaches it, and its judge sees it."""
-    if not found_lines():
-        pytest.skip("iec2c was not found")
-    with pytest.raises(AssertionError, match=f"{target} stops at "):
-        corpus.replay(spoilt_program(), target, [each.data for each in kept(target)])
-
-
 @pytest.mark.parametrize("target", targets())
 def test_libfuzzer_replays_every_input(target: str, tmp_path: Path) -> None:
     """The program of the long form, on the last line."""
@@ -102,27 +81,3 @@ def test_the_corpus_is_small_and_reaches_every_error_id_of_a_request_and_a_reply
     commands_and_lengths = {8, 12, 13, 14, 15, 16, 17, 18, 19}
     line = 50
     assert reached == {each.code for each in RESULTS if each.code < line} - commands_and_lengths
-
-
-def test_a_line_without_an_error_id_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "bad.txt").write_text("0103\n", encoding="utf-8")
-    with pytest.raises(ValueError, match="no ErrorID after the bytes: 0103"):
-        corpus.read(tmp_path / "bad.txt")
-
-
-def test_an_unknown_target_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit, match="2"):
-        long.main(["--target", "rtu_open,nothing"])
-    assert "there is no target nothing" in capsys.readouterr().err
-
-
-def test_without_a_line_nothing_has_run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(long, "found_lines", list)
-    assert long.main([]) == 2
-    assert "needs clang with libFuzzer" in capsys.readouterr().out
-
-
-def test_what_is_written_is_read_again(tmp_path: Path) -> None:
-    inputs = corpus.described([b"", b"\x01\x03"], [20, 21])
-    corpus.write(tmp_path / "good.txt", "two", inputs)
-    assert corpus.read(tmp_path / "good.txt") == inputs

@@ -17,9 +17,6 @@ def tools() -> list[tuple[MatiecEngine, Checked]]:
     return [(lines[0], checked) for checked in found]
 
 
-OUTSIDE = (("first", -1), ("length", 0), ("length", 1), ("last", 65535))
-
-
 def test_an_index_beside_its_array_ends_the_program() -> None:
     """-1, the length, the length + 1 and 65535, read and written; most of them still lie inside the instance."""
     for engine, checked in tools():

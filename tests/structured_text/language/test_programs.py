@@ -1,15 +1,9 @@
 """Whatever has the form of a program: linter and embedded engine say what they think of it, and raise nothing else."""
 
-import random
-from contextlib import suppress
 from itertools import cycle
 
 import pytest
-from hypothesis import given, settings, strategies
-from tests.structured_text.language.grammar import Program
 
-from structured_text.engines.embedded import EmbeddedEngine
-from structured_text.engines.engine import EngineError, Source
 from structured_text.language.lint import lint_sources
 from structured_text.language.standard import FUNCTIONS, Signature
 
@@ -25,22 +19,6 @@ TYPE T_Row : ARRAY[0..3] OF INT; END_TYPE
 PROGRAM Example
 VAR i : INT; r : REAL; q : BOOL; w : WORD; row : T_Row; pair : TON; END_VAR
 """
-
-
-def use(text: str, coverage: bool = False) -> bool:
-    """Lint a text, and run it where that is possible; whether it has run."""
-    lint_sources([("any.st", text)])
-    with suppress(EngineError):
-        library = EmbeddedEngine(loop_limit=500, coverage=coverage).build([Source("any.st", text)])
-        if "Example" in library.blocks():
-            instance = library.instance("Example")
-            instance.scan(0)
-            instance.scan(1_000_000)
-            instance.state()
-        else:
-            library.call("Example", {})
-        return True
-    return False
 
 
 def judged(text: str) -> bool:
@@ -99,14 +77,3 @@ def test_what_a_number_without_type_cannot_be_is_reported(statement: str, rule: 
 @pytest.mark.parametrize("statement", ["i := MOD(7, 3)", "r := SQRT(2.0)", "r := EXPT(2.0, 3)", "i := MAX(1, 2)"])
 def test_what_it_can_be_is_not(statement: str) -> None:
     assert not [each for each in lint_sources([("any.st", f"{HEAD}{statement};\nEND_PROGRAM\n")]) if each.line == 5]
-
-
-def test_random_programs_run() -> None:
-    ran = sum(use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), seed % 2 == 0) for seed in range(120))
-    assert ran > 20
-
-
-@given(strategies.integers(0, 2**40), strategies.booleans())
-@settings(max_examples=10)
-def test_random_programs_raise_nothing(seed: int, coverage: bool) -> None:
-    use(Program(random.Random(seed), 0.03 * (seed % 4 == 0)).text(), coverage)

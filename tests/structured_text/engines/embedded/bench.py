@@ -1,7 +1,4 @@
-"""Speeds of an engine: build time, CRC over a table, simple scans. Every function takes any engine of the face.
-
-`python -m tests.structured_text.engines.embedded.bench` prints them for the embedded engine.
-"""
+"""Speeds of an engine: CRC over a table, simple scans. Every function takes any engine of the face."""
 
 from __future__ import annotations
 
@@ -9,7 +6,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, Instance, Source
 
 CORPUS = Path(__file__).parent.parent / "corpus"
@@ -69,44 +65,8 @@ def scan_rate(engine: Engine, scans: int = 100_000) -> float:
     return scans / best(lambda: scan_many(instance, scans))
 
 
-def build_seconds(engine: Engine, sources: list[Source]) -> float:
-    """Seconds from text to a library, front end included."""
-    return best(lambda: _build(engine, sources), 3)
-
-
-def _build(engine: Engine, sources: list[Source]) -> None:
-    engine.build(sources)
-
-
 def scan_many(instance: Instance, count: int) -> None:
     """So many scans, one call each, a millisecond apart."""
     scan = instance.scan
     for now in range(0, count * 1_000_000, 1_000_000):
         scan(now)
-
-
-def corpus(times: int = 1) -> list[Source]:
-    """Copies of a parser of the corpus, with their names made distinct."""
-    text = (CORPUS / "reply_parser.st").read_text(encoding="utf-8")
-    return [Source(f"copy{n}.st", _renamed(text, n)) for n in range(times)]
-
-
-def _renamed(text: str, number: int) -> str:
-    for name in ("WordOfBytes", "FrameCrc", "ReplyParser", "REPLY_FRAME", "REPLY_WORDS"):
-        text = text.replace(name, f"{name}{number}")
-    return text
-
-
-def main() -> None:
-    """Print all figures of the embedded engine."""
-    sources = corpus(40)
-    lines = sum(each.text.count("\n") for each in sources)
-    engine = EmbeddedEngine()
-    print(
-        f"{crc_rate(engine):6.1f} MB/s of CRC{scan_rate(engine) / 1e6:6.2f} million scans/s"
-        f"{lines:7} lines built in {build_seconds(engine, sources):.2f} s"
-    )
-
-
-if __name__ == "__main__":
-    main()

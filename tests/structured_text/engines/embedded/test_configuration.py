@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 from tests.structured_text.engines.configuration import start
-from tests.structured_text.engines.embedded import schedule
 from tests.structured_text.engines.embedded.snippets import build
 
-from structured_text.engines.engine import Engine, ScanError, Source
+from structured_text.engines.engine import ScanError
 
 TEXT = """TYPE Row : ARRAY[0..2] OF INT; END_TYPE
 FUNCTION_BLOCK Bump
@@ -39,22 +38,6 @@ PROGRAM Fourth : Count;
 END_RESOURCE
 END_CONFIGURATION
 """
-PROGRAMS = ("First", "Second", "Third", "Fourth")
-
-
-def test_tasks_are_due_by_their_intervals() -> None:
-    """Every 30 ms, every 20 ms, on an event, and in every tick of 10 ms."""
-    running = start(build(TEXT))
-    assert running.tick_ns == 10_000_000
-    running.run(12)
-    assert [running[f"Station.{name}.scans"] for name in PROGRAMS] == [4, 6, 0, 12]
-    running["go"] = True
-    running.run(3)
-    running["go"] = False
-    running.run()
-    running["go"] = True
-    running.run()
-    assert running["station.THIRD.scans"] == 2
 
 
 def test_globals_are_shared() -> None:
@@ -69,39 +52,6 @@ def test_globals_are_shared() -> None:
     assert (running["TOTAL"], running["share"]) == (1, [5, 1, 9])
 
 
-def test_the_clock_is_the_configuration_s() -> None:
-    """A timer of 50 ms, in a program that runs each 10 ms."""
-    running = start(build(TEXT))
-    running.run(5)
-    assert (running["Station.Fourth.beat.Q"], running["Station.Fourth.beat.ET"]) == (False, 40_000_000)
-    running.run(1)
-    assert running["Station.Fourth.beat.Q"] is True
-
-
-def test_programs_run_by_priority() -> None:
-    """0 first; matiec looks at no priority and keeps to the order of declaration."""
-    text = """PROGRAM Mark
-VAR_INPUT number : INT; END_VAR
-VAR_EXTERNAL trace : DINT; END_VAR
-  trace := trace * 10 + INT_TO_DINT(number);
-END_PROGRAM
-CONFIGURATION Plant
-VAR_GLOBAL trace : DINT; END_VAR
-RESOURCE Station ON PLC
-TASK Late(INTERVAL := T#10ms, PRIORITY := 5);
-TASK Soon(INTERVAL := T#10ms, PRIORITY := 1);
-PROGRAM A1 WITH Late : Mark(number := 1);
-PROGRAM A2 : Mark(number := 2);
-PROGRAM A3 WITH Soon : Mark(number := 3);
-PROGRAM A4 WITH Soon : Mark(number := 4);
-END_RESOURCE
-END_CONFIGURATION"""
-    for by_priority, trace in ((True, 3412), (False, 1234)):
-        running = schedule.start(build(text), by_priority=by_priority)
-        running.run()
-        assert running["trace"] == trace
-
-
 def test_a_block_alone_has_globals_of_its_own() -> None:
     """With their initial values, so that a block with VAR_EXTERNAL can be tested without the configuration."""
     library = build(TEXT)
@@ -112,21 +62,6 @@ def test_a_block_alone_has_globals_of_its_own() -> None:
     assert (one["scans"], two["scans"]) == (2, 1)
 
 
-def test_state_and_paths() -> None:
-    """Globals first, each resource's after its name; then the programs."""
-    running = start(build(TEXT))
-    paths = list(running.state())
-    assert paths[:7] == ["TOTAL", "SHARE[0]", "SHARE[1]", "SHARE[2]", "BEGIN", "GO", "STATION.LOCAL"]
-    assert "STATION.FIRST.BEAT.ET" in paths
-    for wrong in ("Station.Fifth.scans", "absent", "Station.First.absent", "Station"):
-        with pytest.raises(KeyError):
-            running[wrong]
-    with pytest.raises(KeyError, match="no configuration"):
-        start(build(TEXT), "Other")
-    with pytest.raises(KeyError, match="0 configurations"):
-        start(build("FUNCTION_BLOCK B VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK"))
-
-
 def test_a_fault_in_a_task_is_a_scan_error() -> None:
     """At the statement."""
     text = TEXT.replace("sum := start + scans;", "sum := start / (scans - 2);")
@@ -135,16 +70,3 @@ def test_a_fault_in_a_task_is_a_scan_error() -> None:
     with pytest.raises(ScanError) as caught:
         running.run(1)
     assert caught.value.message.line == text.splitlines().index("  sum := start / (scans - 2);") + 1
-
-
-def test_matiec_runs_the_same(matiec: Engine) -> None:
-    """Every variable after each of some ticks, events included; its C of connected programs does not compile."""
-    text = TEXT.replace("(start := begin, sum => local)", "")
-    theirs = start(matiec.build([Source("test.st", text)]))
-    mine = schedule.start(build(text), by_priority=False)
-    assert mine.tick_ns == theirs.tick_ns
-    for tick in range(40):
-        for running in (mine, theirs):
-            running["go"] = tick % 7 > 3
-            running.run()
-        assert mine.state() == theirs.state()

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import sys
 import traceback
-from types import FrameType
-from typing import Any
 
 import pytest
 from tests.structured_text.engines.embedded.snippets import build
@@ -90,41 +87,6 @@ def test_tracebacks_show_lines_of_st() -> None:
     assert [line for path, line in frames if path == "test.st"] == [20, 14, 5]
 
 
-def test_tracing_sees_lines_of_st() -> None:
-    """`sys.settrace`, and so debuggers and coverage tools, work on the source itself."""
-    made = build(TEXT).instance("Outer")
-    made["n"] = 101
-    seen: list[int] = []
-
-    def trace(frame: FrameType, event: str, _: Any) -> Any:
-        if frame.f_code.co_filename == "test.st" and event == "line":
-            seen.append(frame.f_lineno)
-        return trace
-
-    before = sys.gettrace()
-    sys.settrace(trace)
-    try:
-        with pytest.raises(ScanError):
-            made.scan()
-    finally:
-        sys.settrace(before)
-    assert list(dict.fromkeys(seen)) == [19, 22]
-
-
-def test_a_bug_of_the_engine_is_no_scan_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What compiled ST cannot raise keeps its Python traceback."""
-    library = build(TEXT)
-
-    def broken(*_: object) -> int:
-        raise KeyError("a bug")
-
-    monkeypatch.setitem(library.compiler.objects, "function_PICK", broken)
-    made = library.instance("Inner")
-    made["n"] = 3
-    with pytest.raises(KeyError, match="a bug"):
-        made.scan()
-
-
 class TestCoverage:
     """Counts per line, for all sources of a build."""
 
@@ -164,12 +126,6 @@ END_FUNCTION_BLOCK
             "other.st": {3: 5, 4: 0, 6: 5},
             "main.st": {4: 2, 5: 2, 6: 5, 7: 5, 9: 2, 10: 0, 11: 2},
         }
-
-    def test_without(self) -> None:
-        """Nothing is counted unless asked for."""
-        library = EmbeddedEngine().build([Source("other.st", self.OTHER), Source("main.st", self.MAIN)])
-        library.instance("Test").scan()
-        assert library.coverage() == {}
 
 
 class TestBuildErrors:

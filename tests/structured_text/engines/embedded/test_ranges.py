@@ -5,7 +5,6 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Any
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.structured_text.engines.embedded.interpreter import COMPARISONS, TABLE, VARIABLES, Interpreter, lines_of
@@ -101,16 +100,3 @@ def test_random_programs(program: list[Any], values: dict[str, int]) -> None:
             made.scan()
             reference.run(program)
             assert {name: made[name] for name in reference.values} == reference.values
-
-
-def test_the_interpreter_is_no_echo() -> None:
-    """It computes by itself: one program by hand."""
-    reference = Interpreter(dict.fromkeys([*VARIABLES, "i", "j", "k"], 0))
-    reference.run([("while", "i", 5, 2, [("set", "e", ("+", "e", 100))]), ("set", "f", ("-", "f", 100))])
-    assert (reference.values["e"], reference.values["f"], reference.values["i"]) == (44, -100, 6)
-
-
-@pytest.mark.parametrize("body", ["e := e + 200; a := 1;", "IF c < 0 THEN a := 1; ELSE e := e / 3; END_IF;"])
-def test_the_source_is_accepted(body: str) -> None:
-    """Hand-written statements among the same declarations."""
-    build(source([]).replace(";\nEND_FUNCTION_BLOCK", f"{body}\nEND_FUNCTION_BLOCK"))

@@ -235,13 +235,6 @@ def test_initial_values(build: Builder) -> None:
     assert holder["All"] == [{"BUSY": False, "DATA": [0] * 8, "TITLE": b"", "SCALE": 0.0}] * 3
 
 
-def test_bytes_fill_the_front_of_an_array(build: Builder) -> None:
-    holder = build(HOLDER).instance("Holder")
-    holder["All[2].Data"] = [9] * 8
-    holder["All[2].Data"] = b"\x01\x02"
-    assert holder["All[2].Data"] == [1, 2, 9, 9, 9, 9, 9, 9]
-
-
 def test_state_has_every_scalar_in_the_order_of_declaration(build: Builder) -> None:
     state = build(HOLDER).instance("Holder").state()
     names = list(state)
@@ -252,24 +245,6 @@ def test_state_has_every_scalar_in_the_order_of_declaration(build: Builder) -> N
     assert "ENO" not in state
     assert len(state) == 17 + 2 + 9 + 3 + 2 + 3 * (1 + 8 + 1 + 1) + 2
     assert all(type(state[name]) is kind for name, kind in (("BIT", bool), ("B", int), ("R", float), ("TEXT", bytes)))
-
-
-def test_state_agrees_with_every_path(build: Builder) -> None:
-    holder = build(HOLDER).instance("Holder")
-    for path, value in EXTREMES:
-        holder[path] = value
-    holder.scan(0)
-    state = holder.state()
-    assert state == {path: holder[path] for path in state}
-
-
-def test_instances_are_apart(build: Builder) -> None:
-    library = build(HOLDER)
-    first, second = library.instance("Holder"), library.instance("Holder")
-    first["B"] = 5
-    first.scan(0)
-    assert (first["Scans"], second["Scans"]) == (8, 7)
-    assert (first["All[2].Data[3]"], second["All[2].Data[3]"]) == (5, 0)
 
 
 def test_nested_instances_and_in_outs(build: Builder) -> None:
@@ -365,29 +340,6 @@ def test_division_by_zero_ends_the_scan_and_not_the_process(build: Builder) -> N
     divider["Divisor"] = 4
     divider.scan(1)
     assert divider["Quotient"] == 25
-
-
-def test_declaration_order_wins_over_memory_order(build: Builder) -> None:
-    library = build(
-        """FUNCTION_BLOCK Mixed
-  VAR
-    Inside : STRING := 'in';
-  END_VAR
-  VAR_INPUT
-    First : INT := 1;
-  END_VAR
-  VAR
-    Later : TIME := T#3ms;
-  END_VAR
-  VAR_OUTPUT
-    Last : INT := 4;
-  END_VAR
-  Last := First;
-END_FUNCTION_BLOCK
-"""
-    )
-    mixed = library.instance("Mixed")
-    assert list(mixed.state().items()) == [("INSIDE", b"in"), ("FIRST", 1), ("LATER", 3_000_000), ("LAST", 4)]
 
 
 def test_names_that_c_has_for_signals(build: Builder) -> None:

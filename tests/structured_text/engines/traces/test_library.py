@@ -2,28 +2,22 @@
 
 import functools
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
 from tests.blocks.compare.pou import Pou, shipped
-from tests.structured_text.engines.traces import library
 from tests.structured_text.engines.traces.library import (
     AGAIN,
     Record,
     folders,
     head_of,
-    path_of,
     read,
     replayed,
     same,
-    scans,
     states,
 )
 
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Library
-
-LARGEST_BYTES = 300_000
 
 
 @functools.cache
@@ -49,13 +43,6 @@ def test_the_record_is_of_the_blocks_as_they_are(folder: str) -> None:
     assert stale == [], AGAIN + ", ".join(stale)
 
 
-def test_a_changed_block_makes_its_record_stale() -> None:
-    """Another text, other inputs, or another name: each is reported by name."""
-    first, second, third, *rest = _pous("jscc")
-    changed = [replace(first, digest="0"), replace(second, whole=(7,)), replace(third, name="JSCC_New"), *rest]
-    assert _stale("jscc", changed) == [first.name, second.name, "JSCC_New", third.name]
-
-
 @pytest.mark.parametrize("folder", folders())
 def test_the_embedded_engine_replays_the_library(folder: str) -> None:
     """Every variable after every scan, but the copies of in-outs that only matiec keeps."""
@@ -74,23 +61,3 @@ def _unlike(pou: Pou, record: Record, compiled: Library) -> Iterator[str]:
         if paths:
             yield f"{pou.name}, scan {number}: {[(path, after[path], wanted[path]) for path in paths]}"
             return
-
-
-def test_a_changed_record_is_seen() -> None:
-    """One output of one scan recorded otherwise."""
-    pou = shipped().pous["MB_Lrc"]
-    record = read("modbus")["MB_Lrc"]
-    compiled = _compiled()
-    at = next(number for number, changes in enumerate(record.changes) if changes.get("LRC"))
-    changed = {**record.changes[at], "LRC": 257}
-    wrong = Record(record.head, (*record.changes[:at], changed, *record.changes[at + 1 :]))
-    (told,) = _unlike(pou, wrong, compiled)
-    assert told.startswith(f"MB_Lrc, scan {at}: [('LRC', ")
-
-
-def test_the_folder_holds_the_library_and_is_small() -> None:
-    """No record of a folder that is gone."""
-    files = sorted(library.FOLDER.glob("*.gz"))
-    assert files == [path_of(folder) for folder in folders()]
-    assert sum(path.stat().st_size for path in files) < LARGEST_BYTES
-    assert all(scans(pou) < 1000 for pou in shipped().pous.values())

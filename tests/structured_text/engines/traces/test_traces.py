@@ -1,12 +1,11 @@
 """The embedded engine replays what matiec was recorded to do: a machine without matiec still tests against it."""
 
 import math
-from pathlib import Path
 
 import pytest
 from tests.structured_text.engines.compare.cases import Case, load_cases
 from tests.structured_text.engines.compare.lockstep import ABSENT, State, alike, states
-from tests.structured_text.engines.traces.trace import FOLDER, SEED, Trace, path_of, read, write
+from tests.structured_text.engines.traces.trace import SEED, path_of, read
 
 from structured_text.engines.embedded import EmbeddedEngine
 from structured_text.engines.engine import Engine, Value
@@ -14,7 +13,6 @@ from structured_text.engines.engine import Engine, Value
 CASES = load_cases()
 # Two steps of a single-precision number: what one library may round differently from another.
 TOLERANCE = 2.5e-7
-LARGEST_BYTES = 1_000_000
 
 
 @pytest.fixture(params=CASES, name="case")
@@ -52,28 +50,8 @@ def _same(from_library: bool, found: Value, recorded: Value) -> bool:
     return alike(found, recorded)
 
 
-def test_a_trace_is_read_as_it_was_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Values of every kind come back to the bit, and an equal trace leaves the file alone."""
-    monkeypatch.setattr("tests.structured_text.engines.traces.trace.FOLDER", tmp_path)
-    kinds: State = {"B": True, "N": -5, "R": 0.1, "Z": -0.0, "I": math.inf, "X": math.nan, "S": b"a\xff'\n"}
-    trace = Trace("kinds", 3, ("matiec-beremiz",), (kinds, {**kinds, "N": 6}))
-    assert write(trace)
-    back = read(path_of("kinds"))
-    assert [each.keys() for each in back.states] == [kinds.keys()] * 2
-    assert all(alike(value, back.states[0][path]) for path, value in kinds.items())
-    assert back.states[1]["N"] == 6
-    assert not write(back)
-
-
 def test_every_case_has_its_trace_and_no_other(case: Case) -> None:
     """The record has as many scans as the corpus asks for, from both lines."""
     trace = read(path_of(case.name))
     assert (trace.case, trace.seed, len(trace.states)) == (case.name, SEED, case.trace)
     assert trace.engines == ("matiec-beremiz", "matiec-openplc")
-
-
-def test_the_folder_holds_what_the_corpus_asks_for() -> None:
-    """No trace of a block that is gone, and small enough to be kept in the repository."""
-    files = sorted(FOLDER.glob("*.gz"))
-    assert {path.name for path in files} == {path_of(name).name for name in CASES}
-    assert sum(path.stat().st_size for path in files) < LARGEST_BYTES
