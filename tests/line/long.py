@@ -1,8 +1,7 @@
 """The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]` (`make line`).
 
-Random lines of every kind around each line of matiec, every planted mistake found, 10^5 scans of walks with the full
-state of every engine compared, refresh beside its formulas. `--page` writes the table of
-docs/measured/line.md. Exit status 1 if anything is not as it must be.
+Random lines of every kind around each line of matiec, every planted mistake found, refresh beside its formulas.
+`--page` writes the table of docs/measured/line.md. Exit status 1 if anything is not as it must be.
 """
 
 import argparse
@@ -14,17 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests import measured
-from tests.blocks.compare.comparison import beside
 from tests.blocks.toolchains import FOUND
-from tests.drives import test_engines
-from tests.drives.walk import walk as drive_walk
 from tests.line import refresh
 from tests.line.cline import WHY_NOT, CLine, Ran, build
 from tests.line.planted import PLANTED, Planted
-from tests.line.test_engines import twins
-from tests.line.walk import walk
 
-from structured_text.engines.discovery import MATIEC_NAMES, survey
+from structured_text.engines.discovery import survey
 from structured_text.engines.matiec.installation import Installation
 
 PAGE = Path(__file__).parents[2] / "docs" / "measured" / "line.md"
@@ -32,9 +26,6 @@ KINDS = {"stops": 1.0, "timing": 0.35, "task": 0.35, "late": 0.1, "broken": 0.1,
 """Kinds of random lines, and how many of each for one of the first."""
 OTHERS = 0.2
 """How many lines run on another line of matiec, and with 32 slots, for one on the first."""
-WALKS, SCANS = 100, 1000
-DRIVE_WALKS = 60
-"""Twice each station of tests/drives/station.py, and some more of the families."""
 JITTER = 10
 COSTS = 10
 """Runs that a cost is the least of."""
@@ -106,7 +97,7 @@ def main() -> int:
 
 
 def _all(job: Job) -> Iterator[Row | list[str]]:
-    for part in (refreshed, bus, cost, randoms, planted, sanitized, engines):
+    for part in (refreshed, bus, cost, randoms, planted, sanitized):
         yield from part(job)
 
 
@@ -203,7 +194,7 @@ def _name(tool: Installation) -> str:
     return next((each.name for each in engines if each is not None), str(tool.iec2c))
 
 
-# ---------------------------------------------------------------- random lines, planted mistakes, engines
+# ---------------------------------------------------------------- random lines, planted mistakes
 
 SUMS = (
     "{stops:.0f} stops: {lost_stops:.0f} lost, {late_stops:.0f} late, {broken_stops:.0f} late by a broken promise",
@@ -252,19 +243,6 @@ def sanitized(job: Job) -> Iterator[Row]:
         ran = [line.random(job.first, max(10, job.runs // 500), kind) for kind in KINDS]
         scans = sum(each["scans"] for each in ran)
         yield Row(f"{scans:.0f} scans under the sanitizers, {_name(tool)}", "nothing found")
-
-
-def engines(_: Job) -> Iterator[Row]:
-    """10^5 scans of walks, the full state of both lines of matiec and of the embedded engine after each."""
-    found = {each.name: each.engine for each in survey().candidates() if each.name in MATIEC_NAMES and each.engine}
-    every = {**beside(next(iter(found.values()))), **found}
-    for seed in range(WALKS):
-        walk(seed, SCANS, twins(every))
-    yield Row(f"{WALKS * SCANS} scans of walks on {', '.join(every)}", "one state after each")
-    stations = test_engines.twins(every, every=1)
-    for seed in range(DRIVE_WALKS):
-        drive_walk(seed, stations)
-    yield Row(f"{DRIVE_WALKS} walks of drive blocks on {', '.join(every)}", "one state after each scan")
 
 
 if __name__ == "__main__":

@@ -81,12 +81,6 @@ def test_sizes(line: CLine) -> None:
     assert sizes["line_bytes"] + 24 * (sizes["slot_bytes"] + track) <= 32 * 258 + 1376
 
 
-@NEEDS
-def test_an_unknown_key_is_refused(line: CLine) -> None:
-    with pytest.raises(ValueError, match="unknown: speed=1"):
-        line.run("run", speed=1)
-
-
 @pytest.mark.parametrize("planted", PLANTED, ids=lambda planted: planted.name)
 def test_planted_mistakes_have_their_place(planted: Planted) -> None:
     """So that the long form, which builds each of them, does not look for what is no longer there."""

@@ -6,76 +6,7 @@ from itertools import pairwise
 
 import pytest
 from tests.line.drives import counted
-from tests.line.vline import COMMAND, PARAMETER, Bench, Config
-
-
-def test_a_drive_is_dead_after_a_time_and_a_count() -> None:
-    bench = Bench().ready()
-    bench.drives[1].alive = False
-    bench.run(500)
-    assert bench.slot(1, "Online")
-    bench.run(1500)
-    assert not bench.slot(1, "Online")
-    bench.command(1)
-    bench.scan()
-    assert bench.answer(1, COMMAND) == "OFFLINE"
-
-
-def test_probes_come_with_growing_pauses() -> None:
-    bench = Bench()
-    bench.drives[1].alive = False
-    bench.run(40_000)
-    times = [each.ms for each in bench.sent if each.unit == 2]
-    pauses = [round((later - before) / 1000) for before, later in pairwise(times)]
-    assert pauses[:3] == [1, 2, 4]
-    assert set(pauses[3:]) == {8}
-
-
-def test_a_drive_comes_back_after_several_good_replies() -> None:
-    bench = Bench()
-    bench.drives[1].alive = False
-    bench.run(3000)
-    bench.drives[1].alive = True
-    bench.drives[1].reads = 0
-    while not bench.slot(1, "Online"):
-        bench.scan()
-    assert bench.drives[1].reads in (3, 4), "the fourth is on its way"
-
-
-def test_the_others_lose_less_than_two_percent() -> None:
-    def refresh(dead: int) -> float:
-        bench = Bench(Config(drives=7))
-        for drive in bench.drives[:dead]:
-            drive.alive = False
-        bench.run(20_000)
-        before = bench.slot(6, "Fresh")
-        bench.run(20_000)
-        return 20_000 / (bench.slot(6, "Fresh") - before)
-
-    assert refresh(1) < refresh(0) * 6 / 7 * 1.02
-
-
-def test_one_unanswered_probe_per_round() -> None:
-    bench = Bench(Config(drives=8))
-    for drive in bench.drives[:5]:
-        drive.alive = False
-    bench.run(5000)
-    dead = [each.unit <= 5 for each in bench.sent[20:]]
-    assert not any(one and other for one, other in pairwise(dead))
-
-
-def test_a_stalled_scan_does_not_hold_up_the_stops_of_a_dead_drive() -> None:
-    bench = Bench(Config(drives=1))
-    bench.drives[0].alive = False
-    bench.run(3000)
-    bench.stop(0)
-    before = len(bench.sent)
-    while len(bench.sent) == before:
-        bench.scan()
-    bench.scan(900_000)
-    bench.run(4000)
-    stops = [each.ms for each in bench.sent[before:] if each.stop]
-    assert max(later - first for first, later in pairwise(stops)) < 2000
+from tests.line.vline import PARAMETER, Bench, Config
 
 
 def test_a_new_address_is_a_new_drive() -> None:

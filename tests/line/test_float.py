@@ -5,7 +5,6 @@ from struct import pack, unpack
 
 from tests.blocks.library import sources
 
-from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Source
 
 PROGRAM = """PROGRAM T_Float
@@ -47,17 +46,3 @@ def test_every_exponent_and_sign_gives_the_number_of_the_standard(engine: Engine
             if program["Value"] != expected(high, low):
                 wrong.append((hex(high), hex(low), program["Value"], expected(high, low)))
     assert wrong == []
-
-
-def test_its_loops_are_those_of_its_head() -> None:
-    """The most turns are those of the number nearest to 0; the other loop has 104 for the largest."""
-    for high, turns in ((0x0080, 149), (0x7F00, 104), (0x4B00, 0)):
-        counted = EmbeddedEngine(coverage=True).build(texts())
-        program = counted.instance("T_Float")
-        program["High"] = high
-        program.scan()
-        path = next(path for path in counted.coverage() if path.endswith("/MB_Float.st"))
-        lines = texts()[0].text.splitlines()
-        hits = counted.coverage()[path]
-        assert sum(hits[line] for line, text in enumerate(lines, 1) if "Size := Size *" in text) == turns
-    assert "149 at most" in texts()[0].text

@@ -75,76 +75,6 @@ def test_only_what_starts_a_motor_or_resets_its_fault_is_kept_back(kind: str) ->
     assert bench.answer(0, COMMAND) == ("OK" if kind == "a reference" else "FOREIGN")
 
 
-@pytest.mark.parametrize("how", ["the pin", "a long scan"])
-def test_a_restart_forgets_them(how: str) -> None:
-    bench = quiet()
-    for _ in range(6):
-        strange(bench)
-    assert bench["ErrorID"] == 54
-    if how == "the pin":
-        bench.set(Restart=True)
-        bench.scan()
-        bench.set(Restart=False)
-    else:
-        bench.scan(took=1_100_000)
-    bench.run(1000)
-    assert (bench["ErrorID"], bench["ForeignFrames"]) == (0, 0)
-    assert passes(bench)
-    for _ in range(6):
-        strange(bench)
-    assert not passes(bench)
-
-
-def test_a_restart_by_its_pin_forgets_late_scans() -> None:
-    bench = quiet()
-    bench.scan(took=200_000)
-    assert bench["Slots[0].ScanLate"]
-    bench.set(Restart=True)
-    bench.scan()
-    assert not bench["Slots[0].ScanLate"]
-
-
-def test_five_in_ten_seconds_for_minutes_stop_nobody() -> None:
-    bench = quiet()
-    for _ in range(30):
-        strange(bench)
-        bench.run(2100)
-        assert bench["ErrorID"] == 0
-
-
-def test_it_clears_by_a_person_and_needs_half_a_minute_with_few_of_them() -> None:
-    bench = quiet()
-    for _ in range(6):
-        strange(bench)
-    for _ in range(10):
-        bench.run(4000)
-        strange(bench)
-    assert not passes(bench), "ten in forty seconds are more than five in thirty"
-    bench.set(Acknowledge=True)
-    assert passes(bench)
-    assert bench["ForeignFrames"] == 0
-
-
-def test_a_copy_of_the_last_reply_is_none() -> None:
-    bench = quiet()
-    for _ in range(20):
-        bench.run(200)
-        reads = idle(bench).drives[0].reads
-        strange(bench, bytes([1, 3, 12]) + reads.to_bytes(2, "big") * 6)
-    assert bench["ForeignFrames"] == 0
-    strange(bench, bytes([1, 3, 12]) + bytes(12))
-    assert bench["ForeignFrames"] == 1
-
-
-@pytest.mark.parametrize("drives", [1, 3])
-@pytest.mark.parametrize("ascii_", [False, True])
-def test_one_reply_in_a_hundred_comes_twice(drives: int, ascii_: bool) -> None:
-    bench = Bench(Config(drives=drives, duplicate=1000, ascii=ascii_), seed=5).ready()
-    for _ in range(6000):
-        bench.scan()
-        assert bench["ErrorID"] == 0
-
-
 def test_each_request_accounts_for_one_late_reply() -> None:
     """Two stops stay unanswered, since a stop waits for nobody; both replies come late."""
     bench = Bench(Config(drives=2, longest_ms=400)).ready()
@@ -163,13 +93,6 @@ def test_each_request_accounts_for_one_late_reply() -> None:
     assert min(heard) >= 2
     assert bench["ForeignFrames"] == 0
     assert bench["LateReplies"] >= 1
-
-
-def test_damaged_frames_are_none() -> None:
-    bench = Bench(Config(drives=1, garble=20_000), seed=3).ready()
-    bench.run(20_000)
-    assert bench["Bad"] > 50
-    assert bench["ForeignFrames"] == 0
 
 
 @pytest.mark.parametrize(("slots", "error"), [("Slots", 56), ("Others", 0)])

@@ -42,26 +42,6 @@ def test_from_a_cut_cable_to_the_contact(config: Config, held: bool, echo: bool,
     assert stated <= (2500 if config.drives == 1 else 4000)
 
 
-def test_before_reply_times_are_learned_it_takes_longer() -> None:
-    took, stated = cut(Config(drives=8, turn_ms=500, longest_ms=500, turn_high=20_000), held=True)
-    assert 2500 < took <= stated
-
-
-@pytest.mark.parametrize("echo", [False, True])
-def test_one_of_eight_that_is_cut_off_is_overdue_in_four_seconds(echo: bool) -> None:
-    """A port that echoes answers for nobody."""
-    bench = Bench(replace(EIGHT, echo=echo)).ready()
-    bench.drives[3].alive = False
-    began = bench.now
-    while bench.slot(3, "Online"):
-        bench.scan()
-    bench.stop(3)
-    while not bench.slot(3, "StopOverdue"):
-        bench.scan()
-    assert bench.now - began < 4_000_000
-    assert not any(bench.slot(slot, "StopOverdue") for slot in range(8) if slot != 3)
-
-
 def test_the_stop_of_a_drive_that_has_just_died_rests_for_no_other() -> None:
     """One that never answered takes half a second for each attempt, and the others three times as long after it."""
     bench = Bench(replace(LEARNED, drives=3))
@@ -77,22 +57,6 @@ def test_the_stop_of_a_drive_that_has_just_died_rests_for_no_other() -> None:
     while not bench.slot(1, "StopOverdue"):
         bench.scan()
     assert bench.now - began < 1_500_000
-
-
-def test_three_unanswered_requests_to_a_drive_that_is_read_rarely_come_at_once() -> None:
-    """At the first of them its silence is long enough already."""
-    bench = Bench(replace(LEARNED, drives=3))
-    bench.put(1, PollEveryMs=1500)
-    bench.ready().run(6000)
-    asked = len(bench.drives[1].heard)
-    while len(bench.drives[1].heard) == asked:
-        bench.scan()
-    bench.drives[1].alive = False
-    began = bench.now
-    while bench.slot(1, "Online"):
-        bench.scan()
-    assert bench.now - began < 1_500_000 + 3 * 500_000
-    assert [sent.unit for sent in bench.sent].count(2) == asked + 4
 
 
 @pytest.mark.parametrize("cut_off", [3, 5, 7])
@@ -126,34 +90,6 @@ def test_one_lost_reply_beside_a_drive_that_has_just_died_is_no_silent_line() ->
     assert not bench.slot(0, "Online")
 
 
-def test_never_before_the_longest_reply() -> None:
-    bench = Bench(Config(drives=1, longest_ms=5000)).ready()
-    bench.drives[0].alive = False
-    bench.stop(0)
-    bench.run(4900)
-    assert not bench["StopOverdue"]
-    bench.run(300)
-    assert bench["StopOverdue"]
-
-
-@pytest.mark.parametrize("stops", [60, pytest.param(1000, marks=pytest.mark.long)])
-def test_a_port_that_stalls_opens_no_contact(stops: int) -> None:
-    """It says that it has taken frames, and sends none for 300 ms."""
-    bench = Bench(Config(drives=2)).ready()
-    for _ in range(stops):
-        bench.stop(1)
-        for drive in bench.drives:
-            drive.alive = False
-        for _ in range(30):
-            bench.scan()
-            assert not bench["StopOverdue"]
-        for drive in bench.drives:
-            drive.alive = True
-        while not bench.answer(1, STOP):
-            bench.scan()
-            assert not bench["StopOverdue"]
-
-
 def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> None:
     """It refuses its stop for 2.2 s, and each fifth refusal is lost; then it obeys."""
     bench = Bench(EIGHT).ready()
@@ -181,34 +117,6 @@ def test_a_busy_drive_has_time_and_what_is_lost_meanwhile_does_not_count() -> No
     assert not bench.slot(2, "StopOverdue")
 
 
-def test_a_repetition_that_a_busy_drive_refuses_in_a_long_ramp_is_no_alarm() -> None:
-    """Its first stop was acknowledged four seconds ago; time counts from the first attempt of the repetition."""
-    bench = Bench(EIGHT).ready()
-    bench.put(2, BusyReason=6, StopWithinMs=9000)
-    bench.stop(2)
-    bench.run(4000)
-    assert bench.answer(2, STOP) == "OK"
-    began = bench.now
-    bench.drives[2].answer = lambda each: counted(each, 1) if each[1] != 6 else bytes([each[0], each[1] + 0x80, 6])
-    bench.put(2, StopAgain=True)
-    bench.stop(2)
-    while bench.now - began < 2_200_000:
-        bench.scan()
-        assert not bench.slot(2, "StopOverdue"), f"after {(bench.now - began) // 1000} ms"
-
-
-def test_a_drive_that_stays_busy_opens_the_contact() -> None:
-    bench = Bench(EIGHT).ready()
-    bench.put(2, BusyReason=6, StopWithinMs=0)
-    bench.drives[2].answer = lambda each: counted(each, 1) if each[1] != 6 else bytes([each[0], each[1] + 0x80, 6])
-    bench.stop(2)
-    began = bench.now
-    while not bench.slot(2, "StopOverdue"):
-        bench.scan()
-        assert bench.now - began < 3_000_000
-    assert bench.now - began > 2_500_000
-
-
 def test_silent_units_get_one_attempt_each_before_retries() -> None:
     bench = Bench(Config(drives=4)).ready()
     for drive in bench.drives[:3]:
@@ -221,16 +129,6 @@ def test_silent_units_get_one_attempt_each_before_retries() -> None:
     assert sorted(sent[:3]) == sorted(sent[3:6]) == [1, 2, 3]
     bench.stop(3)
     assert next(each for each in bench.run(60) if each.stop).unit == 4, "a new stop passes between"
-
-
-def test_new_numbers_do_not_hide_that_nobody_answers() -> None:
-    """A pin that flickers posts a stop in every scan."""
-    bench = Bench(Config(drives=2)).ready()
-    bench.drives[0].alive = False
-    for _ in range(400):
-        bench.stop(0)
-        bench.scan()
-    assert bench.slot(0, "StopOverdue")
 
 
 @pytest.mark.parametrize("still", [False, True])
@@ -258,44 +156,6 @@ def test_proof_outlives_silence(still: bool) -> None:
     while not bench["StopOverdue"]:
         bench.scan()
         assert bench.slot(1, "Online"), "it answers, but not its stop"
-
-
-def test_a_tripped_drive_owes_no_standstill_while_that_is_fresh() -> None:
-    bench = Bench().ready()
-    bench.put(1, StopWithinMs=800)
-    bench.stop(1)
-    bench.run(400)
-    bench.put(1, Tripped=True)
-    bench.run(10_000)
-    assert not bench["StopOverdue"]
-    bench.put(1, Tripped=False)
-    bench.run(700)
-    assert not bench["StopOverdue"], "it counts anew"
-    bench.run(200)
-    assert bench["StopOverdue"]
-
-
-def test_what_stays_unanswered_while_it_boots_counts_anew_then() -> None:
-    bench = Bench(Config(drives=1))
-    bench.put(0, BootMs=3000)
-    bench.drives[0].alive = False
-    bench.stop(0)
-    bench.run(2500)
-    bench.drives[0].alive = True
-    for _ in range(100):
-        bench.scan()
-        assert not bench["StopOverdue"], "the first reply ends it, and says no evil"
-
-
-def test_without_supply_an_answering_drive_that_falls_silent_is_no_alarm() -> None:
-    bench = Bench().ready()
-    bench.put(1, SupplyOff=True, StopWithinMs=300)
-    bench.drives[1].alive = False
-    bench.run(60)
-    bench.stop(1)
-    for _ in range(500):
-        bench.scan()
-        assert not bench["StopOverdue"]
 
 
 @pytest.mark.parametrize("how", ["dark", "boots"])

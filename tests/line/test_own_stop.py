@@ -1,10 +1,8 @@
 """Stops that the line sends by itself: its own copy, one stop after the other, again until the drive block is back."""
 
-from itertools import pairwise
-
 import pytest
 from tests.line.drives import counted
-from tests.line.vline import NAMES, STOP, Bench, Config, Sent
+from tests.line.vline import NAMES, STOP, Bench, Sent
 
 PLAIN, JOG, COAST = 0x0005, 0x0008, 0x0006
 """Words of stops; all go to the register of the drives' kind."""
@@ -43,20 +41,6 @@ def test_the_stop_of_the_last_order_is_sent_first_then_the_other(jog_stop: int, 
     assert found == (order * len(found))[: len(found)]
 
 
-def test_the_first_is_sent_within_worst_stop_and_the_other_within_half_a_second() -> None:
-    bench = Bench(Config(drives=7)).ready()
-    for slot in range(7):
-        bench.put(slot, JogStopRegister=bench.kind.stop_address, JogStopWord=JOG, JogStop=1)
-    bench.run(100)
-    begun = bench.now / 1000
-    bench.set(StopAll=True)
-    sent = bench.run(3000)
-    for unit in range(1, 8):
-        first, other = (each.ms - begun for each in sent if each.unit == unit and not each.read)
-        assert first <= bench["WorstStopMs"]
-        assert other <= bench["WorstStopMs"] + 500
-
-
 def test_another_block_cannot_change_the_copy() -> None:
     """It writes its stop, its words and its address in the scan in which it begins; only the next call knows of it."""
     bench = copied()
@@ -85,26 +69,6 @@ def test_another_block_with_the_same_address_cannot_change_the_copy_either() -> 
     bench._alive[1] += 1
     bench.put(1, Shared=True)
     assert words(bench.run(1200))[:4] == [PLAIN, JOG] * 2
-
-
-@pytest.mark.parametrize("why", ["StopConfirmed", "EndsByAnswer", "SupplyOff"])
-def test_a_new_address_is_taken_where_nothing_is_owed(why: str) -> None:
-    bench = copied(**{why: True})
-    bench.drives[1].unit = 9
-    bench.put(1, UnitAddress=9)
-    bench.run(700)
-    assert bench.slot(1, "Online")
-    assert not bench.slot(1, "StopOverdue")
-
-
-def test_no_address_at_all_does_not_end_what_is_owed() -> None:
-    bench = copied()
-    bench.put(1, UnitAddress=0)
-    assert words(bench.run(1200))[:4] == [PLAIN, JOG] * 2
-    bench.set(Restart=True)
-    bench.scan()
-    bench.set(Restart=False)
-    assert not words(bench.run(1200)), "a restart begins anew"
 
 
 @pytest.mark.parametrize(("has_stop", "sent"), [(True, {COAST, JOG}), (False, {JOG})])
@@ -155,40 +119,6 @@ def test_each_field_that_changes_alone_is_copied(field: str, jogged: int) -> Non
     assert found[: len(stops)] == stops
 
 
-def test_a_jog_whose_stop_is_no_longer_needed_leaves_no_stop_of_another_drive() -> None:
-    """Its place is taken by a block with the same stop, and other words for a jog that it does not have to stop."""
-    bench = copied(jog_stop=1)
-    bench.put(1, JogStop=0)
-    bench.run(50)
-    bench.put(1, JogStopRegister=0x1007, JogStopWord=COAST)
-    bench.run(50)
-    bench.put(1, JogStop=2)
-    bench.run(50)
-    bench.attended.discard(1)
-    assert words(bench.run(3000))[:2] == [COAST, PLAIN]
-
-
-def test_the_refusal_of_the_other_is_no_failure() -> None:
-    bench = copied(StopWithinMs=0)
-    word = JOG.to_bytes(2, "big")
-    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
-    bench.attended.discard(1)
-    found = words(bench.run(4000))
-    assert found.count(JOG) >= 5
-    assert PLAIN in found[-2:], "both are sent by turns"
-    assert not bench["StopOverdue"]
-
-
-def test_the_other_is_sent_even_if_the_first_is_refused() -> None:
-    bench = copied()
-    word = PLAIN.to_bytes(2, "big")
-    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
-    bench.attended.discard(1)
-    found = words(bench.run(3000))
-    assert found.count(JOG) >= 5
-    assert bench.slot(1, "StopOverdue"), "the first is not acknowledged"
-
-
 def test_how_one_stop_has_failed_says_nothing_about_the_next() -> None:
     """Else a drive block takes the end of a jog for refused, when the stop before it was."""
     bench = copied()
@@ -205,56 +135,6 @@ def test_how_one_stop_has_failed_says_nothing_about_the_next() -> None:
     assert bench.slot(1, "Answer[0].ErrorID") == 0
     bench.run(100)
     assert NAMES[bench.slot(1, "Answer[0].ErrorID")] == "REFUSED"
-
-
-def test_the_refusal_of_a_stop_of_the_lines_own_is_none_of_the_blocks() -> None:
-    bench = copied()
-    bench.stop(1)
-    bench.run(1000)
-    word = JOG.to_bytes(2, "big")
-    bench.drives[1].answer = lambda frame: bytes([2, 0x86, 3]) if frame[4:6] == word else frame[:6]
-    bench.attended.discard(1)
-    assert words(bench.run(4000)).count(JOG) >= 3
-    assert bench.slot(1, "Answer[0].ErrorID") == 0
-
-
-def test_a_stop_whose_answer_ends_it_is_sent_once() -> None:
-    bench = copied(EndsByAnswer=True, StopWithinMs=500)
-    bench.attended.discard(1)
-    assert words(bench.run(5000)) == [PLAIN, JOG]
-    assert not bench["StopOverdue"]
-
-
-def test_without_its_block_a_stop_is_overdue_in_time() -> None:
-    bench = copied(StopWithinMs=2000, StopConfirmed=True, Tripped=True, ProvedStill=True)
-    bench.attended.discard(1)
-    bench.run(2900)
-    assert not bench["StopOverdue"]
-    bench.run(300)
-    assert bench["StopOverdue"], "what the block has said is worth nothing any more"
-    bench.attended.add(1)
-    bench.run(100)
-    assert not bench["StopOverdue"]
-    assert not words(bench.run(2000))
-
-
-def test_a_silent_drive_without_its_block_gets_its_stop_every_second() -> None:
-    bench = copied()
-    bench.attended.discard(1)
-    bench.drives[1].alive = False
-    bench.run(4000)
-    times = [each.ms for each in bench.run(10_000) if each.stop]
-    assert max(later - before for before, later in pairwise(times)) < 1150
-    assert bench.slot(1, "StopOverdue")
-
-
-def test_a_new_stop_of_the_block_takes_the_place_of_the_lines_own() -> None:
-    bench = copied()
-    bench.set(StopAll=True)
-    bench.fill(1, STOP, 6, bench.kind.stop_address, word=COAST)
-    bench.stop(1)
-    assert words(bench.run(1000)) == [COAST]
-    assert bench.answer(1, STOP) == "OK"
 
 
 def test_a_unit_that_nobody_attends_is_stopped_when_its_supply_returns() -> None:

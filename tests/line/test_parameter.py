@@ -78,8 +78,6 @@ END_VAR
 END_FUNCTION_BLOCK
 """
 PAGE = (Path(__file__).parents[2] / "docs" / "parameters.md").read_text(encoding="utf-8")
-WRITABLE = {"JSCC": 0x0012, "CHF": 0x8007, "PF4": 0x0027, "SN300G5": 0x0200}
-"""A register of each family that a ladder user may write."""
 ASKING = {"Get1": {"Address": 0x0200}, "Put1": {"Address": 0x0200}, "Keep": {}}
 """One block of each kind, and a request that passes for SN300G5."""
 
@@ -158,41 +156,6 @@ class Scene(Bench):
 # ---------------------------------------------------------------- what passes
 
 
-@pytest.mark.parametrize("prefix", sorted(WRITABLE.keys() - {"PF4"}))  # which reads one
-def test_up_to_four_registers_are_read(prefix: str) -> None:
-    scene = Scene(prefix)
-    address = 0x0200 if prefix == "SN300G5" else 0x0012
-    assert scene.done("Get1", Address=address, Quantity=4) == "OK"
-    names = ("Value", "Value2", "Value3", "Value4")
-    assert [scene[f"Get1.{name}"] for name in names] == [address, address + 1, address + 2, address + 3]
-    assert scene.done("Get2", Quantity=5) == scene.done("Put1", Quantity=4) == "QUANTITY"
-
-
-@pytest.mark.parametrize(
-    ("prefix", "frame"),
-    [("JSCC", "06 0012 0064"), ("CHF", "06 8007 0064"), ("SN300G5", "10 0200 0001 02 0064")],
-)
-def test_a_write_has_the_form_that_the_family_knows(prefix: str, frame: str) -> None:
-    scene = Scene(prefix)
-    assert scene.done("Put1", Address=WRITABLE[prefix], Value=0x64) == "OK"
-    assert scene.written() == [bytes.fromhex(frame)]
-
-
-def test_several_registers_go_in_one_write() -> None:
-    scene = Scene("SN300G5")
-    assert scene.done("Put2", Address=0x0200, Quantity=3, Value=1, Value2=2, Value3=3) == "OK"
-    assert scene.written() == [bytes.fromhex("10 0200 0003 06 0001 0002 0003")]
-
-
-def test_the_pins_count_as_they_were_at_the_edge() -> None:
-    scene = Scene()
-    scene.execute("Put1", Address=0x0012, Value=1)
-    scene.scan()
-    scene.execute("Put1", Address=0x0013, Value=2)
-    scene.run(200)
-    assert scene.written() == [bytes.fromhex("06 0012 0001")]
-
-
 # ---------------------------------------------------------------- what does not pass
 
 
@@ -200,26 +163,10 @@ def test_the_pins_count_as_they_were_at_the_edge() -> None:
     ("prefix", "address", "why"),
     [
         ("JSCC", 0x1000, "OWNED"),
-        ("JSCC", 0x1001, "OWNED"),
-        ("JSCC", 0x2001, "NOT_WRITABLE"),
-        ("JSCC", 0x4000, "UNKNOWN_ADDRESS"),
-        ("CHF", 0x1000, "OWNED"),
-        ("CHF", 0x9000, "OWNED"),
-        ("CHF", 0x2000, "OWNED"),
-        ("CHF", 0xA000, "OWNED"),
         ("CHF", 0x9001, "NOT_WRITABLE"),
         ("CHF", 0x8200, "UNKNOWN_ADDRESS"),
-        ("GD200A", 0x8003, "LINE_SETTING"),
-        ("GD200A", 0xA000, "OWNED"),
-        ("ATV312", 0x0C20, "LINE_SETTING"),
-        ("MX2", 0x0901, "NOT_WRITABLE"),
-        ("SN300G5", 0x0000, "OWNED"),
-        ("SN300G5", 0x0001, "OWNED"),
         ("SN300G5", 0x0181, "LINE_SETTING"),
-        ("SN300G5", 0x041C, "LINE_SETTING"),
-        ("SN300G5", 0x0420, "LINE_SETTING"),
         ("SN300G5", 0xFFFD, "STORE_REGISTER"),
-        ("SN300G5", 0x0398, "UNKNOWN_ADDRESS"),
     ],
 )
 def test_what_no_ladder_user_writes(prefix: str, address: int, why: str) -> None:
@@ -230,49 +177,7 @@ def test_what_no_ladder_user_writes(prefix: str, address: int, why: str) -> None
     assert len(scene.written()) == (why == "UNKNOWN_ADDRESS")
 
 
-@pytest.mark.parametrize(
-    ("address", "quantity", "why"),
-    [
-        (0x0FFF, 2, "OWNED"),
-        (0x0FFE, 3, "OWNED"),
-        (0x0FFE, 2, "OK"),
-        (0xFFFE, 3, "WRAP"),
-        (0x00FF, 2, "OK"),
-    ],
-)
-def test_every_register_of_a_write_is_judged(address: int, quantity: int, why: str) -> None:
-    scene = Scene("JSCC")
-    assert scene.done("Put1", 200, Address=address, Quantity=quantity, AllowUnknown=True) == why
-
-
-def test_a_family_without_function_10h_writes_one_register() -> None:
-    scene = Scene("CHF")
-    assert scene.done("Put1", Address=0x8007, Quantity=2) == "QUANTITY"
-
-
-@pytest.mark.parametrize(
-    ("value", "why"), [(727, "RANGE"), (726, "OK"), (0x10000 - 726, "OK"), (0x10000 - 727, "RANGE")]
-)
-def test_a_value_stays_in_its_range(value: int, why: str) -> None:
-    scene = Scene("SN300G5")
-    assert scene.done("Put1", Address=0x0007, Value=value) == why
-
-
-def test_what_is_not_listed_is_read_only_with_allow_unknown() -> None:
-    scene = Scene("CHF")
-    assert scene.done("Get1", Address=0x4000) == "NOT_READABLE"
-    assert scene.done("Get2", Address=0x4000, AllowUnknown=True) == "OK"
-
-
 # ---------------------------------------------------------------- only while the motor is at standstill
-
-
-def test_nothing_is_written_while_the_motor_may_move() -> None:
-    scene = Scene()
-    scene.block["Drive.StopConfirmed"] = False
-    assert scene.done("Put1", Address=0x0012) == "NOT_STOPPED"
-    assert scene.done("Get1", Address=0x0012) == "OK"
-    assert scene.written() == []
 
 
 @pytest.mark.parametrize("scans", range(1, 5))
@@ -292,39 +197,10 @@ def test_it_is_looked_at_again_when_it_is_sent(scans: int) -> None:
     assert not scene["Drive.WriteWaits"]
 
 
-def test_no_second_attempt_once_the_motor_moves() -> None:
-    scene = Scene()
-    scene.silent = True
-    scene.execute("Put1", Address=0x0012)
-    while not scene.written():
-        scene.scan()
-    scene.block["Drive.StopConfirmed"] = False
-    scene.run(300)
-    assert len(scene.written()) == 1
-    assert scene.result("Put1") == "NOT_STOPPED"
-
-
-def test_the_drive_block_knows_that_a_write_waits() -> None:
-    scene = Scene()
-    scene.execute("Put1", Address=0x0012)
-    waits = []
-    while not scene.result("Put1"):
-        scene.scan()
-        waits.append(scene["Drive.WriteWaits"])
-    first, last = waits.index(True), len(waits) - 1 - waits[::-1].index(True)
-    assert all(waits[first : last + 1])
-    assert first <= 3
-    assert not scene["Drive.WriteWaits"]
-    scene.execute("Get1", Address=0x0012)
-    while not scene.result("Get1"):
-        scene.scan()
-        assert not scene["Drive.WriteWaits"], "a read hinders no start"
-
-
 # ---------------------------------------------------------------- several at once
 
 
-@pytest.mark.parametrize("apart", range(6))
+@pytest.mark.parametrize("apart", [0, 3, 5])
 def test_no_answer_is_lost_or_taken_for_anothers(apart: int) -> None:
     """Reads that pass, reads and writes that are refused, writes: whoever comes when, each gets its own."""
     scene = Scene("SN300G5")
@@ -368,15 +244,7 @@ def test_who_sleeps_through_its_answer_says_so(block: str) -> None:
     assert scene["Keep.Most"] == 0, "what is in the compartment is another's"
 
 
-def test_a_store_waits_for_its_turn() -> None:
-    scene = Scene("SN300G5").rested()
-    scene.execute("Put2", Address=0x0200)
-    scene.run(20)
-    assert scene.done("Keep") == scene.result("Put2") == "OK"
-    assert [each[1:3].hex() for each in scene.written()] == ["0200", "fffd"]
-
-
-@pytest.mark.parametrize("scans", range(20))
+@pytest.mark.parametrize("scans", range(0, 20, 3))
 def test_no_number_is_used_again_after_a_restart(scans: int) -> None:
     """Whatever was open then: a value is that of its own address, and what is Done was sent."""
     scene = Scene("SN300G5")
@@ -402,15 +270,8 @@ def test_no_number_is_used_again_after_a_restart(scans: int) -> None:
     assert "0202" in sent or said["Put2"] != "OK"
 
 
-def test_a_read_of_one_register_shows_no_other() -> None:
-    scene = Scene("SN300G5")
-    assert scene.done("Get1", Address=0x0200, Quantity=4) == "OK"
-    assert scene.done("Get2", Address=0x0280) == "OK"
-    assert [scene[f"Get2.Value{name}"] for name in ("", "2", "3", "4")] == [0x0280, 0, 0, 0]
-
-
 @pytest.mark.parametrize("block", ["Put1", "Put2"])
-@pytest.mark.parametrize("within", range(10, 90, 2))
+@pytest.mark.parametrize("within", range(10, 90, 8))
 def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -> None:
     """Not sent means not sent, also if the block is called after the drive block, which has let it pass."""
     scene = Scene("SN300G5")
@@ -428,118 +289,7 @@ def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -
 # ---------------------------------------------------------------- results
 
 
-@pytest.mark.parametrize("block", ASKING)
-def test_a_refusal_gives_the_drives_own_code(block: str) -> None:
-    scene = Scene("SN300G5").rested()
-    scene.refuses = 0x22
-    assert scene.done(block, **ASKING[block]) == "REFUSED"
-    assert scene[f"{block}.RefusedReason"] == 0x22
-    assert scene.slot(0, "Retries") == 0
-    scene.drop(block)
-    assert scene[f"{block}.RefusedReason"] == 0
-
-
-def test_a_result_lasts_while_execute_is_true_and_one_scan_at_least() -> None:
-    scene = Scene()
-    assert scene.done("Get1", Address=0x0012) == "OK"
-    scene.run(500)
-    assert scene.result("Get1") == "OK"
-    scene.drop("Get1")
-    assert scene.result("Get1") == ""
-    scene.execute("Put1", Address=0x0012)
-    scene.scan()
-    scene.drop("Put1")
-    results = []
-    for _ in range(40):
-        scene.scan()
-        results.append(scene.result("Put1"))
-    assert results.count("OK") == 1, "Execute was dropped before the answer"
-    assert len(scene.written()) == 1
-
-
-def test_an_edge_while_busy_begins_nothing() -> None:
-    scene = Scene()
-    scene.execute("Put1", Address=0x0012, Value=1)
-    scene.run(40)
-    scene.drop("Put1")
-    scene.execute("Put1", Value=2)
-    scene.run(300)
-    assert [each[-1] for each in scene.written()] == [1]
-    assert scene.result("Put1") == "OK", "of the first; so the page says to wait"
-    assert "An edge of `Execute` while `Busy` is TRUE is ignored" in PAGE
-
-
-@pytest.mark.parametrize("block", ASKING)
-def test_a_drive_block_that_is_not_called_lets_nothing_pass(block: str) -> None:
-    scene = Scene("SN300G5").rested()
-    scene.set(Called=False)
-    assert scene.done(block, 900, **ASKING[block], WithinMs=1000) == ""
-    scene.run(150)
-    assert scene.result(block) == "NOT_SENT"
-    scene.set(Called=True)
-    assert scene.done("Get2", Address=0x0200) == "OK", "the compartment is free again"
-    assert scene.written() == []
-
-
-@pytest.mark.parametrize("block", ASKING)
-def test_a_line_that_is_not_called(block: str) -> None:
-    scene = Scene("SN300G5").rested()
-    scene.set(Lined=False)
-    assert scene.done(block, 10_100, **ASKING[block]) == "NO_LINE"
-
-
-def test_a_write_may_have_arrived_before_the_line_is_called_no_more() -> None:
-    scene = Scene("SN300G5").rested()
-    scene.execute("Put1", Address=0x0200, Value=1)
-    while not scene.written():
-        scene.scan()
-    scene.set(Lined=False)
-    scene.run(10_100)
-    assert scene.result("Put1") == "NO_LINE"
-    (listed,) = re.findall(r"After `ErrorID` ([0-9, or]+) an\s+attempt may have reached the drive", PAGE)
-    assert str(scene["Put1.ErrorID"]) in re.findall("[0-9]+", listed)
-
-
-def test_a_drive_that_keeps_silent() -> None:
-    scene = Scene()
-    scene.silent = True
-    assert scene.done("Put1", Address=0x0012) == "SILENCE"
-    assert len(scene.written()) == 2, "ParameterRetries"
-    scene.drives[0].alive = False
-    scene.run(1500)
-    assert scene.done("Get1", Address=0x0012) == "OFFLINE"
-
-
-@pytest.mark.parametrize("block", ASKING)
-def test_what_is_given_up_after_an_attempt_may_have_arrived(block: str) -> None:
-    scene = Scene("SN300G5").rested()
-    scene.silent = True
-    before = len(scene.sent)
-    assert scene.done(block, 80, **ASKING[block], WithinMs=60) == "SILENCE"
-    scene.run(200)
-    asked = [each for each in scene.sent[before:] if each.pdu[2:4] != scene.kind.read_address.to_bytes(2, "big")]
-    assert len(asked) == 1, "there is no second attempt"
-
-
-@pytest.mark.parametrize(("function", "quantity"), [(3, 5), (3, 0), (6, 4), (6, 0), (16, 4)])
-def test_whoever_fills_the_compartment_is_judged(function: int, quantity: int) -> None:
-    scene = Scene("SN300G5")
-    scene.ask(0, PARAMETER, function, 0x0200, quantity=quantity)
-    scene.run(100)
-    assert NAMES[scene.slot(0, "Ask[2].Words[3]") >> 8] == "QUANTITY"
-    assert scene.answer(0, PARAMETER) == ""
-    assert scene.done("Get1", Address=0xFFFE, Quantity=3) == "WRAP"
-    assert scene.done("Put1", Quantity=4) == "QUANTITY"
-
-
 # ---------------------------------------------------------------- store
-
-
-def test_a_store_is_sent_by_its_own_block_alone() -> None:
-    scene = Scene("SN300G5").rested()
-    assert scene.done("Keep") == "OK"
-    assert scene.written() == [bytes.fromhex("10 FFFD 0001 02 0000")]
-    assert (scene["Stores"], scene["Keep.Most"], scene["Keep.Worn"]) == (1, 100_000, 0)
 
 
 def test_stores_are_apart_and_counted() -> None:
@@ -560,7 +310,7 @@ def test_stores_are_apart_and_counted() -> None:
     assert scene.done("Keep") == "OK"
 
 
-@pytest.mark.parametrize("apart", [0, 1, 3, 50])
+@pytest.mark.parametrize("apart", [0, 3])
 def test_two_blocks_store_in_one_drive_a_minute_apart(apart: int) -> None:
     scene = Scene("SN300G5").rested()
     scene.execute("Keep")
@@ -578,29 +328,6 @@ def test_two_blocks_store_in_one_drive_a_minute_apart(apart: int) -> None:
     scene.drop("Store2")
     scene.run(2000)
     assert scene.done("Store2") == "OK"
-
-
-@pytest.mark.parametrize("scans", range(12))
-def test_a_store_counts_only_its_own_attempts(scans: int) -> None:
-    """The line and the drive block restart meanwhile; another block's write is under way."""
-    scene = Scene("SN300G5").rested()
-    scene.execute("Put1", Address=0x0200, Value=7)
-    scene.execute("Keep")
-    for _ in range(scans):
-        scene.scan()
-    scene.scan(took=1_500_000)
-    scene.run(600)
-    stored = [each for each in scene.written() if each[1:3].hex() == "fffd"]
-    assert scene["Stores"] == len(stored)
-    assert (scene.result("Keep") == "OK") is (len(stored) == 1 and scene["Keep.ErrorID"] == 0)
-
-
-@pytest.mark.parametrize(("prefix", "stands", "why"), [("SN300G5", False, "NOT_STOPPED"), ("JSCC", True, "NOT_ABLE")])
-def test_where_no_store_passes(prefix: str, stands: bool, why: str) -> None:
-    scene = Scene(prefix).rested()
-    scene.block["Drive.StopConfirmed"] = stands
-    assert scene.done("Keep") == why
-    assert (scene.written(), scene["Stores"]) == ([], 0)
 
 
 def test_the_example_of_the_page_runs_and_lints_clean() -> None:
@@ -678,7 +405,7 @@ def test_an_attempt_that_is_withdrawn_from_the_port_gives_no_more_of_them() -> N
 
 
 @pytest.mark.parametrize("block", ["Keep", "Store2"])
-@pytest.mark.parametrize("within", range(10, 90, 8))
+@pytest.mark.parametrize("within", range(10, 90, 16))
 def test_a_store_that_was_not_sent_counts_none(block: str, within: int) -> None:
     """Called after the drive block it said "not sent" in the scan that sent it, and counted nothing."""
     scene = Scene("SN300G5").rested()

@@ -42,45 +42,6 @@ def test_a_refusal_is_a_result_and_not_repeated(kind: int) -> None:
     assert len([each for each in sent if each.pdu[1] == 6]) == 1
 
 
-def test_busy_waits_and_tries_again() -> None:
-    bench = Bench().ready()
-    bench.put(1, BusyReason=6)
-    bench.drives[1].answer = lambda request: bytes([request[0], request[1] + 0x80, 6])
-    bench.command(1)
-    bench.run(250)
-    assert bench.answer(1, COMMAND) == ""
-    bench.drives[1].answer = None
-    bench.run(150)
-    assert bench.answer(1, COMMAND) == "OK"
-
-
-def test_retries_by_class() -> None:
-    bench = Bench().ready()
-    bench.drives[1].alive = False
-    bench.command(1)
-    commands = [each for each in bench.run(600) if each.unit == 2 and not each.read]
-    assert (len(commands), bench.answer(1, COMMAND)) == (4, "SILENCE")
-    bench.drives[1].alive = True
-    bench.run(200)
-    bench.drives[1].alive = False
-    bench.ask(1, PARAMETER, 6, 0x100)
-    parameters = [each for each in bench.run(600) if each.unit == 2 and not each.read]
-    assert (len(parameters), bench.answer(1, PARAMETER)) == (2, "SILENCE")
-
-
-@pytest.mark.parametrize("busy", [False, True])
-def test_a_fault_reset_is_sent_once(busy: bool) -> None:
-    bench = Bench().ready()
-    bench.put(1, ResetAsked=True, BusyReason=6)
-    if busy:
-        bench.drives[1].answer = lambda request: bytes([request[0], request[1] + 0x80, 6])
-    else:
-        bench.drives[1].alive = False
-    bench.command(1)
-    resets = [each for each in bench.run(600) if each.unit == 2 and not each.read]
-    assert (len(resets), bench.answer(1, COMMAND)) == (1, "REFUSED" if busy else "SILENCE")
-
-
 # ---------------------------------------------------------------- echo
 
 
@@ -106,27 +67,6 @@ def test_until_the_echo_is_known_only_reads_and_stops_are_sent_and_no_stop_is_be
     assert {each.stop for each in bench.run(1000)} == {True}, "a poll that is no read decides nothing, and never leaves"
     assert bench["Echo"] == 0
     assert bench.answer(0, STOP) == ""
-
-
-def test_the_echo_is_decided_anew_after_an_error_of_the_port() -> None:
-    bench = Bench().ready()
-    assert bench["Echo"] == 1
-    bench.block["Port.ErrorID"] = 7
-    bench.scan()
-    assert (bench["Echo"], bench["ErrorID"]) == (0, 57)
-    bench.block["Port.ErrorID"] = 0
-    bench.run(200)
-    assert bench["Echo"] == 1
-
-
-def test_an_adapter_that_begins_to_echo_is_noticed_at_the_next_read() -> None:
-    bench = Bench().ready()
-    bench.echoes = True
-    bench.run(100)
-    assert bench["Echo"] == 2
-    bench.echoes = False
-    bench.run(300)
-    assert bench["Echo"] == 1
 
 
 def test_a_read_whose_reply_can_equal_its_request_decides_nothing() -> None:
@@ -168,58 +108,7 @@ def test_the_wait_ends_with_the_only_reply_that_can_come() -> None:
     assert bench.run(100), "not half a second of silence"
 
 
-def test_stops_do_not_wait_for_late_replies_but_reads_do() -> None:
-    bench = Bench(Config(longest_ms=400)).ready()
-    bench.drives[0].alive = False
-    while bench["Timeouts"] == 0:
-        bench.scan()
-    bench.stop(1)
-    assert [each.stop for each in bench.run(300)] == [True]
-    assert bench.run(200)
-
-
-def test_a_dead_drive_makes_nobody_wait() -> None:
-    bench = Bench(Config(longest_ms=1000)).ready()
-    bench.drives[0].alive = False
-    bench.run(12000)
-    assert not bench.slot(0, "Online")
-    assert len(bench.run(10000)) > 440
-
-
-def test_a_late_scan_gives_the_reply_one_more_call() -> None:
-    bench = Bench(Config(drives=1)).ready()
-    for _ in range(50):
-        bench.run(30)
-        bench.scan(took=200_000)
-    assert bench["Timeouts"] == 0
-    assert bench["LateScans"] == 50
-    assert bench["LongestScanMs"] == 200
-
-
 # ---------------------------------------------------------------- strangers
-
-
-def test_a_foreign_master_stops_every_start_until_it_is_acknowledged() -> None:
-    bench = Bench(Config(drives=1))
-    bench.put(0, PollEveryMs=200)
-    bench.ready()
-    for _ in range(12):
-        bench.run(200)
-        bench.foreign(bytes([9, 3, 0x20, 0, 0, 2]))
-    bench.run(100)
-    assert bench["ForeignFrames"] >= 10
-    assert bench["ErrorID"] == 54
-    bench.put(0, Begins=True)
-    bench.command(0)
-    bench.run(200)
-    assert bench.answer(0, COMMAND) == "FOREIGN"
-    bench.stop(0)
-    bench.run(200)
-    assert bench.answer(0, STOP) == "OK"
-    bench.set(Acknowledge=True)
-    bench.command(0)
-    bench.run(200)
-    assert bench.answer(0, COMMAND) == "OK"
 
 
 @pytest.mark.parametrize(
@@ -257,31 +146,6 @@ def test_the_inside_of_a_good_reply_is_no_foreign_frame() -> None:
     bench.run(2000)
     assert bench.slot(0, "Fresh") > 50
     assert bench["ForeignFrames"] == 0
-
-
-@pytest.mark.parametrize(("fault", "counter"), [("garble", "Bad"), ("truncate", "Timeouts"), ("loss", "Timeouts")])
-def test_damage_is_counted_and_never_believed(fault: str, counter: str) -> None:
-    bench = Bench(Config(**{fault: 20_000}), seed=3)  # type: ignore[arg-type]  # each fault is a rate, an int
-    for _ in range(600):
-        fresh = bench.slot(0, "Fresh")
-        bench.scan()
-        if bench.slot(0, "Fresh") != fresh:
-            assert bench.slot(0, "PollWords[0]") == bench.drives[0].reads
-    assert bench[counter] > 10
-    assert bench["LastErrorID"] in (20, 23)
-
-
-def test_a_run_that_nobody_answers_is_sent_once() -> None:
-    """It may have been obeyed: the drive block reads the status before it repeats it."""
-    bench = Bench().ready()
-    bench.drives[0].alive = False
-    bench.put(0, Once=True)
-    before = len(bench.sent)
-    number = bench.command(0)
-    bench.run(400)
-    assert len([each for each in bench.sent[before:] if not each.read]) == 1
-    assert bench.slot(0, "Answer[1].Number") == number
-    assert bench.slot(0, "Answer[1].ErrorID") == 20
 
 
 class Turning(Bench):

@@ -58,54 +58,6 @@ def test_no_slot_that_does_not_exist_outlives_a_restart(how: str, name: str) -> 
     assert bench.run(600)
 
 
-def test_what_may_still_be_answered_is_waited_out() -> None:
-    bench = Bench(Config(longest_ms=300)).ready()
-    restart(bench, "pin")
-    assert bench.run(290) == []
-    assert bench.run(100)
-
-
-@pytest.mark.parametrize("how", ["pin", "late", "first"])
-def test_every_slot_learns_of_a_restart_once(how: str) -> None:
-    bench = Bench().ready()
-    before = bench.slot(1, "Restarts")
-    restart(bench, how)
-    bench.run(200)
-    assert (bench.slot(1, "Restarts"), bench.slot(5, "Restarts")) == (before + 1, before + 1)
-
-
-def test_every_slot_learns_of_late_calls_and_errors() -> None:
-    bench = Bench().ready()
-    assert not bench.slot(0, "ScanLate")
-    bench.scan(took=13_000)
-    assert bench.slot(1, "ScanLate")
-    bench.block["Port.ErrorID"] = 3
-    bench.run(20)
-    assert bench.slot(1, "LineErrorID") == 57
-    bench.run(9900)
-    assert bench.slot(1, "ScanLate")
-    bench.run(100)
-    assert not bench.slot(1, "ScanLate")
-
-
-def test_a_stop_of_before_is_new_again() -> None:
-    bench = Bench().ready()
-    bench.drives[1].alive = False
-    bench.stop(1)
-    bench.run(100)
-    before = len(bench.sent)
-    restart(bench, "late")
-    assert [each.stop for each in bench.sent[before:]] == [True]
-
-
-def test_a_restart_that_stays_lets_only_stops_out() -> None:
-    bench = Bench().ready()
-    bench.set(Restart=True)
-    bench.run(100)
-    bench.stop(1)
-    assert {each.stop for each in bench.run(300)} == {True}
-
-
 def test_only_stops_are_sent_while_time_stays() -> None:
     bench = Bench().ready()
     for _ in range(101):
@@ -129,30 +81,6 @@ def test_nothing_but_stops_is_sent_before_time_has_moved() -> None:
     bench.stop(1)
     bench.scan(elapsed=0)
     assert [each.stop for each in bench.sent] == [True]
-
-
-def test_the_clock_of_the_slots_goes_on_after_its_end() -> None:
-    bench = Bench()
-    bench.block["Times.Clock"] = 59_990
-    bench.scan()
-    bench.scan()
-    assert bench.slot(0, "TimeMs") < 20
-    assert bench.slot(0, "Served") == 2
-
-
-def test_an_unused_slot_costs_nothing_and_is_left_alone() -> None:
-    bench = Bench()
-    bench.run(100)
-    assert bench.slot(5, "Served") == 0
-
-
-def test_counters_of_the_line_are_the_sums_of_its_drives() -> None:
-    bench = Bench(Config(loss=5000, garble=5000), seed=1)
-    bench.run(5000)
-    for name in ("Timeouts", "Bad", "Retries", "Requests", "Good"):
-        assert bench[name] == sum(bench.slot(slot, name) for slot in range(3)) > 0
-    assert 50 < bench["LoadPercent"] <= 100
-    assert 0 < bench["CycleMs"] <= bench["WorstCycleMs"]
 
 
 @pytest.mark.parametrize("box", [COMMAND, PARAMETER])

@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import pytest
-from tests.line.vline import COMMAND, POLL, STOP, Bench, Config
+from tests.line.vline import COMMAND, STOP, Bench, Config
 
 
 def test_new_stops_are_sent_first_and_each_once() -> None:
@@ -29,49 +29,6 @@ def test_a_stop_takes_back_the_command_that_waits() -> None:
     assert not [frame for frame in bench.drives[1].heard if frame[2:4] == b"\x10\x01"]
 
 
-def test_an_answer_of_before_stays_as_it_was() -> None:
-    bench = Bench().ready()
-    bench.command(1)
-    bench.run(100)
-    bench.stop(1)
-    bench.run(100)
-    assert (bench.answer(1, COMMAND), bench.answer(1, STOP)) == ("OK", "OK")
-
-
-def test_no_retry_of_a_command_is_sent_before_a_stop() -> None:
-    bench = Bench().ready()
-    bench.drives[0].alive = False
-    bench.command(0)
-    bench.run(30)
-    bench.stop(1)
-    assert next(each.stop for each in bench.run(80))
-
-
-def test_a_stop_that_nobody_acknowledges_is_repeated_and_overdue() -> None:
-    bench = Bench().ready()
-    bench.drives[1].alive = False
-    bench.stop(1)
-    sent = bench.run(3000)
-    stops = [each.ms for each in sent if each.stop]
-    assert len(stops) > 5
-    assert max(later - before for before, later in pairwise(stops)) < 1150
-    assert bench["StopOverdue"]
-    assert not bench.slot(1, "Online")
-    bench.drives[1].alive = True
-    bench.run(1500)
-    assert bench.answer(1, STOP) == "OK"
-    assert not bench["StopOverdue"]
-
-
-def test_a_new_stop_of_a_dead_drive_is_sent_at_once() -> None:
-    bench = Bench()
-    bench.drives[1].alive = False
-    bench.ready().run(5000)
-    for _ in range(3):
-        bench.stop(1)
-        assert next(each for each in bench.run(60) if each.stop)
-
-
 def test_stops_of_dead_drives_take_turns_within_a_quarter_of_the_wire() -> None:
     bench = Bench(Config(drives=4))
     for drive in bench.drives[:3]:
@@ -82,29 +39,6 @@ def test_stops_of_dead_drives_take_turns_within_a_quarter_of_the_wire() -> None:
     sent = bench.run(6000)
     assert {each.unit for each in sent if each.stop} == {1, 2, 3}
     assert bench.slot(3, "Fresh") > 6000 / 28
-
-
-def test_a_repeated_stop_is_sent_every_half_second_and_lets_a_reset_through() -> None:
-    bench = Bench().ready()
-    bench.stop(1)
-    bench.run(60)
-    bench.put(1, StopAgain=True, ResetAsked=True)
-    bench.stop(1)
-    bench.command(1)
-    assert not any(each.stop for each in bench.run(400))
-    assert bench.answer(1, COMMAND) == "OK"
-    assert any(each.stop for each in bench.run(150))
-
-
-def test_a_repeated_stop_does_not_take_a_reset_back() -> None:
-    bench = Bench().ready()
-    bench.stop(1)
-    bench.run(560)
-    bench.put(1, StopAgain=True, ResetAsked=True)
-    bench.stop(1)
-    bench.command(1)
-    assert [each.stop for each in bench.run(200) if each.unit == 2 and not each.read] == [True, False]
-    assert bench.answer(1, COMMAND) == "OK"
 
 
 def test_stop_all_lasts_for_each_drive_until_its_stop_is_sent() -> None:
@@ -121,17 +55,6 @@ def test_stop_all_lasts_for_each_drive_until_its_stop_is_sent() -> None:
         assert over <= sent
 
 
-def test_no_run_is_sent_after_a_repeated_stop() -> None:
-    bench = Bench().ready()
-    bench.stop(1)
-    bench.run(60)
-    bench.put(1, StopAgain=True)
-    bench.stop(1)
-    bench.command(1)
-    bench.run(800)
-    assert bench.answer(1, COMMAND) == "TAKEN_BACK"
-
-
 def test_a_stop_takes_the_place_of_what_the_port_has_not_taken() -> None:
     bench = Bench().ready()
     bench.command(0)
@@ -144,97 +67,6 @@ def test_a_stop_takes_the_place_of_what_the_port_has_not_taken() -> None:
     assert bench.answer(0, COMMAND) == "TAKEN_BACK"
 
 
-def test_the_retry_of_a_new_stop_waits_for_no_pause() -> None:
-    """An acknowledged stop is repeated every 500 ms; that is no pause for the next one, even if it comes meanwhile."""
-    bench = Bench().ready()
-    bench.stop(1)
-    bench.run(60)
-    bench.stop(1)
-    bench.drives[1].alive = False
-    assert len([each for each in bench.run(300) if each.stop]) > 3
-
-
-def test_stop_all_stops_every_drive_and_starts_none() -> None:
-    bench = Bench().ready()
-    bench.set(StopAll=True)
-    sent = bench.run(200)
-    assert sorted(each.unit for each in sent if each.stop) == [1, 2, 3]
-    assert bench.slot(0, "StopAll")
-    bench.command(0)
-    bench.run(100)
-    assert bench.answer(0, COMMAND) == "STOP_ALL"
-    bench.set(StopAll=False)
-    bench.command(0)
-    bench.run(100)
-    assert bench.answer(0, COMMAND) == "OK"
-    assert not any(each.pdu[0] == 0 for each in bench.sent), "no broadcast"
-
-
-def test_a_drive_whose_block_is_no_longer_called_is_stopped_and_no_longer_polled() -> None:
-    bench = Bench().ready()
-    bench.attended.discard(1)
-    sent = bench.run(1500)
-    assert len([each for each in sent if each.stop]) == 1
-    assert bench.slot(1, "Unattended")
-    again = [each for each in bench.run(3000) if each.unit == 2]
-    assert all(each.stop for each in again)
-    assert 5 <= len(again) <= 6, "without its block nobody proves that it stands"
-    bench.attended.add(1)
-    bench.run(20)
-    assert all(each.read for each in bench.run(2000))
-    assert not bench.slot(1, "Unattended")
-
-
-@pytest.mark.parametrize("confirms", [False, True])
-def test_a_stop_that_is_not_confirmed_in_time_is_overdue(confirms: bool) -> None:
-    bench = Bench().ready()
-    bench.put(1, StopWithinMs=800)
-    bench.stop(1)
-    bench.run(400)
-    assert bench.answer(1, STOP) == "OK"
-    bench.put(1, StopConfirmed=confirms)
-    bench.run(500)
-    assert bool(bench["StopOverdue"]) is not confirms
-
-
-def test_a_stop_that_the_port_does_not_take_is_overdue_in_time() -> None:
-    bench = Bench().ready()
-    bench.port_takes = False
-    bench.stop(1)
-    bench.run(bench["WorstStopMs"] + 20)
-    assert bench["StopOverdue"]
-    bench.run(5000)
-    assert bench["StopOverdue"]
-    bench.port_takes = True
-    bench.run(200)
-    assert bench.answer(1, STOP) == "OK"
-    assert not bench["StopOverdue"]
-
-
-def test_a_stop_that_no_line_can_send_is_overdue() -> None:
-    bench = Bench().ready()
-    bench.fill(1, STOP, 15, 0)
-    bench.stop(1)
-    bench.run(60)
-    assert bench.slot(1, "StopOverdue")
-    assert bench["ErrorID"] == 61
-
-
-def test_silence_of_a_drive_without_power_is_no_alarm() -> None:
-    bench = Bench().ready()
-    bench.put(1, SupplyOff=True)
-    bench.drives[1].alive = False
-    bench.stop(1)
-    bench.run(5000)
-    assert not bench["StopOverdue"]
-    assert bench.slot(1, "Timeouts") == 0
-    bench.put(1, SupplyOff=False)
-    bench.run(20)
-    assert not bench["StopOverdue"]  # what is open counts anew
-    bench.run(5000)
-    assert bench["StopOverdue"]
-
-
 def test_two_figures_for_how_late_a_stop_is_sent() -> None:
     """19200 8N1, 12 ms scans at most, port keeps 2 ms of silence: by hand from the formula on the line's page."""
     bench = Bench(Config(drives=7)).ready()
@@ -243,15 +75,6 @@ def test_two_figures_for_how_late_a_stop_is_sent() -> None:
     assert bench["StopAloneMs"] == longest + on_top + 2
     assert bench["WorstStopMs"] == bench["StopAloneMs"] + 6 * (stop + on_top)
     assert bench.slot(6, "WorstStopMs") == bench["WorstStopMs"]
-
-
-def test_a_standing_poll_does_not_outlive_a_stop_in_numbers() -> None:
-    """An answer names the request that it answers, polls too."""
-    bench = Bench().ready()
-    number = bench.ask(1, POLL, 3, 0x2100, quantity=2)
-    bench.run(100)
-    assert bench.slot(1, "Answer[3].Number") == number
-    assert bench.slot(1, "PollCount") == 2
 
 
 def refreshes(bench: Bench, flickers: bool, scans: int = 1500) -> int:
@@ -320,16 +143,6 @@ def test_a_drive_that_may_take_65_seconds_to_answer_holds_the_line_no_longer() -
     assert bench.answer(0, STOP) == "OK"
 
 
-def test_nobody_is_missed_for_longer_than_half_a_minute() -> None:
-    bench = Bench(Config(drives=1, scan=100_000, max_scan=110), AttendMs=65_535)
-    bench.run(3000)
-    bench.attended.clear()
-    bench.run(29_000)
-    assert not bench.slot(0, "Unattended")
-    bench.run(2000)
-    assert bench.slot(0, "Unattended")
-
-
 def test_a_unit_that_is_added_counts_in_the_figures_from_the_next_call_on() -> None:
     """Slots are looked at one a call, and what it may take came into the figures up to twelve calls after its reads."""
     bench = Bench(Config(drives=3, turn_ms=50, longest_ms=500))
@@ -372,3 +185,18 @@ def test_a_unit_that_is_taken_out_while_it_may_turn_stays_in_the_figures() -> No
     bench.put(0, UnitAddress=0)
     bench.run(3000)
     assert bench["WorstStopMs"] == before
+
+
+def test_a_slot_that_waits_for_the_line_is_looked_at_in_the_same_call() -> None:
+    """The line looks for no request unless `Scan.Asks`; the proofs of its stops take that for granted."""
+    bench = Bench(Config(drives=3)).ready()
+    for number in range(200):
+        if number % 7 == 0:
+            bench.stop(number % 3)
+        elif number % 5 == 0:
+            bench.command(number % 3)
+        bench.drives[1].alive = number % 60 < 40
+        bench.scan()
+        waits = [slot for slot in range(3) if not all(bench.answer(slot, box) for box in (STOP, COMMAND))]
+        due = [slot for slot in range(3) if bench[f"Track[{slot}].PauseMs"] == 0]
+        assert bench["Scan.Asks"] or not (waits or due)

@@ -6,13 +6,6 @@ import pytest
 from tests.line.vline import COMMAND, PARAMETER, Bench, Config
 
 
-def test_a_write_after_polls_is_sent_within_one_transaction() -> None:
-    bench = Bench(Config(drives=7)).ready()
-    bench.command(3)
-    sent = bench.run(45)
-    assert not sent[0].read or not sent[1].read
-
-
 def test_run_before_reset_before_parameter() -> None:
     bench = Bench().ready()
     bench.set(PollAfter=10)
@@ -48,18 +41,6 @@ def test_k_commands_pass_between_two_polls() -> None:
     assert "wwR" in reads
 
 
-def test_constant_commands_of_one_drive_starve_nobody() -> None:
-    bench = Bench().ready()
-    before = [bench.slot(slot, "Fresh") for slot in range(3)]
-    for _ in range(240):
-        if bench.answer(0, COMMAND):
-            bench.command(0)
-        bench.scan()
-    gained = [bench.slot(slot, "Fresh") - old for slot, old in enumerate(before)]
-    assert max(gained) - min(gained) <= 1
-    assert min(gained) >= 15
-
-
 @pytest.mark.parametrize("noisy", [(0,), (0, 1, 2, 3)])
 def test_constant_commands_hold_up_neither_a_reset_nor_a_parameter(noisy: tuple[int, ...]) -> None:
     """A reference that changed in every scan left no other time: the reset of another drive was never sent."""
@@ -74,14 +55,6 @@ def test_constant_commands_hold_up_neither_a_reset_nor_a_parameter(noisy: tuple[
                 bench.command(slot)
         bench.scan()
     assert [bench.answer(4, COMMAND), bench.answer(0, PARAMETER), bench.answer(4, PARAMETER)] == ["OK"] * 3
-
-
-def test_polls_are_sent_in_turn_and_as_often_as_asked() -> None:
-    bench = Bench().ready()
-    assert [each.unit for each in bench.run(120)] in ([1, 2, 3, 1, 2, 3], [2, 3, 1, 2, 3, 1], [3, 1, 2, 3, 1, 2])
-    bench.put(1, PollEveryMs=500)
-    times = [each.ms for each in bench.run(2200) if each.unit == 2]
-    assert all(500 <= later - before <= 580 for before, later in pairwise(times))
 
 
 def test_the_next_request_is_sent_in_the_scan_of_the_reply() -> None:
@@ -99,58 +72,6 @@ def test_the_largest_silence_on_the_line_counts_even_where_the_port_keeps_some()
     bench.ready().run(200)
     starts = [each.ms for each in bench.run(500)]
     assert min(later - before for before, later in pairwise(starts)) >= 16 + 25
-
-
-def test_a_request_that_no_line_can_send_is_answered() -> None:
-    bench = Bench().ready()
-    bench.ask(1, PARAMETER, 3, 0x100, quantity=5)
-    bench.run(50)
-    assert bench.answer(1, PARAMETER) == "REQUEST"
-    bench.ask(1, PARAMETER, 15, 0x100)
-    bench.run(50)
-    assert bench.answer(1, PARAMETER) == "REQUEST"
-
-
-def test_parameters_are_read_and_written() -> None:
-    bench = Bench().ready()
-    bench.ask(1, PARAMETER, 3, 0x100, quantity=4)
-    bench.run(80)
-    assert bench.answer(1, PARAMETER) == "OK"
-    assert bench.slot(1, "ParWords[3]") == bench.drives[1].reads or bench.slot(1, "ParWords[3]") > 0
-    bench.ask(1, PARAMETER, 16, 0x100, quantity=2, word=0x1234)
-    bench.run(80)
-    assert bench.answer(1, PARAMETER) == "OK"
-    assert any(frame[1] == 16 and frame[4:9] == b"\x00\x02\x04\x12\x34" for frame in bench.drives[1].heard)
-
-
-def test_a_parameter_is_sent_only_while_its_drive_block_lets_it_pass() -> None:
-    bench = Bench().ready()
-    number = bench.ask(1, PARAMETER, 6, 0x100)
-    bench.put(1, ParameterCleared=0)
-    assert all(each.read for each in bench.run(300))
-    assert bench.answer(1, PARAMETER) == ""
-    bench.drives[1].alive = False
-    bench.put(1, ParameterCleared=number)
-    while all(each.read for each in bench.sent):
-        bench.scan()
-    bench.put(1, ParameterCleared=0)
-    assert all(each.read for each in bench.run(500)), "looked at again for every attempt"
-    assert bench.answer(1, PARAMETER) == ""
-    bench.run(1000)
-    assert bench.answer(1, PARAMETER) == "OFFLINE"
-
-
-def test_a_parameter_that_may_no_longer_pass_is_withdrawn_from_the_port() -> None:
-    bench = Bench().ready()
-    bench.port_takes = False
-    bench.run(30)
-    bench.ask(1, PARAMETER, 6, 0x100)
-    while (bench["Phase"], bench["Box"]) != (1, PARAMETER):
-        bench.scan()
-    bench.put(1, ParameterCleared=0)
-    bench.scan()
-    bench.port_takes = True
-    assert all(each.read for each in bench.run(300))
 
 
 def test_one_address_twice_lets_only_stops_out_and_the_others_go_on() -> None:

@@ -1,7 +1,7 @@
 """A slot whose stop is not known yet (FunctionCode 0): nothing is sent, reads pass, and it is overdue as if unsent."""
 
 import pytest
-from tests.line.vline import COMMAND, PARAMETER, STOP, Bench, Config
+from tests.line.vline import STOP, Bench, Config
 
 
 def unknown(config: Config | None = None) -> Bench:
@@ -36,33 +36,6 @@ def test_it_is_not_sent_and_overdue_in_time(how: str) -> None:
 
 
 @pytest.mark.parametrize("how", ["posted", "StopAll"])
-@pytest.mark.parametrize("late", [0, 2])
-def test_reads_pass_and_the_others_lose_nothing(how: str, late: int) -> None:
-    """Also where the port keeps requests back: what waits there makes no room for it."""
-    bench = unknown(Config(tx_late=late))
-    ask_for_it(bench, how)
-    bench.run(200)
-    bench.ask(1, PARAMETER, 3, 0x0123)
-    before, reads, asked = len(bench.sent), bench.slot(0, "Fresh"), bench["Requests"]
-    bench.run(2000)
-    assert bench["Requests"] - asked <= len(bench.sent) - before + 1
-    assert bench.answer(1, PARAMETER) == "OK"
-    assert bench.slot(0, "Fresh") - reads > 2000 / (70 + 30 * late)
-    assert {1, 2, 3} == {each.unit for each in bench.sent[before:]}
-
-
-def test_a_command_is_taken_back_all_the_same() -> None:
-    bench = unknown()
-    bench.command(1)
-    bench.stop(1)
-    bench.run(200)
-    assert bench.answer(1, COMMAND) == "TAKEN_BACK"
-    bench.command(1)
-    bench.run(200)
-    assert not [each for each in bench.sent if each.unit == 2 and not each.read], "nothing moves after it"
-
-
-@pytest.mark.parametrize("how", ["posted", "StopAll"])
 def test_once_it_is_known_it_is_sent_at_once(how: str) -> None:
     bench = unknown()
     ask_for_it(bench, how)
@@ -85,29 +58,6 @@ def test_a_copy_of_before_is_not_sent_either() -> None:
     assert bench.slot(1, "StopOverdue")
 
 
-def test_a_stop_that_was_sent_before_is_not_repeated() -> None:
-    bench = Bench().ready()
-    bench.drives[1].alive = False
-    bench.stop(1)
-    bench.run(30)
-    bench.fill(1, STOP, 0, 0)
-    bench.run(30)
-    assert not any(each.stop for each in bench.run(2000))
-    assert bench.slot(1, "StopOverdue")
-
-
-@pytest.mark.parametrize("why", [{"SupplyOff": True}, {"ProvedStill": True}, {"Tripped": True}])
-def test_it_can_be_excused(why: dict[str, bool]) -> None:
-    bench = unknown()
-    bench.drives[1].alive = False
-    bench.run(3000)
-    bench.put(1, **why)
-    bench.stop(1)
-    for _ in range(300):
-        bench.scan()
-        assert not bench.slot(1, "StopOverdue")
-
-
 def test_a_drive_block_that_writes_no_copy_has_what_its_slot_holds_sent() -> None:
     """Not even where StopRegister and StopWord look like a stop."""
     bench = Bench().ready()
@@ -116,23 +66,6 @@ def test_a_drive_block_that_writes_no_copy_has_what_its_slot_holds_sent() -> Non
     bench.set(StopAll=True)
     written = [each.pdu for each in bench.run(500) if each.unit == 2 and not each.read]
     assert written == [bytes.fromhex("020610000005")]
-
-
-def test_word_0_at_register_0_can_be_a_stop() -> None:
-    bench = Bench().ready()
-    bench.put(1, HasStop=True, StopRegister=0, StopWord=0)
-    bench.run(50)
-    bench.set(StopAll=True)
-    written = [each.pdu for each in bench.run(500) if each.unit == 2 and not each.read]
-    assert written == [bytes.fromhex("020600000000")]
-
-
-def test_another_block_that_knows_no_stop_does_not_hold_the_copy_back() -> None:
-    bench = Bench().ready()
-    bench.fill(1, STOP, 0, 0)
-    bench._alive[1] += 1  # it is called, too
-    bench.put(1, Shared=True)
-    assert any(each.stop and each.unit == 2 for each in bench.run(200))
 
 
 def test_the_copy_does_not_stand_in_for_the_stop_of_the_block_itself() -> None:
