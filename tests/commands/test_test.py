@@ -2,7 +2,6 @@
 
 import functools
 import re
-from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -47,11 +46,6 @@ def brief(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> str:
     """The map, of which two programs alone are made."""
     give(monkeypatch, only(whole(), "Frames", "Scales"))
     return my_drive
-
-
-def few(unit: Unit, *programs: str) -> Unit:
-    """The unit with all of its blocks, and few of its programs."""
-    return replace(unit, suite=replace(unit.suite, programs=only(unit, *programs).suite.programs))
 
 
 def invoke(*arguments: str) -> Result:
@@ -209,30 +203,6 @@ def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch
 
 
 # ---------------------------------------------------------------- coverage
-
-
-def test_coverage_is_printed_with_what_is_explained_which_fails_nothing(
-    my_drive: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    made = [few(each, "Frames", "Scales", "Checksums") for each in (tested.units([], BOTH)[0], whole())]
-    monkeypatch.setattr(tested, "units", lambda *_: made)
-    result = invoke(my_drive, "--require-coverage", "5", "--junit", "junit.xml")
-    assert result.exit_code == 0, result.output
-    *_, total, twin, _, last = result.stdout.splitlines()
-    assert twin.endswith("MB_ByteLine32.st has the statements of the block for 8 drives, as which it is counted")
-    match = re.fullmatch(r"coverage on embedded: lines (\d+)/(\d+), branches (\d+)/(\d+) \((\d+) explained\)", total)
-    assert match
-    lines, all_lines, branches, all_branches, explained = map(int, match.groups())
-    assert all_lines - lines + all_branches - branches > explained
-    assert re.search(r"^  iec61131/line/MB_Line8\.st:\d+:\d+: never ", result.stdout, re.M)
-    assert re.search(r"^iec61131/my_drive/EX100_\w+\.st on embedded: lines \d+/\d+, ", result.stdout, re.M)
-    assert "all passed" in last
-    assert re.search(
-        r"^  iec61131/modbus/MB_AsciiEncode\.st:\d+:\d+: never WHILE without .*; explained: ", result.stdout, re.M
-    )
-    suite = ElementTree.parse("junit.xml").getroot()[-1]  # noqa: S314  (our own file)
-    properties = {each.attrib["name"]: each.attrib["value"] for each in suite.iter("property")}
-    assert properties == {"engine": "embedded", "lines": f"{match[1]}/{match[2]}", "branches": f"{match[3]}/{match[4]}"}
 
 
 def test_coverage_is_not_measured_unless_asked(brief: str) -> None:

@@ -8,7 +8,6 @@ from xml.etree import ElementTree
 
 import pytest
 from rich.console import Console
-from rich.style import Style
 from tests.plc.desk import Desk
 
 from driveblocks import console
@@ -92,17 +91,6 @@ def test_a_wide_terminal_has_room_for_a_plot_of_the_last_seconds() -> None:
     assert not screen.Plots(Console(file=io.StringIO(), width=screen.WIDE - 1)).fit
 
 
-@pytest.mark.parametrize("style", [screen.BAD, screen.GOOD])
-def test_colours_are_read_on_black_and_on_white(style: str) -> None:
-    colour = Style.parse(style).color
-    assert colour is not None
-    assert colour.number is not None
-    assert colour.number >= 16  # the shades of those below are the terminal's
-    parts = [(part / 255 + 0.055) / 1.055 if part > 10 else 0 for part in colour.get_truecolor()]
-    light = sum(share * part**2.4 for share, part in zip((0.2126, 0.7152, 0.0722), parts, strict=True))
-    assert min((light + 0.05) / 0.05, 1.05 / (light + 0.05)) > 3.9
-
-
 def test_a_long_name_of_a_fault_and_of_a_drive_are_read_whole_at_80_columns() -> None:
     drawn = io.StringIO()
     fault, drive = "fault 10 Motor thermal overload protection", "Conveyor3.Motor"
@@ -142,22 +130,6 @@ def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
     lanes = [each.get("points", "").split() for each in root.iter(f"{space}polyline")]
     # low until 1 s, a third of the way; then high
     assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
-
-
-def test_a_picture_brings_its_background_and_keeps_numbers_apart_from_names() -> None:
-    long = "Pump1.OutputFrequencyHz.Which.Is.Long"
-    timing = Timing(("A", long), "SIMULATED, my.st")
-    timing.add(0, {"A": False, long: 123456.0})
-    timing.add(1_000_000, {"A": True, long: 0.0})
-    root = ElementTree.fromstring(timing.svg())  # noqa: S314 - our own
-    space = "{http://www.w3.org/2000/svg}"
-    box = [float(each) for each in root.get("viewBox", "").split()]
-    (page,) = root.iter(f"{space}rect")
-    assert [page.get("width"), page.get("height"), page.get("fill")] == [f"{box[2]:g}", f"{box[3]:g}", "#fff"]
-    assert root.get("fill") == "#222", "without a style sheet, which not every viewer reads"
-    places = {each.text: float(each.get("x", "")) for each in root.iter(f"{space}text")}
-    end = places["123456"] - 8 * len("123456")  # it ends at its place
-    assert places[long] + 7 * len(long) <= end
 
 
 def test_a_picture_forgets_what_is_too_much(monkeypatch: pytest.MonkeyPatch) -> None:

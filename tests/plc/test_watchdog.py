@@ -9,7 +9,7 @@ from tests.plc.desk import ONE, Desk
 
 from driveblocks.desk.ending import Bell, Ending
 from driveblocks.desk.script import Setting
-from driveblocks.plc import gate, live
+from driveblocks.plc import gate
 from driveblocks.plc.gate import Gate, GivenUp
 from driveblocks.plc.session import STUCK
 from driveblocks.plc.watchdog import FIRST_US, LIMIT_US, PATIENCE_US, Watchdog
@@ -65,24 +65,17 @@ def watching(limit_us: int = LIMIT_US) -> tuple[Watchdog, Time]:
 # ------------------------------------------------------------ the time of a scan
 
 
-def test_the_first_scan_may_take_longer_than_those_after_it() -> None:
-    dog, time = watching()
+@pytest.mark.parametrize(
+    ("limit_us", "scans", "bites_at"), [(LIMIT_US, 0, FIRST_US), (LIMIT_US, 1, LIMIT_US), (60 * SECOND, 0, 60 * SECOND)]
+)
+def test_a_scan_has_its_time_and_the_first_one_longer(limit_us: int, scans: int, bites_at: int) -> None:
+    dog, time = watching(limit_us)
+    for _ in range(scans):
+        dog.begin()
+        dog.end()
     dog.begin()
     dog.watch(Ending(), lambda: False)
-    assert (dog.bites, time.us) == (True, FIRST_US)
-    dog, time = watching()
-    dog.begin()
-    dog.end()
-    dog.begin()
-    dog.watch(Ending(), lambda: False)
-    assert (dog.bites, time.us) == (True, LIMIT_US)
-
-
-def test_a_longer_limit_holds_for_the_first_scan_too() -> None:
-    dog, time = watching(60 * SECOND)
-    dog.begin()
-    dog.watch(Ending(), lambda: False)
-    assert (dog.bites, time.us) == (True, 60 * SECOND)
+    assert (dog.bites, time.us) == (True, bites_at)
 
 
 def test_a_scan_that_begins_meanwhile_has_its_whole_time() -> None:
@@ -108,21 +101,15 @@ def test_nothing_is_given_up_when_the_scans_are_over() -> None:
     assert not dog.bites
 
 
-def test_who_asks_for_the_end_waits_for_no_scan_that_is_not_under_way() -> None:
+@pytest.mark.parametrize("under_way", [False, True])
+def test_who_asks_for_the_end_waits_half_a_second_for_a_scan_under_way(under_way: bool) -> None:
     dog, time = watching(60 * SECOND)
     ending = Ending()
     ending.ask("Ctrl-C")
+    if under_way:
+        dog.begin()
     dog.watch(ending, lambda: False)
-    assert (dog.bites, time.us) == (False, 0)
-
-
-def test_who_asks_for_the_end_waits_half_a_second_for_a_scan() -> None:
-    dog, time = watching(60 * SECOND)
-    ending = Ending()
-    ending.ask("Ctrl-C")
-    dog.begin()
-    dog.watch(ending, lambda: False)
-    assert (dog.bites, time.us) == (False, PATIENCE_US)
+    assert (dog.bites, time.us) == (False, PATIENCE_US if under_way else 0)
 
 
 def test_a_bell_wakes_the_watchdog() -> None:
@@ -226,26 +213,6 @@ def test_who_asks_for_the_end_does_not_wait_for_a_scan_that_does_not_end(reason:
     assert (result.reason, result.crashed, result.stopped) == (reason, False, ("Motor",))
     assert desk.drives[0].mode == "standstill"
     assert desk.told()[-2].startswith("a scan was given up: it was at my.st:")
-
-
-def test_a_screen_sees_the_end_of_a_scan_that_does_not_end(hanging: Hanging) -> None:
-    class Lines:
-        def __init__(self) -> None:
-            self.lines: list[str] = []
-
-        def say(self, text: str) -> None:
-            self.lines.append(text)
-
-        def show(self, _: Any) -> None:
-            """Not looked at."""
-
-        def close(self) -> None:
-            """Nothing to close."""
-
-    desk, screen = hanging.desk, Lines()
-    result = live.run(desk.session, screen, None, None, end_of_input=False)
-    assert (result.crashed, result.stopped) == (True, ("Motor",))
-    assert screen.lines == [f"{result.reason}: stopping every drive"]
 
 
 # ------------------------------------------------------------ the port

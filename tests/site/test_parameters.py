@@ -399,13 +399,6 @@ def test_a_line_on_which_somebody_speaks_is_left_alone(tmp_path: Path) -> None:
     assert (heard, [*tmp_path.iterdir()]) == (b"", [])
 
 
-def test_a_drive_that_never_answers_leaves_no_file(tmp_path: Path) -> None:
-    with simulated("chf@2", "--tcp", ":0") as place:
-        got = parameters("save", "chf@1", str(tmp_path / "a.csv"), "--tcp", place)
-    assert (got.exit_code, got.stderr) == (1, "unit 1 does not answer; nothing was written\n")
-    assert [*tmp_path.iterdir()] == []
-
-
 @pytest.mark.thorough
 def test_the_lines_of_the_page_run_at_simulated_drives(tmp_path: Path) -> None:
     lines = [text for text in commands(PAGE) if " --port /dev/ttyUSB0" in text]

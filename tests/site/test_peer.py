@@ -2,7 +2,6 @@
 
 import asyncio
 import os
-import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -15,7 +14,6 @@ from pymodbus import FramerType
 from pymodbus.pdu import ModbusPDU
 from pymodbus.server import ModbusSerialServer, ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
-from tests.plc.windows import environment
 from tests.site.test_commission import MAPS, typed
 from tests.site.test_parameters import parameters
 
@@ -140,45 +138,6 @@ def test_a_server_that_answers_every_address_is_of_no_family(stem: str, tmp_path
     assert got.exit_code == 0, got.stdout
     assert "could not be found out" in " ".join(got.stdout.split())
     assert kept.read(tmp_path / "site.yaml")["Pump"].family == "unknown"
-    assert set(FUNCTIONS) <= READS
-
-
-COM3 = """
-import socket, sys, types
-from driveblocks.cli import main
-from driveblocks.site import hunt, steps
-
-class Serial:
-    def __init__(self, name, *_, **__):
-        assert name == "COM3"
-        self.link = socket.create_connection(("127.0.0.1", PORT))
-        self.link.setblocking(False)
-        self.write, self.close = self.link.sendall, self.link.close
-    def read(self, most):
-        try:
-            return self.link.recv(most)
-        except BlockingIOError:
-            return b""
-
-sys.modules["serial"] = types.SimpleNamespace(Serial=Serial)
-hunt.QUIET_US, steps.READS = 100_000, 20
-main()
-"""
-"""What pyserial is on Windows, with a server at the other end."""
-
-
-def test_a_drive_is_commissioned_at_a_port_of_windows(tmp_path: Path) -> None:
-    path = tmp_path / "site.yaml"
-    with peer("tcp", SimDevice(UNIT, words("jscc", everything=False))) as place:
-        code = COM3.replace("PORT", place.rpartition(":")[2])
-        typed_ = ["commission", "jscc", "--port", "COM3", "--unit", str(UNIT), "--rate", "9600", "--format", "8N1"]
-        done = subprocess.run(
-            [sys.executable, "-c", code, *typed_, "--mode", "rtu", "--label", "Pump", "--file", str(path)],
-            env=environment(tmp_path), input="alone\n" + 10 * "\n", capture_output=True, text=True, check=False,
-        )  # fmt: skip
-    assert (done.returncode, done.stderr) == (0, ""), done.stdout
-    one = kept.read(path)["Pump"]
-    assert (one.family, one.ended, one.line.unit, one.measured is not None) == ("fits", None, UNIT, True)
     assert set(FUNCTIONS) <= READS
 
 

@@ -9,6 +9,7 @@ DAMAGE = 0.05
 """One frame in twenty, since there are a few dozen."""
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not hasattr(os, "openpty"), reason="no pseudo-terminals here")
 def test_a_motor_of_pymodbus_starts_turns_and_stops_and_both_sides_count_the_same() -> None:
     made = exchange(0, DAMAGE)

@@ -292,17 +292,6 @@ def test_the_port_sends_once_and_takes_no_other_before_the_end() -> None:
     assert module.shown("Send.Sent") == [2]
 
 
-def test_the_port_calls_send_with_req_false_in_every_pass_that_sends_nothing() -> None:
-    module = Module()
-    module.receive()
-    for _ in range(3):
-        module.send(b"\x01")
-        assert module.shown("Send.Memory", "TxBusy") == [True, False]
-        for _ in range(2):
-            module.receive()
-            assert module.shown("Send.Memory") == [False]
-
-
 def test_an_error_of_receiving_is_reported_in_its_scan_whatever_becomes_of_a_frame() -> None:
     module = Module()
     module.receive()
