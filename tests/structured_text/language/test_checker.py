@@ -1,6 +1,5 @@
 """The typed tree: every slot filled where the text is right, and a word about it where it is not."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -10,42 +9,21 @@ from structured_text.language.lint import lint, lint_sources
 from structured_text.language.parser import parse
 from structured_text.language.problems import CheckError
 from structured_text.language.tree import (
-    Array,
     Assign,
-    Binary,
-    Block,
     Builtin,
     Call,
-    CallStatement,
-    Enum,
-    EnumValue,
     Expression,
-    Function,
     FunctionBlock,
     Literal,
-    Member,
-    Name,
-    Pou,
-    Struct,
-    VarDecl,
-    VarKind,
 )
 from structured_text.language.types import (
-    BOOL,
     ELEMENTARY,
     INT,
-    LREAL,
-    REAL,
     STRING,
-    TIME,
-    UINT,
-    UNKNOWN,
-    WORD,
     Kind,
-    Subrange,
     untyped,
 )
-from structured_text.language.walk import expressions, heads, statements
+from structured_text.language.walk import expressions
 
 HERE = Path(__file__).parent
 VARIABLES = """
@@ -77,35 +55,6 @@ def value_of(text: str) -> Expression:
     statement = checked.blocks["EXAMPLE"].body[0]
     assert isinstance(statement, Assign)
     return statement.value
-
-
-def parts(pou: Pou) -> Iterator[Expression]:
-    """Every expression of a POU, its initial values too; the name of a called function is none."""
-    for statement in statements(pou.body):
-        for head in heads(statement):
-            yield from expressions(head)
-    for group in pou.blocks:
-        for variable in group.variables:
-            if variable.initial is not None:
-                yield from expressions(variable.initial)
-
-
-@pytest.mark.parametrize("name", ["clean.st", "../engines/corpus"])
-def test_every_slot_is_filled_in_good_text(name: str) -> None:
-    path = HERE / name
-    for source in sorted(path.glob("*.st")) if path.is_dir() else [path]:
-        checked = check([parse(source.read_text(encoding="utf-8"), source.name)])
-        for pou in [*checked.functions.values(), *checked.blocks.values(), *checked.programs.values()]:
-            functions = {id(each.callee) for each in parts(pou) if isinstance(each, Call)}
-            for each in parts(pou):
-                if id(each) in functions and each.type is UNKNOWN:
-                    continue
-                where = f"{source.name}:{checked.units[0].place(each.at)} {type(each).__name__}"
-                assert each.type is not UNKNOWN, where
-                assert not untyped(each.type), where
-                assert not isinstance(each, Name | Member) or each.symbol is not None, where
-                assert not isinstance(each, Call) or each.target is not None, where
-                assert not isinstance(each, Binary) or each.operand_type is not UNKNOWN, where
 
 
 @pytest.mark.parametrize(
@@ -277,38 +226,6 @@ def outer(body: str) -> str:
     return f"{INNER}FUNCTION_BLOCK Outer\nVAR {variables} END_VAR\n{body}\nEND_FUNCTION_BLOCK\n"
 
 
-def call_of(body: str) -> Call:
-    """The first call of a block with this body, checked."""
-    statement = check([parse(outer(body), "t.st")]).blocks["OUTER"].body[0]
-    value = statement.call if isinstance(statement, CallStatement) else getattr(statement, "value", None)
-    assert isinstance(value, Call)
-    return value
-
-
-@pytest.mark.parametrize(
-    ("body", "given"),
-    [
-        ("Part(First := 1, Total := Sum, Done => ok);", ["First", "Total", "Done"]),
-        ("Part(Total := Sum);", ["Total"]),
-        ("Part(1, 2, Sum, ok);", ["First", "Second", "Total", "Done"]),
-        ("n := Twice(Value := n);", ["Value"]),
-        ("n := Twice(n, 3);", ["Value", "Factor"]),
-    ],
-)
-def test_bindings_name_every_parameter_in_order(body: str, given: list[str]) -> None:
-    call = call_of(body)
-    assert isinstance(call.target, Block | Function)
-    assert [each.parameter for each in call.bindings] == list(call.target.parameters.values())
-    assert [each.parameter.name for each in call.bindings if each.value is not None] == given
-
-
-def test_en_and_eno_are_kept_apart() -> None:
-    call = call_of("Part(EN := ok, Total := Sum, ENO => ok);")
-    assert isinstance(call.en, Name)
-    assert isinstance(call.eno, Name)
-    assert [each.parameter.name for each in call.bindings] == ["First", "Second", "Total", "Done"]
-
-
 @pytest.mark.parametrize(
     ("body", "said"),
     [
@@ -324,48 +241,6 @@ def test_en_and_eno_are_kept_apart() -> None:
 )
 def test_wrong_calls(body: str, said: str) -> None:
     assert any(each.startswith(said) for each in messages(outer(body))), messages(outer(body))
-
-
-def test_symbols() -> None:
-    checked = check([parse(block("e := BUSY; p.First := i; timer(IN := x, PT := t);"), "t.st")])
-    example = checked.blocks["EXAMPLE"]
-    first, second, third = example.body
-    assert isinstance(first, Assign)
-    assert isinstance(first.value, Name)
-    assert isinstance(first.value.symbol, EnumValue)
-    assert (first.value.symbol.number, first.value.symbol.type) == (1, checked.types["E_STATE"])
-    assert isinstance(second, Assign)
-    assert isinstance(second.target, Member)
-    assert second.target.symbol is checked.types["T_PAIR"].fields["FIRST"]  # type: ignore[attr-defined]
-    assert isinstance(third, CallStatement)
-    assert isinstance(third.call.callee, Name)
-    assert isinstance(third.call.callee.symbol, VarDecl)
-    assert list(example.symbols)[:3] == ["B", "B2", "W"]
-
-
-def test_declared_types_and_sizes() -> None:
-    text = (
-        TYPES
-        + """
-    TYPE T_Grid : ARRAY[0..1, -1..1] OF T_Pair; END_TYPE
-    TYPE T_Digit : INT (0..9); END_TYPE
-    TYPE T_Alias : UINT; END_TYPE
-    TYPE T_Text : STRING[20]; END_TYPE
-    FUNCTION_BLOCK E VAR x : BOOL; g : T_Grid; t : T_Text; END_VAR x := TRUE; END_FUNCTION_BLOCK
-    """
-    )
-    checked = check([parse(text, "t.st")])
-    pair, grid = checked.types["T_PAIR"], checked.types["T_GRID"]
-    assert isinstance(pair, Struct)
-    assert isinstance(grid, Array)
-    assert (pair.size, grid.length, grid.bounds, grid.size) == (2 + 3 * 4, 6, ((0, 1), (-1, 1)), 6 * 14)
-    assert isinstance(checked.types["T_DIGIT"], Subrange)
-    assert checked.types["T_ALIAS"] is UINT
-    assert isinstance(checked.types["E_STATE"], Enum)
-    assert checked.types["T_TEXT"].size == 21
-    made = checked.blocks["E"].type
-    assert made is not None
-    assert made.size == 1 + 84 + 21
 
 
 def test_files_that_belong_together() -> None:
@@ -398,18 +273,6 @@ def test_recursion_through_another() -> None:
     FUNCTION_BLOCK B1 VAR a : A; END_VAR a(); END_FUNCTION_BLOCK
     """
     assert [each.split(":")[0] for each in messages(text)] == ["recursion", "recursion"]
-
-
-def test_the_result_of_a_function_is_a_variable() -> None:
-    checked = check([parse(INNER, "t.st")])
-    twice = checked.functions["TWICE"]
-    assert twice.result is twice.symbols["TWICE"]
-    assert twice.result is not None
-    assert (twice.result.kind, twice.type) == (VarKind.RESULT, INT)
-    assert list(twice.parameters) == ["VALUE", "FACTOR"]
-    default = twice.parameters["FACTOR"].default
-    assert isinstance(default, Literal)
-    assert (default.value, default.type) == (2, INT)
 
 
 CONFIGURATION = """
@@ -496,21 +359,6 @@ def test_declarations(declaration: str, rule: str) -> None:
 def test_a_function_keeps_no_blocks() -> None:
     text = "FUNCTION F : INT VAR_INPUT n : INT; END_VAR VAR t : TON; END_VAR F := n; END_FUNCTION"
     assert messages(text)[0].startswith("type-mismatch: a function keeps nothing between calls")
-
-
-def test_operand_types_are_kept() -> None:
-    value = value_of("x := r > 1.5;")
-    assert isinstance(value, Binary)
-    assert (value.type, value.operand_type, value.right.type) == (BOOL, REAL, REAL)
-    value = value_of("lr := lr + 1.0;")
-    assert isinstance(value, Binary)
-    assert value.operand_type is LREAL
-    value = value_of("w := w XOR 5;")
-    assert isinstance(value, Binary)
-    assert value.operand_type is value.right.type is WORD
-    value = value_of("t := t * 2;")
-    assert isinstance(value, Binary)
-    assert (value.operand_type, value.right.type) == (TIME, INT)
 
 
 def test_functions_and_blocks_of_one_name_in_two_files() -> None:

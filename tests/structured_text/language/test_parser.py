@@ -4,43 +4,25 @@ import pytest
 
 from structured_text.language.parser import ParseError, parse
 from structured_text.language.tree import (
-    ArrayInitial,
-    ArraySpec,
     Assign,
     Binary,
     BitAccess,
     Call,
-    CallStatement,
-    Case,
-    Configuration,
     Direct,
-    EnumSpec,
     Expression,
-    For,
     Function,
     FunctionBlock,
-    If,
     Index,
-    LabelRange,
     Literal,
     Member,
     Name,
-    NamedSpec,
     Program,
-    Repeat,
-    RepeatUntil,
     Statement,
-    StringSpec,
-    StructInitial,
-    StructSpec,
-    SubrangeSpec,
     TypeDecl,
     Unary,
     Unit,
     Unsupported,
     VarBlock,
-    VarKind,
-    While,
 )
 
 
@@ -115,40 +97,6 @@ def test_parentheses_are_counted_and_places_point_at_the_first_character() -> No
     assert statement.value.at == len("PROGRAM Example\nx := ")
 
 
-def test_statements() -> None:
-    text = """
-        IF a THEN b := 1; ELSIF c THEN b := 2; ELSE b := 3; END_IF;
-        CASE n OF 1: b := 1; 2, 4..6: b := 2; -1: b := 4; A_NAME, E.V: b := 5; ELSE b := 3; END_CASE;
-        FOR i := 0 TO 10 BY 2 DO b := i; EXIT; END_FOR;
-        WHILE a DO b := 1; CONTINUE; END_WHILE;
-        REPEAT b := 1; UNTIL a END_REPEAT;
-        timer(IN := a, PT := T#1s, NOT Q => b, ET => c);
-        RETURN;
-        ;
-    """
-    made = body_of(text)
-    kinds = ["If", "Case", "For", "While", "RepeatUntil", "CallStatement", "Return", "Empty"]
-    assert [type(each).__name__ for each in made] == kinds
-    branching, case, counting, looping, repeating, calling = made[:6]
-    assert isinstance(branching, If)
-    assert len(branching.branches) == 2
-    assert branching.otherwise is not None
-    assert isinstance(case, Case)
-    assert [len(branch.labels) for branch in case.branches] == [1, 2, 1, 2]
-    assert isinstance(case.branches[1].labels[1], LabelRange)
-    assert isinstance(counting, For)
-    assert counting.step is not None
-    assert isinstance(looping, While)
-    assert isinstance(repeating, RepeatUntil)
-    assert isinstance(calling, CallStatement)
-    assert [(each.name, each.output, each.negated) for each in calling.call.arguments] == [
-        ("IN", False, False),
-        ("PT", False, False),
-        ("Q", True, True),
-        ("ET", True, False),
-    ]
-
-
 def test_words_of_other_languages_are_names_where_no_doubt_is_possible() -> None:
     made = body_of("step := 1; task.name := 2; action[1] := 3; with(a := 1);")
     assert [type(each).__name__ for each in made] == ["Assign", "Assign", "Assign", "CallStatement"]
@@ -205,26 +153,6 @@ def unit() -> Unit:
     return parse(DECLARATIONS, "declarations.st")
 
 
-def test_types(unit: Unit) -> None:
-    row, pair, line, part = (each for each in unit.elements if isinstance(each, TypeDecl))
-    assert isinstance(row.spec, ArraySpec)
-    assert len(row.spec.ranges) == 2
-    assert row.trailing is not None
-    assert row.trailing.text == "a row"
-    assert isinstance(pair.spec, StructSpec)
-    first, second, text = pair.spec.fields
-    assert (first.name, second.name, second.grouped) == ("First", "Second", True)
-    assert first.spec is second.spec
-    assert first.trailing is second.trailing is not None
-    assert isinstance(text.spec, StringSpec)
-    assert text.spec.bracket == "["
-    assert isinstance(line.spec, EnumSpec)
-    assert [item.name for item in line.spec.items] == ["IDLE", "SENDING"]
-    assert line.spec.items[0].trailing is not None
-    assert isinstance(part.spec, SubrangeSpec)
-    assert {each.block for each in (row, pair, line, part)} == {1}
-
-
 def test_comments_stand_where_they_were_written(unit: Unit) -> None:
     function = next(each for each in unit.elements if isinstance(each, Function))
     assert [each.text for each in function.leading] == ["Adds."]
@@ -253,25 +181,6 @@ def test_places(unit: Unit) -> None:
         assert unit.text[element.at : element.end].endswith((";", "END_FUNCTION", "_BLOCK", "END_CONFIGURATION"))
     assert unit.place(0) == (1, 1)
     assert unit.line(len(DECLARATIONS) - 1) == len(lines)
-
-
-def test_function_block_and_configuration(unit: Unit) -> None:
-    block = next(each for each in unit.elements if isinstance(each, FunctionBlock))
-    constants, variables = block.blocks
-    assert constants.qualifiers == ("CONSTANT",)
-    assert constants.variables[0].constant
-    table = constants.variables[0].initial
-    assert isinstance(table, ArrayInitial)
-    assert isinstance(table.items[1], Repeat)
-    assert variables.variables[0].retain
-    assert isinstance(variables.variables[0].initial, StructInitial)
-    assert variables.variables[1].address == "%QX0.0"
-    plant = next(each for each in unit.elements if isinstance(each, Configuration))
-    assert plant.blocks[0].kind is VarKind.GLOBAL
-    resource = plant.resources[0]
-    assert (resource.name, resource.processor) == ("Cpu", "PLC")
-    assert (resource.tasks[0].name, resource.programs[0].task) == ("Fast", "Fast")
-    assert resource.programs[0].connections[0].name == "x"
 
 
 def test_dialects_parse_so_that_they_can_be_named() -> None:
@@ -361,11 +270,3 @@ def test_a_missing_end_is_reported_where_the_next_block_begins() -> None:
     assert told("FUNCTION_BLOCK A\nVAR\n  a : INT;\nEND_VAR\n  a := 1;\nFUNCTION_BLOCK B\nEND_FUNCTION_BLOCK\n") == [
         "broken.st:6:1: expected END_FUNCTION_BLOCK, found FUNCTION_BLOCK"
     ]
-
-
-def test_named_types() -> None:
-    unit = parse("TYPE T : Other; END_TYPE", "t.st")
-    declared = unit.elements[0]
-    assert isinstance(declared, TypeDecl)
-    assert isinstance(declared.spec, NamedSpec)
-    assert declared.spec.name == "Other"

@@ -8,7 +8,7 @@ import pytest
 from tests.structured_text.engines.embedded.snippets import build
 
 from structured_text.engines.embedded import EmbeddedEngine
-from structured_text.engines.engine import BuildError, ScanError, Source
+from structured_text.engines.engine import ScanError, Source
 
 TEXT = """TYPE Row : ARRAY[2..5] OF INT; END_TYPE
 TYPE Grid : ARRAY[0..1, 1..3] OF INT; END_TYPE
@@ -126,27 +126,3 @@ END_FUNCTION_BLOCK
             "other.st": {3: 5, 4: 0, 6: 5},
             "main.st": {4: 2, 5: 2, 6: 5, 7: 5, 9: 2, 10: 0, 11: 2},
         }
-
-
-class TestBuildErrors:
-    """What does not compile is reported with its place, all of it at once."""
-
-    def test_syntax(self) -> None:
-        """Of all sources."""
-        with pytest.raises(BuildError) as caught:
-            EmbeddedEngine().build([Source("a.st", "FUNCTION_BLOCK A\n  x := ;\n"), Source("b.st", "PROGRAM\n")])
-        assert {message.path for message in caught.value.messages} == {"a.st", "b.st"}
-
-    def test_types(self) -> None:
-        """With line and column."""
-        text = "FUNCTION_BLOCK A\nVAR n : INT; END_VAR\n  n := TRUE;\n  n := m;\nEND_FUNCTION_BLOCK\n"
-        with pytest.raises(BuildError) as caught:
-            build(text)
-        assert [(each.line, each.column) for each in caught.value.messages] == [(3, 8), (4, 8)]
-
-    def test_what_the_engine_does_not_run(self) -> None:
-        """A construct that the checker passes and the engine lacks is a message, not a crash."""
-        text = 'FUNCTION_BLOCK A\nVAR w : WSTRING; END_VAR\n  w := "abc";\nEND_FUNCTION_BLOCK\n'
-        with pytest.raises(BuildError) as caught:
-            build(text)
-        assert caught.value.messages[0].line == 3

@@ -1,6 +1,5 @@
 """The build cache: what is in it is whole and fits its key, whoever writes at the same time."""
 
-import multiprocessing
 import os
 import re
 import stat
@@ -16,23 +15,13 @@ from structured_text.engines.matiec import Flags, MatiecEngine
 from structured_text.engines.matiec.cache import SEAL, Cache, cache_folder
 
 
-def write(text: str, mark: Path | None = None) -> "Maker":
-    return Maker(text, mark)
+def write(text: str) -> Callable[[Path], None]:
+    """What fills an entry with one file."""
+    return lambda folder: _fill(folder, text)
 
 
-class Maker:
-    """Fills an entry with one file; adds a byte to a file each time it is called."""
-
-    def __init__(self, text: str, mark: Path | None) -> None:
-        self.text = text
-        self.mark = mark
-
-    def __call__(self, folder: Path) -> None:
-        (folder / "library.so").write_text(self.text[:3], encoding="utf-8")
-        if self.mark:
-            with self.mark.open("ab") as file:
-                file.write(b"x")
-        (folder / "library.so").write_text(self.text, encoding="utf-8")
+def _fill(folder: Path, text: str) -> None:
+    (folder / "library.so").write_text(text, encoding="utf-8")
 
 
 def never(_: Path) -> None:
@@ -77,19 +66,6 @@ def test_failed_make_leaves_nothing(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("entries/*/*"))
     assert not list(tmp_path.glob("making/*"))
     assert cache.entry("abc", write("text")).is_dir()
-
-
-def _entry(root: str, mark: str) -> str:
-    folder = Cache(Path(root)).entry("abc", write("x" * 100_000, Path(mark)))
-    return (folder / "library.so").read_text(encoding="utf-8")
-
-
-def test_processes_at_the_same_time_make_it_once_and_read_it_whole(tmp_path: Path) -> None:
-    mark = tmp_path / "mark"
-    with multiprocessing.get_context("spawn").Pool(4) as pool:
-        texts = pool.starmap(_entry, [(str(tmp_path / "cache"), str(mark))] * 8)
-    assert set(texts) == {"x" * 100_000}
-    assert mark.read_bytes() == b"x"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows locks otherwise")

@@ -36,6 +36,7 @@ def _stale(folder: str, pous: list[Pou]) -> list[str]:
     return changed + sorted(records.keys() - {pou.name for pou in pous})
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("folder", folders())
 def test_the_record_is_of_the_blocks_as_they_are(folder: str) -> None:
     """A changed block, or other inputs: what was recorded says nothing about it."""
@@ -43,6 +44,7 @@ def test_the_record_is_of_the_blocks_as_they_are(folder: str) -> None:
     assert stale == [], AGAIN + ", ".join(stale)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("folder", folders())
 def test_the_embedded_engine_replays_the_library(folder: str) -> None:
     """Every variable after every scan, but the copies of in-outs that only matiec keeps."""
