@@ -2,70 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import repeat
 from math import gcd
 from typing import Any
 
 from structured_text.engines.embedded import EmbeddedLibrary
-from structured_text.engines.embedded.certainty import known, present
+from structured_text.engines.embedded.certainty import present
 from structured_text.engines.embedded.faults import FAULTS, scan_error
 from structured_text.engines.embedded.global_variables import GlobalsView, globals_in, globals_of
 from structured_text.engines.engine import Value
 from structured_text.language import tree
-from structured_text.language.tree import Block, Direction, Parameter, VarKind
-from structured_text.language.types import BOOL, INT, TIME, Kind
+from structured_text.language.tree import Block, Direction, Parameter
+from structured_text.language.types import INT, TIME, Kind
 
-
-@dataclass(slots=True)
-class _Task:
-    """When programs are due: every `ticks` ticks (0: not by time), or on a rising edge of `single`."""
-
-    ticks: int
-    single: Callable[[], bool] | None
-    priority: int
-    memory: bool = False
-
-    def is_due(self, tick: int) -> bool:
-        """Whether to run in this tick. A task with SINGLE is looked at once per tick."""
-        if self.single is not None:
-            before, self.memory = self.memory, bool(self.single())
-            return self.memory and not before
-        return self.ticks == 0 or tick % self.ticks == 0
+LAST = 65536
+"""The priority of a program without a task."""
 
 
 @dataclass(slots=True)
 class _Program:
-    """A program instance: what hands it its inputs, its body, what takes its outputs."""
+    """A program instance: due every `ticks` ticks (0: in each), by the priority of its task."""
 
-    task: _Task | None
+    ticks: int
+    priority: int
     root: Any
-    before: list[Callable[[], None]] = field(default_factory=list)
-    body: Callable[[Any], None] = lambda _: None
-    after: list[Callable[[], None]] = field(default_factory=list)
-
-    def run(self) -> None:
-        """One scan of this program."""
-        for each in self.before:
-            each()
-        self.body(self.root)
-        for each in self.after:
-            each()
+    body: Callable[[Any], None]
 
 
 class EmbeddedConfiguration:
     """A running configuration. In one tick the programs that are due run by the priority of their task (0 first),
-    then in the order of declaration; without `by_priority` in the order of declaration alone, as on matiec.
+    then in the order of declaration.
     """
 
-    def __init__(self, library: EmbeddedLibrary, configuration: tree.Configuration, by_priority: bool = True) -> None:
+    def __init__(self, library: EmbeddedLibrary, configuration: tree.Configuration) -> None:
         """Make the globals and the programs."""
         self._compiler = library.compiler
         self._configuration = configuration
         self._paths_of = library.paths
         self._limit = library.loop_limit
-        self._by_priority = by_priority
         self._globals = globals_of(library.compiler)
         self._roots: dict[str, tuple[Block, Any]] = {}
         self._tick = 0
@@ -111,18 +87,9 @@ class EmbeddedConfiguration:
     # ------------------------------------------------------------ in detail
 
     def _run_tick(self) -> None:
-        due = {id(each.task): each.task is None or each.task.is_due(self._tick) for each in self._first_of_tasks()}
         for each in self._programs:
-            if due[id(each.task)]:
-                each.run()
-
-    def _first_of_tasks(self) -> Iterator[_Program]:
-        """One program of each task, so that every task is asked once."""
-        seen: set[int] = set()
-        for each in self._programs:
-            if id(each.task) not in seen:
-                seen.add(id(each.task))
-                yield each
+            if each.ticks == 0 or self._tick % each.ticks == 0:
+                each.body(each.root)
 
     def _common_interval(self) -> int:
         tasks = [each for resource in self._configuration.resources for each in resource.tasks]
@@ -146,54 +113,19 @@ class EmbeddedConfiguration:
             )
 
     def _resource(self, resource: tree.Resource) -> list[_Program]:
-        tasks = {id(each): self._task(each) for each in resource.tasks}
-        programs = [self._program(resource, each, tasks) for each in resource.programs]
-        if self._by_priority:
-            last = max((each.priority for each in tasks.values()), default=0) + 1
-            programs.sort(key=lambda each: each.task.priority if each.task else last)
-        return programs
+        programs = [self._program(resource, each) for each in resource.programs]
+        return sorted(programs, key=lambda each: each.priority)
 
-    def _task(self, task: tree.Task) -> _Task:
-        priority = 0 if task.priority is None else self._compiler.evaluate(task.priority, INT)
-        ticks = self._duration(task) // self._interval if self._interval else 0
-        single = None if task.single is None else self._reader(task.single)
-        return _Task(ticks, single, priority)
-
-    def _program(self, resource: tree.Resource, program: tree.ProgramInstance, tasks: dict[int, _Task]) -> _Program:
+    def _program(self, resource: tree.Resource, program: tree.ProgramInstance) -> _Program:
         block = present(present(program.target).type)
         root = self._compiler.instance(block, self._globals)
         name = f"{resource.name}.{program.name}" if resource.name else program.name
         self._roots[name.upper()] = block, root
-        task = None if program.task_target is None else tasks[id(program.task_target)]
-        made = _Program(task, root, body=self._compiler.body(block))
-        for each in program.connections:
-            self._connect(each, block, root, made)
-        return made
-
-    def _connect(self, argument: tree.Argument, block: Block, root: Any, program: _Program) -> None:
-        """`input := global` or `output => global` of a program instance."""
-        if argument.value is None or argument.name is None:
-            return
-        name = argument.name.upper()
-        if argument.output:
-            write = self._writer(argument.value)
-            program.after.append(lambda: write(getattr(root, name)))
-        else:
-            read = self._reader(argument.value, block.parameters[name].type)
-            program.before.append(lambda: setattr(root, name, read()))
-
-    def _reader(self, source: tree.Expression, kind: Any = None) -> Callable[[], Any]:
-        variable = source.symbol if isinstance(source, tree.Name) else None
-        if isinstance(variable, tree.VarDecl) and variable.kind is VarKind.GLOBAL:
-            slot = self._compiler.shapes.global_slot(variable)
-            return lambda: getattr(self._globals, slot)
-        value = self._compiler.evaluate(source, kind or BOOL)
-        return lambda: value
-
-    def _writer(self, target: tree.Expression) -> Callable[[Any], None]:
-        variable = known(known(target, tree.Name).symbol, tree.VarDecl)
-        slot = self._compiler.shapes.global_slot(variable)
-        return lambda value: setattr(self._globals, slot, value)
+        ticks, priority = 0, LAST
+        if (task := program.task_target) is not None:
+            ticks = self._duration(task) // self._interval if self._interval else 0
+            priority = 0 if task.priority is None else self._compiler.evaluate(task.priority, INT)
+        return _Program(ticks, priority, root, self._compiler.body(block))
 
     def _split(self, path: str) -> tuple[Block, Any, str]:
         """The root that a path starts with, and the rest of the path. KeyError."""
@@ -214,7 +146,7 @@ def _names(block: Block) -> set[str]:
     return set(block.declaration.symbols)
 
 
-def start(library: EmbeddedLibrary, name: str | None = None, by_priority: bool = True) -> EmbeddedConfiguration:
+def start(library: EmbeddedLibrary, name: str | None = None) -> EmbeddedConfiguration:
     """Start the CONFIGURATION of that name, or the only one. KeyError."""
     known = library.compiler.checked.configurations
     if name is None and len(known) != 1:
@@ -222,4 +154,4 @@ def start(library: EmbeddedLibrary, name: str | None = None, by_priority: bool =
     found = next(iter(known.values())) if name is None else known.get(name.upper())
     if found is None:
         raise KeyError(f"there is no configuration {name}")
-    return EmbeddedConfiguration(library, found, by_priority)
+    return EmbeddedConfiguration(library, found)
