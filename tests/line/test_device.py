@@ -149,24 +149,6 @@ def test_it_reads_what_its_pins_say(pin: int, code: int, base: int) -> None:
     assert bench.words(2, "Sensed") == [0x4000, 0]
 
 
-def test_nothing_is_valid_before_the_first_reply_and_each_reply_is_fresh_once() -> None:
-    bench = Scene()
-    seen = ages = 0
-    for _ in range(100):
-        before = bench["Meter.Valid"]
-        bench.scan()
-        seen += bench["Meter.Fresh"]
-        if not seen:
-            assert (bench["Meter.Valid"], bench["Meter.AgeMs"], bench.words(16)) == (False, 65535, [0] * 16)
-        elif bench["Meter.Fresh"]:
-            assert (bench["Meter.Valid"], bench["Meter.AgeMs"]) == (True, 0)
-        else:
-            assert before
-            ages = max(ages, bench["Meter.AgeMs"])
-    assert abs(seen - bench.slot(0, "Fresh")) <= 1
-    assert 40 <= ages <= 200
-
-
 @pytest.mark.parametrize(
     ("pins", "expected"),
     [
@@ -201,21 +183,6 @@ def test_silence_ends_what_is_valid_and_a_reply_begins_it(stale: int, every: int
     assert (bench["Meter.Valid"], bench.error()) == (True, "OK")
 
 
-def test_it_is_found_again_while_the_stop_of_a_dead_drive_waits() -> None:
-    """The stop was sent again whenever a dead unit could be asked, so no other was ever probed."""
-    bench = Scene(EveryMs=200).ready()
-    for dead in (0, 3):
-        bench.drives[dead].alive = False
-    bench.put(3, TurnRoundMs=400)  # so the wire rests for longer than until its stop is due again
-    bench.stop(3)
-    bench.run(3000)
-    assert not bench["Meter.CommOk"]
-    bench.drives[0].alive = True
-    bench.run(12_000)
-    assert bench["Meter.Valid"]
-    assert not bench.slot(3, "Online")
-
-
 def test_damaged_replies_never_come_through() -> None:
     bench = Scene(Config(drives=4, garble=20_000))
     bench.run(3000)
@@ -237,22 +204,6 @@ def test_other_registers_are_never_shown_as_those_of_the_pins() -> None:
                 assert bench.words(quantity) == [first + index for index in range(quantity)]
     bench.run(200)
     assert bench["Meter.Valid"]
-
-
-def test_a_restart_begins_anew() -> None:
-    bench = Scene().ready()
-    bench.wire("Meter", Write=True)
-    bench.drives[0].alive = False
-    bench.run(30)
-    bench.set(Restart=True)
-    bench.run(20)
-    assert (bench["Meter.Valid"], bench["Meter.AgeMs"], bench.words(16)) == (False, 65535, [0] * 16)
-    assert NAMES[bench["Meter.WriteErrorID"]] == "RESTARTED"
-    bench.set(Restart=False)
-    bench.drives[0].alive = True
-    bench.run(1000)
-    assert bench["Meter.Valid"]
-    assert not bench.written
 
 
 @pytest.mark.parametrize(

@@ -292,44 +292,6 @@ def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -
 # ---------------------------------------------------------------- store
 
 
-def test_stores_are_apart_and_counted() -> None:
-    scene = Scene("SN300G5", clock=59_000)
-    assert scene.done("Keep", MinimumS=0) == "TOO_SOON", "so soon after power-up"
-    scene.drop("Keep")
-    scene.rested().silent = True
-    scene.block["Stores"] = 99_998
-    assert scene.done("Keep") == "SILENCE"
-    assert (scene["Stores"], scene["Keep.Worn"]) == (100_000, 1), "both attempts may have stored"
-    scene.drop("Keep")
-    scene.run(58_000)
-    assert scene.done("Keep") == "TOO_SOON"
-    assert len(scene.written()) == 2
-    scene.drop("Keep")
-    scene.run(2000)
-    scene.silent = False
-    assert scene.done("Keep") == "OK"
-
-
-@pytest.mark.parametrize("apart", [0, 3])
-def test_two_blocks_store_in_one_drive_a_minute_apart(apart: int) -> None:
-    scene = Scene("SN300G5").rested()
-    scene.execute("Keep")
-    for _ in range(apart):
-        scene.scan()
-    scene.execute("Store2")
-    scene.run(500)
-    assert {scene.result("Keep"), scene.result("Store2")} == {"OK", "TOO_SOON"}
-    assert len(scene.written()) == 1
-    assert scene["Stores"] + scene["Stores2"] == 1
-    scene.drop("Keep")
-    scene.drop("Store2")
-    scene.run(59_000)
-    assert scene.done("Store2") == "TOO_SOON"
-    scene.drop("Store2")
-    scene.run(2000)
-    assert scene.done("Store2") == "OK"
-
-
 def test_the_example_of_the_page_runs_and_lints_clean() -> None:
     (program,) = re.findall(r"```\n(PROGRAM .*?END_PROGRAM)\n```", PAGE, re.DOTALL)
     wanted = re.compile(r"types/.*|vfd/.*|line/MB_(?:Plus|Minus)\.st|\w+/SN300G5_ParameterAddress\.st")
