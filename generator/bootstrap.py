@@ -1,18 +1,21 @@
 """From a fresh clone to a result in one command, with nothing but Python 3.11 or newer and git.
 
     python3 generator/bootstrap.py demo    set up, then run the main job on the drives of vendor_maps/
-    python3 generator/bootstrap.py test    set up, then run every test, as continuous integration does
-    python3 generator/bootstrap.py test --quick    a part of them in under two minutes, and what it left out
+    python3 generator/bootstrap.py test    set up, then run the tests that continuous integration runs: five minutes
+    python3 generator/bootstrap.py test --all    every test, and coverage: an hour
+    python3 generator/bootstrap.py test --all --continue    ... from where it was stopped, or where a part failed
 
 All make a virtual environment `.venv` in the checkout and install the project and what it needs into it.
 """
 
 import difflib
 import hashlib
+import json
 import os
 import re
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -32,19 +35,14 @@ DEMO = (
     ("test the blocks against the manuals (some seconds)", "driveblocks", "test"),
     ("look for other ST compilers", "driveblocks", "doctor"),
 )
-TEST = (
-    ("lint", "ruff", "check", "."),
-    ("format", "ruff", "format", "--check", "."),
-    ("types", "mypy"),
-    ("tests", "pytest", "-n", "auto", "--dist", "loadfile", "--cov", "--cov-report=term", "--cov-fail-under=90"),
-)
-QUICK = (
-    "docs", "drives/test_start.py", "explain", "maps", "modbus", "reference", "render", "simulator",
-    "structured_text/language",
-)  # fmt: skip
-"""Tests that answer soon: maps, their blocks as text and at the start of a motor, and the pages."""
-SLOW = ("maps/test_fuzz.py", "maps/test_hostile.py")
-"""Files of these that look for what hardly anybody breaks, and take a third of the time of all."""
+PYTEST = ("pytest", "-n", "auto", "--dist", "loadfile")
+FORM = (("lint", "ruff", "check", "."), ("format", "ruff", "format", "--check", "."))
+TYPES = ("types", "mypy")
+TEST = ("tests", *PYTEST, "--scope", "default")
+FLOOR = 90
+"""Percent of the lines and branches of the generator that the tests of the default reach."""
+NO_TESTS = 5
+"""The exit status of pytest where a scope has none of the tests of a folder."""
 LAST_LINE = ("driveblocks", "test")
 """A step that says all in its last line when nothing is wrong."""
 
@@ -61,44 +59,131 @@ next
 
 
 def main(arguments: list[str]) -> int:
-    """Set up and run one of the two jobs. Returns the exit status: 0 good, 1 a step failed, 2 wrong call or machine."""
-    jobs = {"demo": (DEMO, ""), "test": (TEST, "[test]")}
+    """Set up and run one of the jobs. Returns the exit status: 0 good, 1 a step failed, 2 wrong call or machine."""
     if {"-h", "--help"} & set(arguments):
         print(__doc__)
         return 0
-    if arguments == ["test", "--quick"]:
-        return quick()
-    if len(arguments) != 1 or arguments[0] not in jobs:
-        print(wrong(arguments, list(jobs)), file=sys.stderr)
+    jobs = {"demo": demo, "test": test, "test --all": thorough, "test --all --continue": lambda: thorough(True)}
+    words = " ".join(arguments)
+    if words not in jobs:
+        print(wrong(arguments, ["demo", "test"]), file=sys.stderr)
         return 2
-    steps, extra = jobs[arguments[0]]
-    if not set_up(extra):
-        return 2
-    status = run(steps)
-    if steps is DEMO and status == 0:
+    return jobs[words]() if set_up("" if words == "demo" else "[test]") else 2
+
+
+def demo() -> int:
+    """Run the main job, and say what to do next."""
+    status = run(DEMO)
+    if status == 0:
         print(
             NEXT.format(blocks=ROOT / "blocks", sep=os.sep, driveblocks=BIN.relative_to(ROOT) / "driveblocks"), end=""
         )
     return status
 
 
-def quick() -> int:
-    """Set up, run what answers soon, and say what was left out. Returns the exit status."""
-    if not set_up("[test]"):
-        return 2
-    words = [f"tests/{name}" for name in QUICK] + [f"--ignore=tests/{name}" for name in SLOW]
-    status = run((*TEST[:-1], ("tests", "pytest", "-n", "auto", "--dist", "loadfile", *words)))
-    print(f"left out: {', '.join(not_quick())}; `python3 generator/bootstrap.py test` runs them, too")
-    return status
+def test() -> int:
+    """Run what continuous integration runs: types beside the tests, and at the end what all took."""
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder, beside(*TYPES[1:]) as types:
+        tally = Path(folder) / "tally.json"
+        status = run((*FORM, (*TEST, "--tally", str(tally))))
+        say(TYPES[0])
+        said, _ = types.communicate()
+        print(said.decode(errors="replace"), end="", flush=True)
+        status |= types.returncode != 0
+        counts = json.loads(tally.read_text("utf-8")) if tally.exists() else {"ran": 0, "there": 0}
+    print(
+        f"\n{time.monotonic() - start:.0f} s, {cpu():.0f} CPU seconds with all children; "
+        f"{counts['ran']:,} of the {counts['there']:,} tests of `test --all`"
+    )
+    print("FAILED" if status else "good")
+    return int(status)
 
 
-def not_quick() -> list[str]:
-    """The folders of which the quick test runs nothing, and the files that it leaves out of others."""
-    files = [path.relative_to(ROOT / "tests") for path in ROOT.glob("tests/**/test_*.py")]
-    chosen = {each for each in files if each.as_posix().startswith(QUICK) and each.as_posix() not in SLOW}
-    begun = {each.parent for each in chosen}
-    left = {each if each.parent in begun else each.parent for each in files if each not in chosen}
-    return sorted(("tests" / each).as_posix() for each in left)
+def beside(*command: str) -> "subprocess.Popen[bytes]":
+    """Start a command of the virtual environment that goes on beside others; what it prints is kept."""
+    words = [str(BIN / command[0]), *command[1:]]
+    return subprocess.Popen(words, cwd=ROOT, env=kept(), stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def cpu() -> float:
+    """CPU seconds of this process and of all that it has waited for; Windows does not count those."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system
+
+
+# ---------------------------------------------------------------- every test, in parts
+
+
+def parts() -> dict[str, tuple[str, ...]]:
+    """The command of each part of `test --all` by its name.
+
+    Coverage is counted for the tests of the default, folder by folder; the rest of each runs without.
+    """
+    folders = sorted({path.relative_to(ROOT).parts[1] for path in ROOT.glob("tests/**/test_*.py")})
+    counted = ("--scope", "default", "--cov", "--cov-append", "--cov-report=", "--cov-fail-under=0")
+    found = {title: words for title, *words in (*FORM, TYPES)}
+    for name in folders:
+        found[f"{name}, counted"] = [*PYTEST, *counted, f"tests/{name}"]
+    for name in folders:
+        found[f"{name}, rest"] = [*PYTEST, "--scope", "rest", f"tests/{name}"]
+    found["coverage"] = ["coverage", "report", f"--fail-under={FLOOR}"]
+    return {name: tuple(words) for name, words in found.items()}
+
+
+def thorough(again: bool = False) -> int:
+    """Run every part; with `again` those that have not passed on the text of today. Returns the exit status."""
+    kept_at, text = VENV / "thorough.json", digest()
+    known = json.loads(kept_at.read_text("utf-8")) if again and kept_at.exists() else {}
+    done = known.get("parts", {}) if known.get("text") == text else {}
+    if known and not done:
+        print("the text has changed since: every part runs again")
+    if not done:
+        (ROOT / ".coverage").unlink(missing_ok=True)
+    todo = {name: words for name, words in parts().items() if done.get(name, {}).get("status") != 0}
+    start = time.monotonic()
+    for number, (name, words) in enumerate(todo.items(), 1):
+        say(f"{name}, {number} of {len(todo)}, {(time.monotonic() - start) / 60:.0f} min so far")
+        done[name] = part(words)
+        kept_at.write_text(json.dumps({"text": text, "parts": done}, indent=1), encoding="utf-8")
+    return table(done)
+
+
+def part(words: "tuple[str, ...]") -> "dict[str, float]":
+    """Run one part; returns its exit status, 0 where a scope has no tests there, its seconds and CPU seconds."""
+    start, before = time.monotonic(), cpu()
+    status = step(*words)
+    return {
+        "status": 0 if status == NO_TESTS and words[0] == PYTEST[0] else status,
+        "seconds": time.monotonic() - start,
+        "cpu": cpu() - before,
+    }
+
+
+def table(done: "dict[str, dict[str, float]]") -> int:
+    """Print what each part took. Returns the exit status."""
+    say("result")
+    for name, each in done.items():
+        print(f"{'FAILED' if each['status'] else 'ok    '} {each['seconds']:6.0f} s {each['cpu']:6.0f} CPU s  {name}")
+    seconds, used = (sum(each[key] for each in done.values()) for key in ("seconds", "cpu"))
+    print(f"\n{seconds:.0f} s, {used:.0f} CPU seconds with all children")
+    failed = [name for name, each in done.items() if each["status"]]
+    print(f"FAILED: {'; '.join(failed)}" if failed else "good")
+    return 1 if failed else 0
+
+
+def digest() -> str:
+    """A digest of what the tests look at: every file that git knows, as it is on the disk."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT, stdout=subprocess.PIPE, check=True,
+    )  # fmt: skip
+    found = hashlib.sha256()
+    for name in sorted(os.fsdecode(listed.stdout).split("\0")):
+        path = ROOT / name
+        if name and path.is_file():
+            found.update(name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    return found.hexdigest()
 
 
 def wrong(arguments: list[str], jobs: list[str]) -> str:

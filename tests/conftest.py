@@ -4,44 +4,23 @@
 of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
 skipped, with the reason, where there is none. What a test records as the property `summary` is printed at the end.
 
-Properties are tried on the same examples on every machine and in every run, however long that takes. `make fuzz` looks
+Properties are tried on the same examples on every machine and in every run, however long that takes. `make long WHAT=fuzz` looks
 for others with the profile `search`; what it finds becomes an example of the suite.
 """
 
 import functools
-import gc
 import os
 import signal
-import sys
-from collections.abc import Generator, Sequence
-from contextlib import nullcontext
-from pathlib import Path
-from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
-from tests import counting
+from tests import selection
 from tests.progress import Progress
 
-from driveblocks.maps import catalog, load
-from driveblocks.maps.collection import Source
-from driveblocks.maps.model import Drive
-from driveblocks.maps.problem import Report
 from structured_text.engines.discovery import EMBEDDED, MATIEC_NAMES, Candidate, survey
 from structured_text.engines.engine import Engine
 
-if TYPE_CHECKING:
-    from driveblocks.plc import source
-
 REQUIRE = "DRIVEBLOCKS_REQUIRE"
-MANY = 4_000_000
-"""Objects, some 400 MB, after which garbage is looked for between two modules: to walk over all takes seconds."""
-_blocks = [0]
-WITHOUT_WALK = SimpleNamespace(collect=int, freeze=gc.freeze, unfreeze=gc.unfreeze)
-"""What a run in real time does with garbage, but look for it: among the trees of all tests that takes a second."""
-_programs: dict[tuple[object, ...], "source.Loaded"] = {}
-MOST_PROGRAMS = 20
 settings.register_profile(
     "suite", derandomize=True, deadline=None, database=None, suppress_health_check=[HealthCheck.too_slow]
 )
@@ -71,60 +50,30 @@ def missing(required: str) -> list[str]:
     return complaints
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """The options of the choice of tests."""
+    selection.add_options(parser)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Choose the tests of the default, the rest, or all."""
+    selection.choose(config, items)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: object) -> None:
+    """Keep how many tests a process of xdist has chosen; each has collected all."""
+    if counts := getattr(node, "workeroutput", {}).get("tally"):
+        selection.write(node.config, counts)  # type: ignore[attr-defined]
+
+
 def pytest_configure(config: pytest.Config) -> None:
     """Refuse to run where a required engine is missing: a green run would claim what was not tested."""
     if not hasattr(config, "workerinput") and (complaints := missing(os.environ.get(REQUIRE, ""))):
         raise pytest.UsageError("\n".join(complaints))
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in the background of a script; its children inherit that
         signal.signal(signal.SIGINT, signal.default_int_handler)
-    if config.getoption("cov_source", None):
-        counting.without_engine()
-    maps_once()
-    programs_once()
-    gc.set_threshold(100_000, 20, 20)
-
-
-def maps_once() -> None:
-    """From now on load each shipped map once in a process, but in the tests of the loader."""
-    loaded = load._loaded
-
-    @functools.cache
-    def known(text: str, path: Path) -> Drive:
-        return loaded(text, Report(str(path)), path)
-
-    def once(text: str, report: Report, path: Path | None = None) -> Drive:
-        if path is None or path.parent != catalog.folder() or counting.at[0].startswith("maps/"):
-            return loaded(text, report, path)
-        return known(text, path)
-
-    load._loaded = once
-
-
-def programs_once() -> None:
-    """From now on compile a program once for a module's tests, but for those of programs; no run walks over trees."""
-    from driveblocks.plc import live, source  # here: the check of engines comes first
-
-    # a namespace in place of a module, which is no type that mypy knows
-    live.gc = WITHOUT_WALK  # type: ignore[assignment, attr-defined]
-    load = source.load
-
-    def once(path: str, text: str, maps: Sequence[Source], name: str | None = None) -> source.Loaded:
-        if counting.at[0].startswith("plc/"):
-            return load(path, text, maps, name)
-        key = path, text, name, *(part for each in maps for part in (each.path, id(each.drive)))
-        if key not in _programs:
-            if len(_programs) == MOST_PROGRAMS:
-                _programs.clear()
-            _programs[key] = load(path, text, maps, name)
-        return _programs[key]
-
-    source.load = once
-
-
-def pytest_collection_finish() -> None:
-    """Look for garbage rarely, and never among the tests: most objects are trees that live as long as the process."""
-    gc.collect()
-    gc.freeze()
 
 
 @pytest.hookimpl(trylast=True)
@@ -140,30 +89,13 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         session.config.pluginmanager.register(Progress(lambda: session.testscollected, reporter.write_line))
 
 
-@pytest.hookimpl(wrapper=True)
-def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
-    """Leave tests out of the coverage that say nothing of it."""
-    counting.at[0] = item.nodeid.removeprefix("tests/")
-    left_out = counting.left_out(counting.at[0])
-    if left_out and sys.gettrace() is not None:
-        counting.imported()
-    with counting.uncounted() if left_out else nullcontext():
-        return (yield)
-
-
 def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
     """What a module has worked out once for its tests ends with the last of them: trees of libraries are large."""
     module = getattr(item, "module", None)
-    if module is None or getattr(nextitem, "module", None) is module:
-        return
-    caches = [each for each in vars(module).values() if isinstance(each, functools._lru_cache_wrapper)]
-    own = [each for each in caches if each.__module__ == module.__name__ and each.cache_info().currsize]
-    for each in own:
-        each.cache_clear()
-    _programs.clear()
-    if sys.getallocatedblocks() > _blocks[0] + MANY:
-        gc.collect()  # trees go in rings
-        _blocks[0] = sys.getallocatedblocks()
+    if module is not getattr(nextitem, "module", None):
+        for each in vars(module).values():
+            if isinstance(each, functools._lru_cache_wrapper) and each.__module__ == module.__name__:
+                each.cache_clear()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

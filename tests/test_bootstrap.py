@@ -185,22 +185,64 @@ def test_ctrl_c_ends_quietly(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
     assert not capsys.readouterr().err
 
 
-def test_the_quick_test_says_what_it_left_out(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    ran: list[tuple[str, ...]] = []
+# ---------------------------------------------------------------- the tests
+
+
+class Steps:
+    """The steps that ran, and the exit status of those that shall fail, by their words."""
+
+    def __init__(self) -> None:
+        self.ran: list[str] = []
+        self.status: dict[str, int] = {}
+
+    def step(self, *command: str) -> int:
+        """Take the place of a step."""
+        self.ran.append(" ".join(command))
+        return self.status.get(self.ran[-1], 0)
+
+
+@pytest.fixture
+def steps(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Steps:
+    """What the jobs run, in a checkout with a folder of tests and a file."""
+    (tmp_path / "tests/maps").mkdir(parents=True)
+    (tmp_path / "tests/maps/test_a.py").touch()
+    (tmp_path / "tests/test_b.py").touch()
+    subprocess.run(["git", "init", "-q", str(tmp_path)], check=True)
+    monkeypatch.setattr(bootstrap, "ROOT", tmp_path)
+    monkeypatch.setattr(bootstrap, "VENV", tmp_path)
     monkeypatch.setattr(bootstrap, "set_up", lambda extra: extra == "[test]")
+    done = Steps()
+    monkeypatch.setattr(bootstrap, "step", done.step)
+    monkeypatch.setattr(bootstrap, "beside", lambda *_: subprocess.Popen(["true"], stdout=subprocess.PIPE))
+    return done
 
-    def step(*command: str) -> int:
-        ran.append(command)
-        return 0
 
-    monkeypatch.setattr(bootstrap, "step", step)
-    assert bootstrap.main(["test", "--quick"]) == 0
-    chosen = {each.removeprefix("--ignore=") for each in ran[-1] if "tests/" in each}
-    assert all((bootstrap.ROOT / each).exists() for each in chosen)
-    said = capsys.readouterr().out
-    assert [line for line in said.splitlines() if line.startswith("== types")] == ["== types, 3 of 4"]
-    left = said.rpartition("left out: ")[2].partition(";")[0].split(", ")
-    assert {"tests", "tests/second", "tests/prove", "tests/drives/test_stop.py", "tests/maps/test_fuzz.py"} <= set(left)
-    assert chosen & set(left) == {f"tests/{each}" for each in bootstrap.SLOW}
+@NOT_WINDOWS
+def test_the_default_says_at_its_end_what_it_took(steps: Steps, capsys: pytest.CaptureFixture[str]) -> None:
+    assert bootstrap.main(["test"]) == 0
+    *_, figures, last = capsys.readouterr().out.splitlines()
+    assert "CPU seconds" in figures
+    assert last == "good"
+    steps.status["ruff check ."] = 1
+    assert bootstrap.main(["test"]) == 1
+    assert capsys.readouterr().out.endswith("\nFAILED\n")
+
+
+@NOT_WINDOWS
+def test_all_continues_where_a_part_failed_and_begins_anew_on_another_text(
+    steps: Steps, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = " ".join(bootstrap.parts()["maps, rest"])
+    (tmp_path / ".gitignore").write_text("thorough.json\n", encoding="utf-8")
+    steps.status[words] = 1
+    assert bootstrap.main(["test", "--all"]) == 1
+    assert capsys.readouterr().out.endswith("FAILED: maps, rest\n")
+    assert len(steps.ran) == len(bootstrap.parts())
+    steps.ran.clear()
+    steps.status[words] = bootstrap.NO_TESTS
+    assert bootstrap.main(["test", "--all", "--continue"]) == 0
+    assert steps.ran == [words]
+    steps.ran.clear()
+    (tmp_path / "tests/test_b.py").write_text("b = 1\n", encoding="utf-8")
+    assert bootstrap.main(["test", "--all", "--continue"]) == 0
+    assert len(steps.ran) == len(bootstrap.parts())

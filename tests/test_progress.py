@@ -5,13 +5,14 @@ from types import SimpleNamespace
 from tests.progress import Progress
 
 
-def test_each_file_is_named_once_with_the_share_that_has_ended() -> None:
+def test_each_file_is_named_once_with_how_far_and_how_long_still() -> None:
     said: list[str] = []
-    progress = Progress(lambda: 4, said.append)
-    for name in ("a/test_b.py::test_c", "test_d.py::test_e[::]", "a/test_b.py::test_f"):
+    seconds = iter((0, 30))
+    progress = Progress(lambda: 80, said.append, lambda: next(seconds))
+    for name in ("a/test_b.py::test_c", *("a/test_b.py::test_f",) * 19, "test_d.py::test_e[::]"):
         progress.pytest_runtest_logstart(f"tests/{name}")
         progress.pytest_runtest_logfinish()
-    assert said == ["  0 %  a/test_b.py", " 25 %  test_d.py"]
+    assert [line.split() for line in said] == [["0", "%", "a/test_b.py"], ["25", "%", "90", "s", "left", "test_d.py"]]
 
 
 def test_nothing_that_has_not_passed_is_kept_back() -> None:
