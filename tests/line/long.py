@@ -1,4 +1,4 @@
-"""The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]` (`make line`).
+"""The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]`.
 
 Random lines of every kind around each line of matiec, every planted mistake found, refresh beside its formulas.
 `--page` writes the table of docs/measured/line.md. Exit status 1 if anything is not as it must be.
@@ -123,7 +123,6 @@ def refreshed(job: Job) -> Iterator[Row | list[str]]:
         good = all(each.coarse for each in over) if name == shares[0][0] else not over
         yield Row(f"refresh beside its formula, {len(ratios)} lines, {name}", measured, good)
     yield refresh.seven(found)
-    yield refresh.axes(found)
     yield refresh.families(job.line)
 
 

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 from math import ceil
-from statistics import median
 
 from tests import shipped
 from tests.line.cline import CLine
@@ -91,28 +90,6 @@ def setups() -> Iterator[Setup]:
     """Every combination."""
     for keeps, drives, rate, bits, scan, (sent, received) in product((True, False), DRIVES, RATES, BITS, SCANS, DELAYS):
         yield Setup(drives, rate, bits, scan, sent, received, keeps)
-
-
-AXES: tuple[tuple[str, Callable[[Setup], str]], ...] = (
-    ("drives", lambda each: str(each.drives)),
-    ("bit/s", lambda each: str(each.rate)),
-    ("format", lambda each: "8E1" if each.bits == 11 else "8N1"),
-    ("scan", lambda each: f"{each.scan} ms"),
-    ("silence kept by", lambda each: "the port" if each.keeps else "the line"),
-    ("scans late, to the wire", lambda each: str(each.sent)),
-    ("scans late, back", lambda each: str(each.received)),
-)
-
-
-def axes(found: Mapping[Setup, float]) -> list[str]:
-    """The worst of all lines beside both formulas, by each value of each axis, and what is typical."""
-    rows = ["| axis | | beside the plain formula | beside whole ms | median |", "|---|---|---|---|---|"]
-    for name, value in AXES:
-        for text in dict.fromkeys(map(value, found)):
-            mine = {each: ms for each, ms in found.items() if value(each) == text}
-            plain, whole = (max(ms / each.formula(whole=form) for each, ms in mine.items()) for form in (False, True))
-            rows.append(f"| {name} | {text} | {plain:.3f} | {whole:.3f} | {median(mine.values()):.0f} ms |")
-    return rows
 
 
 def seven(found: Mapping[Setup, float]) -> list[str]:

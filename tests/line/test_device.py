@@ -39,14 +39,9 @@ VAR
   Meter : MB_Device;   (* slot 0 *)
   Sensor : MB_Device;  (* slot 1 *)
   Second : MB_Device;  (* slot 0, too *)
-  Get : VFD_ReadParameter; (* other registers of the meter *)
-  Keep : VFD_Store;    (* stores where there is nothing to be stored *)
-  Stores : UDINT;      (* of Keep *)
   Line : MB_Line8;     (* the line *)
 END_VAR
 
-  Get(Slot := Slots[0]);
-  Keep(Slot := Slots[0], Stores := Stores);
   IF Called THEN
     Meter(Slot := Slots[0], Words := Words);
     Sensor(Slot := Slots[1], Words := Sensed);

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.steps import grows_evenly
 
 from structured_text.language.checker import analyse
-from structured_text.language.lint import lint, lint_sources
+from structured_text.language.lint import lint_sources
 from structured_text.language.parser import ParseError, parse
 from structured_text.language.problems import Problem
 from structured_text.language.tree import Unit
@@ -145,17 +145,6 @@ def parsed(text: str) -> Unit | None:
         return parse(text, "mutated.st")
     except ParseError:
         return None
-
-
-def test_white_space_and_comments_change_nothing_but_places() -> None:
-    text = SAMPLES[0]
-    spaced = text.replace(";", " ; ").replace("(*", "  (*").replace(":=", " (* here *) := ")
-    assert [each.rule for each in lint([unit for unit in (parsed(spaced),) if unit])] == []
-    one, two = parsed(text), parsed(spaced)
-    assert one is not None
-    assert two is not None
-    assert [type(each) for each in one.elements] == [type(each) for each in two.elements]
-    assert len(two.comments) == len(one.comments) + text.count(":=")
 
 
 def test_analyse_survives_what_parses() -> None:

@@ -222,19 +222,6 @@ def test_path_that_leads_nowhere_is_a_key_error(build: Builder, path: str) -> No
         holder[path] = 0
 
 
-def test_initial_values(build: Builder) -> None:
-    holder = build(HOLDER).instance("holder")
-    assert holder["text"] == b"start\r"
-    assert holder["SPAN"] == 1_500_000_000
-    assert holder["Marked"] == 1
-    assert holder["Part"] == 50
-    assert holder["Matrix"] == [[1, 2, 3], [4, 5, 6], [7, 8, 9]]
-    assert holder["Matrix[1,-1]"] == 4
-    assert holder["Scans"] == 7
-    assert holder["LIMIT_OF_SCANS"] == 99
-    assert holder["All"] == [{"BUSY": False, "DATA": [0] * 8, "TITLE": b"", "SCALE": 0.0}] * 3
-
-
 def test_state_has_every_scalar_in_the_order_of_declaration(build: Builder) -> None:
     state = build(HOLDER).instance("Holder").state()
     names = list(state)
@@ -245,32 +232,6 @@ def test_state_has_every_scalar_in_the_order_of_declaration(build: Builder) -> N
     assert "ENO" not in state
     assert len(state) == 17 + 2 + 9 + 3 + 2 + 3 * (1 + 8 + 1 + 1) + 2
     assert all(type(state[name]) is kind for name, kind in (("BIT", bool), ("B", int), ("R", float), ("TEXT", bytes)))
-
-
-def test_nested_instances_and_in_outs(build: Builder) -> None:
-    outer = build(NESTED).instance("Outer")
-    outer["Shared"] = b"\x09\x09\x09"
-    outer.scan(0)
-    assert outer["Shared"] == [9, 0x12, 9, 0, 0, 0, 0, 0]
-    assert outer["All[2].Busy"] is True
-    assert outer["All[1].Busy"] is False
-    assert outer["Worker.Calls"] == 1
-    outer["Worker.Calls"] = 40
-    outer.scan()
-    assert outer["worker.calls"] == 41
-
-
-def test_clock(build: Builder) -> None:
-    outer = build(NESTED).instance("Outer")
-    outer["Go"] = True
-    seen = []
-    for now in (5_000_000_000, 5_400_000_000, 5_999_999_999, 6_000_000_000):
-        outer.scan(now)
-        seen.append((outer["Done"], outer["Elapsed"]))
-    assert seen == [(False, 0), (False, 400_000_000), (False, 999_999_999), (True, 1_000_000_000)]
-    outer["Go"] = False
-    outer.scan()
-    assert outer["Done"] is False
 
 
 def test_instances_of_a_library_share_its_clock(build: Builder) -> None:
@@ -295,17 +256,6 @@ def test_scan_many_is_many_scans(build: Builder) -> None:
     one.scan()
     many.scan()
     assert many.state() == one.state()
-
-
-def test_standard_block_shows_its_interface_and_hides_its_inside(build: Builder) -> None:
-    library = build(NESTED)
-    state = library.instance("Outer").state()
-    assert [name for name in state if name.startswith("DELAY.")] == ["DELAY.IN", "DELAY.PT", "DELAY.Q", "DELAY.ET"]
-    timer = library.instance("TON")
-    timer["IN"], timer["PT"] = True, 5
-    timer.scan(0)
-    timer.scan(5)
-    assert timer["Q"] is True
 
 
 def test_blocks_in_source_order_and_unknown_block(build: Builder) -> None:
@@ -340,16 +290,6 @@ def test_division_by_zero_ends_the_scan_and_not_the_process(build: Builder) -> N
     divider["Divisor"] = 4
     divider.scan(1)
     assert divider["Quotient"] == 25
-
-
-def test_names_that_c_has_for_signals(build: Builder) -> None:
-    """Names of ST become capitals in C, and so are the macros of its headers."""
-    names = ["SIGFPE", "SA_RESTART", "SIG_DFL", "NSIG", "POLL_IN", "FPE_INTDIV", "SS_DISABLE"]
-    declared = "".join(f"    {name} : INT := {value};\n" for value, name in enumerate(names))
-    text = f"FUNCTION_BLOCK Signals\n  VAR\n{declared}  END_VAR\n  NSIG := NSIG + 1;\nEND_FUNCTION_BLOCK\n"
-    signals = build(text).instance("Signals")
-    signals.scan(0)
-    assert signals.state() == {name: value + (name == "NSIG") for value, name in enumerate(names)}
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no timer of processor time on Windows")

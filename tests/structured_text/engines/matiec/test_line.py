@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-from structured_text.engines.engine import Source
 from structured_text.engines.matiec import MatiecEngine
 from structured_text.engines.matiec.line import Behaviour, observe
 
@@ -26,29 +25,3 @@ def test_majority_decides(behaviour: Behaviour, line: str, pure: bool) -> None:
 def test_engine_is_named_by_what_it_does(matiec: MatiecEngine) -> None:
     behaviour = observe(replace(matiec, name="whatever"))
     assert matiec.name == f"matiec-{behaviour.line}"
-
-
-def test_for_that_should_run_once(matiec: MatiecEngine) -> None:
-    """The difference that matters most, seen through the whole engine."""
-    text = """FUNCTION_BLOCK Once
-  VAR_INPUT
-    Last : INT := 3;
-  END_VAR
-  VAR_OUTPUT
-    Turns : INT;
-  END_VAR
-  VAR
-    I : INT;
-  END_VAR
-  Turns := 0;
-  FOR I := 3 TO Last DO
-    Turns := Turns + 1;
-  END_FOR;
-END_FUNCTION_BLOCK
-"""
-    once = matiec.build([Source("once.st", text)]).instance("Once")
-    once.scan(0)
-    assert once["Turns"] == {"matiec-beremiz": 0, "matiec-openplc": 1}[matiec.name]
-    once["Last"] = 4
-    once.scan(0)
-    assert once["Turns"] == 2

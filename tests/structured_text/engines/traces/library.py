@@ -29,7 +29,7 @@ from structured_text.engines.engine import Instance, Library, Value
 FOLDER = Path(__file__).parent / "library"
 BY_CHANCE = 60
 BY_CHANCE_WITH_ARRAYS = 24
-AGAIN = "run `make traces` where both lines of matiec are: "
+AGAIN = "run `make long WHAT=traces` where both lines of matiec are: "
 
 State = dict[str, Value]
 """Every leaf of a block by path; an array is a list."""

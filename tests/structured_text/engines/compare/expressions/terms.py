@@ -53,13 +53,6 @@ class Term:
         for child in self.children:
             yield from child.walk()
 
-    def replaced(self, old: Term, new: Term) -> Term:
-        """The same with one node (by identity) exchanged; parentheses stay where they were."""
-        if self is old:
-            return new
-        pieces = tuple(piece.replaced(old, new) if isinstance(piece, Term) else piece for piece in self.pieces)
-        return self if pieces == self.pieces else Term(self.type, self.rule, pieces, self.level)
-
 
 def atom(kind: str, rule: str, text: str) -> Term:
     """A variable or literal."""
