@@ -1,4 +1,4 @@
-"""The matrix at length, `make matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
+"""The matrix at length, `make long WHAT=matrix`: `python -m tests.second.long [--times N] [--only WORDS] [--walks N]`.
 
 Every cell this many times, each time with other options, other moments and, every second time, a second event on the
 heels of the first; then random walks with the same judge. On matiec where it is found, else on the embedded engine; in

@@ -1,0 +1,127 @@
+"""What runs for minutes and hours, one by one: `make long WHAT=line`; without WHAT the list.
+
+SEED, TIMES and SECONDS are those of the environment, or of `make long WHAT=matrix TIMES=1`.
+"""
+
+import os
+import random
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+SEARCH = "pytest -n auto -m hypothesis --hypothesis-profile search --hypothesis-seed"
+
+
+class Run(NamedTuple):
+    """What a long run does, how long it takes on two cores, and its modules, one after the other."""
+
+    does: str
+    takes: str
+    modules: tuple[str, ...]
+
+
+RUNS = {
+    "fuzz": Run(
+        "random maps, texts for both YAML parsers, every property, damaged replies, hostile files (SEED)",
+        "some minutes",
+        (
+            "tests.maps.fuzz --seed {SEED}",
+            "tests.maps.agreement --seed {SEED}",
+            SEARCH + " {SEED}",
+            "pytest -n auto -m long",
+            "tests.blocks.fuzz --seed {SEED}",
+        ),
+    ),
+    "compare": Run(
+        "10^5 scans of every block of the corpus and 10^6 expressions, embedded engine against matiec",
+        "an hour",
+        ("tests.structured_text.engines.compare.long",),
+    ),
+    "compare-blocks": Run(
+        "10^5 scans of every block of the library on three engines, the full state after each",
+        "20 minutes",
+        ("tests.blocks.compare.long",),
+    ),
+    "traces": Run(
+        "records how matiec runs corpus and library (both lines of matiec); after every change of a block",
+        "minutes",
+        ("tests.structured_text.engines.traces.record",),
+    ),
+    "verdicts": Run(
+        "records what matiec says of the accept/reject corpus",
+        "5 minutes",
+        ("tests.structured_text.engines.accept.record",),
+    ),
+    "coverage": Run(
+        "lines and branches of the blocks that the test programs reach, on every engine found",
+        "some minutes",
+        ("driveblocks test --engine all --require-coverage 90",),
+    ),
+    "sanitize": Run(
+        "every block under ASan and UBSan: 10^7 damaged inputs per parser, 10^6 per other block",
+        "10 minutes",
+        ("tests.native.sanitize",),
+    ),
+    "libfuzzer": Run(
+        "coverage-guided fuzzing of parsers, framing and requests (clang)", "9 minutes", ("tests.native.fuzz",)
+    ),
+    "exhaustive": Run(
+        "CRC, decoders, permissions, standstill, lengths, all 2^32 REALs of the references, on matiec",
+        "half an hour",
+        ("tests.native.exhaustive",),
+    ),
+    "line": Run(
+        "10^6 random stops on a virtual RS-485 line in C; writes the table of docs/measured/line.md (matiec)",
+        "half an hour",
+        ("tests.line.long --page",),
+    ),
+    "matrix": Run(
+        "every mode x event x state on second models of the drives, four times, and random walks (TIMES)",
+        "an hour",
+        ("tests.second.long --times {TIMES}",),
+    ),
+    "prove": Run(
+        "every rule for every family and made-up drive, 10^4 calls per block on the engine",
+        "an hour",
+        ("driveblocks prove", "tests.prove.agreement", "pytest -n auto -m long tests/prove"),
+    ),
+    "planted": Run(
+        "mistakes planted in blocks, linter, exports and commands: which test turns red", "hours", ("tests.planted",)
+    ),
+    "linux-line": Run(
+        "a soft PLC by matiec against the simulator, 1 % of the frames damaged (SECONDS)",
+        "an hour",
+        ("tests.stand.softplc {SECONDS}",),
+    ),
+    "desk-line": Run(
+        "`driveblocks run` at pymodbus's server, 1 % of the frames damaged (SECONDS)",
+        "an hour",
+        ("tests.stand.deskplc {SECONDS}",),
+    ),
+}
+
+
+def commands(name: str) -> list[list[str]]:
+    """The commands of a run, by the Python or the `driveblocks` of this environment."""
+    given = {"SEED": str(random.randrange(10**9)), "TIMES": "4", "SECONDS": "3600"} | dict(os.environ)
+    found = [shlex.split(text.format_map(given)) for text in RUNS[name].modules]
+    product = str(Path(sys.executable).with_name("driveblocks"))
+    return [[product, *words[1:]] if words[0] == "driveblocks" else [sys.executable, "-m", *words] for words in found]
+
+
+def main(arguments: list[str]) -> int:
+    """Run all of what is named, or print the list. Exit status 1 if a command failed, 2 for an unknown name."""
+    if len(arguments) != 1 or arguments[0] not in RUNS:
+        print("\n".join(f"{name:15} {each.takes:13} {each.does}" for name, each in RUNS.items()))
+        return 2 if arguments else 0
+    failed = 0
+    for words in commands(arguments[0]):
+        print(shlex.join(words), flush=True)
+        failed |= subprocess.run(words, check=False).returncode != 0
+    return failed
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
