@@ -38,6 +38,7 @@ def test_a_language_left_out_costs_nothing() -> None:
     assert "TextZh" not in english["iec61131/order.txt"]
 
 
+@pytest.mark.thorough
 def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> None:
     fourth = sorted((ROOT / "tests/blocks/fourth_drive").glob("*.yaml"))
     made = build.files(collection.read([*catalog.shipped(), *fourth, EXAMPLE]), text.languages(["en"], "utf-8"))
@@ -68,6 +69,7 @@ def test_chinese_can_be_gb18030() -> None:
     assert "'" + "".join(f"${byte:02X}" for byte in "无应答".encode("gb18030")) + "'" in shown
 
 
+@pytest.mark.thorough
 def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -> None:
     """The package as it is packed: without what .gitignore names, and nothing of the project beside it."""
     left_out = (ROOT / ".gitignore").read_text(encoding="utf-8").replace("/\n", "\n").split()

@@ -62,6 +62,7 @@ def test_its_files_are_those_of_the_folder_byte_by_byte_with_a_fixed_date(archiv
         assert archive.namelist() == sorted(archive.namelist())
 
 
+@pytest.mark.thorough
 def test_made_twice_they_are_the_same_bytes(archives: dict[str, Path], tmp_path: Path) -> None:
     elsewhere = tmp_path / "copy"
     for name in ("blocks", "docs", "examples"):  # files of another age, in another order
