@@ -8,6 +8,7 @@ from tests.shipped import drives
 from driveblocks.maps.model import Drive
 
 
+@pytest.mark.thorough
 def test_changes_of_maps_are_noticed() -> None:
     tally = mutation.run(rounds=1, seed=11, sample=30)
     assert mutation.unexplained(tally) == []

@@ -125,6 +125,7 @@ SEEDS = 6
 
 
 @pytest.mark.parametrize(("old", "new", "cell", "rules"), PLANTED)
+@pytest.mark.thorough
 def test_a_planted_mistake_is_seen(old: str, new: str, cell: str, rules: set[str]) -> None:
     counted: list[int] = []
 
