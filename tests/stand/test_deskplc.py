@@ -1,4 +1,4 @@
-"""`driveblocks run` on a real clock at pymodbus's server, some frames damaged; `make long WHAT=desk-line` does it for an hour."""
+"""`driveblocks run` on a real clock at pymodbus's server, frames damaged; `make long WHAT=desk-line`: for an hour."""
 
 import os
 
