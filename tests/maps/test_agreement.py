@@ -1,6 +1,5 @@
 """Both YAML parsers make the same of every text: texts that they once read otherwise, and a short search."""
 
-import re
 from pathlib import Path
 
 import pytest
@@ -32,14 +31,6 @@ def test_a_short_search_finds_nothing() -> None:
 
 
 @needs_libyaml
-def test_the_search_reports_what_is_read_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As it would be with libyaml for every text."""
-    monkeypatch.setattr(nodes, "_EDGE", re.compile("(?!)"))
-    monkeypatch.setattr(agreement, "text", lambda _, number: FOUND[number])
-    assert [line for line in agreement.search(1, range(len(FOUND))) if repr("|#\n") in line]
-
-
-@needs_libyaml
 def test_texts_of_the_search_are_good_often_enough() -> None:
     read = [outcome(agreement.text(1, number), libyaml=True) for number in range(300)]
     assert sum(root is not None and not problems for root, problems in read) > 60
@@ -50,17 +41,3 @@ def test_texts_of_the_search_are_good_often_enough() -> None:
 def test_a_good_map_is_read_by_libyaml(path: Path) -> None:
     """The quick way is taken: the other is many times as slow."""
     assert nodes._quickly(path.read_text(encoding="utf-8")) is not None
-
-
-def test_the_same_seed_gives_the_same_texts() -> None:
-    assert agreement.text(3, 5) == agreement.text(3, 5) != agreement.text(4, 5)
-
-
-def test_a_find_is_reported_and_can_be_repeated(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(agreement, "outcome", lambda text, libyaml: (text, libyaml))
-    assert agreement.main(["--count", "2"]) == 1
-    seed = capsys.readouterr().out.split(":")[0].removeprefix("seed ")
-    assert agreement.main(["--seed", seed, "--only", "1"]) == 1
-    assert f"text 1 of seed {seed}: " in capsys.readouterr().out
