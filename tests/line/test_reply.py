@@ -42,6 +42,15 @@ def test_a_refusal_is_a_result_and_not_repeated(kind: int) -> None:
     assert len([each for each in sent if each.pdu[1] == 6]) == 1
 
 
+def test_a_fault_reset_is_sent_once() -> None:
+    bench = Bench().ready()
+    bench.put(1, ResetAsked=True)
+    bench.drives[1].alive = False
+    bench.command(1)
+    resets = [each for each in bench.run(600) if each.unit == 2 and not each.read]
+    assert (len(resets), bench.answer(1, COMMAND)) == (1, "SILENCE")
+
+
 # ---------------------------------------------------------------- echo
 
 
