@@ -4,13 +4,14 @@
 of the whole run. `engine` is one engine after the other, `matiec` those of matiec alone; a test that needs matiec is
 skipped, with the reason, where there is none. What a test records as the property `summary` is printed at the end.
 
-Properties are tried on the same examples on every machine and in every run, however long that takes. `make long WHAT=fuzz` looks
-for others with the profile `search`; what it finds becomes an example of the suite.
+Properties are tried on the same examples on every machine and in every run, however long that takes. The long run
+`make long WHAT=fuzz` looks for others with the profile `search`; what it finds becomes an example of the suite.
 """
 
 import functools
 import os
 import signal
+from types import ModuleType
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -92,7 +93,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> None:
     """What a module has worked out once for its tests ends with the last of them: trees of libraries are large."""
     module = getattr(item, "module", None)
-    if module is not getattr(nextitem, "module", None):
+    if isinstance(module, ModuleType) and module is not getattr(nextitem, "module", None):
         for each in vars(module).values():
             if isinstance(each, functools._lru_cache_wrapper) and each.__module__ == module.__name__:
                 each.cache_clear()

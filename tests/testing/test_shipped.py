@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 from tests import shipped
 from tests.blocks.library import BLOCKS
-from tests.counting import uncounted
 
 from driveblocks.maps import collection
 from driveblocks.output.units import units
@@ -66,8 +65,7 @@ def noting(seen: Seen) -> Callable[[EmbeddedLibrary, str], EmbeddedInstance]:
 def covered(made: list[Unit]) -> tuple[Coverage, Run]:
     """What the programs of some units have run on the embedded engine, and what came of it."""
     measured = Coverage("embedded")
-    with uncounted():
-        return measured, runner.run(made, [EmbeddedEngine(coverage=True)], coverage=[measured])
+    return measured, runner.run(made, [EmbeddedEngine(coverage=True)], coverage=[measured])
 
 
 def assert_green(done: Run) -> None:
@@ -146,14 +144,14 @@ def test_the_scenes_of_the_shipped_maps_reach_most_of_the_line_and_the_drive_blo
     assert 100.0 * (1 - branches[1] / branches[0]) >= MOST_BRANCHES, branches
 
 
+@pytest.mark.thorough
 def test_the_programs_of_drives_that_only_maps_describe_do_and_are_green() -> None:
     """Scenes run without counters: what they reach runs in time."""
     made = units(collection.read(FOURTH), shipped.BOTH)
     measured, done = covered([some(unit, scenes=False) for unit in made])
     assert_green(done)
     assert unexplained(measured) == []
-    with uncounted():
-        assert_green(runner.run([some(unit, scenes=True) for unit in made], [EmbeddedEngine()]))
+    assert_green(runner.run([some(unit, scenes=True) for unit in made], [EmbeddedEngine()]))
 
 
 def some(unit: Unit, *, scenes: bool) -> Unit:

@@ -4,7 +4,7 @@ import re
 from functools import lru_cache
 from pathlib import Path
 
-from driveblocks.maps import base, check, nodes, numbering, pair, source
+from driveblocks.maps import base, catalog, check, nodes, numbering, pair, source
 from driveblocks.maps.decode import build, decode
 from driveblocks.maps.form import WORD
 from driveblocks.maps.model import Drive
@@ -23,7 +23,14 @@ def load(path: Path) -> Drive:
     if not _STEM.fullmatch(path.stem):
         wrong = "the name of this file cannot name the folder of its blocks"
         report.add((1, 1), wrong, "use letters A to Z, digits, _ and -, such as my_drive.yaml")
-    return _loaded(source.read(path), report, path)
+    text = source.read(path)
+    return _shipped(path, text) if path.parent == catalog.folder() else _loaded(text, report, path)
+
+
+@lru_cache(64)
+def _shipped(path: Path, text: str) -> Drive:
+    """A map that comes with DriveBlocks, and so does its base: neither changes while a process runs."""
+    return _loaded(text, Report(str(path)), path)
 
 
 def loads(text: str, name: str) -> Drive:

@@ -52,8 +52,7 @@ def _undisturbed() -> Iterator[None]:
     """Let neither drawing nor the collection of garbage keep a scan waiting."""
     switch = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_S)
-    gc.collect()
-    gc.freeze()
+    gc.freeze()  # what has been compiled is out of reach of the collector, which would walk over all of it
     try:
         yield
     finally:

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from driveblocks.maps import catalog, collection
@@ -37,9 +37,15 @@ def load(path: str, text: str, maps: Sequence[Map], name: str | None = None) -> 
         files = needed([parse(text, path)], maps)
     except ParseError as error:
         raise BuildError([Message(each.path, each.line, each.column, each.text) for each in error.problems]) from error
-    built = EmbeddedEngine().build([*files, Source(path, text)])
+    built = _built((*files, Source(path, text)))
     unit = built.compiler.checked.units[-1]
     return Loaded(built, _chosen(unit, name), {each.drive.prefix.upper(): each.drive for each in maps})
+
+
+@lru_cache(8)
+def _built(texts: tuple[Source, ...]) -> EmbeddedLibrary:
+    """The compiled texts, which any number of instances may be made of. Raises BuildError."""
+    return EmbeddedEngine().build(texts)
 
 
 def advice(wrong: str) -> str:
