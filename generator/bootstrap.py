@@ -63,7 +63,7 @@ def main(arguments: list[str]) -> int:
     if {"-h", "--help"} & set(arguments):
         print(__doc__)
         return 0
-    jobs = {"demo": demo, "test": test, "test --all": thorough, "test --all --continue": lambda: thorough(True)}
+    jobs = {"demo": demo, "test": test, "test --all": thorough, "test --all --continue": again}
     words = " ".join(arguments)
     if words not in jobs:
         print(wrong(arguments, ["demo", "test"]), file=sys.stderr)
@@ -86,7 +86,7 @@ def test() -> int:
     start = time.monotonic()
     with tempfile.TemporaryDirectory() as folder, beside(*TYPES[1:]) as types:
         tally = Path(folder) / "tally.json"
-        status = run((*FORM, (*TEST, "--tally", str(tally))))
+        status = run((*FORM, (*TEST, f"--tally={tally}")))
         say(TYPES[0])
         said, _ = types.communicate()
         print(said.decode(errors="replace"), end="", flush=True)
@@ -131,10 +131,15 @@ def parts() -> dict[str, tuple[str, ...]]:
     return {name: tuple(words) for name, words in found.items()}
 
 
-def thorough(again: bool = False) -> int:
-    """Run every part; with `again` those that have not passed on the text of today. Returns the exit status."""
+def again() -> int:
+    """Go on with what has not passed yet on the text of today."""
+    return thorough(True)
+
+
+def thorough(goes_on: bool = False) -> int:
+    """Run every part; with `goes_on` those that have not passed on the text of today. Returns the exit status."""
     kept_at, text = VENV / "thorough.json", digest()
-    known = json.loads(kept_at.read_text("utf-8")) if again and kept_at.exists() else {}
+    known = json.loads(kept_at.read_text("utf-8")) if goes_on and kept_at.exists() else {}
     done = known.get("parts", {}) if known.get("text") == text else {}
     if known and not done:
         print("the text has changed since: every part runs again")

@@ -21,7 +21,7 @@ SCOPES = ("all", "default", "rest")
 @cache
 def families() -> dict[str, str]:
     """The prefix of each shipped map, by what an id can call it: its prefix, or the name of its file."""
-    found = {}
+    found: dict[str, str] = {}
     for path in ROOT.glob("vendor_maps/*.yaml"):
         said = re.search(r"^prefix: (\w+)", path.read_text("utf-8"), re.MULTILINE)
         if said is not None:

@@ -52,6 +52,7 @@ def test_embedded_engine_and_pymodbus_are_timed() -> None:
         assert {"pymodbus", "drive embedded", "any embedded"} <= set(columns)
 
 
+@pytest.mark.thorough
 def test_build_is_measured_step_by_step() -> None:
     rows = growth.measure(maps=(1,), whole=(1,), registers=(50,), rounds=1)
     assert list(rows) == ["shipped", "shipped without libyaml", "50 registers", "1 maps", "1 maps whole"]

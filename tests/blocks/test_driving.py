@@ -10,6 +10,8 @@ from tests.shipped import drives, sisters
 from driveblocks.maps.model import Drive
 from structured_text.engines.engine import Engine
 
+pytestmark = pytest.mark.every_family
+
 DRIVES = pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
 IN_ONE_WORD = {prefix: drive for prefix, drive in drives().items() if drive.operation.in_one_word}
 """Drives with a command block; what takes several writes is the part of their orders."""

@@ -10,6 +10,8 @@ from driveblocks.reference.naming import name_of
 from driveblocks.render.results import RESULTS
 from structured_text.engines.engine import Engine
 
+pytestmark = pytest.mark.every_family
+
 DRIVES = pytest.mark.parametrize("drive", drives().values(), ids=list(drives()))
 DECODED = [(drive, row) for drive in drives().values() for row in meanings.decoded(drive)]
 SCALED = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive)]

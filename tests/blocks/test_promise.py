@@ -124,6 +124,7 @@ def test_lists_longer_than_a_statement_lint_clean() -> None:
     assert lint_sources((each.path, each.text) for each in (*promise.shared(), *made[1])) == []
 
 
+@pytest.mark.thorough
 def test_changes_as_authors_make_them() -> None:
     tries = [promise.glance(7, number) for number in range(30)]
     assert [each for each in tries if each.wrong] == []
@@ -136,6 +137,7 @@ def test_a_change_is_made_from_its_seed_and_number_alone() -> None:
     assert promise.changed(3, 5) == promise.changed(3, 5) != promise.changed(4, 5)
 
 
+@pytest.mark.thorough
 def test_the_judge_is_awake(monkeypatch: pytest.MonkeyPatch) -> None:
     changed = document("baumhof.yaml")
     changed["sections"][0]["registers"][0]["bits"][0]["symbol"] = "EN"

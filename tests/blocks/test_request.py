@@ -47,6 +47,7 @@ LIMITS = [
 
 
 @pytest.mark.parametrize(("prefix", "asked", "wanted"), LIMITS)
+@pytest.mark.every_family
 def test_limits_of_the_manuals(engine: Engine, prefix: str, asked: Asked, wanted: str) -> None:
     assert wire.build(built(engine), prefix, asked).built.result == wanted
 

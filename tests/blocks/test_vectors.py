@@ -8,6 +8,8 @@ from tests.shipped import drives
 from driveblocks.maps.model import Drive, Frame
 from structured_text.engines.engine import Engine
 
+pytestmark = pytest.mark.every_family
+
 FRAMES = [(drive, frame) for drive in drives().values() for frame in drive.frames]
 IDS = [f"{drive.prefix}-{frame.id}" for drive, frame in FRAMES]
 EVERY = pytest.mark.parametrize(("drive", "frame"), FRAMES, ids=IDS)

@@ -54,6 +54,7 @@ def test_the_column_of_the_manuals_own_words_is_there_where_it_has_some(tmp_path
 
 @pytest.mark.parametrize("topic", ["", *TOPICS])
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: Path(path).stem)
+@pytest.mark.thorough
 def test_a_page_fits_any_terminal_and_folding_loses_no_character(path: str, topic: str) -> None:
     pages = {columns: show(path, *filter(None, [topic]), columns=columns) for columns in (80, 120, 1000)}
     for columns, result in pages.items():

@@ -26,8 +26,18 @@ QUOTED = [
         r"refresh of seven drives, the line keeps the silence \| (\d+)",
     ),
     ("run.md", r"a scan takes about ([\d.]+) ms", "soft-plc.md", r"\| 3 \| ([\d.]+) ms"),
-    ("run.md", r"for an hour at a port.*?(no) stop was lost", "soft-plc.md", r"`make long WHAT=desk-line` \| [\d,]+ \| (\d+)"),
-    ("linux.md", r"hour with 1 % .*?(no) stop was lost", "soft-plc.md", r"`make long WHAT=linux-line` \| [\d,]+ \| (\d+)"),
+    (
+        "run.md",
+        r"for an hour at a port.*?(no) stop was lost",
+        "soft-plc.md",
+        r"`make long WHAT=desk-line` \| [\d,]+ \| (\d+)",
+    ),
+    (
+        "linux.md",
+        r"hour with 1 % .*?(no) stop was lost",
+        "soft-plc.md",
+        r"`make long WHAT=linux-line` \| [\d,]+ \| (\d+)",
+    ),
     ("stop.md", r"(no) stop was lost", "line.md", r"1000000 random lines of kind stops, .*? stops: (\d+) lost"),
     ("stop.md", r"(none) was later", "line.md", r"1000000 random lines of kind stops, .*? lost, (\d+) late"),
     *(

@@ -30,6 +30,7 @@ def test_matiec_and_the_embedded_engine(matiec: Engine) -> None:
     walk(SEED, twins(beside(matiec), every=20), steps=2)
 
 
+@pytest.mark.thorough
 def test_a_difference_is_found() -> None:
     both = twins({"one": EmbeddedEngine(), "other": EmbeddedEngine()}, every=1)
     bench = Bench(*FAMILIES, stations=both)

@@ -16,6 +16,8 @@ from tests.shipped import drives
 
 from driveblocks.maps.model import Bit, Condition, Drive, Frame, Register
 
+pytestmark = pytest.mark.every_family
+
 MAPS = Path(__file__).parents[2] / "vendor_maps"
 
 SN, JS, CH, GD, PF = (drives()[prefix] for prefix in ("SN300G5", "JSCC", "CHF", "GD200A", "PF4"))

@@ -1,9 +1,12 @@
 """The maps of MX2 and Altivar 312 against their manuals, typed by hand a second time."""
 
+import pytest
 from tests.maps.facts import altivar_312, mx2
 from tests.shipped import drives
 
 from driveblocks.maps.model import Register
+
+pytestmark = pytest.mark.every_family
 
 MX, ATV = drives()["MX2"], drives()["ATV312"]
 

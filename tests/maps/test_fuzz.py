@@ -11,6 +11,7 @@ from driveblocks.maps.problem import Report
 EXAMPLE = fuzz.text(fuzz.EXAMPLE)
 
 
+@pytest.mark.thorough
 def test_no_mutation_makes_the_loader_fail_or_look_away() -> None:
     tally = fuzz.fuzz(fuzz.maps(), seed=7, numbers=range(300))
     assert tally.failures == []

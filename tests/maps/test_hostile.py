@@ -49,6 +49,7 @@ def test_hostile_files_are_refused_in_little_memory(part: int, share: int, tmp_p
 
 
 @pytest.mark.parametrize("name", texts())
+@pytest.mark.thorough
 def test_twice_the_file_is_about_twice_the_work(name: str, tmp_path: Path) -> None:
     path = tmp_path / "map.yaml"
 

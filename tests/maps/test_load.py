@@ -26,6 +26,7 @@ def wrong(text: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", MAPS, ids=lambda path: path.stem)
+@pytest.mark.every_family
 def test_a_good_map_loads(path: Path) -> None:
     drive = load.load(path)
     assert bool(drive.frames) != drive.prefix.startswith("PF"), "their manuals print none"

@@ -14,6 +14,8 @@ from driveblocks.maps.model import Bit, Command, Drive, Register
 from driveblocks.maps.problem import Report
 from driveblocks.maps.rules import meaning, term
 
+pytestmark = pytest.mark.every_family
+
 ROOT = Path(__file__).parents[2]
 PATHS = [
     *sorted((ROOT / "vendor_maps").glob("*.yaml")),

@@ -46,6 +46,7 @@ def proofs() -> Iterator[tuple[str, prover.Proof]]:
             yield f"{proved.model.pou.name}: {each.answer.question.words}: {report.told(each)}", each
 
 
+@pytest.mark.thorough
 def test_the_rules_hold_in_every_call_of_every_family() -> None:
     assert {each.unit for each in everything()} == {prover.GENERIC, *FAMILIES}
     assert not [words for words, each in proofs() if not each.good]
@@ -134,7 +135,7 @@ def test_a_mistake_in_a_part_breaks_a_rule_of_the_whole() -> None:
 
 
 def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
-    """`make prove` judges them all; here that the list is about changes that exist, each drawn, and in its class."""
+    """The long run judges them all; here that the list is about changes that exist, each drawn, and in its class."""
     drawn = mutants.drawn()[: mutants.NUMBER + 20]
     for name, each in mutants.survivors().items():
         assert name in drawn

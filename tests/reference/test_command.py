@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from driveblocks.maps.model import Drive
 from driveblocks.reference.command import Commands, Pins, Told
 
+pytestmark = pytest.mark.every_family
+
 NAMES = ("run_forward", "run_reverse", "jog_forward", "jog_reverse", "fault_reset")
 Choice = st.fixed_dictionaries({name: st.booleans() for name in NAMES})
 

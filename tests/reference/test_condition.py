@@ -11,6 +11,8 @@ from driveblocks.reference.fault import Faulted, numbered
 from driveblocks.reference.standstill import holds, proven
 from driveblocks.reference.text import Texts
 
+pytestmark = pytest.mark.every_family
+
 
 @pytest.mark.parametrize(
     ("prefix", "words", "expected"),

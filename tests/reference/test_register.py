@@ -12,6 +12,8 @@ from driveblocks.maps.model import Drive, Register
 from driveblocks.reference import register
 from driveblocks.reference.single import nearest, stored
 
+pytestmark = pytest.mark.every_family
+
 
 def row(drives: dict[str, Drive], prefix: str, address: int) -> Register:
     """A row of a map."""

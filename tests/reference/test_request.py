@@ -17,6 +17,8 @@ from pymodbus.pdu.register_message import (
 from driveblocks.maps.model import Drive
 from driveblocks.reference.request import Asked, Built, Requests, body
 
+pytestmark = pytest.mark.every_family
+
 Word = st.integers(0, 0xFFFF)
 
 

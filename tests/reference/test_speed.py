@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 from driveblocks.maps.model import Drive
 from driveblocks.reference.speed import SpeedReference
 
+pytestmark = pytest.mark.every_family
+
 
 @pytest.mark.parametrize(
     ("prefix", "pins", "expected"),

@@ -138,6 +138,7 @@ def test_an_example_frame_proves_the_scale_of_a_pair() -> None:
 
 
 @pytest.mark.parametrize("text", [MAP, LOW_FIRST], ids=["high first", "low first"])
+@pytest.mark.thorough
 def test_its_blocks_are_clean_and_its_programs_pass(engine: Engine, text: str) -> None:
     blocks = {each.path: each for each in unit(text).blocks}
     if isinstance(engine, EmbeddedEngine):

@@ -76,6 +76,7 @@ def results() -> list[Result]:
 
 
 @pytest.mark.parametrize("name", drives())
+@pytest.mark.thorough
 def test_their_blocks_are_clean_and_a_motor_runs(name: str) -> None:
     own = {each.path for unit in (built()["modbus"], built()[name]) for each in unit.blocks}
     assert [str(problem) for problem in problems() if problem.path in own] == []

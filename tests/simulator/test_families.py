@@ -56,6 +56,7 @@ def assert_shows(one: Talk, family: str, what: str, hz: float) -> None:
 
 
 @every_family
+@pytest.mark.every_family
 def test_it_starts_ramps_runs_and_stops(family: str) -> None:
     one = talk(family)
     assert_shows(one, family, "stands", 0)

@@ -237,6 +237,7 @@ def test_a_broken_rule_is_reported_by_its_words(chf: Unit) -> None:
 
 
 @pytest.mark.parametrize("name", shapes())
+@pytest.mark.thorough
 def test_scenes_pass_for_every_shape_of_a_command(name: str) -> None:
     source = collection.Source(Path(f"{name}.yaml"), shapes()[name])
     unit = only(units([source], languages(["en"], "utf-8"))[1], *PROGRAMS)
