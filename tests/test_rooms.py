@@ -1,9 +1,12 @@
 """The rooms of the generator, each above what it may use: nothing imports from above, and no modules go in a circle."""
 
+import re
 import sys
 from graphlib import TopologicalSorter
 
-from tests.rooms import graph, room
+from tests.rooms import ROOT, graph, room
+
+from driveblocks.maps import catalog
 
 ROOMS = (
     "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "desk", "reference", "show",
@@ -49,3 +52,13 @@ def test_the_toolchain_knows_no_drive() -> None:
     floors = {name: FLOORS.index([*name.split("."), "structured_text"][1]) for name in own}
     upwards = [f"{name} -> {other}" for name in own for other in own[name] if floors.get(other, 0) > floors[name]]
     assert not upwards
+
+
+def test_nothing_decides_by_the_name_of_a_drive() -> None:
+    """Differences between drives are data of their maps."""
+    names = {word for path in catalog.shipped() for word in path.stem.split("_") if len(word) > 2}
+    named = re.compile(rf"['\"]({'|'.join(sorted(names))})['\"]", re.IGNORECASE)
+    for path in (*ROOT.parent.rglob("*.py"), *ROOT.parent.rglob("*.j2")):
+        shape = r"\{%.*?%\}" if path.suffix == ".j2" else r"(?m)^\s*(?:if|elif|while|match|case|assert)\b.*$"
+        found = [each for each in re.findall(shape, path.read_text("utf-8")) if named.search(each)]
+        assert not found, f"{path}: {found}"

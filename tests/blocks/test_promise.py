@@ -97,6 +97,7 @@ CHANGES: list[tuple[str, Callable[[Plain], None]]] = [
 ]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "change"), CHANGES, ids=[change.__name__ for _, change in CHANGES])
 def test_a_good_map_builds_lints_clean_and_passes(name: str, change: Callable[[Plain], None]) -> None:
     changed = document(name)
@@ -109,6 +110,7 @@ def test_the_smallest_map_keeps_the_promise() -> None:
     assert list(promise.broken(page.skeleton())) == []
 
 
+@pytest.mark.thorough
 def test_what_is_split_into_several_statements_means_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(expression, "TERMS", 3)
     changed = document("nordwind.yaml")

@@ -200,3 +200,31 @@ def test_a_slot_that_waits_for_the_line_is_looked_at_in_the_same_call() -> None:
         waits = [slot for slot in range(3) if not all(bench.answer(slot, box) for box in (STOP, COMMAND))]
         due = [slot for slot in range(3) if bench[f"Track[{slot}].PauseMs"] == 0]
         assert bench["Scan.Asks"] or not (waits or due)
+
+
+def test_no_retry_of_a_command_is_sent_before_a_stop() -> None:
+    bench = Bench().ready()
+    bench.drives[0].alive = False
+    bench.command(0)
+    bench.run(30)
+    bench.stop(1)
+    assert next(each.stop for each in bench.run(80))
+
+
+def test_a_new_stop_of_a_dead_drive_is_sent_at_once() -> None:
+    bench = Bench()
+    bench.drives[1].alive = False
+    bench.ready().run(5000)
+    for _ in range(3):
+        bench.stop(1)
+        assert next(each for each in bench.run(60) if each.stop)
+
+
+def test_the_retry_of_a_new_stop_waits_for_no_pause() -> None:
+    """An acknowledged stop is repeated every 500 ms; that is no pause for the next one, even if it comes meanwhile."""
+    bench = Bench().ready()
+    bench.stop(1)
+    bench.run(60)
+    bench.stop(1)
+    bench.drives[1].alive = False
+    assert len([each for each in bench.run(300) if each.stop]) > 3

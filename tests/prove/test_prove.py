@@ -46,12 +46,21 @@ def proofs() -> Iterator[tuple[str, prover.Proof]]:
             yield f"{proved.model.pou.name}: {each.answer.question.words}: {report.told(each)}", each
 
 
+@pytest.mark.parametrize("source", shipped.sources(), ids=lambda each: each.path.stem)
+def test_the_rules_hold_in_every_call_of_a_family(source: collection.Source) -> None:
+    stem = source.path.stem
+    texts_of = dict(prover.texts([source]))[stem]
+    for proved in prover.proved(texts_of, {stem: rules.family(facts(source.drive))}):
+        assert not [report.told(each) for each in proved.proofs if not each.good]
+
+
 @pytest.mark.thorough
 def test_the_rules_hold_in_every_call_of_every_family() -> None:
     assert {each.unit for each in everything()} == {prover.GENERIC, *FAMILIES}
     assert not [words for words, each in proofs() if not each.good]
 
 
+@pytest.mark.thorough
 def test_premises_are_reached_on_the_engine() -> None:
     calls = [each for _, each in proofs() if each.call is not None]
     free = [each for each in calls if not each.replayed]
@@ -96,6 +105,7 @@ def test_the_command_says_so_by_its_status(tmp_path: Path, monkeypatch: pytest.M
     assert CliRunner().invoke(app, ["prove", "jscc", "--junit", str(xml)]).exit_code == 0  # the file is its own
 
 
+@pytest.mark.thorough
 def test_the_commands_on_the_pages_run_and_say_that_all_is_proved(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -315,7 +315,7 @@ def test_a_stop_that_was_asked_for_long_ago_is_not_that_of_today() -> None:
     assert 6 not in words
 
 
-@pytest.mark.parametrize("deaf_us", [0, 1_000_000])
+@pytest.mark.parametrize("deaf_us", [0, pytest.param(1_000_000, marks=pytest.mark.thorough)])
 @pytest.mark.parametrize("acts", ["rise", "fall"])
 def test_each_reset_of_an_mx2_helps(acts: str, deaf_us: int) -> None:
     """A reset that helped at once left the coil on, and to write it again was no change.

@@ -102,11 +102,18 @@ def whole(seen: Seen) -> tuple[Coverage, Run]:
         return covered(shipped.units())
 
 
+@pytest.mark.parametrize("stem", [each.path.stem for each in shipped.sources()])
+def test_the_programs_of_a_family_are_green(stem: str) -> None:
+    assert_green(runner.run([each for each in shipped.units() if each.suite.name == stem], [EmbeddedEngine()]))
+
+
+@pytest.mark.thorough
 def test_they_are_green(whole: tuple[Coverage, Run]) -> None:
     assert_green(whole[1])
     assert {result.unit for result in whole[1].results} == {"modbus", *(each.path.stem for each in shipped.sources())}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("stem", [each.path.stem for each in shipped.sources()])
 @pytest.mark.usefixtures("whole")
 def test_every_reason_is_reached_or_it_is_said_why_not(seen: Seen, stem: str) -> None:
@@ -116,6 +123,7 @@ def test_every_reason_is_reached_or_it_is_said_why_not(seen: Seen, stem: str) ->
     assert names == REASONS.keys() - suite.unreached.keys()
 
 
+@pytest.mark.thorough
 def test_the_programs_of_the_shipped_maps_reach_all_that_does_not_run_in_time(
     whole: tuple[Coverage, Run], record_property: Record
 ) -> None:
@@ -133,6 +141,7 @@ def test_the_programs_of_the_shipped_maps_reach_all_that_does_not_run_in_time(
     assert [each for each in exemptions() if each.why not in reasons] == []
 
 
+@pytest.mark.thorough
 def test_the_scenes_of_the_shipped_maps_reach_most_of_the_line_and_the_drive_blocks(
     whole: tuple[Coverage, Run],
 ) -> None:
