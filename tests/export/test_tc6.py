@@ -161,6 +161,7 @@ def _few() -> Shelf:
 
 
 @pytest.mark.parametrize("one", PLANTED, ids=lambda each: each.name)
+@pytest.mark.thorough
 def test_a_planted_mistake_is_found(one: Planted) -> None:
     assert [target for target in one.targets if not one.found(_few(), target)] == []
 

@@ -35,6 +35,7 @@ def refused(path: Path) -> str:
 
 @pytest.mark.parametrize("share", [4, pytest.param(1, marks=pytest.mark.long)])
 @pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.thorough
 def test_hostile_files_are_refused_in_little_memory(part: int, share: int, tmp_path: Path) -> None:
     files = dict(list(contents(share).items())[part::PARTS])
     for name, data in files.items():

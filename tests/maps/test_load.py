@@ -34,6 +34,7 @@ def test_a_good_map_loads(path: Path) -> None:
 
 
 @pytest.mark.parametrize("registers", [120, 160, 400, 1000])
+@pytest.mark.thorough
 def test_a_synthetic_map_loads_and_has_its_size(registers: int) -> None:
     drive = load.loads(synthetic(3, registers), "synthetic.yaml")
     assert sum(len(row.address) for _, row in drive.registers()) == registers

@@ -53,6 +53,7 @@ def test_english_alone_is_ascii_in_every_file_but_for_the_sign_of_a_degree() -> 
         ("en", 1, ""),
     ],
 )
+@pytest.mark.thorough
 def test_a_map_without_chinese_gets_none_and_that_is_said(tmp_path: Path, lang: str, files: int, said: str) -> None:
     path = tmp_path / "acme.yaml"
     path.write_text(page.skeleton(), encoding="utf-8")

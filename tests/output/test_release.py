@@ -27,6 +27,7 @@ def names(path: Path) -> set[str]:
         return {name.removeprefix(f"{path.stem}/") for name in archive.namelist()}
 
 
+@pytest.mark.thorough
 def test_every_target_that_is_built_has_one_with_all_its_files(archives: dict[str, Path]) -> None:
     listed = manifest.read(ROOT / "blocks").files
     built = [target for target in TARGETS if any(name.startswith(f"{target}/") for name in listed)]

@@ -69,6 +69,7 @@ def test_premises_are_reached_on_the_engine() -> None:
 
 
 @pytest.mark.parametrize("family", [prover.GENERIC, *(each.path.stem for each in shipped.sources())])
+@pytest.mark.thorough
 def test_the_terms_say_what_the_engine_does(family: str) -> None:
     library = EmbeddedEngine().build(agreement.wrapped(agreement.sources()[family], agreement.subjects(family)))
     for model in agreement.subjects(family):
@@ -166,6 +167,7 @@ def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
         ("VFD_Usual: LearnedMs := LongestReplyMs MOD [256 -> 257] * 2 + MARGIN_MS;", False),
     ],
 )
+@pytest.mark.thorough
 def test_some_of_them_are_judged(change: str, found: bool) -> None:
     one = mutants.every()[change]
     assert mutants.judged(one) if found else mutants.equivalent(one)
@@ -178,6 +180,7 @@ MAPS = [
 
 
 @pytest.mark.parametrize("name", MAPS)
+@pytest.mark.thorough
 def test_a_map_of_ones_own_is_proved(name: str, tmp_path: Path) -> None:
     """Paths, pulses, several registers, active-low bits, a direction by sign; and what `driveblocks new` writes."""
     path = tmp_path / f"{name}.yaml"

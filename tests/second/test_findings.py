@@ -102,6 +102,7 @@ def test_the_trip_of_one_drive_opens_no_contact(family: str, moving: bool) -> No
 
 
 @pytest.mark.parametrize("moment", range(0, 1100, 220))
+@pytest.mark.thorough
 def test_the_stop_key_of_one_of_eight_is_not_overridden(moment: int) -> None:
     b = ready(Second(*types_of("CHF", 8, ascii_=False)))
     for each in EIGHT:

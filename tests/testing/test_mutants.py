@@ -79,6 +79,7 @@ def reds(unit: Unit) -> list[Outcome]:
 
 
 @pytest.mark.parametrize(("block", "old", "new", "program"), DRIVE, ids=lambda value: str(value)[:40])
+@pytest.mark.thorough
 def test_a_wrong_constant_of_a_drive_is_found(example: Unit, block: str, old: str, new: str, program: str) -> None:
     found = reds(only(changed(example, block, old, new), program))
     assert all(outcome.expected != outcome.actual and outcome.line for outcome in found)

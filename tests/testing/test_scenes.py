@@ -213,12 +213,14 @@ def fails(chf: Unit, library: Library, name: str, number: int, program: str) -> 
 
 
 @pytest.mark.parametrize(("name", "words"), [(name, words) for name, rows in MISTAKES.items() for words in rows])
+@pytest.mark.thorough
 def test_a_mistake_is_found(chf: Unit, library: Library, name: str, words: str) -> None:
     number = list(MISTAKES[name]).index(words) + 1
     assert_found(chf, library, name, number, MISTAKES[name][words][2])
 
 
 @pytest.mark.parametrize("words", TOKENS)
+@pytest.mark.thorough
 def test_a_wrong_token_is_found(chf: Unit, words: str) -> None:
     block, old, new, program = TOKENS[words]
     done = run(changed(only(chf, program), block, old, new))

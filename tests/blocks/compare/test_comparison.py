@@ -52,6 +52,7 @@ def _assert_compared(libraries: Libraries, folder: str) -> None:
     assert [str(each) for each in found if each is not None] == []
 
 
+@pytest.mark.thorough
 def test_the_inputs_reach_every_line_and_outcome() -> None:
     """What never ran was never compared; what cannot run is explained above."""
     library = EmbeddedEngine(coverage=True).build(shipped().sources)

@@ -47,6 +47,7 @@ def _libraries() -> Libraries:
 
 
 @pytest.mark.parametrize("name", [name for name, *_ in MISTAKES])
+@pytest.mark.thorough
 def test_a_block_with_one_constant_changed_is_found(name: str) -> None:
     """The inputs bring a block of every kind to where a small mistake shows."""
     pou = shipped().pous[name]
@@ -77,6 +78,7 @@ def test_an_error_of_one_engine_is_a_difference() -> None:
 
 
 @pytest.mark.parametrize("name", ["MB_AsciiDecode", "MB_ResultTextZh", "CHF_Reference", "JSCC_Request", "CHF_Command"])
+@pytest.mark.thorough
 def test_no_variable_escapes_the_image(name: str, engine: Engine) -> None:
     """Each scalar and each end of each array, changed alone, makes another image."""
     pou = shipped().pous[name]

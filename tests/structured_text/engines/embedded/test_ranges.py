@@ -89,6 +89,7 @@ VALUES = st.fixed_dictionaries({name: literals(name) for name in VARIABLES})
 
 @settings(max_examples=120)
 @given(programs(), VALUES)
+@pytest.mark.thorough
 def test_random_programs(program: list[Any], values: dict[str, int]) -> None:
     """A scan fails or gives the same as an interpreter that wraps after every operation; twice, for what is kept."""
     reference = Interpreter({**values, "i": 0, "j": 0, "k": 0})
