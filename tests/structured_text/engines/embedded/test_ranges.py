@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import suppress
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.structured_text.engines.embedded.interpreter import COMPARISONS, TABLE, VARIABLES, Interpreter, lines_of
