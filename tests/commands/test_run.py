@@ -271,6 +271,7 @@ def windows(tmp_path: Path) -> dict[str, str]:
     return environment(tmp_path)
 
 
+@pytest.mark.thorough
 def test_the_demonstration_comes_true_without_what_windows_lacks(windows: dict[str, str]) -> None:
     words = [sys.executable, "-m", "driveblocks", "run", "--demo", "--fast"]
     done = subprocess.run(words, env=windows, capture_output=True, text=True, check=False)

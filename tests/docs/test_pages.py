@@ -426,6 +426,7 @@ def drawn(columns: tuple[timing.Column, ...]) -> list[timing.Column]:
 
 
 @every_family
+@pytest.mark.thorough
 def test_the_block_of_the_example_does_what_the_picture_shows(family: str) -> None:
     story, drive = Story(family, "Bare"), drives()[family]
     story.run(3500)

@@ -17,6 +17,7 @@ MOTORS = {
 
 
 @pytest.mark.parametrize("target", MOTORS)
+@pytest.mark.thorough
 def test_no_file_of_the_library_holds_a_program_of_the_user(target: str) -> None:
     files = {path.removeprefix(f"{target}/"): text for path, text in WRITERS[target](made()).items()}
     holding = {path for path, text in files.items() if re.search(r"PROGRAM CHF_Motor|\"CHF_Motor\"", text)}

@@ -201,6 +201,7 @@ def _variants(value: Any, name: str) -> Iterator[tuple[str, Any]]:
         yield name, _changed(value)
 
 
+@pytest.mark.thorough
 def test_whatever_changes_in_a_map_changes_its_json() -> None:
     """One change for each key that a map uses, wherever it first stands; the smallest map comes first."""
     tried: set[str] = set()

@@ -138,6 +138,7 @@ def test_without_the_solver_it_says_what_to_install(monkeypatch: pytest.MonkeyPa
     assert "driveblocks[prove]" in done.output
 
 
+@pytest.mark.thorough
 def test_a_mistake_in_a_part_breaks_a_rule_of_the_whole() -> None:
     proved = planted("Seen.FaultCode <> Code", "Seen.FaultCode = Code", "VFD_FaultReset", "VFD_Control")
     bad = [each for each in proved.proofs if not each.good]

@@ -51,6 +51,7 @@ def test_an_address_that_the_drive_cannot_have_can_be_corrected() -> None:
     assert b.wait(lambda: b.shows("StopConfirmed"), 9000)
 
 
+@pytest.mark.thorough
 def test_a_reset_waits_for_both_stops() -> None:
     """The end of a jog took back the reset that waited."""
     b = Second("CHF")
@@ -202,6 +203,7 @@ HELD = {
 
 
 @pytest.mark.parametrize("what", HELD)
+@pytest.mark.thorough
 def test_a_cell_that_has_failed_holds(what: str) -> None:
     cell, seed = HELD[what]
     assert run(named(cell), seed).rules == []

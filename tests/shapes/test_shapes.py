@@ -77,6 +77,7 @@ def units() -> dict[str, Unit]:
     return {unit.suite.name: unit for unit in tested.units(sources, languages(["en"], "utf-8"))}
 
 
+@pytest.mark.thorough
 def test_their_blocks_are_clean_and_the_programs_of_their_commands_and_words_pass() -> None:
     blocks = {each.path: each for unit in units().values() for each in unit.blocks}
     assert [str(problem) for problem in lint_sources([(each.path, each.text) for each in blocks.values()])] == []

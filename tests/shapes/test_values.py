@@ -155,6 +155,7 @@ def test_the_frequency_of_a_pair(name: str, words: str, hertz: float) -> None:
         ("low_first", 0xD8F0, (0xD8F0, 0xFFFF)),
     ],
 )
+@pytest.mark.thorough
 def test_the_words_of_a_reference_of_32_bits(name: str, sent: int, words: tuple[int, int]) -> None:
     orders = next(each for each in built()[name].blocks if each.path.endswith("_Orders.st"))
     block = EmbeddedEngine().build([Text(orders.path, orders.text)]).instance(Path(orders.path).stem)

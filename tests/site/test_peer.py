@@ -132,6 +132,7 @@ def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, w
 
 
 @pytest.mark.parametrize("stem", MAPS)
+@pytest.mark.thorough
 def test_a_server_that_answers_every_address_is_of_no_family(stem: str, tmp_path: Path) -> None:
     with peer("tcp", SimDevice(UNIT, words(stem, everything=True))) as place:
         got = typed(tmp_path, stem, "--tcp", place, "--unit", str(UNIT), "--mode", "rtu", "--skip", "measure")
