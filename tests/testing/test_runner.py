@@ -26,7 +26,6 @@ from .conftest import EXAMPLE, only, run
 FAR_REPLY = "FA 03 02 13 88 50 C6"
 
 
-@pytest.mark.thorough
 def test_the_example_is_green_on_every_engine(engine: Engine, example: Unit) -> None:
     done = runner.run([example], [engine])
     assert [(result.program, outcome.words, outcome.message) for result in done.results for outcome in result.bad] == []
