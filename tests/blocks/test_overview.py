@@ -140,6 +140,7 @@ def bound(block: str) -> int:
 
 
 @pytest.mark.parametrize("block", WORST)
+@pytest.mark.thorough
 def test_loops_at_their_worst(block: str) -> None:
     before = turns()
     done = Blocks(counted()).run(block, {pin: value for pin, value in WORST[block].items() if has(block, pin)})
@@ -186,6 +187,7 @@ REPLY = bytes((1, 3, 2, 0, 1))
 
 
 @pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
+@pytest.mark.thorough
 def test_the_example_of_a_drive_believes_a_reply_and_no_buffer_that_nothing_came_into(prefix: str) -> None:
     """Where one buffer held both frames, a port that received nothing left the request to be read as the reply."""
     source = Source("example.st", EXAMPLES[prefix])

@@ -93,6 +93,7 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
     assert any(each.text and each.text.endswith("expected: 548.8\nactual: 54.88") for each in failures)
 
 
+@pytest.mark.thorough
 def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn(
     my_drive: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

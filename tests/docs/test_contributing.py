@@ -44,6 +44,7 @@ def test_every_file_of_a_way_is_there_and_holds_what_to_look_for(way: str) -> No
 
 
 @pytest.mark.parametrize("way", WAYS)
+@pytest.mark.thorough
 def test_a_way_has_one_direction(way: str) -> None:
     """Of all its files that use one another, either all later ones use earlier ones, or all earlier ones later ones."""
     files = [file for file, _ in WAYS[way]]

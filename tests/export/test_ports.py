@@ -38,6 +38,7 @@ def taken(rig: Rig, end: End) -> int:
 
 @platforms
 @pytest.mark.parametrize("end", ENDS, ids=str)
+@pytest.mark.thorough
 def test_the_next_attempt_starts_within_three_scans_of_the_end(maker: Maker, end: End) -> None:
     rig = alone(maker)
     rig.end(end)

@@ -82,6 +82,7 @@ def test_a_wrong_scale_of_a_measure_shows(word: str, hertz: float, volts: float)
     assert desk.instance["Motor.Diagnosis.DcBusVoltageV"] == pytest.approx(volts)
 
 
+@pytest.mark.thorough
 def test_a_program_without_words_gets_its_drives_as_they_left_the_factory() -> None:
     text = EXAMPLE.read_text(encoding="utf-8").replace("MaximumHz := 50.0", "MaximumHz := 70.0")
     program = loaded(text.replace("Setting.ReferenceScale := CountsPerHertz", "Setting.ReferenceScale := 7.0"))

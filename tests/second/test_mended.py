@@ -159,6 +159,7 @@ def test_words_that_lay_in_the_slot_while_the_block_was_not_called_are_not_new()
         b.run(1000)
 
 
+@pytest.mark.thorough
 def test_a_drive_that_may_have_answered_its_stop_is_read_at_once() -> None:
     """Its reply may be an echo, which only a read can decide: that waited for the turn of the dead."""
     for ms in range(0, 10_000, 1000):

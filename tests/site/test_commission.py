@@ -714,6 +714,7 @@ def test_a_port_that_is_not_there_is_named(tmp_path: Path) -> None:
     assert [*tmp_path.iterdir()] == []
 
 
+@pytest.mark.thorough
 def test_pages_say_what_one_drive_has_shown_only_where_they_are_built_with_it(tmp_path: Path) -> None:
     path, out = tmp_path / "site.yaml", tmp_path / "out"
     kept.write(path, replace(ABOUT, who="Anna"), replace(FULL, plate="4 <kW> | V2"))

@@ -163,6 +163,7 @@ def test_nine_units_take_the_longer_line() -> None:
     assert figures(made, 9600).worst > figures(eight, 9600).worst
 
 
+@pytest.mark.thorough
 def test_rates_are_those_that_every_manual_names() -> None:
     assert asked.line(asked.Words(line=("jscc", "sn300g5"))).rates() == (4800, 9600)
     assert asked.line(asked.Words(line=("chf",), rate=14400)).rates()[4:6] == (14400, 19200)
