@@ -12,6 +12,7 @@ import functools
 import os
 import signal
 from types import ModuleType
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -63,10 +64,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.hookimpl(optionalhook=True)
-def pytest_testnodedown(node: object) -> None:
+def pytest_testnodedown(node: Any) -> None:
     """Keep how many tests a process of xdist has chosen; each has collected all."""
     if counts := getattr(node, "workeroutput", {}).get("tally"):
-        selection.write(node.config, counts)  # type: ignore[attr-defined]
+        selection.write(node.config, counts)
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -16,7 +16,7 @@ from pathlib import Path
 import yaml
 from tests.planted.checkout import ROOT, Checkout
 from tests.planted.draw import KINDS, Change, drawn
-from tests.planted.table import FOUND, MISSED, judged, places
+from tests.planted.table import FOUND, MISSED, judged, places, verdict_of
 
 
 def survivors() -> dict[str, str]:
@@ -45,9 +45,11 @@ def _drawn(copy: Checkout, options: argparse.Namespace) -> Iterator[str]:
         before = copy.read(one.file)
         why = survivors().get(one.says(before))
         copy.write(one.file, one.edit(before))
-        status = (copy.run(options.judge) if copy.build() else "the build") if why is None else 0
+        if why is not None:
+            verdict = f"the same: {why}"
+        else:
+            verdict = verdict_of(copy.run(options.judge)) if copy.build() else f"{FOUND} by the build"
         copy.write(one.file, before)
-        verdict = f"the same: {why}" if why else MISSED if status == 0 else f"{FOUND} ({status})"
         print(f"{said}: {verdict}", flush=True)
         yield verdict
 

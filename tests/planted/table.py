@@ -1,11 +1,12 @@
 """The table of planted mistakes, and what becomes of one in a copy of the checkout."""
 
-import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 from tests.planted.checkout import Checkout
+
+from structured_text.engines.discovery import MATIEC_NAMES, survey
 
 PYTEST = "python -m pytest -x -n0 -p no:cacheprovider -o addopts="
 FOUND, MISSED = "found", "NOT found"
@@ -43,8 +44,8 @@ def places() -> list[Place]:
 
 def judged(copy: Checkout, one: Place) -> str:
     """What becomes of a mistake: found, NOT found, or why it cannot be judged."""
-    if one.matiec and shutil.which("iec2c") is None:
-        return "skipped: needs matiec"
+    if one.matiec and (missing := without_matiec()):
+        return f"skipped: needs matiec: {missing}"
     before = copy.read(one.file)
     copy.write(one.file, before.replace(one.old, one.new))
     try:
@@ -55,4 +56,15 @@ def judged(copy: Checkout, one: Place) -> str:
         copy.write(one.file, before)
         if one.builds:
             copy.build()
+    return verdict_of(status)
+
+
+def without_matiec() -> str:
+    """Why neither line of matiec runs, as the engines say it; "" if one does, by PATH or by MATIEC_HOME."""
+    found = [each for each in survey().candidates() if each.name in MATIEC_NAMES]
+    return "" if any(each.engine for each in found) else "; ".join(sorted({each.note for each in found}))
+
+
+def verdict_of(status: int | None) -> str:
+    """What the exit status of a judge means, None if it did not end; a judge that could not run has found nothing."""
     return FOUND if status in (1, None) else MISSED if status == 0 else f"{MISSED}: the judge ends with {status}"

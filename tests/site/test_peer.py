@@ -115,7 +115,7 @@ def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         *((stem, "tcp") for stem in MAPS),
         pytest.param(
-            "jscc", "pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
+            "jscc", "pty", marks=pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals")
         ),
     ],
 )
