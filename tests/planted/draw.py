@@ -22,7 +22,7 @@ ST = {
     ">=": ">", "=": "<>", "<>": "=", "+": "-", "-": "+", "MAX": "MIN", "MIN": "MAX",
 }  # fmt: skip
 _TOKEN = re.compile(r":=|=>|<=|>=|<>|==|!=|[<>=+-]|\b\w+#\w+\b|\b[A-Za-z_]\w*\b|\b\d+\b")
-_QUIET = re.compile(r"\(\*.*?\*\)|\{#.*?#\}|'[^'\n]*'", re.DOTALL)
+_QUIET = re.compile(r"\(\*.*?\*\)|\{#.*?#\}|'[^'\n]*'|\"[^\"\n]*\"", re.DOTALL)
 _TAG = re.compile(r"\{[%{]-?|-?[%}]\}")
 
 
