@@ -9,7 +9,6 @@ import pytest
 from tests.blocks.toolchains import FOUND, translate
 from tests.examples.port import Port
 from tests.export.stock import canon, made
-from tests.structured_text.engines.configuration import start
 
 from driveblocks.export import openplc
 from driveblocks.simulator.drive import SimulatedDrive
@@ -132,12 +131,11 @@ def test_the_first_motor_starts_and_stops_a_simulated_drive(engine: Engine) -> N
     assert drive.hertz == 0
 
 
-def test_its_task_calls_it(engine: Engine) -> None:
-    configuration = start(built(engine))
-    assert configuration.tick_ns == 10_000_000
-    assert configuration["Res0.First.FirstScan"] is True
-    configuration.run()
-    assert configuration["Res0.First.FirstScan"] is False
+def test_it_knows_its_first_scan(engine: Engine) -> None:
+    motor = built(engine).instance("CHF_MotorBytes")
+    assert motor["FirstScan"] is True
+    motor.scan()
+    assert motor["FirstScan"] is False
 
 
 def test_the_first_motor_on_linux_runs_and_says_that_its_port_is_missing(matiec: Engine) -> None:

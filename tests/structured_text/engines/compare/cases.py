@@ -35,7 +35,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Stimulus:
-    """What happens before one scan: the clock in nanoseconds (of a configuration: ticks to run), the values to set."""
+    """What happens before one scan: the clock in nanoseconds, the values to set."""
 
     clock: int
     inputs: Inputs
@@ -43,14 +43,13 @@ class Stimulus:
 
 @dataclass(frozen=True)
 class Case:
-    """A block or configuration of the corpus. `scans`: in the suite; `trace`: recorded; both in numbers of scans.
+    """A block of the corpus. `scans`: in the suite; `trace`: recorded; both in numbers of scans.
 
     `handed_on` and `library` name paths in upper case, as explained in corpus.yaml.
     """
 
     name: str
     block: str
-    configuration: str
     scans: int
     trace: int
     steps_ns: tuple[int, ...]
@@ -68,8 +67,7 @@ class Case:
         clock = 0
         for inputs in values:
             yield Stimulus(clock, inputs)
-            step = draws.one_of(self.steps_ns) + draws.one_of(self.jitter_ns)
-            clock = step if self.configuration else clock + step
+            clock += draws.one_of(self.steps_ns) + draws.one_of(self.jitter_ns)
 
     def _values(self, draws: Draws) -> Iterator[Inputs]:
         yield {each.path: each.draw(draws) for each in self.inputs}
@@ -84,14 +82,12 @@ def load_cases() -> dict[str, Case]:
 
 
 def _case(name: str, entry: dict[str, Any]) -> Case:
-    ticks = (1, 2, 3, 5, 7) if "configuration" in entry else ()
     return Case(
         name=name,
-        block=entry.get("block", ""),
-        configuration=entry.get("configuration", ""),
+        block=entry["block"],
         scans=entry["scans"],
         trace=entry["trace"],
-        steps_ns=ticks or tuple(ms * 1_000_000 for ms in entry.get("step_ms", [10])),
+        steps_ns=tuple(ms * 1_000_000 for ms in entry.get("step_ms", [10])),
         jitter_ns=tuple(entry.get("jitter_ns", [0])),
         inputs=tuple(
             Input(path, _draw(words), words.get("change", 1.0)) for path, words in entry.get("inputs", {}).items()

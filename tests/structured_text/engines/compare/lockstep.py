@@ -8,9 +8,8 @@ from math import isnan
 
 from tests.structured_text.engines.compare.cases import Case, Stimulus
 from tests.structured_text.engines.compare.scenarios import Inputs
-from tests.structured_text.engines.configuration import Configuration, start
 
-from structured_text.engines.engine import Engine, Instance, Library, ScanError, Value
+from structured_text.engines.engine import Engine, Library, ScanError, Value
 
 State = dict[str, Value]
 ABSENT = b"(no such variable)"
@@ -40,20 +39,13 @@ class Run:
         """Build the case, or start it from a library that was built from it. Raises BuildError, EngineError."""
         library = library or engine.build(case.sources)
         self.name = name or engine.name
-        self.subject: Instance | Configuration
-        if case.configuration:
-            self.subject = start(library, case.configuration)
-        else:
-            self.subject = library.instance(case.block)
+        self.subject = library.instance(case.block)
 
     def scan(self, stimulus: Stimulus) -> State:
-        """Set the inputs, scan once (a configuration: run the ticks), give back the full state. Raises ScanError."""
+        """Set the inputs, scan once, give back the full state. Raises ScanError."""
         for path, value in stimulus.inputs.items():
             self.subject[path] = value
-        if hasattr(self.subject, "run"):
-            self.subject.run(stimulus.clock)
-        else:
-            self.subject.scan(stimulus.clock)
+        self.subject.scan(stimulus.clock)
         return self.subject.state()
 
 

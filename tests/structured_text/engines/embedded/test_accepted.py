@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 from tests.structured_text.engines.accept.programs import load_programs
-from tests.structured_text.engines.configuration import start
 
 from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
 from structured_text.engines.engine import BuildError, ScanError, Source
@@ -30,9 +29,4 @@ def test_nothing_but_scan_errors() -> None:
                 for scan in range(3):
                     instance.scan(scan * 10_000_000)
             instance.state()
-        for name in library.compiler.checked.configurations:
-            running = start(library, name)
-            with suppress(ScanError):
-                running.run(3)
-            running.state()
     assert count > 300

@@ -299,6 +299,31 @@ def test_enumerations() -> None:
         made["c"] = 3
 
 
+def test_globals_are_shared_with_inner_blocks_and_each_instance_has_its_own() -> None:
+    """So that a program with VAR_EXTERNAL can be tested without its configuration."""
+    text = f"""{TYPES}
+FUNCTION_BLOCK Bump VAR_EXTERNAL total : INT; END_VAR total := total + 1; END_FUNCTION_BLOCK
+PROGRAM Count
+VAR_EXTERNAL total : INT; share : Row; END_VAR VAR inner : Bump; seen : INT; END_VAR
+  inner();
+  share[1] := share[1] + total;
+  seen := share[0] + share[1];
+END_PROGRAM
+CONFIGURATION Plant
+VAR_GLOBAL total : INT := 100; share : Row := [5]; END_VAR
+RESOURCE Station ON PLC
+TASK Slow(INTERVAL := T#30ms, PRIORITY := 2);
+PROGRAM First WITH Slow : Count;
+END_RESOURCE
+END_CONFIGURATION"""
+    library = build(text)
+    one, two = library.instance("Count"), library.instance("Count")
+    one.scan()
+    one.scan()
+    two.scan()
+    assert (one["seen"], two["seen"], one["total"]) == (5 + 101 + 102, 5 + 101, 102)
+
+
 def test_blocks_are_listed_in_source_order() -> None:
     """As spelled, functions left out."""
     text = """FUNCTION_BLOCK Zeta VAR n : INT; END_VAR n := 1; END_FUNCTION_BLOCK
