@@ -1,4 +1,4 @@
-"""Random changes of a map's text: of its bytes and lines, and of one fact at a time."""
+"""Random changes of a map's text, one fact at a time."""
 
 import random
 from collections.abc import Callable, Iterator
@@ -6,8 +6,6 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import cached_property
 from typing import Any
-
-from tests.maps.pins import Path, kind_of
 
 from driveblocks.maps import form, nodes
 from driveblocks.maps.form import Form
@@ -17,6 +15,8 @@ from driveblocks.maps.problem import Report
 from driveblocks.maps.shape import EntryOf, ListOf, OneOf, Shape, keys_of
 
 HEX = "0123456789ABCDEF"
+Path = tuple[str | int, ...]
+"""Keys and indices from the root of the document to a value."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Leaf:
     @property
     def kind(self) -> str:
         """What it is, whichever of its list."""
-        return kind_of(self.path)
+        return "".join("[]" if isinstance(part, int) else f".{part}" for part in self.path).lstrip(".")
 
 
 @dataclass(frozen=True)
@@ -201,62 +201,4 @@ _ALTER: dict[str, Callable[[str, random.Random], str]] = {
     form.ADU.name: _digit,
     form.REGISTER_WORD.name: _digit,
     form.ID.name: lambda old, rng: _digit(old, rng, HEX[:10]),
-}
-
-
-def change_bytes(text: Text, rng: random.Random) -> Change:
-    """Flip, delete, insert or copy bytes, or move lines about."""
-    data = text.text.encode()
-    name = rng.choice(list(_BYTES))
-    return Change(_BYTES[name](data, rng), f"{text.name}: {name}", f"bytes: {name}")
-
-
-def _flip(data: bytes, rng: random.Random) -> bytes:
-    place = rng.randrange(len(data))
-    return data[:place] + bytes([data[place] ^ 1 << rng.randrange(8)]) + data[place + 1 :]
-
-
-def _delete(data: bytes, rng: random.Random) -> bytes:
-    place = rng.randrange(len(data))
-    return data[:place] + data[place + rng.choice((1, 1, 1, 5, 50)) :]
-
-
-def _insert(data: bytes, rng: random.Random) -> bytes:
-    place = rng.randrange(len(data))
-    new = rng.choice((b" ", b"  ", b"\n", b"-", b":", b"#", b"'", b'"', b"{", b"]", b",", b"0", b"H", b"\xff", b"\t"))
-    return data[:place] + new + data[place:]
-
-
-def _splice(data: bytes, rng: random.Random) -> bytes:
-    place, start = rng.randrange(len(data)), rng.randrange(len(data))
-    return data[:place] + data[start : start + rng.randrange(1, 200)] + data[place:]
-
-
-def _truncate(data: bytes, rng: random.Random) -> bytes:
-    return data[: rng.randrange(len(data))]
-
-
-def _lines(move: Callable[[list[bytes], int, random.Random], None]) -> Callable[[bytes, random.Random], bytes]:
-    def moved(data: bytes, rng: random.Random) -> bytes:
-        lines = data.split(b"\n")
-        move(lines, rng.randrange(len(lines)), rng)
-        return b"\n".join(lines)
-
-    return moved
-
-
-def _swap(lines: list[bytes], index: int, rng: random.Random) -> None:
-    other = min(index + rng.choice((1, 1, 2, 10)), len(lines) - 1)
-    lines[index], lines[other] = lines[other], lines[index]
-
-
-_BYTES: dict[str, Callable[[bytes, random.Random], bytes]] = {
-    "a bit flipped": _flip,
-    "bytes deleted": _delete,
-    "a character inserted": _insert,
-    "a piece copied": _splice,
-    "cut off": _truncate,
-    "a line twice": _lines(lambda lines, index, _: lines.insert(index, lines[index])),
-    "a line lost": _lines(lambda lines, index, _: lines.__delitem__(index)),
-    "lines swapped": _lines(_swap),
 }

@@ -32,7 +32,7 @@ def test_every_case_is_as_the_reference_says(benches: Sequence[Bench], name: str
 
 def test_every_block_but_the_commands_is_in_a_check() -> None:
     """A block that is new is not left out in silence. What parameters need is tried at each side of every limit by
-    tests/blocks/permissions.py, and compared on every engine."""
+    the test programs of each drive."""
     by_name = {scan.name for scan in program.SCANS} | {*ALLOWED}
     by_hand = {"MB_Crc16", "MB_Crc16Compact", "MB_Lrc"}
     by_hand |= {f"{prefix}_{noun}" for prefix in families() for noun in ("Reference", "Standstill")}
