@@ -8,6 +8,7 @@ from tests.blocks.library import built, result, scan
 from tests.shipped import drives, sisters
 
 from driveblocks.maps.model import Drive
+from driveblocks.reference.speed import SpeedReference
 from structured_text.engines.engine import Engine
 
 pytestmark = pytest.mark.every_family
@@ -193,7 +194,17 @@ WORDS = [
     ("SN300G5", (-0.01, 50.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
     ("SN300G5", (-0.0049, 50.0, 0.0, 0.0), ("OK", 0, False)),
     ("SN300G5", (-0.0051, 50.0, 0.0, 0.0), ("NEGATIVE", 0, False)),
+    ("SN300G5", (700.0, 800.0, 0.0, 0.0), ("OK", 65535, True)),
+    ("SN300G5", (2.0e30, 0.0, 0.0, 0.0), ("NOT_A_NUMBER", 0, False)),
+    ("SN300G5", (1.0, 0.09, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (0.05, 0.1, 0.0, 0.0), ("OK", 5, False)),
+    ("SN300G5", (1.0, 10001.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("SN300G5", (45.0, 50.0, 40.0, 0.0), ("OK", 4000, True)),
+    ("SN300G5", (45.0, 50.0, -1.0, 0.0), ("NO_FULL_SCALE", 0, False)),
     ("JSCC", (50.0, 60.0, 0.0, 10.0), ("OK", 500, False)),
+    ("JSCC", (50.0, 60.0, 0.0, 2.0e6), ("NO_SCALE", 0, False)),
+    ("JSCC", (-1.0, 0.0, 0.0, 0.0), ("NO_MAXIMUM", 0, False)),
+    ("JSCC", (-1.0, 60.0, 0.0, 0.0), ("NO_SCALE", 0, False)),
     ("JSCC", (50.0, 0.0, 0.0, 10.0), ("NO_MAXIMUM", 0, False)),
     ("JSCC", (50.0, 60.0, 0.0, 0.0), ("NO_SCALE", 0, False)),
     ("JSCC", (40000.0, 10000.0, 0.0, 100.0), ("OK", 65535, True)),
@@ -203,6 +214,8 @@ WORDS = [
     ("CHF", (25.0, 50.0, 50.0, 0.0), ("OK", 5000, False)),
     ("CHF", (50.0, 50.0, 50.0, 0.0), ("OK", 10000, False)),
     ("CHF", (400.0, 50.0, 50.0, 0.0), ("OK", 10000, True)),
+    ("CHF", (45.0, 50.0, 40.0, 0.0), ("OK", 10000, True)),
+    ("CHF", (2.0, 3.0, 3.0, 0.0), ("OK", 6667, False)),
     ("CHF", (25.0, 0.0, 50.0, 0.0), ("NO_MAXIMUM", 0, False)),
     ("CHF", (0.0, 0.0, 50.0, 0.0), ("NO_MAXIMUM", 0, False)),
     ("CHF", (30.0, 40.0, 50.0, 0.0), ("OK", 6000, False)),
@@ -221,3 +234,4 @@ def test_words_of_references(
 ) -> None:
     found = driving.encode(built(engine), drives()[prefix], given)
     assert (found.result, found.value, found.limited) == wanted
+    assert SpeedReference(drives()[prefix]).encode(*given).near == {wanted[1]}

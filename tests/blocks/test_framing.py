@@ -79,6 +79,10 @@ FRAME = framing.ascii_encode(bytes.fromhex("010302 01F4")).data
 RTU_RESULTS = [
     (b"", "SILENCE"),
     (b"\x01\x83\x02\xc0", "SHORT"),
+    (b"\x01\x83\x02\xc0\xf1", "OK"),
+    # the rest after the CRC is 0: only the length of the reply shows that a 00 was received too much
+    (bytes.fromhex("01 03 02 01 F4 B8 53 00 00"), "OK"),
+    (bytes.fromhex("01 03 02 01 F4 B8 53 00 01"), "CHECKSUM"),
     (framing.rtu_seal(noise(254)).data + b"\x00", "LONG"),
     (bytes.fromhex("01 03 02 01 F4 53 B8"), "CHECKSUM"),
     (bytes.fromhex("01 03 02 01 F4 B8 53"), "OK"),

@@ -49,6 +49,7 @@ RESULTS = [
     (WRITE, "01 06 10 00 00 05 00", Answer("LONG")),
     (WRITE, "01 06 10 01 00 05", Answer("OTHER_ADDRESS")),
     (WRITE, "01 06 10 00 00 06", Answer("OTHER_VALUE")),
+    (WRITE, "01 06 50 01 00 05", Answer("OTHER_ADDRESS")),
     (WRITE, "01 86 03", Answer("REFUSED", reason=3)),
     (LOOP, "01 08 00 00 12 34", Answer("OK")),
     (LOOP, "01 08 00 01 12 34", Answer("OTHER_SUB_FUNCTION")),
@@ -87,6 +88,8 @@ CHF_RESULTS = [
     (Asked(6, 1, 0x5001, value=4), "01 06 50 01 00 05", Answer("OTHER_VALUE")),
     (Asked(3, 1, 0x3000, 1), "01 06 50 02 00 04", Answer("OTHER_FUNCTION")),
     (Asked(3, 1, 0x3000, 1), "01 06 50 01 00", Answer("OTHER_FUNCTION")),
+    (Asked(3, 1, 0x3000, 1), "01 06 50 01 00 05 00", Answer("OTHER_FUNCTION")),
+    (Asked(6, 1, 0x1000, value=3), "01 06 50 01 00 05 00", Answer("LONG")),
     (Asked(3, 1, 0x3000, 1), "02 06 50 01 00 04", Answer("OTHER_UNIT")),
     (Asked(3, 1, 0x3000, 1), "01 83 02", Answer("OTHER_FUNCTION")),
 ]
@@ -94,7 +97,9 @@ CHF_RESULTS = [
 
 @pytest.mark.parametrize(("asked", "body", "wanted"), CHF_RESULTS)
 def test_refusals_by_a_write_reply(engine: Engine, asked: Asked, body: str, wanted: Answer) -> None:
-    assert wire.parse(built(engine), "CHF_Reply", wire.opened(asked), bytes.fromhex(body)) == wanted
+    data = bytes.fromhex(body)
+    assert wire.parse(built(engine), "CHF_Reply", wire.opened(asked), data) == wanted
+    assert parse(dialect(drives()["CHF"]), asked, data) == wanted
 
 
 def test_a_two_byte_count_is_taken_only_where_the_map_says_so(engine: Engine) -> None:
