@@ -1,23 +1,65 @@
-"""What `check` calls good builds, lints clean and passes its generated tests: the short form, and the judge awake."""
+"""What `check` calls good builds, lints clean and passes its generated tests."""
 
+import contextlib
 import json
-from collections.abc import Callable
+import random
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.blocks import promise
 from tests.maps import mutate
+from tests.shipped import BOTH
 
-from driveblocks.maps import check, page
+from driveblocks.docs.page import documents
+from driveblocks.maps import catalog, collection, page
 from driveblocks.maps.load import loads
-from driveblocks.maps.rules import identifier
-from driveblocks.render import expression
+from driveblocks.maps.model import Drive
+from driveblocks.maps.problem import MapError
+from driveblocks.render import expression, library
+from driveblocks.testing import runner
+from driveblocks.testing.suite import ROOT, drive_suite
+from driveblocks.testing.unit import Unit
+from structured_text.engines.embedded.engine import EmbeddedEngine
+from structured_text.engines.engine import Source
 from structured_text.language.lint import lint_sources
 
 Plain = dict[str, Any]
 READ_TOGETHER = 60
 """More terms than a statement has, and no more words than a drive block reads."""
-NAMES = {original.name: original for original in promise.originals()}
+OTHERS = Path(__file__).parent / "fourth_drive"
+NAMES = {
+    path.name: mutate.Text(path.name, path.read_text("utf-8")) for path in (*catalog.shipped(), *OTHERS.glob("*.yaml"))
+}
+
+
+@cache
+def shared() -> tuple[library.File, ...]:
+    """What every drive's blocks need."""
+    return tuple(library.generic(BOTH))
+
+
+def rendered(map_text: str) -> tuple[Drive, list[library.File]]:
+    """The drive and its blocks. Raises MapError."""
+    drive = loads(map_text, "map.yaml")
+    return drive, list(library.drive("map", drive, BOTH))
+
+
+def broken(map_text: str) -> Iterator[str]:
+    """What the blocks of a map break of the promise. Raises MapError for a map that `check` refuses."""
+    drive, blocks = rendered(map_text)
+    documents([*shared(), *blocks], [drive])
+    files = [each for each in shared() if "Text" not in each.name] + blocks  # no block needs the texts of results
+    suite = drive_suite(collection.Source(Path("map.yaml"), drive), BOTH)
+    unit = Unit(suite, tuple(Source(each.path, each.text) for each in files))
+    own = {each.path for each in blocks} | {ROOT + each.path for each in suite.programs}
+    for problem in lint_sources([(each.path, each.text) for each in unit.sources]):
+        if problem.path in own:
+            yield f"lint: {problem}"
+    for result in runner.run([unit], [EmbeddedEngine()]).results:
+        for outcome in result.bad:
+            yield f"test {result.program}: {outcome.words}: {outcome.message}"
 
 
 def document(name: str) -> Plain:
@@ -28,9 +70,7 @@ def document(name: str) -> Plain:
 
 def judged(changed: Plain) -> list[str]:
     """What breaks the promise of a map that `check` calls good."""
-    text = json.dumps(changed, ensure_ascii=False)
-    loads(text, "map.yaml")
-    return list(promise.broken(text))
+    return list(broken(json.dumps(changed, ensure_ascii=False)))
 
 
 def rows(changed: Plain, count: int, **keys: Any) -> list[str]:
@@ -106,8 +146,7 @@ def test_a_good_map_builds_lints_clean_and_passes(name: str, change: Callable[[P
 
 
 def test_the_smallest_map_keeps_the_promise() -> None:
-    loads(page.skeleton(), "acme.yaml")
-    assert list(promise.broken(page.skeleton())) == []
+    assert list(broken(page.skeleton())) == []
 
 
 @pytest.mark.thorough
@@ -121,27 +160,16 @@ def test_what_is_split_into_several_statements_means_the_same(monkeypatch: pytes
 def test_lists_longer_than_a_statement_lint_clean() -> None:
     changed = document("nordwind.yaml")
     lists(changed, 260)
-    made = promise.rendered(json.dumps(changed, ensure_ascii=False))
-    assert made is not None
-    assert lint_sources((each.path, each.text) for each in (*promise.shared(), *made[1])) == []
+    _, made = rendered(json.dumps(changed, ensure_ascii=False))
+    assert lint_sources((each.path, each.text) for each in (*shared(), *made)) == []
 
 
 @pytest.mark.thorough
-def test_changes_as_authors_make_them() -> None:
-    tries = [promise.glance(7, number) for number in range(30)]
-    assert [each for each in tries if each.wrong] == []
-    good = [each.number for each in tries if each.digest]
-    assert 8 <= len(good) <= 27
-    assert promise.judge(7, good[0]).wrong == ()
-
-
-def test_a_change_is_made_from_its_seed_and_number_alone() -> None:
-    assert promise.changed(3, 5) == promise.changed(3, 5) != promise.changed(4, 5)
-
-
-@pytest.mark.thorough
-def test_the_judge_is_awake(monkeypatch: pytest.MonkeyPatch) -> None:
-    changed = document("baumhof.yaml")
-    changed["sections"][0]["registers"][0]["bits"][0]["symbol"] = "EN"
-    monkeypatch.setattr(check, "_PARTS", [part for part in check._PARTS if part is not identifier])
-    assert any(wrong.startswith("lint") and "EN is a keyword" in wrong for wrong in judged(changed))
+def test_a_map_with_another_fact_builds_or_is_refused() -> None:
+    chance, good = random.Random(7), []
+    for _ in range(30):
+        text = mutate.change_a_fact(chance.choice(list(NAMES.values())), chance).data.decode()
+        with contextlib.suppress(MapError):
+            rendered(text)
+            good.append(text)
+    assert list(broken(good[0])) == []

@@ -42,7 +42,7 @@ ELSEWHERE = {
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
     r"make (?!blocks$)": "minutes to hours; tests/output/test_release.py has `make release`",
-    r"python -m tests\.(blocks\.toolchains|drives\.seven|planted|(prove|second|testing)\.mutants)": "minutes to hours",
+    r"python -m tests\.(blocks\.toolchains|drives\.(seven|long)|planted)": "minutes to hours",
     r"python -m tests\.(line\.cline|prove\.agreement)|xml2st ": "needs a compiler from elsewhere",
     r"copy |bash ": "for another shell, or its name alone",
 }

@@ -13,10 +13,8 @@ from tests.export.tc6_checks import (
     assert_ladders,
     assert_names,
     assert_room,
-    assert_schema,
     made,
 )
-from tests.export.tc6_planted import PLANTED, Planted
 from tests.shapes import shapes
 from tests.shipped import BOTH, sources
 
@@ -160,12 +158,6 @@ def _few() -> Shelf:
     return replace(whole, parts=parts, drives={"jscc": whole.drives["jscc"]})
 
 
-@pytest.mark.parametrize("one", PLANTED, ids=lambda each: each.name)
-@pytest.mark.thorough
-def test_a_planted_mistake_is_found(one: Planted) -> None:
-    assert [target for target in one.targets if not one.found(_few(), target)] == []
-
-
 def _parsed(text: str) -> Shelf:
     """A shelf of one part that nobody has checked: a writer must not count on that."""
     return Shelf((Part("sample", parse(text, "sample/X.st")),), {}, tuple(BOTH))
@@ -204,11 +196,6 @@ def test_what_cannot_be_said_is_refused(old: str, new: str, neutral: str, codesy
             assert str(caught.value) == f"sample/X.st:{said}"
         else:
             assert len(WRITERS[target](parts)) == 1
-
-
-def test_the_end_of_a_section_in_a_comment_would_break_the_file() -> None:
-    mistake = Planted("nobody refuses it", "tc6", '"]]>", "<![CDATA[", ', "", assert_schema)
-    assert mistake.found(_parsed(BLOCK.replace("a number", "a ]]> b")), "plcopen")
 
 
 def test_all_that_cannot_be_expressed_is_reported_at_once() -> None:

@@ -1,4 +1,4 @@
-"""The files of TwinCAT 3 as an independent reader sees them. What each check is good for, `planted.py` shows."""
+"""The files of TwinCAT 3 as an independent reader sees them."""
 
 import functools
 import posixpath

@@ -1,6 +1,6 @@
 """The line at length, judged in counts: `python -m tests.line.long [--runs N] [--first SEED] [--page]`.
 
-Random lines of every kind around each line of matiec, every planted mistake found, refresh beside its formulas.
+Random lines of every kind around each line of matiec, refresh beside its formulas.
 `--page` writes the table of docs/measured/line.md. Exit status 1 if anything is not as it must be.
 """
 
@@ -8,7 +8,7 @@ import argparse
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,7 +16,6 @@ from tests import measured
 from tests.blocks.toolchains import FOUND
 from tests.line import refresh
 from tests.line.cline import WHY_NOT, CLine, Ran, build
-from tests.line.planted import PLANTED, Planted
 
 from structured_text.engines.discovery import survey
 from structured_text.engines.matiec.installation import Installation
@@ -52,15 +51,13 @@ class Job:
     runs: int
     first: int
 
-    def line(
-        self, slots: int = 8, tool: Installation | None = None, edit: Callable[[str], str] = str, name: str = ""
-    ) -> CLine:
-        """A compiled line, once per name."""
-        place = self.folder / f"{name}{slots}{tool.iec2c.parent.name if tool else ''}"
+    def line(self, slots: int = 8, tool: Installation | None = None) -> CLine:
+        """A compiled line, once each."""
+        place = self.folder / f"{slots}{tool.iec2c.parent.name if tool else ''}"
         if place.exists():
             return CLine(place / f"vline{slots}")
         place.mkdir()
-        return build(place, slots, edit, tool)
+        return build(place, slots, tool)
 
 
 def main() -> int:
@@ -97,7 +94,7 @@ def main() -> int:
 
 
 def _all(job: Job) -> Iterator[Row | list[str]]:
-    for part in (refreshed, bus, cost, randoms, planted, sanitized):
+    for part in (refreshed, bus, cost, randoms, sanitized):
         yield from part(job)
 
 
@@ -193,7 +190,7 @@ def _name(tool: Installation) -> str:
     return next((each.name for each in engines if each is not None), str(tool.iec2c))
 
 
-# ---------------------------------------------------------------- random lines, planted mistakes
+# ---------------------------------------------------------------- random lines
 
 SUMS = (
     "{stops:.0f} stops: {lost_stops:.0f} lost, {late_stops:.0f} late, {broken_stops:.0f} late by a broken promise",
@@ -216,20 +213,6 @@ def randoms(job: Job) -> Iterator[Row]:
             print("\n".join(ran.failures), end="", flush=True)
             what = f"{count} random lines of kind {kind}, {slots} slots, {_name(tool)}"
             yield Row(what, ran.told("; ".join(SUMS)), not ran.failures)
-
-
-def planted(job: Job) -> Iterator[Row]:
-    """Each planted mistake, until a random line finds it."""
-    for number, one in enumerate(PLANTED):
-        line = job.line(edit=one.edit, name=f"planted{number}_")
-        found = next((ran for ran in _growing(line, one) if ran.failures), None)
-        first = found.failures[0].partition(" kind")[0].removeprefix("failure ") if found else "not found"
-        yield Row(f"planted: {one.name}", f"{first}, kind {one.kind}", found is not None)
-
-
-def _growing(line: CLine, one: Planted) -> Iterator[Ran]:
-    for count in (1000, 10_000, 100_000):
-        yield line.random(0, count, one.kind)
 
 
 def sanitized(job: Job) -> Iterator[Row]:

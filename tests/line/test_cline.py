@@ -1,8 +1,7 @@
-"""The virtual line in C, in short: random lines of every kind, and the place of each planted mistake."""
+"""The virtual line in C, in short: random lines of every kind."""
 
 import pytest
-from tests.line.cline import WHY_NOT, CLine, build, texts
-from tests.line.planted import PLANTED, Planted
+from tests.line.cline import WHY_NOT, CLine, build
 from tests.line.refresh import SLACK, Setup
 
 NEEDS = pytest.mark.skipif(bool(WHY_NOT), reason=WHY_NOT)
@@ -79,9 +78,3 @@ def test_sizes(line: CLine) -> None:
     assert sizes["line_bytes"] <= 8 * 258 + 1376
     track = 50  # bytes of MB_Track; a line of 32 slots is not compiled for this
     assert sizes["line_bytes"] + 24 * (sizes["slot_bytes"] + track) <= 32 * 258 + 1376
-
-
-@pytest.mark.parametrize("planted", PLANTED, ids=lambda planted: planted.name)
-def test_planted_mistakes_have_their_place(planted: Planted) -> None:
-    """So that the long form, which builds each of them, does not look for what is no longer there."""
-    assert "\n".join(texts()).count(planted.old) == 1

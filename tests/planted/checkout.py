@@ -35,9 +35,14 @@ class Checkout:
         """The text of a file, with its own line ends."""
         return (self.folder / file).read_bytes().decode()
 
-    def build(self) -> bool:
+    def build(self, options: str = "") -> bool:
         """Build `blocks/` anew; whether it could be built."""
-        return self.run("python -m driveblocks build --force") == 0
+        return self.run(f"python -m driveblocks build --force {options}") == 0
+
+    def restore(self) -> None:
+        """Bring `blocks/` back as it is in the checkout."""
+        shutil.rmtree(self.folder / "blocks")
+        shutil.copytree(ROOT / "blocks", self.folder / "blocks")
 
     def run(self, command: str) -> int | None:
         """The exit status of a command in the copy; None: it does not end."""

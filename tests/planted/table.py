@@ -9,6 +9,8 @@ from tests.planted.checkout import Checkout
 from structured_text.engines.discovery import MATIEC_NAMES, survey
 
 PYTEST = "python -m pytest -x -n0 -p no:cacheprovider -o addopts="
+CANONICAL = "--target iec61131 --only"
+"""What is built: no judge of a block reads another form of it."""
 FOUND, MISSED = "found", "NOT found"
 
 
@@ -49,13 +51,13 @@ def judged(copy: Checkout, one: Place) -> str:
     before = copy.read(one.file)
     copy.write(one.file, before.replace(one.old, one.new))
     try:
-        if one.builds and not copy.build():
+        if one.builds and not copy.build(CANONICAL):
             return f"{MISSED}: blocks/ cannot be built"
         status = copy.run(one.command)
     finally:
         copy.write(one.file, before)
         if one.builds:
-            copy.build()
+            copy.restore()
     return verdict_of(status)
 
 

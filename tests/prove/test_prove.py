@@ -9,7 +9,7 @@ from click.testing import CliRunner
 from lxml import etree
 from tests import shipped
 from tests.commands.test_page_commands import commands
-from tests.prove import agreement, mutants
+from tests.prove import agreement
 from tests.shapes import texts, values
 
 from driveblocks.cli import app
@@ -29,7 +29,7 @@ def planted(old: str, new: str, block: str = "VFD_HardStop", of: str = "VFD_Hard
     """What becomes of a shared block if it, or a part of it, is changed."""
     texts = [
         each if each.path != f"vfd/{block}.st" else type(each)(each.path, each.text.replace(old, new, 1))
-        for each in mutants.texts()[prover.GENERIC]
+        for each in agreement.sources()[prover.GENERIC]
     ]
     return next(prover.proved(texts, {prover.GENERIC: [each for each in rules.shared() if each.block == of]}))
 
@@ -144,34 +144,6 @@ def test_a_mistake_in_a_part_breaks_a_rule_of_the_whole() -> None:
     bad = [each for each in proved.proofs if not each.good]
     assert any(each.answer.question.words.startswith("a fault reset is sent only while the same fault") for each in bad)
     assert all(each.replayed for each in bad)
-
-
-def test_a_hundred_changes_are_found_or_listed_with_a_reason() -> None:
-    """The long run judges them all; here that the list is about changes that exist, each drawn, and in its class."""
-    drawn = mutants.drawn()[: mutants.NUMBER + 20]
-    for name, each in mutants.survivors().items():
-        assert name in drawn
-        assert each["class"] in mutants.CLASSES
-        assert len(each["reason"]) > 20
-
-
-@pytest.mark.parametrize(
-    ("change", "found"),
-    [
-        (
-            "VFD_FaultReset: Compares := (Stage = READING) AND Seen.FaultRead "
-            "[AND -> OR] Seen.ProofRead AND NOT Reread;",
-            True,
-        ),
-        ("VFD_StopRound: Acknowledged := Acknowledged [OR -> AND] Closes;", True),
-        ("VFD_FaultReset: Failed := (Edge [AND -> OR] Refuses) OR Gone;", True),
-        ("VFD_Usual: LearnedMs := LongestReplyMs MOD [256 -> 257] * 2 + MARGIN_MS;", False),
-    ],
-)
-@pytest.mark.thorough
-def test_some_of_them_are_judged(change: str, found: bool) -> None:
-    one = mutants.every()[change]
-    assert mutants.judged(one) if found else mutants.equivalent(one)
 
 
 MAPS = [

@@ -3,7 +3,7 @@
 The first drive is the one that things happen to. `Twin` is a second block on its slot, for who wires it wrongly.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 
 from tests.drives import station as first
@@ -13,7 +13,6 @@ from tests.second.pf4 import VARIANTS
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Engine, Library, Source
 
-Edit = Callable[[str], str]
 BLOCKS = {"Reader": "VFD_ReadParameter", "Writer": "VFD_WriteParameter", "Storer": "VFD_Store"}
 METER = "  IF UseMeter THEN\n    Meter(Slot := Slots[7], Words := MeterWords);\n  END_IF;\n"
 """A unit without a motor, in the last slot, where no drive is there."""
@@ -84,9 +83,9 @@ def station(types: Sequence[str]) -> str:
     return text
 
 
-def built(engine: Engine, edit: Edit = str, stations: Sequence[Sequence[str]] = STATIONS) -> Library:
-    """The stations on an engine, the text of each block edited."""
-    texts = [each for each in first.texts(edit, FAMILIES) if each.path != "stations.st"]
+def built(engine: Engine, stations: Sequence[Sequence[str]] = STATIONS) -> Library:
+    """The stations on an engine."""
+    texts = [each for each in first.texts(kinds=FAMILIES) if each.path != "stations.st"]
     return engine.build([*texts, Source("stations.st", "\n".join(map(station, stations)))])
 
 

@@ -1,11 +1,8 @@
 """The matrix of modes, events and states: a fixed sample in the suite; `make long WHAT=matrix` runs all of it."""
 
-from itertools import islice
-
 import pytest
 from tests.second import pairs
 from tests.second.matrix import OPTIONS, STATES, Outcome, Run, cells, named, rows, run
-from tests.second.mutants import BLOCKS, NUMBER, SEEDS, drawn, every, survivors
 from tests.second.sample import aimed, sample
 from tests.second.walk import walk
 
@@ -67,18 +64,6 @@ def test_pairs_come_together() -> None:
         assert {row["b"] for row in found if row["a"] == one} == {"x", "y"}
     for name, values in OPTIONS.items():
         assert {row[name] for row in rows(name.partition(".")[0])} == set(values)
-
-
-def test_changes_are_of_one_token_and_always_the_same() -> None:
-    one, two = (list(islice(drawn(SEEDS[0]), NUMBER)) for _ in range(2))
-    assert one == two
-    assert {each.block for each in every()} == set(BLOCKS)
-
-
-def test_changes_that_survive_are_still_possible() -> None:
-    """A reason for a line that is no longer in the text says nothing."""
-    assert survivors().keys() <= {each.says for each in every()}
-    assert {name for row in survivors().values() for name in row} == {"same", "open"}
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from tests.export.siemens import checks
 from tests.export.siemens.checks import CHECKS, Read, opened
-from tests.export.siemens.planted import PLANTED, Planted
 from tests.shapes import shapes
 
 from driveblocks.export.part import Part, Shelf
@@ -57,11 +56,6 @@ def test_a_family_alone_has_the_same_shared_files() -> None:
     assert {name: text for name, text in made.items() if "README" not in name} == {
         name: written()[name] for name in checks.importing(alone)
     }
-
-
-@pytest.mark.parametrize("planted", PLANTED, ids=lambda each: each.name)
-def test_a_mistake_of_the_writer_is_found(planted: Planted) -> None:
-    assert planted.found() == planted.by
 
 
 CANNOT = """
