@@ -2,34 +2,17 @@
 
 from dataclasses import dataclass
 from decimal import Decimal
-from pathlib import Path
 
 from tests.shipped import drives
 
-from driveblocks.maps import nodes
-from driveblocks.maps.decode import decode
 from driveblocks.maps.form import Span
 from driveblocks.maps.model import Command, Drive, Frame, Step
 from driveblocks.maps.plan import read_request, write_request
-from driveblocks.maps.problem import Report
 from driveblocks.modbus.layout import reply_size
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 
 MAPS = drives()
-SMALL = (Path(__file__).parents[1] / "maps" / "bad" / "small.yaml").read_text(encoding="utf-8")
-
-
-def made_up(sections: str, operation: str) -> Drive:
-    """The small map of the tests with other registers and another operation; how things are named is not looked at."""
-    head, _, rest = SMALL.partition("sections:\n")
-    storage, tail = rest[rest.index("storage:") : rest.index("operation:")], rest[rest.index("faults:") :]
-    report = Report("made_up.yaml")
-    root = nodes.parse(f"{head}sections:\n{sections}{storage}operation:\n{operation}{tail}", report)
-    drive: Drive | None = decode(Drive, root, report) if root else None
-    report.raise_if_any()
-    assert drive is not None
-    return drive
 
 
 @dataclass

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from tests.simulator.shapes import shape
+from tests.shapes import shapes
 from tests.simulator.talk import MAPS
 
 from driveblocks.maps.form import Span
@@ -11,8 +11,6 @@ from driveblocks.maps.model import Condition, Drive, State, Status
 from driveblocks.simulator.face import Situation, situations
 from driveblocks.simulator.habits import Habits
 from driveblocks.simulator.table import table
-
-MANY = {**MAPS, "states": shape("states"), "edge": shape("edge")}
 
 
 def holds(condition: Condition | State, words: dict[int, int]) -> bool:
@@ -35,9 +33,9 @@ WAITING = {"ATV312": {"switch_on_disabled"}}
 """The state of a drive after power-up, where its map names it."""
 
 
-@pytest.mark.parametrize("name", MANY)
+@pytest.mark.parametrize("name", MAPS)
 def test_each_situation_is_shown_as_it_is(name: str) -> None:
-    drive = MANY[name]
+    drive = MAPS[name]
     able = {status.shows for status in drive.operation.status}
     for (situation, state), words in table(drive, Habits()).faces.items():
         wanted = {fact for fact in able if getattr(situation, fact)}
@@ -60,9 +58,9 @@ def test_situations_have_keys_of_their_own() -> None:
 
 def test_a_condition_that_zero_fulfils_is_not_shown_where_it_must_not_be() -> None:
     """Made up: bit 2 is 0 while the motor runs, and the whole word 0 would be a fault."""
-    drive = shape("two registers")
-    running, fault = Condition(register=0x10, bit=Span(2, 2), equals=0), Condition(register=0x10, equals=0)
-    stands = Condition(register=0x10, bit=Span(2, 2), equals=1)
+    drive = shapes()["two_registers"]
+    running, fault = Condition(register=0x2000, bit=Span(2, 2), equals=0), Condition(register=0x2000, equals=0)
+    stands = Condition(register=0x2000, bit=Span(2, 2), equals=1)
     status = (
         Status(shows="running", any=(running,), source="made up"),
         Status(shows="fault", any=(fault,), source="made up"),
@@ -70,7 +68,7 @@ def test_a_condition_that_zero_fulfils_is_not_shown_where_it_must_not_be() -> No
     standstill = replace(drive.operation.standstill, all=(stands,))
     drive = replace(drive, operation=replace(drive.operation, status=status, standstill=standstill))
     faces = table(drive, Habits()).faces
-    assert faces[Situation(), None] == {0x10: 4}
-    assert faces[Situation(running=True), None] == {0x10: 1}
+    assert faces[Situation(), None] == {0x2000: 4}
+    assert faces[Situation(running=True), None] == {0x2000: 1}
     # a fault excludes all else here, and goes before it
-    assert faces[Situation(fault=True, ready=False), None] == {0x10: 0}
+    assert faces[Situation(fault=True, ready=False), None] == {0x2000: 0}

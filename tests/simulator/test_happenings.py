@@ -1,7 +1,7 @@
 """What happens to a drive: power, keypad, interlock, a drive that does not obey, restarts and watchdogs."""
 
 import pytest
-from tests.simulator.shapes import shape
+from tests.shapes import shapes
 from tests.simulator.talk import talk
 
 from driveblocks.simulator.habits import Habits
@@ -142,10 +142,10 @@ def test_a_run_word_that_is_still_there_may_act_again_after_a_reset(family: str)
 
 
 def test_what_needs_an_edge_or_a_state_or_was_stopped_does_not_act_again() -> None:
-    for name, words in (("states", (6, 7, 15)), ("two registers", ()), ("pulse", (1, 0))):
-        one = talk(shape(name), Habits(resumes=True))
+    for name, words in (("cia402", (6, 7, 15)), ("two_registers", ()), ("pulse", (1, 0))):
+        one = talk(shapes()[name], Habits(resumes=True))
         for word in words:
-            one.write(0x0000, word)
+            one.write(0x1000, word)
             one.drive.step(200)
         one.drive.trip(1)
         one.drive.clear_cause()

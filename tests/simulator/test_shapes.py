@@ -1,180 +1,165 @@
 """Commands of every shape: a path of states, an edge, a pulse, two registers, active-low bits."""
 
+from dataclasses import replace
 from decimal import Decimal
 
 import pytest
 from tests.shapes import shapes
-from tests.simulator.shapes import shape
 from tests.simulator.talk import MAPS, Talk, talk
 
+from driveblocks.maps.model import Drive
 from driveblocks.simulator.habits import Habits
 
-STATUS = 0x0010
-READY, SWITCHED_ON, RUNNING, REVERSE, FAULT = 0x01, 0x03, 0x04, 0x44, 0x08
+COMMAND, DIRECTION, RUN, STATUS, FREQUENCY = 0x1000, 0x1000, 0x1002, 0x2000, 0x2001
+READY, SWITCHED_ON, ENABLED, DISABLED, FAULT = 0x21, 0x23, 0x27, 0x40, 0x08
+"""The states of CiA 402."""
 
 
-def write(one: Talk, *words: int) -> int:
-    """Words to the control word, one after the other; the status word."""
+def write(one: Talk, *words: int, at: int = COMMAND) -> int:
+    """Words to a register, one after the other; the low byte of the status word."""
     for word in words:
-        one.write(0x0000, word)
-    return one.read(STATUS)
+        one.write(at, word)
+    return one.read(STATUS) & 0xFF
 
 
-@pytest.mark.parametrize(("run", "running"), [(0x0F, RUNNING), (0x80F, REVERSE)])
-def test_a_path_of_states_is_gone_in_its_order(run: int, running: int) -> None:
-    one = talk(shape("states"))
+def at_20_hz(habits: Habits | None = None) -> Talk:
+    """The drive by CiA 402, running."""
+    one = talk(shapes()["cia402"], habits)
     one.hertz(20)
-    assert write(one) == 0
-    assert write(one, run) == 0
-    assert write(one, 0x07) == 0
-    assert write(one, 0x06) == READY
-    assert write(one, run) == READY
-    assert write(one, 0x07) == SWITCHED_ON
-    assert write(one, run) == running
+    write(one, 0x06, 0x07, 0x0F)
     one.drive.step(2000)
-    assert abs(one.drive.hertz) == 20
+    return one
+
+
+def test_a_path_of_states_is_gone_in_its_order() -> None:
+    one = talk(shapes()["cia402"])
+    one.hertz(20)
+    words = (0x0F, 0x07, 0x06, 0x0F, 0x07, 0x0F)
+    assert [write(one, word) for word in words] == [DISABLED, DISABLED, READY, READY, SWITCHED_ON, ENABLED]
+    one.drive.step(2000)
+    assert one.drive.hertz == 20
+    assert write(one, 0x0F) == ENABLED
 
 
 def test_a_stop_leads_where_its_word_leads_once_the_motor_is_at_standstill() -> None:
-    one = talk(shape("states"))
-    one.hertz(20)
-    write(one, 0x06, 0x07, 0x0F)
-    one.drive.step(2000)
-    assert write(one, 0x06) == RUNNING
-    assert write(one, 0x07) == RUNNING
+    one = at_20_hz()
+    assert write(one, 0x06) == ENABLED
     one.drive.step(1000)
     assert one.drive.mode == "ramping down"
     one.drive.step(1000)
-    assert one.read(STATUS) == SWITCHED_ON
-    assert write(one, 0x07) == SWITCHED_ON
-    # from here the other direction needs no more than its word; taking the voltage off ends all states
-    assert write(one, 0x80F) == REVERSE
-    assert write(one, 0x00) == 0
-    assert write(one, 0x07) == 0
-    assert write(one, 0x06, 0x00) == 0
-
-
-def test_a_running_drive_takes_its_run_word_again_and_another_direction() -> None:
-    one = talk(shape("states"))
-    one.hertz(20)
-    write(one, 0x06, 0x07, 0x0F)
-    one.drive.step(2000)
-    assert write(one, 0x0F) == RUNNING
-    assert one.drive.hertz == 20
-    write(one, 0x80F)
-    one.drive.step(4000)
-    assert one.drive.hertz == -20
-    write(one, 0x02)
-    one.drive.step(200)
-    assert one.drive.hertz == -10
+    # from here the run needs no more than the rest of its path; taking the voltage off ends all states
+    assert [write(one, word) for word in (0x06, 0x07, 0x00, 0x07, 0x06)] == [
+        READY, SWITCHED_ON, DISABLED, DISABLED, READY
+    ]  # fmt: skip
+    quick = at_20_hz()
+    write(quick, 0x02)
+    quick.drive.step(200)
+    assert quick.drive.hertz == 10
 
 
 def test_a_state_is_waited_for() -> None:
-    one = talk(shape("states"), Habits(settle_ms=50))
-    assert write(one, 0x06, 0x07) == 0
+    one = talk(shapes()["cia402"], Habits(settle_ms=50))
+    assert write(one, 0x06, 0x07) == DISABLED
     one.drive.step(50)
-    assert one.read(STATUS) == READY
     assert write(one, 0x07) == READY
     one.drive.step(50)
-    assert one.read(STATUS) == SWITCHED_ON
+    assert write(one) == SWITCHED_ON
 
 
 def test_a_fault_ends_the_states_and_is_reset_by_an_edge() -> None:
-    one = talk(shape("states"))
-    write(one, 0x06, 0x87)
-    write(one, 0x07)
+    one = at_20_hz()
     one.drive.trip(5)
     assert write(one, 0x06, 0x80) == FAULT
     one.drive.clear_cause()
-    assert write(one, 0x80) == FAULT
-    assert write(one, 0x00) == FAULT
-    assert write(one, 0x80) == 0
+    one.drive.step(10_000)
+    assert [write(one, word) for word in (0x80, 0x00, 0x80)] == [FAULT, FAULT, DISABLED]
     one.drive.trip(5)
     one.drive.clear_cause()
     # the bit is still set: no change, no reset
     assert write(one, 0x80) == FAULT
 
 
-def test_on_is_an_edge_from_its_state() -> None:
-    one = talk(shape("edge"))
+def test_on_is_an_edge_from_its_state_and_a_running_drive_takes_another_direction() -> None:
+    one = talk(shapes()["profidrive"])
     one.hertz(10)
-    assert write(one, 0x40F) == 0
-    assert write(one, 0x40E) == READY
-    assert write(one, 0x40F) == RUNNING
+    assert [write(one, word) for word in (0x47F, 0x47E, 0xC7F)] == [0x40, 0x01, 0x07]
     one.drive.step(1000)
-    assert write(one, 0x40E) == RUNNING
+    assert (one.drive.hertz, one.read(STATUS)) == (-10, 0x4107)
+    write(one, 0x47F)
+    one.drive.step(2000)
+    assert one.drive.hertz == 10
+    assert write(one, 0x47E) == 0x07
     one.drive.step(1000)
-    assert one.read(STATUS) == READY
+    assert write(one) == 0x01
     one.drive.trip(1)
     one.drive.clear_cause()
-    assert write(one, 0x48E) == 0
-    assert write(one, 0x40F) == 0
+    assert [write(one, word) for word in (0x4FE, 0x47F, 0x47E)] == [0x40, 0x40, 0x01]
 
 
-def test_active_low_bits_stop_though_a_run_bit_is_set() -> None:
-    one = talk(shape("active low"))
+def test_an_active_low_bit_runs_while_it_is_0() -> None:
+    one = talk(shapes()["active_low"])
     one.hertz(20)
-    assert write(one, 0x01) == 0
-    assert write(one, 0x07) == RUNNING
+    assert [write(one, word) for word in (1, 0)] == [0, 1]
     one.drive.step(2000)
-    assert write(one, 0x06) == RUNNING
-    one.drive.step(1000)
-    assert one.drive.hertz == 10
     # both directions' words are in it; that which names more is meant
-    assert write(one, 0x807) == RUNNING
+    assert write(one, 2) == 1
     one.drive.step(4000)
     assert one.drive.hertz == -20
-    assert write(one, 0x803) == REVERSE
-    one.drive.step(400)
-    assert one.read(STATUS) == 0
-    write(one, 0x07)
-    assert write(one, 0x05) == 0
+    assert write(one, 1) == 3
+    one.drive.step(2000)
     assert one.drive.mode == "standstill"
 
 
 def test_a_pulse_acts_when_it_ends_and_only_if_it_was_long_enough() -> None:
-    one = talk(shape("pulse"))
+    one = talk(shapes()["pulse"])
     one.hertz(10)
     write(one, 1)
     one.drive.step(99)
     assert write(one, 0) == 0
     write(one, 1)
     one.drive.step(100)
-    assert write(one, 0) == RUNNING
+    assert write(one, 0) == 1
     one.drive.step(1000)
     write(one, 4)
     one.drive.step(1000)
     write(one, 2)
     one.drive.step(100)
-    assert write(one, 0) == REVERSE
+    assert write(one, 0) == 3
+
+
+def signed() -> Drive:
+    """Two registers, and a signed output frequency without a scale."""
+    drive = shapes()["two_registers"]
+    commands, status = drive.sections
+    first, frequency, *others = status.registers
+    rows = (first, replace(frequency, signed=True, scale=None), *others)
+    return replace(drive, sections=(commands, replace(status, registers=rows)))
 
 
 def test_a_signed_frequency_is_cut_towards_zero() -> None:
     """0.03 Hz in reverse, in counts of 0.007 Hz."""
-    one = talk(shape("two registers"), Habits(scale=Decimal("0.007")))
+    one = talk(signed(), Habits(scale=Decimal("0.007")))
     one.hertz(10)
-    one.write(0x0003, 1)
-    one.write(0x0004, 1)
+    write(one, 1)
+    write(one, 1, at=RUN)
     one.drive.step(3)
-    assert one.read(0x0020) == 0x10000 - 4
+    assert one.read(FREQUENCY) == 0x10000 - 4
 
 
 def test_a_direction_beside_the_start_acts_at_once() -> None:
     """Two registers: the wrong order passes through the wrong direction."""
-    one = talk(shape("two registers"))
+    one = talk(signed())
     one.hertz(10)
-    one.write(0x0003, 1)
-    assert one.read(STATUS) == 0
-    one.write(0x0004, 1)
-    assert one.read(STATUS) == REVERSE
+    assert write(one, 1, at=DIRECTION) == 0
+    assert write(one, 1, at=RUN) == 3
     one.drive.step(1000)
-    assert one.read(0x0020) == 0x10000 - 1000
-    one.write(0x0003, 0)
+    assert one.read(FREQUENCY) == 0x10000 - 1000
+    write(one, 0, at=DIRECTION)
     one.drive.step(2000)
     assert one.drive.hertz == 10
-    one.write(0x0004, 0)
+    write(one, 0, at=RUN)
     one.drive.step(1000)
-    one.write(0x0003, 1)
+    write(one, 1, at=DIRECTION)
     assert one.drive.mode == "standstill"
 
 
