@@ -26,7 +26,6 @@ class Witness:
     expected: dict[str, Value]
     fails: bool
     rules: tuple[str, ...]
-    productions: tuple[str, ...]
 
     def value(self, engine: Engine) -> Value:
         """What `o` is after the last scan; `error` if a scan fails, `badC` if the C does not compile."""
@@ -60,11 +59,6 @@ def load_witnesses() -> dict[str, Witness]:
     return {name: _witness(name, entry) for name, entry in entries.items()}
 
 
-def not_noticed() -> list[str]:
-    """The productions whose differences the embedded engine lets pass."""
-    return [rule for each in load_witnesses().values() if not each.fails for rule in each.productions]
-
-
 def _witness(name: str, entry: dict[str, Any]) -> Witness:
     block = "Show" + name.title().replace("-", "")
     return Witness(
@@ -76,7 +70,6 @@ def _witness(name: str, entry: dict[str, Any]) -> Witness:
         expected={who: _value(entry[who]) for who in ("standard", "beremiz", "openplc")},
         fails=entry["fails"],
         rules=tuple(sorted(entry["rule"].replace("none", "").split())),
-        productions=tuple(entry.get("productions", [])),
     )
 
 
