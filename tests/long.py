@@ -42,7 +42,7 @@ RUNS = {
         ("tests.blocks.compare.long",),
     ),
     "traces": Run(
-        "records how matiec runs corpus and library (both lines of matiec); after every change of a block",
+        "records how matiec runs the corpus (both lines of matiec)",
         "minutes",
         ("tests.structured_text.engines.traces.record",),
     ),

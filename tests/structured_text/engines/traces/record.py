@@ -1,4 +1,4 @@
-"""Record again how matiec runs the corpus and the blocks of the library.
+"""Record again how matiec runs the corpus.
 
 `python -m tests.structured_text.engines.traces.record`.
 
@@ -8,11 +8,8 @@ Both lines are run and must agree: a block on which they differ is no canonical 
 import sys
 from collections.abc import Sequence
 
-from tests.blocks.compare.comparison import build, compare, subjects
-from tests.blocks.compare.pou import shipped
 from tests.structured_text.engines.compare.cases import Case, load_cases
 from tests.structured_text.engines.compare.lockstep import Run, lockstep, states
-from tests.structured_text.engines.traces import library
 from tests.structured_text.engines.traces.trace import SEED, Trace, path_of, write
 
 from structured_text.engines.discovery import MATIEC_NAMES, survey
@@ -20,7 +17,7 @@ from structured_text.engines.engine import Engine
 
 
 def main() -> int:
-    """Record every case and block; 1 if the lines differ on one, 2 if one of them is missing."""
+    """Record every case; 1 if the lines differ on one, 2 if one of them is missing."""
     candidates = [each for each in survey().candidates() if each.name in MATIEC_NAMES]
     engines = [each.engine for each in candidates if each.engine is not None]
     for each in candidates:
@@ -28,7 +25,6 @@ def main() -> int:
     if len(engines) < len(MATIEC_NAMES):
         return 2
     differences = [text for case in load_cases().values() if (text := _record(case, engines))]
-    differences += _record_library(engines)
     print("\n".join(differences), end="\n" if differences else "")
     return 1 if differences else 0
 
@@ -43,19 +39,6 @@ def _record(case: Case, engines: Sequence[Engine]) -> str:
     size = path_of(case.name).stat().st_size
     print(f"{case.name}: {len(kept)} scans, {size} bytes, {'written' if changed else 'unchanged'}")
     return ""
-
-
-def _record_library(engines: Sequence[Engine]) -> list[str]:
-    """Record the library, one file per folder; what the lines differ in."""
-    libraries = build({each.name: each for each in engines})
-    differences = [compare(pou, subjects(libraries, pou), library.scans(pou), SEED) for pou in shipped().pous.values()]
-    if any(differences):
-        return [f"the library is not recorded, the lines differ: {each}" for each in differences if each is not None]
-    for folder in library.folders():
-        changed = library.write(folder, libraries[engines[0].name])
-        size = library.path_of(folder).stat().st_size
-        print(f"library, {folder}: {size} bytes, {'written' if changed else 'unchanged'}")
-    return []
 
 
 if __name__ == "__main__":
