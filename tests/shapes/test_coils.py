@@ -1,10 +1,9 @@
 """A drive that coils command: its reference and output frequency are pairs, its current is an input register."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from decimal import Decimal
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import pytest
 from tests.maps import bad
@@ -16,21 +15,17 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.polls import polls
 from driveblocks.maps.problem import MapError
 from driveblocks.output.units import units
-from driveblocks.reference.checksum import crc16
 from driveblocks.render.text import languages
 from driveblocks.simulator.answer import answer
 from driveblocks.simulator.machine import Machine
 from driveblocks.testing import runner
 from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.engine import Engine, Instance, Library
-from structured_text.engines.engine import Source as Text
+from structured_text.engines.engine import Engine
 from structured_text.language.lint import lint_sources
 
 MAP = (bad.FOLDER / "coils.yaml").read_text(encoding="utf-8")
 LOW_FIRST = MAP.replace("words: 2,", "words: 2, order: low_first,")
-RUN, REVERSE, RESET = 0x0000, 0x0001, 0x0003
-STATUS = 0x000E
 
 
 @cache
@@ -56,36 +51,6 @@ def test_an_address_knows_its_table() -> None:
     assert (run.name, reference.name) == ("Run command", "Frequency command")
     assert [span_text(row.address) for row in (run, reference)] == ["coil 0000H", "0000H-0001H"]
     assert address_text(SPACES["input"] + 0x1000) == "input 1000H"
-
-
-def test_numbers_of_a_manual_have_tables_too() -> None:
-    numbering = "numbering: {first: 1, says: the number minus 1 is sent, source: section 1}\nserial:"
-    text = MAP.replace("serial:", numbering, 1)
-    for number in (
-        "0003",
-        "000E",
-        "000F",
-        "0010",
-        "0011",
-        "0017",
-        "0012-0016",
-        "1000-1001",
-        "1000",
-        "0000-0001",
-        "0001",
-    ):
-        ends = "-".join(f"{int(each.rstrip('H'), 16) + 1:04X}H" for each in number.split("-"))
-        plain = "-".join(f"{each}H" for each in number.split("-"))
-        text = text.replace(f"address: {plain}", f"address! {ends}").replace(f"coil {plain}", f"coil! {ends}")
-        text = text.replace(f"input {plain}", f"input! {ends}").replace(f"register: {plain}", f"register! {ends}")
-    text = text.replace("coil 0000H", "coil! 0001H").replace("address: 0000H", "address! 0001H")
-    text = text.replace("register: 0000H", "register! 0001H").replace("registers: [0011H]", "registers: [0012H]")
-    text = text.replace("present: 0011H", "present: 0012H")
-    for word in ("address", "register"):
-        text = text.replace(f"{word}!", f"{word}:")
-    found = loads(text.replace("coil!", "coil").replace("input!", "input"), "numbers.yaml")
-    assert [row.address for _, row in found.registers()] == [row.address for _, row in drive().registers()]
-    assert found.operation.standstill.all == drive().operation.standstill.all
 
 
 def test_a_condition_on_a_pair_is_one_on_each_of_its_words() -> None:
@@ -172,175 +137,3 @@ def test_the_simulator_knows_tables_and_pairs() -> None:
     assert asked(machine, "05 00 00 00 00") == "05 00 00 00 00"
     machine.step(60_000)
     assert machine.hertz == 0
-
-
-# ---------------------------------------------------------------- a second model, by hand
-
-
-@dataclass
-class Second:
-    """A drive as its manual would have it, from nothing but table 1 to 3 of the map: no code of the simulator."""
-
-    coils: dict[int, int] = field(default_factory=dict)
-    words: dict[int, int] = field(default_factory=dict)
-    counts: int = 0
-    heard: list[bytes] = field(default_factory=list)
-
-    def step(self) -> None:
-        """A scan of 20 ms: 5 Hz per scan, up or down."""
-        asked = (self.words.get(0, 0) << 16 | self.words.get(1, 0)) if self.coils.get(RUN) else 0
-        self.counts = min(asked, self.counts + 500) if asked > self.counts else max(asked, self.counts - 500)
-
-    def reply(self, request: bytes) -> bytes:
-        """Without checksums. Raises KeyError for what the drive does not know."""
-        self.heard.append(request)
-        function, at, number = request[1], int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
-        if function == 5:
-            assert number in (0, 0xFF00)
-            assert at in (RUN, REVERSE, RESET)
-            self.coils[at] = number // 0xFF00
-            return request
-        if function == 16:
-            assert (at, number, request[6]) == (0, 2, 4)
-            self.words |= {0: int.from_bytes(request[7:9], "big"), 1: int.from_bytes(request[9:11], "big")}
-            return request[:6]
-        if function == 1:
-            shown = {STATUS: int(bool(self.coils.get(RUN) or self.counts)), STATUS + 1: self.coils.get(REVERSE, 0)}
-            bits = sum(shown.get(at + place, 0) << place for place in range(number))
-            data = bits.to_bytes((number + 7) // 8, "little")
-        else:
-            table = {(3, 0x1000): self.counts >> 16, (3, 0x1001): self.counts & 0xFFFF, (3, 0x11): 0, (4, 0x1000): 25}
-            data = b"".join(table[function, each].to_bytes(2, "big") for each in range(at, at + number))
-        return request[:2] + bytes([len(data)]) + data
-
-
-RIG = """FUNCTION_BLOCK Rig
-VAR_INPUT
-  ElapsedMs : UINT;
-  StopAll : BOOL;
-  Skip : BOOL;
-  Enable : BOOL;
-  Forward : BOOL;
-  Reverse : BOOL;
-  Reset : BOOL;
-  Hz : REAL;
-  RxCount : UINT;
-END_VAR
-VAR_IN_OUT
-  RxChars : MB_Adu;
-  TxChars : MB_LineFrame;
-END_VAR
-VAR
-  Slots : MB_Slots8;
-  Motor : COI_Drive;
-  Bus : MB_ByteLine8;
-END_VAR
-  IF NOT Skip THEN
-    Motor(Enable := Enable, RunForward := Forward, RunReverse := Reverse, FaultReset := Reset, SpeedReferenceHz := Hz,
-      MaximumHz := 400.0,
-      Address := 1, StopWithinMs := 3000, Slot := Slots[0]);
-  END_IF;
-  Bus(ElapsedMs := ElapsedMs, BitRate := 19200, MaxScanMs := 20, StopAll := StopAll, RxCount := RxCount,
-    RxChars := RxChars, TxChars := TxChars, Slots := Slots);
-END_FUNCTION_BLOCK
-PROGRAM Whole
-VAR
-  One : Rig;
-  Rx : MB_Adu;
-  Tx : MB_LineFrame;
-  ElapsedMs : UINT;
-  StopAll : BOOL;
-  Skip : BOOL;
-  Enable : BOOL;
-  Forward : BOOL;
-  Reverse : BOOL;
-  Reset : BOOL;
-  Hz : REAL;
-  RxCount : UINT;
-  TxCount : UINT;
-END_VAR
-  One(ElapsedMs := ElapsedMs, StopAll := StopAll, Skip := Skip, Enable := Enable, Forward := Forward,
-    Reverse := Reverse, Reset := Reset, Hz := Hz, RxCount := RxCount, RxChars := Rx, TxChars := Tx);
-  TxCount := One.Bus.TxCount;
-END_PROGRAM
-"""
-BUILT: dict[str, Library] = {}
-
-
-class Stand:
-    """A motor on a line with a second model: 20 ms a scan, each request answered in the next but one."""
-
-    def __init__(self, engine: Engine, text: str = MAP, model: Any = None) -> None:
-        """Power up a motor of a map, with its model."""
-        name = f"{engine.name} {drive(text).prefix}"
-        if name not in BUILT:
-            blocks = [Text(each.path, each.text) for each in unit(text).blocks]
-            BUILT[name] = engine.build([*blocks, Text("rig.st", RIG.replace("COI_", f"{drive(text).prefix}_"))])
-        self.whole: Instance = BUILT[name].instance("Whole")
-        self.model: Any = model or Second()
-        self._reply = b""
-        self.whole["Enable"], self.whole["Hz"] = True, 50.0
-
-    def run(self, ms: int, **pins: bool | float) -> list[bytes]:
-        """Set pins and scan; what was written meanwhile, without checksums."""
-        for name, value in pins.items():
-            self.whole[name] = value
-        before = len(self.model.heard)
-        for _ in range(ms // 20):
-            self.whole["ElapsedMs"] = 20
-            self.whole["RxCount"] = len(self._reply)
-            self.whole["Rx"] = self._reply or b"\xff"
-            self.whole.scan()
-            sent, count = self.whole["Tx"], self.whole["TxCount"]
-            assert isinstance(sent, list)
-            assert isinstance(count, int)
-            frame = bytes(sent[:count])  # type: ignore[arg-type]  # an array of BYTE
-            self._reply = b""
-            if frame:
-                assert crc16(frame[:-2]) == int.from_bytes(frame[-2:], "little")
-                body = self.model.reply(frame[:-2])
-                self._reply = body + crc16(body).to_bytes(2, "little")
-            self.model.step()
-        return [each for each in self.model.heard[before:] if each[1] > 4]
-
-    def pin(self, name: str) -> object:
-        """A pin of the motor."""
-        return self.whole[f"One.Motor.{name}"]
-
-
-OFF = bytes([1, 5, 0, 0, 0, 0])
-ON = bytes([1, 5, 0, 0, 0xFF, 0])
-AHEAD, BACK = bytes([1, 5, 0, 1, 0, 0]), bytes([1, 5, 0, 1, 0xFF, 0])
-
-
-def speed(counts: int) -> bytes:
-    """The write of a reference."""
-    return bytes([1, 16, 0, 0, 0, 2, 4]) + counts.to_bytes(4, "big")
-
-
-def test_a_motor_starts_turns_and_stops(engine: Engine) -> None:
-    stand = Stand(engine)
-    assert set(stand.run(4000)) == {OFF}, "a stop, and nothing that moves"
-    assert stand.pin("Ready") is True
-    assert stand.run(1500, Forward=True)[:3] == [speed(5000), AHEAD, ON]
-    assert (stand.model.counts, stand.pin("Running"), stand.pin("Reverse")) == (5000, True, False)
-    assert stand.pin("OutputFrequencyHz") == 50.0
-    assert stand.pin("OutputCurrentA") == 2.5
-    assert speed(39000) in stand.run(2000, Hz=390.0)
-    assert stand.pin("OutputFrequencyHz") == 390.0
-    assert stand.run(3000, Forward=False)[0] == OFF
-    assert (stand.model.counts, stand.pin("StopConfirmed"), stand.pin("Running")) == (0, True, False)
-    assert [each for each in stand.run(1500, Reverse=True, Hz=20.0) if each != speed(2000)][:2] == [BACK, ON]
-    assert stand.pin("Reverse") is True
-
-
-@pytest.mark.parametrize("how", ["StopAll", "Skip"])
-def test_the_line_stops_it_on_its_own(engine: Engine, how: str) -> None:
-    stand = Stand(engine)
-    stand.run(4000)
-    stand.run(1500, Forward=True)
-    assert stand.model.counts == 5000
-    sent = stand.run(3000, **{how: True})
-    assert stand.model.counts == 0
-    assert stand.model.coils[RUN] == 0
-    assert ON not in sent

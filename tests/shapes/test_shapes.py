@@ -1,6 +1,5 @@
 """Drives that are commanded by paths, pulses, several registers or active-low bits are one map each, and no code."""
 
-import json
 import re
 from dataclasses import replace
 from decimal import Decimal
@@ -35,7 +34,7 @@ from driveblocks.testing.unit import Unit
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.language.lint import lint_sources
 
-NAMES = ("cia402", "profidrive", "pulse", "two_registers", "active_low", "packed")
+NAMES = tuple(shapes())
 CONCERNED = re.compile(r"_Test(MayWrite|Command|Sequence|FaultReset|ResetStop|Standstill|[12]00[0-9]H)")
 """Programs that depend on the shape; requests and replies do not."""
 every = pytest.mark.parametrize("name", NAMES)
@@ -63,11 +62,6 @@ def run(name: str, folder: Path, *words: str) -> str:
     result = CliRunner().invoke(app, [path.as_posix() if word == "MAP" else word for word in words])
     assert result.exit_code == 0, result.output
     return result.stdout
-
-
-def test_there_is_one_of_each_shape() -> None:
-    assert tuple(shapes()) == NAMES
-    assert [one.does for one in shapes()["cia402"].operation.commands if one.first] == ["run_forward", "fault_reset"]
 
 
 @cache
@@ -295,14 +289,6 @@ def test_a_drive_that_stores_nothing_refuses_a_store_and_the_stored_twin_of_the_
     assert [judge.result(Write(each)) for each in (0x1001, 0x1002, 0x1003)] == ["OWNED", "OWNED", "OK"]
 
 
-def test_json_carries_the_way_the_states_and_what_the_pins_show(tmp_path: Path) -> None:
-    operation = json.loads(run("cia402", tmp_path, "show", "MAP", "--json"))["operation"]
-    assert operation["commands"][0]["first"][0] == {"register": 0x1000, "value": 6, "until": "ready_to_switch_on"}
-    assert operation["status"][0]["any"] == [{"register": 0x2000, "mask": 0x6F, "equals": 0x27}]
-    assert operation["measures"][0]["shows"] == "output_frequency"
-    assert operation["states"][1]["name"] == "switched_on"
-
-
 def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
     page = " ".join(run("cia402", tmp_path, "show", "MAP").split())
     assert (
@@ -326,15 +312,6 @@ def test_show_lists_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: P
     for address, says in (("2000H", "bus in command: 2000H bit 9 = 1"), ("2003H", "identity: 2003H = 786")):
         assert says in run("cia402", tmp_path, "show", "MAP", address)
     assert "own maximum frequency" in run("cia402", tmp_path, "show", "MAP", "P1.08")
-
-
-def test_json_carries_what_the_drive_does_by_itself_and_says_of_itself(tmp_path: Path) -> None:
-    seen = json.loads(run("cia402", tmp_path, "show", "MAP", "--json"))
-    assert seen["identity"]["all"] == [{"register": 0x2003, "equals": 0x312}]
-    assert seen["watchdog"]["feeds"] == "any"
-    assert seen["operation"]["own_maximum"] == {"register": 0x2004, "source": "table 2"}
-    assert seen["fault_report"]["trip_output"] == {"motor": "coasts", "source": "table 3"}
-    assert json.loads(run("active_low", tmp_path, "show", "MAP", "--json"))["identity"] is None
 
 
 def test_the_templates_get_what_the_drive_says_of_itself_or_nothing() -> None:

@@ -2,14 +2,14 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from tests.examples.port import Port
 from tests.shapes import values
-from tests.shapes.test_coils import Stand
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus
@@ -280,19 +280,63 @@ class Words:
     """A drive that stands and answers with these words, and takes every write."""
 
     words: dict[int, int]
-    heard: list[bytes] = field(default_factory=list)
+    unit: int = 1
+    turn_us: int = 20_000
 
-    def step(self) -> None:
+    def step(self, ms: int) -> None:
         """Nothing moves."""
 
-    def reply(self, request: bytes) -> bytes:
+    def reply(self, request: bytes) -> bytes | None:
         """Without checksums."""
-        self.heard.append(request)
         if request[1] == 6:
             return request
         first, count = int.from_bytes(request[2:4], "big"), int.from_bytes(request[4:6], "big")
         data = b"".join(self.words.get(each, 0).to_bytes(2, "big") for each in range(first, first + count))
         return request[:2] + bytes([len(data)]) + data
+
+
+WHOLE = """PROGRAM Whole
+VAR
+  Reset : BOOL;
+  StopAll : BOOL;
+  RxCount : UINT;
+  RxChars : MB_Adu;
+  TxCount : UINT;
+  TxChars : MB_LineFrame;
+  Slots : MB_Slots8;
+  Motor : {prefix}_Drive;
+  Bus : MB_ByteLine8;
+END_VAR
+  Motor(Enable := TRUE, FaultReset := Reset, SpeedReferenceHz := 50.0, MaximumHz := 400.0, Address := 1,
+    StopWithinMs := 3000, Slot := Slots[0]);
+  Bus(ElapsedMs := 10, BitRate := 19200, MaxScanMs := 20, StopAll := StopAll, RxCount := RxCount, RxChars := RxChars,
+    TxChars := TxChars, Slots := Slots);
+  TxCount := Bus.TxCount;
+END_PROGRAM
+"""
+
+
+class Stand:
+    """A motor of a map on a line with a model of its drive."""
+
+    def __init__(self, engine: Engine, text: str, model: Words) -> None:
+        """Power up."""
+        drive = loads(text, "made_up.yaml")
+        made = units([Source(Path("made_up.yaml"), drive)], languages(["en"], "utf-8"))
+        blocks = [Text(each.path, each.text) for unit in made if unit.suite.name == "made_up" for each in unit.blocks]
+        whole = engine.build([*blocks, Text("whole.st", WHOLE.format(prefix=drive.prefix))]).instance("Whole")
+        self.port = Port(whole, [model], 10 / 19.2)
+
+    def run(self, ms: int, **pins: bool) -> None:
+        """Set pins and scan."""
+        for name, on in pins.items():
+            self.port.program[name] = on
+        for _ in range(ms // 10):
+            self.port.scan()
+
+    def pin(self, name: str) -> object:
+        """A pin of the motor."""
+        return self.port.program[f"Motor.{name}"]
 
 
 def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: Path) -> None:
@@ -320,23 +364,23 @@ def test_a_register_chooses_the_decimals_of_a_measure(engine: Engine, tmp_path: 
 
 @dataclass
 class Deaf(Words):
-    """It trips, and answers nothing for 1.5 s once it has answered a reset; a scan has 20 ms."""
+    """It trips, and answers nothing for 1.5 s once it has answered a reset."""
 
     resets: tuple[int, int] = (0x1000, 7)
-    scans: int = 0
+    ms: int = 0
     unheard: int = 0
 
-    def step(self) -> None:
+    def step(self, ms: int) -> None:
         """Time passes."""
-        self.scans = max(0, self.scans - 1)
+        self.ms = max(0, self.ms - ms)
 
-    def reply(self, request: bytes) -> bytes:
+    def reply(self, request: bytes) -> bytes | None:
         """Nothing while it is deaf."""
-        if self.scans:
+        if self.ms:
             self.unheard += 1
-            return b""
+            return None
         if request[1] == 6 and (int.from_bytes(request[2:4], "big"), request[5]) == self.resets:
-            self.scans, self.words[0x2002] = 75, 0
+            self.ms, self.words[0x2002] = 1500, 0
         return super().reply(request)
 
 
@@ -358,7 +402,7 @@ def test_a_drive_that_is_silent_after_its_reset_is_not_lost(
         lost += stand.pin("CommOk") is not True
     assert (stand.pin("Fault"), stand.pin("Ready")) == (False, True)
     if told:
-        assert (lost, model.unheard, stand.whole["One.Motor.Slot.Timeouts"]) == (0, 0, 0)
+        assert (lost, model.unheard, stand.port.program["Slots[0].Timeouts"]) == (0, 0, 0)
     else:
         assert lost > 10
         assert model.unheard > 2
@@ -370,7 +414,7 @@ def test_a_stop_passes_while_the_drive_is_silent(engine: Engine) -> None:
     stand.run(4000)
     stand.run(20)
     stand.run(400, Reset=True)
-    assert model.scans > 40
+    assert model.ms > 800
     before = model.unheard
     stand.run(100, StopAll=True)
     assert model.unheard > before
