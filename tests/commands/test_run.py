@@ -19,7 +19,7 @@ from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.screen import Lines
 from driveblocks.maps import catalog
-from driveblocks.plc import demo, departure, setup
+from driveblocks.plc import demo, setup
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Options
 from driveblocks.plc.setup import Setup
@@ -39,7 +39,7 @@ def run(*words: str | Path) -> Result:
 @pytest.fixture(autouse=True)
 def _stays(monkeypatch: pytest.MonkeyPatch) -> None:
     """However slow this machine is, the process of the tests does not end."""
-    monkeypatch.setattr(departure, "leave", lambda _: None)
+    monkeypatch.setattr(os, "_exit", lambda _: None)
 
 
 @pytest.fixture

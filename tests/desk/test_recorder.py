@@ -10,7 +10,6 @@ from tests.plc.desk import Desk
 
 from driveblocks.desk import recorder
 from driveblocks.desk.recorder import MOST_WAITING, Recorder, Row
-from driveblocks.plc import departure
 from driveblocks.plc.departure import Departure
 
 NET = 600
@@ -116,16 +115,15 @@ class Left:
 def left(monkeypatch: pytest.MonkeyPatch) -> Left:
     """Stands for the end of this process."""
     made = Left()
-    monkeypatch.setattr(departure, "leave", made)
+    monkeypatch.setattr(os, "_exit", made)
     return made
 
 
 @pytest.mark.parametrize("printed", [True, False])
 def test_what_is_stuck_does_not_keep_the_process_and_the_verdict_is_printed(
-    printed: bool, left: Left, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    printed: bool, left: Left, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(departure, "ASIDE_S", NET)
-    way = Departure(0.01)
+    way = Departure(0.01, aside_s=NET)
     if printed:
         way.printed()
     way.begin(1, "NOT CONFIRMED: Motor\n")

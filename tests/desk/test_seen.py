@@ -11,7 +11,7 @@ from rich.console import Console
 from tests.plc.desk import Desk
 
 from driveblocks import console
-from driveblocks.desk import record, screen
+from driveblocks.desk import screen
 from driveblocks.desk.record import Timing, Trace
 from driveblocks.desk.seen import Seen, View
 from driveblocks.plc.look import look
@@ -132,9 +132,8 @@ def test_a_picture_has_a_lane_for_each_variable_and_whose_port_it_was() -> None:
     assert lanes[0] == ["200.0,68.0", "456.7,68.0", "456.7,42.0", "970.0,42.0", "970.0,42.0"]
 
 
-def test_a_picture_forgets_what_is_too_much(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(record, "MOST_CHANGES", 10)
-    timing = Timing(("A",), "SIMULATED")
+def test_a_picture_forgets_what_is_too_much() -> None:
+    timing = Timing(("A",), "SIMULATED", most=10)
     for at in range(100):
         timing.add(at, {"A": at % 2})
     assert timing.svg().count(",") < 40

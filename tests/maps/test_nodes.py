@@ -20,26 +20,20 @@ DOCUMENTS = st.recursive(
 )
 
 
-@pytest.fixture(params=["c", "python"])
-def parser(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
-    """Both parsers that PyYAML has."""
-    if request.param == "python":
-        monkeypatch.setattr(nodes, "_LIBYAML", None)
-    return str(request.param)
-
-
 def parsed(text: str) -> Node:
-    report = Report("map.yaml")
-    root = nodes.parse(text, report)
-    assert report.problems == []
+    """What both parsers that PyYAML has make of a good text."""
+    root, problems = outcome(text, libyaml=True)
+    assert problems == ()
     assert root is not None
+    assert outcome(text, libyaml=False) == (root, ())
     return root
 
 
 def wrong(text: str) -> list[str]:
-    report = Report("map.yaml")
-    nodes.parse(text, report)
-    return [f"{problem.line}:{problem.column}: {problem.wrong}" for problem in report.problems]
+    """What both say of a bad one."""
+    _, problems = outcome(text, libyaml=True)
+    assert outcome(text, libyaml=False)[1] == problems
+    return [f"{problem.line}:{problem.column}: {problem.wrong}" for problem in problems]
 
 
 def plain(node: Node) -> Any:
@@ -48,7 +42,7 @@ def plain(node: Node) -> Any:
     return [plain(item) for item in node.items] if isinstance(node, Items) else node.text
 
 
-def test_every_node_knows_its_place(parser: str) -> None:
+def test_every_node_knows_its_place() -> None:
     root = parsed("# head\na: x\nb:\n  - 'y'\n  - {c: [z]}\n")
     assert isinstance(root, Entries)
     assert root.at == (2, 1)
@@ -60,7 +54,7 @@ def test_every_node_knows_its_place(parser: str) -> None:
     assert items.items[1].at == (5, 5)
 
 
-def test_columns_count_characters_and_not_bytes(parser: str) -> None:
+def test_columns_count_characters_and_not_bytes() -> None:
     root = parsed("a: {zh: 频率给定, b: x}\n")
     assert isinstance(root, Entries)
     inner = root.entries["a"][1]
@@ -69,13 +63,13 @@ def test_columns_count_characters_and_not_bytes(parser: str) -> None:
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
-def test_line_ends_of_every_system(end: str, parser: str) -> None:
+def test_line_ends_of_every_system(end: str) -> None:
     root = parsed(f"a: x{end}b: z{end}")
     assert isinstance(root, Entries)
     assert root.entries["b"][1].at == (2, 4)
 
 
-def test_texts_over_several_lines(parser: str) -> None:
+def test_texts_over_several_lines() -> None:
     assert plain(parsed("a: >-\n  one\n  two\nb: |-\n  one\n  two\nc: one\n  two\n")) == {
         "a": "one two",
         "b": "one\ntwo",
@@ -84,13 +78,13 @@ def test_texts_over_several_lines(parser: str) -> None:
 
 
 @pytest.mark.parametrize("text", ["yes", "~", "null", "0x1F", "1e3", "2016-04-18", "<<", "=", "010", "5:4", ".inf"])
-def test_a_trap_in_quotes_is_a_text(text: str, parser: str) -> None:
+def test_a_trap_in_quotes_is_a_text(text: str) -> None:
     root = parsed(f"a: '{text}'\nb: \"{text}\"\n")
     assert plain(root) == {"a": text, "b": text}
 
 
 @pytest.mark.parametrize("text", ["yes", "Off", "~", "0x1F", "0b1", "0o7", "1_000", "5:4", "1e3", ".5", "+1", "<<"])
-def test_a_trap_without_quotes_is_refused_and_marked(text: str, parser: str) -> None:
+def test_a_trap_without_quotes_is_refused_and_marked(text: str) -> None:
     report = Report("map.yaml")
     root = nodes.parse(f"[{text}]", report)
     assert isinstance(root, Items)
@@ -134,23 +128,28 @@ def test_no_text_makes_the_parser_fail(text: str) -> None:
     assert root is not None or problems
 
 
-def test_depth_has_an_end(parser: str) -> None:
+def test_depth_has_an_end() -> None:
     fits, deeper = nodes.MAX_DEPTH, nodes.MAX_DEPTH + 1
     parsed("[" * fits + "]" * fits)
     assert wrong("[" * (deeper + 1) + "]" * (deeper + 1)) == ["1:18: nested deeper than 16 levels"]
 
 
-def test_number_of_values_has_an_end(parser: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(nodes, "MAX_NODES", 4)
-    parsed("[a, b, c]")
-    assert wrong("[a, b, c, d]") == ["1:11: more than 4 values in one file"]
+def test_number_of_values_has_an_end() -> None:
+    for quick in (False, True):
+        report = Report("map.yaml")
+        assert nodes.parse("[a, b, c]", report, quick=quick, most=4) is not None
+        assert report.problems == []
+        nodes.parse("[a, b, c, d]", report, quick=quick, most=4)
+        assert [str(each).partition(";")[0] for each in report.problems] == [
+            "map.yaml:1:11: more than 4 values in one file"
+        ]
 
 
-def test_length_of_a_value_has_an_end(parser: str) -> None:
+def test_length_of_a_value_has_an_end() -> None:
     parsed("a: " + "x" * nodes.MAX_TEXT)
     assert wrong("a: " + "x" * (nodes.MAX_TEXT + 1)) == ["1:4: a value of 4001 characters"]
 
 
-def test_all_traps_of_a_file_come_at_once(parser: str) -> None:
+def test_all_traps_of_a_file_come_at_once() -> None:
     lines = [line.partition(":")[0] for line in wrong("a: yes\nb: 010\nc: 1e3\na: &x !!str z\n")]
     assert lines == ["1", "2", "3", "4", "4", "4"]

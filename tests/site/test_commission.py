@@ -3,13 +3,14 @@
 import shutil
 import socket
 import sys
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from html import escape
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import CliRunner
 from tests.plc.desk import maps
 from tests.shapes import shapes
 
@@ -25,7 +26,8 @@ from driveblocks.modbus.frame import opened, seal
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.site import adapter, hour, hunt, kept, sheet, steps
 from driveblocks.site.adapter import PortLine
-from driveblocks.site.found import Answer, Found, Measured, Set, Way
+from driveblocks.site.found import Answer, Asker, Found, Measured, Set, Way
+from driveblocks.site.found import Line as LineOf
 from driveblocks.site.session import Wish, commission
 
 MAPS = {each.path.stem: each.drive for each in maps()}
@@ -588,9 +590,7 @@ def test_what_was_found_before_is_not_replaced_unasked(tmp_path: Path) -> None:
     assert path.read_bytes() == before
 
 
-def test_what_is_replaced_is_copied_first(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_what_is_replaced_is_copied_first(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     path = tmp_path / "site.yaml"
     kept.write(path, ABOUT, FULL)
     before = path.read_bytes()
@@ -602,12 +602,11 @@ def test_what_is_replaced_is_copied_first(
         keep(begun)
         return begun
 
-    monkeypatch.setattr(hour, "commission", closed)
     with socket.create_server(("127.0.0.1", 0)) as server:
         place = f"127.0.0.1:{server.getsockname()[1]}"
         words = hour.Words(map="jscc", tcp=place, label="Pump", file=path, replace=True)
-        hour.run(words, lambda _: "")
-        hour.run(replace(words, label="Fan"), lambda _: "")
+        hour.run(words, lambda _: "", closed)
+        hour.run(replace(words, label="Fan"), lambda _: "", closed)
     assert (tmp_path / "site.2.yaml").read_bytes() == before
     assert (kept.read(path)["Pump"].measured, kept.read(tmp_path / "site.2.yaml")["Pump"].plate) == (None, FULL.plate)
     assert {each.name for each in tmp_path.iterdir()} == {"site.yaml", "site.1.yaml", "site.2.yaml"}
@@ -694,24 +693,25 @@ def test_the_session_of_the_page_is_what_a_person_sees(
 # ------------------------------------------------------------ real ports
 
 
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The quiet minute takes a tenth of a second, and the reply time comes from 20 reads."""
-    monkeypatch.setattr(hunt, "QUIET_US", 100_000)
-    monkeypatch.setattr(steps, "READS", 20)
+def quickly(line: LineOf, asker: Asker, wish: Wish, keep: Callable[[Found], None]) -> Found:
+    """All steps; the quiet minute takes a tenth of a second, and the reply time comes from 20 reads."""
+    return commission(line, asker, replace(wish, quiet_us=100_000, reads=20), keep)
 
 
-def typed(folder: Path, *words: str) -> Result:
-    """Run `driveblocks commission` as a person who types the word, and nothing else."""
-    words = (*words, "--file", str(folder / "site.yaml"), "--label", "Pump")
-    return CliRunner().invoke(app, ["commission", *words], input="alone\n" + 10 * "\n", env={"COLUMNS": "80"})
-
-
-@pytest.mark.usefixtures("quick")
 def test_a_port_that_is_not_there_is_named(tmp_path: Path) -> None:
-    got = typed(tmp_path, "chf", "--port", "/dev/nowhere")
+    got = CliRunner().invoke(app, ["commission", "chf", "--port", "/dev/nowhere", "--file", str(tmp_path / "a.yaml")])
     assert (got.exit_code, got.stderr) == (2, "/dev/nowhere: there is no such port\n")
     assert [*tmp_path.iterdir()] == []
+
+
+def test_the_command_ends_with_1_where_it_ends_early(tmp_path: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        place = f"127.0.0.1:{server.getsockname()[1]}"
+        gone = threading.Thread(target=lambda: server.accept()[0].close())
+        gone.start()
+        got = CliRunner().invoke(app, ["commission", "chf", "--tcp", place, "--file", str(tmp_path / "a.yaml")])
+        gone.join()
+    assert (got.exit_code, got.stderr, "Ended early: " in got.stdout) == (1, "", True)
 
 
 @pytest.mark.thorough

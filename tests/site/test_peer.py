@@ -14,12 +14,12 @@ from pymodbus import FramerType
 from pymodbus.pdu import ModbusPDU
 from pymodbus.server import ModbusSerialServer, ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
-from tests.site.test_commission import MAPS, typed
+from tests.site.test_commission import MAPS, quickly
 from tests.site.test_parameters import parameters
 
 from driveblocks.maps.form import SPACES, Span, is_bit
 from driveblocks.maps.plan import plan
-from driveblocks.site import hunt, kept, steps
+from driveblocks.site import hour, kept
 
 UNIT = 5
 FUNCTIONS: list[int] = []
@@ -104,10 +104,16 @@ def _carry(said: int, heard: int) -> None:
 
 
 @pytest.fixture(autouse=True)
-def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hunt, "QUIET_US", 100_000)
-    monkeypatch.setattr(steps, "READS", 20)
+def _none_yet() -> None:
     FUNCTIONS.clear()
+
+
+def commissioned(stem: str, folder: Path, **words: Any) -> kept.Kept:
+    """What is kept of a server where a person types the word, and nothing else."""
+    typed, path = iter(["alone"]), folder / "site.yaml"
+    made = hour.Words(map=stem, unit=UNIT, mode="rtu", label="Pump", file=path, **words)
+    assert hour.run(made, lambda _: next(typed, ""), quickly).ended == ""
+    return kept.read(path)["Pump"]
 
 
 @pytest.mark.parametrize(
@@ -120,11 +126,8 @@ def _quick(monkeypatch: pytest.MonkeyPatch) -> None:
     ],
 )
 def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, where: str, tmp_path: Path) -> None:
-    option = "--tcp" if where == "tcp" else "--port"
     with peer(where, SimDevice(UNIT, words(stem, everything=False))) as place:
-        got = typed(tmp_path, stem, option, place, "--unit", str(UNIT), "--mode", "rtu")
-    assert (got.exit_code, got.stderr) == (0, ""), got.stdout
-    one = kept.read(tmp_path / "site.yaml")["Pump"]
+        one = commissioned(stem, tmp_path, **{"tcp" if where == "tcp" else "port": place})
     assert (one.family, one.ended, one.line.unit, one.faults) == ("fits", None, UNIT, ())
     assert one.measured is not None
     assert one.measured.unlisted.endswith(": refused")
@@ -135,10 +138,7 @@ def test_a_server_with_the_registers_of_a_map_is_found_and_measured(stem: str, w
 @pytest.mark.thorough
 def test_a_server_that_answers_every_address_is_of_no_family(stem: str, tmp_path: Path) -> None:
     with peer("tcp", SimDevice(UNIT, words(stem, everything=True))) as place:
-        got = typed(tmp_path, stem, "--tcp", place, "--unit", str(UNIT), "--mode", "rtu", "--skip", "measure")
-    assert got.exit_code == 0, got.stdout
-    assert "could not be found out" in " ".join(got.stdout.split())
-    assert kept.read(tmp_path / "site.yaml")["Pump"].family == "unknown"
+        assert commissioned(stem, tmp_path, tcp=place, skip=["measure"]).family == "unknown"
     assert set(FUNCTIONS) <= READS
 
 

@@ -56,10 +56,10 @@ def _written(value: Value) -> str:
 class Timing:
     """A timing diagram: a lane for each variable."""
 
-    def __init__(self, names: Sequence[str], port: str) -> None:
+    def __init__(self, names: Sequence[str], port: str, most: int = MOST_CHANGES) -> None:
         """Begin."""
         self._port = port
-        self._changes: dict[str, deque[tuple[int, float]]] = {name: deque(maxlen=MOST_CHANGES) for name in names}
+        self._changes: dict[str, deque[tuple[int, float]]] = {name: deque(maxlen=most) for name in names}
         self._left = max(_LEFT, max(map(len, names), default=0) * _CHARACTER + _NUMBER)
         self._end_us = 1
 

@@ -51,35 +51,36 @@ class Entries:
 Node = Scalar | Items | Entries
 
 
-def parse(text: str, report: Report) -> Node | None:
-    """Return the root node, or None where the text is not YAML; mistakes go to the report.
+def parse(text: str, report: Report, *, quick: bool = True, most: int = MAX_NODES) -> Node | None:
+    """Return the root node, or None where the text is not YAML; mistakes go to the report. `most`: its values.
 
-    libyaml reads only what both parsers read alike, and only while nothing is wrong. All else, and every complaint,
-    comes from PyYAML's own parser, so that a map means the same, and gets the same messages, on every machine.
+    libyaml reads only what both parsers read alike, and only while nothing is wrong; not `quick`: nothing. All else,
+    and every complaint, comes from PyYAML's own parser, so that a map means the same, and gets the same messages, on
+    every machine.
     """
     if "\t" in text:
         _tabs(text, report)
         return None
-    root = _quickly(text)
-    return _read(yaml.SafeLoader, text, report) if root is None else root
+    root = _quickly(text, most) if quick else None
+    return _read(yaml.SafeLoader, text, report, most) if root is None else root
 
 
-def _quickly(text: str) -> Node | None:
+def _quickly(text: str, most: int = MAX_NODES) -> Node | None:
     """What libyaml reads in a text; None where PyYAML's own parser has to say it."""
     report = Report("")
     if _LIBYAML is None or _EDGE.search(text):
         return None
     with contextlib.suppress(MapError):
-        root = _read(_LIBYAML, text, report)
+        root = _read(_LIBYAML, text, report, most)
         return None if report.problems else root
     return None
 
 
-def _read(loader: Any, text: str, report: Report) -> Node | None:
+def _read(loader: Any, text: str, report: Report, most: int) -> Node | None:
     parser = None
     try:
         parser = loader(text)
-        return _document(_Events(parser, text, report))
+        return _document(_Events(parser, text, report, most))
     except _StopError:
         return None
     except yaml.YAMLError as error:
@@ -108,19 +109,19 @@ class _StopError(Exception):
 class _Events:
     """The event stream with the limits on depth and number of nodes."""
 
-    def __init__(self, parser: yaml.SafeLoader, text: str, report: Report) -> None:
+    def __init__(self, parser: yaml.SafeLoader, text: str, report: Report, most: int) -> None:
         self.get: Callable[[], yaml.Event] = parser.get_event
         self.text = text
         self.report = report
-        self.nodes = 0
+        self.nodes, self.most = 0, most
         self.quick = not isinstance(parser, yaml.SafeLoader)
 
     def next(self) -> yaml.Event:
         event: yaml.Event = self.get()
         if isinstance(event, yaml.NodeEvent):
             self.nodes += 1
-            if self.nodes > MAX_NODES:
-                self.stop(event, f"more than {MAX_NODES} values in one file", "a map describes one drive family")
+            if self.nodes > self.most:
+                self.stop(event, f"more than {self.most} values in one file", "a map describes one drive family")
             if event.anchor is not None or getattr(event, "tag", None) is not None:
                 self._clever(event)
         return event

@@ -8,15 +8,13 @@ from contextlib import suppress
 ASIDE_S = 0.2
 """For the verdict on the other stream, which may be stuck, too."""
 
-leave = os._exit
-
 
 class Departure:
     """Ends the process where what is left to do does not end: a pipe or a terminal that takes nothing."""
 
-    def __init__(self, within_s: float) -> None:
+    def __init__(self, within_s: float, aside_s: float = ASIDE_S) -> None:
         """Nothing is bounded before `begin`."""
-        self._within_s = within_s
+        self._within_s, self._aside_s = within_s, aside_s
         self._done = threading.Event()
         self._printed = False
 
@@ -38,8 +36,8 @@ class Departure:
         if not self._printed:
             aside = threading.Thread(target=_say_aside, args=(verdict,), daemon=True)
             aside.start()
-            aside.join(ASIDE_S)
-        leave(status)
+            aside.join(self._aside_s)
+        os._exit(status)
 
 
 def _say_aside(text: str) -> None:

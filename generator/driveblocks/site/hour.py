@@ -16,9 +16,12 @@ from driveblocks.maps.model import Drive
 from driveblocks.maps.problem import MapError
 from driveblocks.maps.revision import revision
 from driveblocks.site import adapter, asked, kept, report, steps
-from driveblocks.site.found import Asker, Found
+from driveblocks.site.found import Asker, Found, Line
 from driveblocks.site.line import figures
 from driveblocks.site.session import SKIPPABLE, Wish, commission
+
+Steps = Callable[[Line, Asker, Wish, Callable[[Found], None]], Found]
+"""How a drive is commissioned on a line."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +77,7 @@ class Shelf:
             self.wrong = reason(error)
 
 
-def run(words: Words, read: Callable[[str], str]) -> Found:
+def run(words: Words, read: Callable[[str], str], steps_at: Steps = commission) -> Found:
     """Go through the steps at a real port. Raises Refused."""
     wrong, stem, drive = list(words.wrong()), "", None
     try:
@@ -111,7 +114,7 @@ def run(words: Words, read: Callable[[str], str]) -> Found:
         except OSError as error:
             raise Refused(f"{words.port or words.tcp}: {reason(error)}") from None
         del able  # another way may be the port's
-        found = commission(line, person, wish, shelf.keep)
+        found = steps_at(line, person, wish, shelf.keep)
     finally:
         line.close()
     told(person, words, drive, found, shelf)

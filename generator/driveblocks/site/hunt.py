@@ -33,22 +33,22 @@ SAID: dict[Trouble, str] = {
 }  # fmt: skip
 
 
-def quiet(line: Line, ways: list[Way], asker: Asker) -> Fault | None:
-    """Listen for 60 s, at each rate in its turn; what was heard."""
+def quiet(line: Line, ways: list[Way], asker: Asker, quiet_us: int = QUIET_US) -> Fault | None:
+    """Listen for a time, at each rate in its turn; what was heard."""
     kinds = _kinds(ways)
-    begun, share = line.now_us(), QUIET_US // len(kinds)
+    begun, share = line.now_us(), quiet_us // len(kinds)
     heard, here = b"", kinds[0]
     for at, way in enumerate(kinds, 1):
         while line.now_us() < begun + at * share and not heard:
             asker.progress(
-                (line.now_us() - begun) // 1_000_000, QUIET_US // 1_000_000, f"listening at {way.rate} bit/s"
+                (line.now_us() - begun) // 1_000_000, quiet_us // 1_000_000, f"listening at {way.rate} bit/s"
             )
             if line.tune(way):
                 here, heard = way, line.exchange(b"", min(1_000_000, begun + at * share - line.now_us())).data
             else:
                 break
-    if not heard and line.now_us() < begun + QUIET_US:
-        heard = line.exchange(b"", begun + QUIET_US - line.now_us()).data
+    if not heard and line.now_us() < begun + quiet_us:
+        heard = line.exchange(b"", begun + quiet_us - line.now_us()).data
     return _named(line, ways, here, heard) if heard else None
 
 

@@ -26,6 +26,9 @@ class Wish:
     mode: str | None = None
     unit: int | None = None
     skip: Collection[str] = field(default_factory=frozenset)
+    quiet_us: int = hunt.QUIET_US
+    reads: int = steps.READS
+    """From which the reply time comes."""
 
     def ways(self) -> list[Way]:
         """How the line is tried."""
@@ -66,7 +69,7 @@ def _found(line: Line, asker: Asker, wish: Wish, found: Found) -> Talk:
     if unit.silent:
         asker.say(f"As delivered this drive answers nobody: set {unit.setting} to an address first.")
     asker.say("Step 1: listening for 60 s; nothing is sent.")
-    if fault := hunt.quiet(line, every, asker):
+    if fault := hunt.quiet(line, every, asker, wish.quiet_us):
         raise EndedError(fault)
     asker.say("No byte came. A master may be silent for longer.")
     if asker.ask("alone", f"PLC disconnected, and this drive alone on the line? Type {WORD}:").lower() != WORD:
@@ -97,7 +100,7 @@ def _rest(talk: Talk, asker: Asker, wish: Wish, found: Found, keep: Callable[[],
         keep()
     if "measure" not in wish.skip:
         asker.say("Step 4: measuring, by reads alone.")
-        found.measured = steps.measure(talk, asker)
+        found.measured = steps.measure(talk, asker, wish.reads)
         found.done.append("measure")
         keep()
     if "gaps" not in wish.skip:

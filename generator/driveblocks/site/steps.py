@@ -105,18 +105,18 @@ def _words(talk: Talk, span: Span) -> tuple[int, ...]:
 # ------------------------------------------------------------ 4: measure
 
 
-def measure(talk: Talk, asker: Asker) -> Measured:
+def measure(talk: Talk, asker: Asker, reads: int = READS) -> Measured:
     """Times and lengths, by reads alone. Raises EndedError where the drive falls silent."""
     span, longest, lost = first_read(talk.drive), 0, 0
-    for at in range(READS):
-        asker.progress(at, READS, "reply time")
+    for at in range(reads):
+        asker.progress(at, reads, "reply time")
         reply = talk.read(span, LATE_US)
         lost = 0 if reply.answered else lost + 1
         if lost == LOST:
-            raise ended("lost", f"unit {talk.unit} does not answer any more, after {at} of {READS} reads")
+            raise ended("lost", f"unit {talk.unit} does not answer any more, after {at} of {reads} reads")
         longest = max(longest, reply.after_us if reply.answered else 0)
     gap = next((ms for ms in GAPS_MS if _holds(talk, ms)), None)
-    return Measured(READS, -(-longest // 1000), gap, _longest_read(talk), _unlisted(talk))
+    return Measured(reads, -(-longest // 1000), gap, _longest_read(talk), _unlisted(talk))
 
 
 def _holds(talk: Talk, gap_ms: int) -> bool:
