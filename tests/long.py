@@ -61,9 +61,6 @@ RUNS = {
         "10 minutes",
         ("tests.native.sanitize",),
     ),
-    "libfuzzer": Run(
-        "coverage-guided fuzzing of parsers, framing and requests (clang)", "9 minutes", ("tests.native.fuzz",)
-    ),
     "exhaustive": Run(
         "CRC, decoders, permissions, standstill, lengths, all 2^32 REALs of the references, on matiec",
         "half an hour",

@@ -57,6 +57,33 @@ def test_a_refusal_is_never_recognised_by_a_sum_that_wraps(
     assert result(built(engine).run("MB_ParseReply", pins)) == "OTHER_FUNCTION"
 
 
+LONGEST = bytes([0x55, 0xAA]) * 125
+BY_WRITE = {"ErrorFunction": 6, "ErrorAddress": 0x5001}
+"""How a drive refuses by the frame of a write."""
+
+
+@pytest.mark.parametrize(
+    ("pins", "request_", "body", "error"),
+    [
+        ({"ExceptionAdd": 128}, (3, 0, 125, 0), b"\1\3\xfa" + LONGEST, "OK"),
+        ({**BY_WRITE, "TwoByteCount": True}, (3, 0, 125, 0), b"\1\3\0\xfa" + LONGEST, "OK"),
+        ({**BY_WRITE, "TwoByteCount": True}, (3, 0, 124, 0), b"\1\3\0\xf8" + LONGEST[:248], "OK"),
+        ({"ExceptionAdd": 128, "Length": 65535}, (3, 0, 125, 0), b"\1\3\xfa" + LONGEST, "LONG"),
+        (BY_WRITE, (6, 0x5001, 1, 7), b"\1\6\x50\1\0\7", "OK"),
+        (BY_WRITE, (3, 0, 1, 0), b"\1\6\x50\1\0\7\0", "OTHER_FUNCTION"),
+        (BY_WRITE, (3, 0, 1, 0), b"\1\6\x50\1\0", "OTHER_FUNCTION"),
+    ],
+)
+def test_the_longest_replies_and_what_is_nearly_a_refusal(
+    engine: Engine, pins: dict[str, Value], request_: tuple[int, ...], body: bytes, error: str
+) -> None:
+    """The echo of a write to the address of refusals is an answer; a refusal with a byte more or less is none."""
+    names = ("FunctionCode", "Address", "Quantity", "Value")
+    asked = {f"Request.{name}": value for name, value in zip(names, request_, strict=True)}
+    given: dict[str, Value] = {"Length": len(body), "Adu": body, "Request.UnitAddress": 1, **asked, **pins}
+    assert result(built(engine).run("MB_ParseReply", given)) == error
+
+
 @pytest.mark.parametrize("use", ["Read", "Write"])
 @pytest.mark.parametrize("address", [0x0000, 0x01FF, 0x0200, 0x0201, 0x1000])
 def test_no_register_at_all_is_not_permitted(engine: Engine, use: str, address: int) -> None:
