@@ -99,8 +99,9 @@ def test_a_venv_that_was_moved_or_has_no_pip_or_an_old_python_is_not_whole(venv:
     assert not bootstrap.is_whole()
 
 
-def test_a_venv_that_is_not_whole_is_made_anew_though_its_stamp_is_right(
-    venv: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.usefixtures("venv")
+def test_what_is_needed_is_installed_when_it_changes_and_a_venv_that_is_not_whole_is_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     done: list[list[str]] = []
 
@@ -108,16 +109,22 @@ def test_a_venv_that_is_not_whole_is_made_anew_though_its_stamp_is_right(
         done.append(words)
         return subprocess.CompletedProcess(words, 0, b"", b"")
 
+    for name in ("pyproject.toml", "constraints.txt"):
+        (tmp_path / name).write_bytes((bootstrap.ROOT / name).read_bytes())
+    monkeypatch.setattr(bootstrap, "ROOT", tmp_path)
     monkeypatch.setattr(bootstrap, "is_whole", lambda: True)
     monkeypatch.setattr(subprocess, "run", run)
     monkeypatch.setattr(bootstrap, "installed", lambda words: run(words).returncode)
     assert bootstrap.set_up("")
-    assert [words[1:3] for words in done] == [["-m", "pip"]]
+    assert [words[1:3] + words[-2:] for words in done] == [["-m", "pip", "--constraint", "constraints.txt"]]
     assert bootstrap.set_up("")
     assert len(done) == 1
+    (tmp_path / "constraints.txt").write_text("rich==14.0.0\n", encoding="utf-8")
+    assert bootstrap.set_up("")
+    assert len(done) == 2
     monkeypatch.setattr(bootstrap, "is_whole", lambda: False)
     assert bootstrap.set_up("")
-    assert [words[1:4] for words in done[1:]] == [["-m", "venv", "--clear"], ["-m", "pip", "install"]]
+    assert [words[1:4] for words in done[2:]] == [["-m", "venv", "--clear"], ["-m", "pip", "install"]]
 
 
 def test_it_is_said_what_pip_is_at(capfd: pytest.CaptureFixture[str]) -> None:

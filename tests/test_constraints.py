@@ -1,10 +1,8 @@
 """What is installed has bounds: each dependency below its next major version, and pins of what the suite ran with."""
 
 import importlib.metadata
-import importlib.util
 import tomllib
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 from packaging.requirements import Requirement
@@ -47,39 +45,3 @@ def test_what_a_pinned_package_needs_is_pinned(name: str) -> None:
         needed = Requirement(text)
         if needed.marker is None or needed.marker.evaluate({"extra": ""}):
             assert canonicalize_name(needed.name) in PINNED, text
-
-
-@pytest.fixture
-def bootstrap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
-    """The program, with a checkout of its own that has a virtual environment."""
-    spec = importlib.util.spec_from_file_location("bootstrap", ROOT / "generator/bootstrap.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    for name in ("pyproject.toml", "constraints.txt"):
-        (tmp_path / name).write_bytes((ROOT / name).read_bytes())
-    (tmp_path / "python").touch()
-    for name, value in (("ROOT", tmp_path), ("VENV", tmp_path), ("BIN", tmp_path)):
-        monkeypatch.setattr(module, name, value)
-    return module
-
-
-def test_the_pins_are_installed_and_installed_again_when_they_change(
-    bootstrap: ModuleType, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    calls: list[list[str]] = []
-
-    def installed(command: list[str]) -> int:
-        calls.append(command)
-        return 0
-
-    monkeypatch.setattr(bootstrap, "is_whole", lambda: True)
-    monkeypatch.setattr(bootstrap, "installed", installed)
-    assert bootstrap.set_up("[test]")
-    assert [call[-2:] for call in calls] == [["--constraint", "constraints.txt"]]
-    assert bootstrap.set_up("[test]")
-    assert len(calls) == 1
-    (tmp_path / "constraints.txt").write_text("rich==14.0.0\n", encoding="utf-8")
-    assert bootstrap.set_up("[test]")
-    assert len(calls) == 2
