@@ -28,7 +28,7 @@ class Finding:
 class Trial:
     """Records for a scan, what it must answer to all of them, and how a record is reported in words.
 
-    `head` fills in-outs. Raises ValueError if records or answers do not divide into `count`.
+    Raises ValueError if records or answers do not divide into `count`.
     """
 
     scan: AnyScan
@@ -36,7 +36,6 @@ class Trial:
     records: bytes
     wanted: bytes
     tell: Callable[[int], str]
-    head: bytes = b""
 
     def __post_init__(self) -> None:
         """Each record and each answer has the same size."""
@@ -69,7 +68,7 @@ class Bench:
         """What the driver answers to the records of a trial. Raises RuntimeError if it could not do it."""
         with tempfile.TemporaryDirectory() as folder:
             given, found = Path(folder, "in"), Path(folder, "out")
-            given.write_bytes(trial.head + trial.records)
+            given.write_bytes(trial.records)
             done = run(self.program, command, trial.scan.name, given, found, seconds=self.seconds)
             if done.returncode:
                 raise RuntimeError(f"{self.line}: {trial.scan.name}: exit {done.returncode}, {done.stderr[:400]}")

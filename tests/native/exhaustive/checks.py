@@ -4,18 +4,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from tests.native.exhaustive import (
-    checksums,
-    digits,
-    frames,
-    permissions,
-    references,
-    replies,
-    requests,
-    standstills,
-    texts,
-    words,
-)
+from tests.native.exhaustive import checksums, permissions, references, standstills, words
 from tests.native.exhaustive.bench import EXAMPLES, Bench, Finding
 
 Check = Callable[[Sequence[Bench], bool], Iterator[Finding]]
@@ -23,23 +12,14 @@ Check = Callable[[Sequence[Bench], bool], Iterator[Finding]]
 
 CHECKS: dict[str, Check] = {
     **{name: references.sweeping(name) for name in references.SWEEPS},
-    "replies": replies.replies,
-    "request-blocks": requests.of_drives,
     "decoders": words.decoders,
     "standstill": standstills.standstills,
-    "place-texts": texts.place_texts,
-    "request-builders": requests.builders,
-    "opening": frames.opening,
-    "sealing": frames.sealing,
-    "packing": frames.packs,
     "scales": words.scales,
     "fault-numbers": words.fault_numbers,
     "reference-rule": references.rules,
     "reference-words": references.words,
-    "code-texts": texts.code_texts,
     "permissions": permissions.permissions,
     "checksums": checksums.checksums,
-    "digits": digits.digits,
 }
 """The longest first, so that two processes end together."""
 

@@ -4,18 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tests.native.driver import Driver
-from tests.native.exhaustive import (
-    digits,
-    frames,
-    permissions,
-    references,
-    replies,
-    requests,
-    scan,
-    standstills,
-    texts,
-    words,
-)
+from tests.native.exhaustive import permissions, references, scan, standstills, words
 from tests.native.exhaustive.bench import Bench
 
 from driveblocks.maps.model import Drive
@@ -23,20 +12,12 @@ from driveblocks.render.results import code
 from structured_text.engines.engine import Source
 from structured_text.engines.matiec import MatiecEngine
 
-SCANS: tuple[scan.AnyScan, ...] = (
-    *words.SCANS,
-    *digits.SCANS,
-    *texts.SCANS,
-    *frames.SCANS,
-    *requests.SCANS,
-    *replies.SCANS,
-)
 RESULTS = ("NOT_A_NUMBER", "NEGATIVE", "NO_SCALE", "NO_MAXIMUM", "NO_FULL_SCALE")
 
 
 def text() -> str:
     """The whole driver after its prelude."""
-    shared = [_part("scans"), scan.table(SCANS), _part("checksums"), _part("permissions"), permissions.table()]
+    shared = [_part("scans"), scan.table(words.SCANS), _part("checksums"), _part("permissions"), permissions.table()]
     parts = [*(f"#define {name} {code(name)}" for name in RESULTS), _part("families")]
     parts += [_family(drive) for drive in standstills.families().values()]
     rows = [

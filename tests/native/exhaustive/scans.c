@@ -32,23 +32,3 @@ static int more(void)
 
 #define TAKE(place) take(&(place), sizeof(place))
 #define GIVE(place) give(&(place), sizeof(place))
-#define GIVE_FIRST(array, count) give_first((array), (size_t)(count) * sizeof((array)[0]), sizeof(array))
-
-/* The first bytes of an array and 0 for the others. */
-static void give_first(const void *array, size_t size, size_t room)
-{
-    static const uint8_t nothing[1024];
-    if (size > room)
-        size = room;
-    give(array, size);
-    give(nothing, room - size);
-}
-
-/* A text as its length and 127 bytes, of which those after the text are 0. */
-static void give_text(STRING text)
-{
-    uint8_t answer[128] = {text.len};
-    if (text.len > 0)
-        memcpy(answer + 1, text.body, text.len < 127 ? text.len : 127);
-    give(answer, sizeof(answer));
-}

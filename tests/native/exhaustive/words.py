@@ -16,10 +16,8 @@ from driveblocks.reference import fault, register
 from driveblocks.reference.naming import name_of
 
 DECODED = [(drive, row) for drive in drives().values() for row in meanings.decoded(drive)]
-SCALES = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive)]
-SCALED = [(drive, row) for drive, row in SCALES if not row.words]
-PAIRED = {meanings.scale_name(drive, row) for drive, row in SCALES if row.words}
-"""Scales of two words, which tests/blocks tries at edges."""
+SCALED = [(drive, row) for drive in drives().values() for row in meanings.scaled(drive) if not row.words]
+"""Those of two words are tried at their edges by tests/blocks."""
 NUMBERED = [drive for drive in drives().values() if drive.faults.bits]
 EVERY = range(0x10000)
 
