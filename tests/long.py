@@ -36,11 +36,6 @@ RUNS = {
         "half an hour",
         ("tests.structured_text.engines.compare.long",),
     ),
-    "compare-blocks": Run(
-        "10^5 scans of every block of the library on three engines, the full state after each",
-        "20 minutes",
-        ("tests.blocks.compare.long",),
-    ),
     "traces": Run(
         "records how matiec runs the corpus (both lines of matiec)",
         "minutes",
