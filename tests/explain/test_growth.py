@@ -1,9 +1,10 @@
 """Long pastes: twice the text is twice the work, which is counted and not timed."""
 
-import sys
+from collections.abc import Callable
 
 import pytest
 from tests.explain.explaining import rtu
+from tests.steps import grows_evenly
 
 from driveblocks.explain.explanation import Explainer
 from driveblocks.explain.paste import read
@@ -11,7 +12,7 @@ from driveblocks.modbus import frame, scan
 from driveblocks.modbus.checksum import crc_bytes
 
 READ = "01 03 20 00 00 01 8F CA"
-LONG = {
+LONG: dict[str, Callable[[int], str]] = {
     "double-spaced bytes": lambda size: "01  " * size,
     "bytes between tabs": lambda size: "41\t" * size,
     "lines of two bytes": lambda size: "01  02\n" * (size // 2),
@@ -21,42 +22,23 @@ LONG = {
 }
 
 
-def calls(text: str) -> int:
-    """How many functions are called while a text is read."""
-    counted = 0
-
-    def count(*_: object) -> None:
-        nonlocal counted
-        counted += 1
-
-    before = sys.getprofile()
-    sys.setprofile(count)
-    try:
-        read(text)
-    finally:
-        sys.setprofile(before)
-    return counted
-
-
 @pytest.mark.parametrize("name", LONG)
 def test_reading_grows_with_the_text(name: str) -> None:
-    assert calls(LONG[name](1600)) < 2.5 * calls(LONG[name](800))
+    assert grows_evenly(lambda size: lambda: read(LONG[name](1000 * size)))
 
 
 def test_checksums_grow_with_the_zeros_after_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
-    summed = 0
+    summed: list[int] = []
 
     def count(data: bytes) -> bytes:
-        nonlocal summed
-        summed += len(data)
+        summed.append(len(data))
         return crc_bytes(data)
 
     for module in (scan, frame):
         monkeypatch.setattr(module, "crc_bytes", count)
-    nobody = rtu("FF 03 20 00 00 01")
     sums = []
     for size in (2000, 4000):
-        summed = 0
-        assert not Explainer().explain(read(nobody + " 00" * size)).good
-        sums.append(summed)
+        summed.clear()
+        assert not Explainer().explain(read(rtu("FF 03 20 00 00 01") + " 00" * size)).good
+        sums.append(sum(summed))
     assert sums[1] < 2.5 * sums[0]

@@ -1,17 +1,10 @@
 """Mistakes that templates once had, each by the least that showed it."""
 
 import pytest
-from tests.blocks import wire
-from tests.blocks.library import built, result, scan
+from tests.blocks.library import built, result
 from tests.blocks.test_fourth_drive import fourth
 
-from driveblocks.reference.request import Asked
 from structured_text.engines.engine import Engine, Value
-
-
-def test_a_drive_that_speaks_ascii_alone_can_be_read(engine: Engine) -> None:
-    """Its RTU limit, which does not exist, was taken for 0 registers."""
-    assert wire.build(fourth(engine), "BH", Asked(3, 31, 0x9001, 1, ascii=True)).built.result == "OK"
 
 
 @pytest.mark.parametrize(("word", "unknown"), [(0x0004, False), (0x0005, False), (0x0014, True), (0, True)])
@@ -27,14 +20,6 @@ def test_a_percentage_without_a_scale_counts_per_hertz_as_its_pin_says(engine: E
     pins = {"SpeedReferenceHz": 25.0, "MaximumHz": 50.0, "ReferenceScale": 200.0}
     done = fourth(engine).run("BH_Reference", pins)
     assert (done["Value"], result(done)) == (5000, "OK")
-
-
-def test_a_reset_is_never_written_into_the_command_register(engine: Engine) -> None:
-    """16 in the command register of this drive is the bit that runs it forward."""
-    instance = fourth(engine).library.instance("BH_Command")
-    scan(instance, {"Enable": True, "FaultReset": True})
-    scan(instance, {"StopAcknowledged": True})
-    assert (instance["Address"], instance["Value"]) == (0x8002, 16)
 
 
 @pytest.mark.parametrize("sign", [1, -1])

@@ -46,14 +46,6 @@ def test_every_file_is_clean_by_the_linter_for_every_target(units: list[Unit]) -
     assert told == []
 
 
-LONG = {
-    "MB_Line8": "the walk over slots: as a block of its own it copies them, 112 ns with eight",
-    "MB_Line32": "the same text with another number",
-}
-"""Blocks that are longer than LINES, and why."""
-MUCH = ("EX100_Drive",)
-"""Made up: it shows all that a map can say."""
-LINES = 250
 DECIDES = re.compile(r"/(VFD_\w+|\w+_(Drive|Orders|Reads|ParameterGate))\.st$")
 """Files of blocks that run a motor."""
 
@@ -61,12 +53,6 @@ DECIDES = re.compile(r"/(VFD_\w+|\w+_(Drive|Orders|Reads|ParameterGate))\.st$")
 def test_a_block_that_runs_a_motor_takes_a_decision_once(units: list[Unit]) -> None:
     told = [each for each in lint(units, Selection.of(["taken-back"], []), TARGET_WORDS) if DECIDES.search(each.path)]
     assert [str(each) for each in told] == []
-
-
-def test_blocks_of_control_line_and_drives_fit_two_screens(library: dict[str, str]) -> None:
-    ours = {name: content for name, content in library.items() if DECIDES.search(name) or "/line/" in name}
-    long = {Path(name).stem for name, content in ours.items() if len(content.splitlines()) > LINES}
-    assert long - {*MUCH} == set(LONG)
 
 
 @pytest.mark.parametrize("platform", library_of.PLATFORMS)
