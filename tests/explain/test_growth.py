@@ -24,7 +24,7 @@ LONG: dict[str, Callable[[int], str]] = {
 
 @pytest.mark.parametrize("name", LONG)
 def test_reading_grows_with_the_text(name: str) -> None:
-    assert grows_evenly(lambda size: lambda: read(LONG[name](1000 * size)))
+    assert grows_evenly(lambda size: lambda: read(LONG[name](1600 * size)))
 
 
 def test_checksums_grow_with_the_zeros_after_a_frame(monkeypatch: pytest.MonkeyPatch) -> None:
