@@ -27,7 +27,8 @@ _KEYWORDS = _words("IF THEN ELSIF ELSE END_IF CASE OF END_CASE WHILE DO END_WHIL
 _RESERVED = _KEYWORDS | _TYPES | _words("VERSION NAME TITLE TYPE BEGIN STRUCT ARRAY REGION RETURN EXIT FOR REPEAT")
 _OPERATORS = _words("OR XOR AND = <> < > <= >= + - * / MOD")
 _STANDARD = {"SHR": ["IN", "N"], "SHL": ["IN", "N"], "MAX": ["IN1", "IN2"], "MIN": ["IN1", "IN2"]}
-_ENDS = frozenset({"ELSIF", "ELSE", "END_IF", "END_CASE", "END_WHILE", "END_FUNCTION", "END_FUNCTION_BLOCK"})
+_PLAIN = re.compile(r"RUNTIME|ABS|(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+")
+"""Standard functions of one parameter without a name."""
 _SECTIONS = {
     "TYPE": ("STRUCT",),
     "FUNCTION": ("VAR_INPUT", "VAR_TEMP", "VAR CONSTANT"),
@@ -88,6 +89,14 @@ class Block:
         return next((one for one in self.variables if one.name.upper() == name.upper()), None)
 
 
+@dataclass
+class _Call:
+    """What is called, and the parameters so far; without a name these are parentheses."""
+
+    name: str
+    given: list[str] = field(default_factory=list)
+
+
 def read(text: str, known: dict[str, Block]) -> list[Block]:
     """The blocks of a file, each entered into `known`. Raises SclError at the first mistake."""
     if not text.startswith("\ufeff") or re.search(r"[^\r]\n|\r[^\n]", text):
@@ -117,7 +126,7 @@ class _Reader:
     def __init__(self, text: str, known: dict[str, Block]) -> None:
         self.all = list(_tokens(text))
         self.known, self.i = known, 0
-        self.block = Block("", "")
+        self.block, self.called = Block("", ""), ""
 
     def fail(self, wanted: str) -> SclError:
         """What was wanted where the reader stands."""
@@ -155,11 +164,11 @@ class _Reader:
         self.block.tokens.append(text if text[0] in "'" or plain[:1].isdigit() or "#" in plain else plain.upper())
         return text
 
-    def named(self, keep: bool = True) -> str:
-        """A name of a declaration, a member or a parameter: with quotes where SCL reserves it."""
+    def named(self) -> str:
+        """The name of a declaration: with quotes where SCL reserves it."""
         if self.next.kind not in ("word", "quoted") or (self.next.kind == "word" and self.at(*_RESERVED)):
             raise self.fail("a name, in quotes if SCL reserves it")
-        return (self.put() if keep else self.take()).strip('"').upper()
+        return self.take().strip('"').upper()
 
     def at(self, *words: str) -> bool:
         """Whether one of these words comes next."""
@@ -198,7 +207,7 @@ class _Reader:
         else:
             self.take("BEGIN")
             self.block.comments.clear()
-            self.statements()
+            self.body(f"END_{kind}")
         self.take(f"END_{kind}")
 
     def section(self, kind: str) -> None:
@@ -218,7 +227,7 @@ class _Reader:
     def variable(self, section: str) -> None:
         """One declaration with the comment after it."""
         written = self.next.text.strip('"')
-        name = self.named(keep=False)
+        name = self.named()
         if self.block.variable(name):
             raise self.fail("a name that is not taken")
         self.take(":")
@@ -267,157 +276,87 @@ class _Reader:
             made.append(self.take())
         return tuple(made)
 
-    def statements(self) -> None:
-        """Statements up to the word that ends them."""
-        while not self.at(*_ENDS) and self.next.kind != "literal":
-            self.statement()
-
-    def statement(self) -> None:
-        """One statement."""
-        if self.at("IF", "CASE", "WHILE"):
-            {"IF": self.choice, "CASE": self.case, "WHILE": self.loop}[self.next.text.upper()]()
-        else:
-            kind = self.path()
-            if self.at("("):
-                self.call(kind)
-            else:
-                self.put(":=")
-                self.expression()
-        self.put(";")
-
-    def choice(self) -> None:
-        """IF."""
-        self.put("IF")
-        while True:
-            self.expression()
-            self.put("THEN")
-            self.statements()
-            if not self.at("ELSIF"):
-                break
-            self.put()
-        if self.at("ELSE"):
-            self.put()
-            self.statements()
-        self.put("END_IF")
-
-    def case(self) -> None:
-        """CASE with numbers and ranges as labels."""
-        self.put("CASE")
-        self.expression()
-        self.put("OF")
-        while self.next.kind == "literal":
-            self.put()
-            while self.at(",", ".."):
+    def body(self, end: str) -> None:
+        """Tokens up to the end, each in its form; that they are those of the canonical text, a check sees."""
+        self.calls, before = list[_Call](), ""
+        while not self.at(end):
+            token = self.next
+            if token.kind == "local":
+                self.local(token)
+            elif token.kind == "quoted" and before != "." and not self.parameter(token):
+                self.known_call(token)
+            elif token.kind == "word" and before != "." and not self.parameter(token):
+                self.word(token)
+            elif token.kind == "word" and before == "." and self.at(*_RESERVED):
+                raise self.fail("a member, in quotes if SCL reserves it")
+            elif token.kind == "sign":
+                self.sign(token)
+            elif token.kind in ("line", "pragma", "end"):
+                raise self.fail("a part of a statement")
+            before = token.text
+            if self.next is token:
                 self.put()
-                self.put(kind="literal")
-            self.put(":")
-            self.statements()
-        if self.at("ELSE"):
-            self.put()
-            self.statements()
-        self.put("END_CASE")
 
-    def loop(self) -> None:
-        """WHILE."""
-        self.put("WHILE")
-        self.expression()
-        self.put("DO")
-        self.statements()
-        self.put("END_WHILE")
+    def after(self) -> str:
+        """The token after the next one."""
+        return next(each.text for each in self.all[self.all.index(self.next, self.i) + 1 :] if each.kind != "comment")
 
-    def expression(self) -> None:
-        """Operands with operators between them."""
-        self.operand()
-        while self.at(*_OPERATORS):
-            self.put()
-            self.operand()
-
-    def operand(self) -> None:
-        """A literal, a variable, a call, or an expression in parentheses."""
-        while self.at("NOT", "-"):
-            self.put()
-        if self.at("("):
-            self.put()
-            self.expression()
-            self.put(")")
-        elif self.next.kind in ("literal", "string") or self.at("TRUE", "FALSE"):
-            self.put()
-        elif self.next.kind == "quoted":
-            name = self.put().strip('"').upper()
-            if name not in self.known:
-                raise self.fail(f"{name} above its use")
-            self.call(name)
-        elif self.next.kind == "word":
-            name = self.put().upper()
-            if not self.at("("):
-                raise self.fail(f"quotes or # around {name}")
-            self.standard(name)
-        else:
-            self.path()
-
-    def path(self) -> str:
-        """A variable of this block with indices and members; its type."""
-        name = self.put(kind="local").removeprefix("#")
+    def local(self, token: Token) -> None:
+        """A variable of this block, or its result."""
+        name = token.text.removeprefix("#")
         if name.upper() in _RESERVED:
             raise self.fail(f"quotes around {name}")
-        name = name.strip('"')
-        found = self.block.variable(name)
-        kind = found.type if found else self.block.returns if name.upper() == self.block.name.upper() else ""
-        if not kind:
+        found = self.block.variable(name.strip('"'))
+        if not found and name.upper() != self.block.name.upper():
             raise self.fail(f"{name} among the declarations")
-        while self.at("[", "."):
-            if self.put() == "[":
-                self.expression()
-                self.put("]")
-                kind = kind.partition(" OF ")[2]
-            else:
-                kind = self.member(kind, self.named())
-        return kind
+        self.called = found.type if found else ""
 
-    def member(self, kind: str, name: str) -> str:
-        """The type of a member."""
-        for each in _SYSTEM.get(kind, "").split():
-            if each.partition(":")[0] == name:
-                return each.partition(":")[2]
-        block = self.known.get(kind)
-        found = block.variable(name) if block else None
-        if found is None or found.section not in ("STRUCT", "VAR_OUTPUT", "VAR_INPUT"):
-            raise self.fail(f"{name} as a member of {kind}")
-        return found.type
+    def known_call(self, token: Token) -> None:
+        """A function, which is declared above."""
+        self.called = token.text.strip('"').upper()
+        if self.called not in self.known or self.after() != "(":
+            raise self.fail(f"a call of {self.called}, above its use")
 
-    def standard(self, name: str) -> None:
-        """A standard function: one parameter without a name, or several with theirs, which the canonical text lacks."""
-        self.put("(")
-        if name in _STANDARD:
-            for number, formal in enumerate(_STANDARD[name]):
-                if number:
-                    self.put(",")
-                self.take(formal)
-                self.take(":=")
-                self.expression()
-        elif name in ("RUNTIME", "ABS") or re.fullmatch(r"(?!REAL_TO_D?WORD)[A-Z]+_TO_[A-Z]+", name):
-            self.expression()
-        else:
-            raise self.fail(f"a function of SCL instead of {name}")
-        self.put(")")
+    def word(self, token: Token) -> None:
+        """A keyword, or a standard function, whose parameters have names that the canonical text lacks."""
+        name = token.text.upper()
+        if name not in _KEYWORDS | _OPERATORS:
+            if self.after() != "(" or not (name in _STANDARD or _PLAIN.fullmatch(name)):
+                raise self.fail(f"quotes or # around {name}, or a function of SCL instead of it")
+            self.called = name
 
-    def call(self, name: str) -> None:
-        """The arguments of a function or an instance of a block, each by its name."""
-        given: list[str] = []
-        self.put("(")
-        while not self.at(")"):
-            if given:
-                self.put(",")
-            given.append(self.put(kind="word").upper() if name in _SYSTEM else self.named())
-            self.put(":=", "=>")
-            self.expression()
-        if name in _SYSTEM:
-            wanted, allowed = [], [each.partition(":")[0] for each in _SYSTEM[name].split()]
-        else:
-            block = self.known[name]
+    def parameter(self, token: Token) -> bool:
+        """Whether the next token is the name of a parameter; it is passed over where the canonical text has none."""
+        if not self.calls or self.after() not in (":=", "=>"):
+            return False
+        call, name = self.calls[-1], token.text.strip('"').upper()
+        if token.kind == "word" and name in _RESERVED and call.name not in _SYSTEM:
+            raise self.fail("a parameter, in quotes if SCL reserves it")
+        call.given.append(name)
+        if call.name in _STANDARD:
+            self.take()
+            self.take(":=")
+        return True
+
+    def sign(self, token: Token) -> None:
+        """Parentheses open and end calls; of a function and a block each parameter is named, known and given once."""
+        if token.text == "(":
+            self.calls.append(_Call(self.called))
+        elif token.text == ")":
+            self.judge(self.calls.pop())
+        self.called = ""
+
+    def judge(self, call: "_Call") -> None:
+        """Whether a call has the parameters that it must have."""
+        block, given = self.known.get(call.name), call.given
+        wanted = allowed = _STANDARD.get(call.name, [])
+        if call.name in _STANDARD and given != wanted:
+            raise self.fail(f"the parameters of {call.name} in their order")
+        if call.name in _SYSTEM:
+            allowed = [each.partition(":")[0] for each in _SYSTEM[call.name].split()]
+        elif block:
             must = ("VAR_INPUT", "VAR_IN_OUT") if block.kind == "FUNCTION" else ("VAR_IN_OUT",)
             wanted = [one.name.upper() for one in block.variables if one.section in must]
             allowed = [one.name.upper() for one in block.variables]
         if set(wanted) - set(given) or set(given) - set(allowed) or len(set(given)) < len(given):
-            raise self.fail(f"the parameters of {name}, each once")
-        self.put(")")
+            raise self.fail(f"the parameters of {call.name}, each once")
