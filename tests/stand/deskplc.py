@@ -17,7 +17,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pymodbus.pdu import ModbusPDU
 from pymodbus.server import ModbusSerialServer
 from pymodbus.server.requesthandler import ServerRequestHandler
 from pymodbus.simulator import DataType, SimData, SimDevice
@@ -41,7 +40,7 @@ RUN, STOP, JOG_STOP = 1, 5, 8
 RUNNING, STANDING = 1, 3
 STEP = 500
 """So much nearer to what is asked, in 0.01 Hz, whenever the frequency is read: this motor knows no time."""
-COUNTERS = ("Requests", "Good", "Bad", "Timeouts", "Retries", "LateReplies", "Refusals")
+COUNTERS = ("Requests", "Good")
 HELD = by_name("HELD").code
 VALID = "Diagnosis.OutputFrequencyValid"
 SHOWN = ("Reason", "CommOk", "StopConfirmed", "AtSpeed", "OutputFrequencyHz", VALID)
@@ -103,9 +102,6 @@ class Cable:
         import tty
 
         self.loss = Loss(damage=damage)
-        self.asked = 0
-        """Frames of the master."""
-        self.replies_damaged = 0
         self._begun = b""
         pairs = [os.openpty() for _ in range(2)]
         for _, other in pairs:
@@ -122,16 +118,12 @@ class Cable:
 
     def reply(self, sending: bool, data: bytes) -> bytes:
         """What the server says, whole; perhaps damaged."""
-        if not sending or not self.loss.fate():
-            return data
-        self.replies_damaged += 1
-        return self.loss.spoiled(data)
+        return self.loss.spoiled(data) if sending and self.loss.fate() else data
 
     def _request(self, silence: Callable[[], None]) -> None:
         self._begun += os.read(self._master, MOST)  # more than one where this computer was busy
         while len(self._begun) >= REQUEST:
             whole, self._begun = self._begun[:REQUEST], self._begun[REQUEST:]
-            self.asked += 1
             silence()
             _later(self._server, self.loss.spoiled(whole) if self.loss.fate() else whole)
 
@@ -151,8 +143,6 @@ class Peer:
 
     damage: float = 0.0
     motor: Motor = field(default_factory=Motor)
-    heard: int = 0
-    replied: int = 0
 
     def __post_init__(self) -> None:
         """Begin to serve."""
@@ -168,19 +158,13 @@ class Peer:
         data = [SimData(first, count=count, values=0, datatype=DataType.REGISTERS) for first, count in blocks]
         device = SimDevice(id=UNIT, simdata=data, action=self.motor.act)
         server = Server(
-            device, port=self.cable.places[1], baudrate=RATE, trace_packet=self.cable.reply, trace_pdu=self._count,
-            ignore_missing_devices=True,
+            device, port=self.cable.places[1], baudrate=RATE, trace_packet=self.cable.reply, ignore_missing_devices=True
         )  # fmt: skip
         await server.serve_forever(background=True)
         self.cable.serve(server.silence)
         self._ready.set()
         await self._over.wait()
         await server.shutdown()  # type: ignore[no-untyped-call]  # nor here
-
-    def _count(self, sending: bool, pdu: ModbusPDU) -> ModbusPDU:
-        self.replied += sending
-        self.heard += not sending
-        return pdu
 
     def close(self) -> None:
         """Serve no more."""
@@ -272,47 +256,24 @@ def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
 
 @dataclass
 class Exchange:
-    """What was done, and the figures of both sides."""
+    """What was done, the trace of the soft PLC, and what it said."""
 
     peer: Peer
-    rounds: int = 0
-    lost_stops: int = 0
-    held_starts: int = 0
-    """When this computer was away for so long that the line acted as at a restart: a start needs a new edge then."""
-    memory: list[float] = field(default_factory=list)
-    """Of the soft PLC at its first stop, and at its last."""
+    figures: dict[str, float]
     rows: list[dict[str, str]] = field(default_factory=list)
-    """The soft PLC's trace."""
     lines: list[str] = field(default_factory=list)
-    status: int = 0
 
     def turn(self, soft: DeskPlc, seconds: float) -> None:
         """Start, turn and stop, once and then over and over for so long."""
         soft.stop()
-        self.memory.append(soft.memory())
+        self.figures["memory at first"] = soft.memory()
         end = time.monotonic() + seconds
-        while not self.rounds or time.monotonic() < end:
-            self.held_starts += soft.start()
+        while not self.figures["rounds"] or time.monotonic() < end:
+            self.figures["starts held"] += soft.start()
             soft.stop()
-            self.lost_stops += not self.peer.motor.stands
-            self.rounds += 1
-        self.memory.append(soft.memory())
-
-    def counted(self) -> dict[str, int]:
-        """What the line in the soft PLC has counted when its last scan was over."""
-        return {name: int(self.rows[-1][f"Bus.{name}"]) for name in COUNTERS}
-
-    def explained(self) -> dict[str, int]:
-        """How the counters of both sides add up."""
-        plc, cable = self.counted(), self.peer.cable
-        failures = plc["Bad"] + plc["Timeouts"]
-        seen = failures - plc["LateReplies"]
-        return {
-            "asked again": plc["Requests"] - plc["Good"] - failures,  # while the line does not know whether it has echo
-            "after the end": cable.asked - plc["Requests"],  # stops and reads when the program was over
-            "failures of nothing": max(0, seen - self.lost),
-            "losses not noticed": max(0, self.lost - seen),  # among those that are asked again or after the end
-        }
+            self.figures["lost stops"] += not self.peer.motor.stands
+            self.figures["rounds"] += 1
+        self.figures["memory"] = soft.memory()
 
     def wrong_values(self) -> int:
         """How many values of the trace the motor did not have, or not in this order; and words that it must not get."""
@@ -323,39 +284,24 @@ class Exchange:
         allowed = {(COMMAND, RUN), (COMMAND, STOP), (COMMAND, JOG_STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
         return sum(seen) + len(self.peer.motor.written - allowed)
 
-    @property
-    def lost(self) -> int:
-        """Requests that reached nobody, and replies that were damaged."""
-        return self.peer.cable.asked - self.peer.heard + self.peer.cable.replies_damaged
-
 
 def exchange(seconds: float, damage: float) -> Exchange:
     """The soft PLC and pymodbus's server for so long, and the end of both."""
-    made = Exchange(Peer(damage))
+    made = Exchange(Peer(damage), {"rounds": 0, "starts held": 0, "lost stops": 0})
     with closing(made.peer), tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.csv"
         with plc(made.peer.cable.places[0], trace) as soft:
             made.turn(soft, seconds)
-        made.status, made.lines = soft.process.returncode, soft.lines
+        made.lines = soft.lines
         with trace.open(encoding="utf-8") as file:
             next(file)
             made.rows = list(DictReader(file))
+    made.figures |= {name: float(made.rows[-1][f"Bus.{name}"]) for name in COUNTERS}
+    made.figures |= {"damaged": made.peer.cable.loss.damaged, "wrong values": made.wrong_values()}
+    made.figures["exit status"] = soft.process.returncode
     return made
 
 
-def figures(made: Exchange) -> Iterator[str]:
-    """All of them, each in a line."""
-    peer, cable = made.peer, made.peer.cable
-    numbers = {
-        "rounds": made.rounds, "starts held": made.held_starts, "lost stops": made.lost_stops,
-        "wrong values": made.wrong_values(),
-        "memory, KiB": made.memory[-1], "at first": made.memory[0], **made.counted(), **made.explained(),
-        "frames of the PLC": cable.asked, "heard": peer.heard, "replied": peer.replied, "damaged": cable.loss.damaged,
-        "... replies": cable.replies_damaged, "exit status": made.status,
-    }  # fmt: skip
-    yield from (f"{name:20} {value:g}" for name, value in numbers.items())
-    yield from made.lines[-4:]
-
-
 if __name__ == "__main__":
-    print("\n".join(figures(exchange(float(sys.argv[1]), 0.01))))
+    done = exchange(float(sys.argv[1]), 0.01)
+    print("\n".join([*(f"{name:16} {value:g}" for name, value in done.figures.items()), *done.lines[-4:]]))
