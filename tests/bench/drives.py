@@ -1,14 +1,13 @@
 """Drive blocks on their line: bytes and nanoseconds of one, of a line of eight, and what one more drive costs."""
 
-import re
 import time
 from collections.abc import Iterable, Iterator
 
 from tests.bench.record import Rows
-from tests.drives.bench import Bench
-from tests.drives.station import FAMILIES, name_of, station, texts
+from tests.second.line import Bench
+from tests.second.station import MIXED, built, name_of
 
-from structured_text.engines.engine import EngineError, Library, Source
+from structured_text.engines.engine import EngineError, Library
 from structured_text.engines.matiec import MatiecEngine
 from structured_text.engines.matiec.library import MatiecInstance
 
@@ -17,25 +16,17 @@ FEW, MANY = 4, 8
 SCANS = 20
 """Scans of 1 ms that follow each other: the drive has longer to answer. Then all is as it was before the first."""
 LINE, SLOT = "MB_Line8", "MB_Slot"
-_SEEN = re.compile(r"  IF Drive\d+\.\w+ THEN\n    Seen .*\n  END_IF;\n")
-"""What a station shows to the tests, which is no part of what a user writes, and has no room for eight drives."""
 
 
 def measure(engines: Iterable[MatiecEngine], rounds: int = 300) -> Rows:
     """Columns by engine: bytes, and nanoseconds of a scan while all motors run and the line waits for a reply."""
     rows: Rows = {}
     for engine in engines:
-        library = engine.build([*texts()[:-1], Source("stations.st", "".join(_stations()))])
-        for family in FAMILIES:
+        library = built(engine, [[family] * drives for family in MIXED for drives in (FEW, MANY)])
+        for family in MIXED:
             for row, column, figure in _family(library, family, rounds):
                 rows.setdefault(row, {})[f"{engine.name} {column}"] = figure
     return rows
-
-
-def _stations() -> Iterator[str]:
-    for family in FAMILIES:
-        for drives in (FEW, MANY):
-            yield _SEEN.sub("", station([family] * drives))
 
 
 def _family(library: Library, family: str, rounds: int) -> Iterator[tuple[str, str, float]]:

@@ -11,8 +11,8 @@ from random import Random
 
 from tests import measured
 from tests.blocks.library import sources
-from tests.drives.station import maps
 from tests.line.vline import Config, Sent
+from tests.second.station import maps
 from tests.simulator.bench import DriveBench
 
 from driveblocks.maps.model import Drive

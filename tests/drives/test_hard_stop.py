@@ -1,10 +1,9 @@
 """The contact of the hard stop: it latches, it closes by a person, and in no mode is it kept from closing."""
 
 import pytest
-from tests.drives.bench import Bench
-from tests.drives.station import FAMILIES, library
-from tests.drives.test_start import motions
-from tests.drives.test_stop import stops
+from tests.drives.words import stops
+from tests.second.line import Bench
+from tests.second.station import simulated
 
 
 class Machine:
@@ -13,7 +12,7 @@ class Machine:
     def __init__(self, kind: str, *, auxiliary: bool = True) -> None:
         """Power up with the contactor open."""
         self.bench = Bench(kind, start=False)
-        self.latch = library().instance("VFD_HardStop")
+        self.latch = simulated().instance("VFD_HardStop")
         self.auxiliary, self.dead, self.closed, self.changes = auxiliary, False, False, 0
         self.bench.watch.append(self._scan)
         self.feed()
@@ -43,10 +42,9 @@ class Machine:
         return self
 
 
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_silent_drive_opens_the_contact_once_for_each_press(kind: str) -> None:
+def test_a_silent_drive_opens_the_contact_once_for_each_press() -> None:
     """Without a latch: 664 changes in ten seconds."""
-    machine = Machine(kind).press()
+    machine = Machine("CHF").press()
     machine.bench.until(lambda: machine.bench.shows("StopConfirmed"), 12_000)
     machine.bench.put(RunForward=True).run(3000)
     machine.dead, machine.changes = True, 0
@@ -63,16 +61,6 @@ def test_a_silent_drive_opens_the_contact_once_for_each_press(kind: str) -> None
     machine.bench.running()
 
 
-@pytest.mark.parametrize("auxiliary", [True, False])
-def test_it_closes_at_power_up(auxiliary: bool) -> None:
-    machine = Machine("CHF", auxiliary=auxiliary)
-    machine.bench.run(3000)
-    assert not machine.closed
-    machine.press().bench.run(20_000)
-    assert machine.closed
-    machine.bench.running()
-
-
 def test_with_an_auxiliary_contact_it_closes_whenever_a_person_comes() -> None:
     machine = Machine("JSCC")
     machine.bench.wait(60_000)
@@ -82,7 +70,7 @@ def test_with_an_auxiliary_contact_it_closes_whenever_a_person_comes() -> None:
 
 
 def test_the_latch_alone() -> None:
-    latch = library().instance("VFD_HardStop")
+    latch = simulated().instance("VFD_HardStop")
 
     def scan(**pins: bool) -> bool:
         for name in ("Overdue", "Restart", "Reset"):
@@ -103,55 +91,6 @@ def test_the_latch_alone() -> None:
     assert scan(Reset=True)
     assert not scan(Restart=True)
     assert not scan()
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-@pytest.mark.parametrize("mode", ["MonitorOnly", "SpeedOnly"])
-def test_a_mode_from_power_up_leaves_no_stop_open(kind: str, mode: str) -> None:
-    bench = Bench(kind, start=False).put(**{mode: True}).restart()
-    for _ in range(75):
-        bench.wait(1000)
-        assert not bench.shows("StopOverdue")
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-@pytest.mark.parametrize("mode", ["MonitorOnly", "SpeedOnly"])
-@pytest.mark.parametrize("event", ["StopAll", "block not called"])
-def test_a_mode_with_a_stop_from_outside_leaves_none_open(kind: str, mode: str, event: str) -> None:
-    bench = Bench(kind).put(**{mode: True})
-    bench.run(6000)
-    bench.drives[0].keypad_run(20.0)
-    bench.run(2000)
-    if event == "StopAll":
-        bench.line(StopAll=True).run(40)
-        bench.line(StopAll=False)
-    else:
-        bench.leave("Skip0").run(2000)
-        bench.leave("Skip0", on=False)
-    frames = bench.wait(60_000)
-    assert stops(bench, bench.frames)
-    assert not motions(bench, frames)
-    assert not bench.shows("StopOverdue")
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_stop_at_standstill_ends_by_its_refusal(kind: str) -> None:
-    """The motor was proved to be at standstill, and nothing has moved it since: a refused stop is over."""
-    bench = Bench(kind).stopped()
-    bench.spoil = lambda frame, reply: reply if frame.read or reply is None else refused(bench, frame.unit, reply)
-    bench.put(Enable=False).wait(20_000)
-    assert not bench.shows("StopOverdue")
-
-
-def refused(bench: Bench, unit: int, reply: bytes) -> bytes:
-    """The drive's refusal, with a code that does not mean busy."""
-    del unit
-    slot = "Slots[0]."
-    if bench.block[slot + "ErrorFunction"]:
-        address = bench.block[slot + "ErrorAddress"]
-        assert isinstance(address, int)
-        return bytes([reply[0], 6]) + address.to_bytes(2, "big") + b"\x00\x02"
-    return bytes([reply[0], reply[1] | 0x80, 0x02])
 
 
 @pytest.mark.parametrize("boot_ms", [0, 3000])

@@ -5,8 +5,8 @@ from functools import partial
 from itertools import pairwise
 
 import pytest
-from tests.drives.bench import Bench, Frame
-from tests.drives.rules import Meaning
+from tests.drives.words import sent
+from tests.second.line import Bench, Frame
 
 PLATE, MAXIMUM = 0x2003, 0x2004
 """The registers by which the made-up drive is known, and of its own maximum, in tenths of a hertz."""
@@ -177,9 +177,8 @@ def test_its_own_maximum_must_be_full_scale() -> None:
     one = bench()
     one.drives[0].set(MAXIMUM, 600)
     one.restart().run(4000)
-    motions = Meaning(one.maps[0])
     frames = one.put(RunForward=True).run(2000)
     assert one.reason() == "OTHER_MAXIMUM"
     assert one.number("OwnMaximumHz") == pytest.approx(60.0)
-    assert not [each for each in frames if "run_forward" in motions.does(each) and not each.read and each.word == 0xF]
+    assert not [each for each in sent(one, frames, "run_forward") if each.word == 0xF]
     one.put(RunForward=False, FullScaleHz=60.0).running()

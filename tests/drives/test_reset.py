@@ -1,25 +1,22 @@
 """A fault reset: of the fault that was there when it was asked for, a few times and no more, and no start after it."""
 
 import pytest
-from tests.drives.bench import RUNS, Bench
-from tests.drives.rules import sent, watched
-from tests.drives.station import FAMILIES, MADE_UP, maps
-from tests.drives.test_start import edge, motions
-
-from driveblocks.simulator.habits import Habits
+from tests.drives.words import edge, motions, sent
+from tests.second.line import Bench
+from tests.second.station import MADE_UP, maps
 
 CAN = [
     kind
-    for kind in (*FAMILIES, *MADE_UP)
+    for kind in ("CHF", *MADE_UP)
     if any(command.does == "fault_reset" for command in maps()[kind].operation.commands)
 ]
 
 
-def tripped(kind: str = "CHF", code: int = 3) -> Bench:
+def tripped(kind: str = "CHF") -> Bench:
     """A drive with a fault, whose cause is gone and whose motor is at standstill."""
-    bench = watched(kind, ms=10).running()
+    bench = Bench(kind).running()
     bench.put(RunForward=False)
-    bench.drives[0].trip(code)
+    bench.drives[0].trip(3)
     bench.drives[0].clear_cause()
     bench.run(6000)
     assert bench.shows("Fault")
@@ -34,41 +31,6 @@ def test_a_reset_ends_the_fault_and_starts_nothing(kind: str) -> None:
     assert not bench.shows("Fault")
     assert not motions(bench, [each for each in frames if each not in sent(bench, frames, "fault_reset")])
     bench.put(FaultReset=False).stopped().running()
-
-
-@pytest.mark.parametrize("kind", [kind for kind in FAMILIES if kind not in CAN])
-def test_a_family_without_a_reset_says_so(kind: str) -> None:
-    bench = tripped(kind).put(FaultReset=True)
-    bench.run(1000)
-    assert not bench.out("CanResetFault")
-    assert bench.shows("Fault")
-    bench.drives[0].reset()
-    bench.run(1000)
-    assert bench.reason() == "NO_RESET"
-    bench.put(FaultReset=False).stopped().running()
-
-
-@pytest.mark.parametrize("pin", RUNS)
-def test_no_reset_while_a_run_pin_is_held(pin: str) -> None:
-    bench = tripped().put(**{pin: True})
-    bench.run(50)
-    bench.put(FaultReset=True)
-    assert not sent(bench, bench.run(2000), "fault_reset")
-    bench.put(**{pin: False})
-    assert not sent(bench, bench.run(2000), "fault_reset")
-
-
-def test_a_reset_that_fails_is_tried_so_often_and_no_more() -> None:
-    bench = tripped()
-    bench.drives[0].cause = True
-    bench.put(FaultReset=True)
-    frames = bench.run(15_000)
-    assert len(sent(bench, frames, "fault_reset")) <= 3
-    bench.drives[0].clear_cause()
-    assert not sent(bench, bench.run(3000), "fault_reset")
-    bench.put(FaultReset=False).scan()
-    bench.put(FaultReset=True).run(2000)
-    assert not bench.shows("Fault")
 
 
 def test_a_reset_that_nobody_answers_is_tried_three_times() -> None:
@@ -145,55 +107,15 @@ def test_a_reset_is_sent_after_a_stop() -> None:
     assert sent(bench, frames[first:], "stop")
 
 
-def test_the_first_fault_and_the_last_eight() -> None:
-    bench = watched("CHF").running()
-    bench.run(1000)
-    bench.drives[0].trip(3)
-    bench.run(1000)
-    assert bench.out("FirstFaultCode") == 3
-    assert bench.out("FirstFaultState") == 4
-    assert abs(bench.number("FirstFaultHz") - 25.0) < 0.5
-    assert abs(bench.number("FirstFaultMs") - 3500) < 700
-    bench.put(RunForward=False)
-    for code in range(4, 13):
-        bench.drives[0].fault = 0
-        bench.run(500)
-        bench.drives[0].trip(code)
-        bench.run(500)
-    assert bench.out("FirstFaultCode") == 3
-    assert [bench.out(f"FaultBack{back}") for back in range(1, 9)] == list(range(12, 4, -1))
-    bench.drives[0].fault = 0
-    bench.stopped().running()
-    assert bench.out("FirstFaultCode") == 0
-
-
-@pytest.mark.parametrize("silent", [4000, 70_000])
-def test_silence_neither_ends_a_fault_nor_gives_it_a_code(silent: int) -> None:
+def test_silence_neither_ends_a_fault_nor_gives_it_a_code() -> None:
     """A trip whose relay drops the contactor: the drive is silent before its code is read, and comes back with it."""
     bench = Bench().running()
     bench.drives[0].trip(5)
     bench.until(lambda: bench.shows("Fault"))
     for _ in range(3):
         bench.deaf = {1}
-        bench.run(silent)
+        bench.run(4000)
         bench.deaf = set()
         bench.run(12_000)
     shown = [bench.out(name) for name in ("FaultCode", "FirstFaultCode", "FaultBack1", "FaultBack2")]
     assert shown == [5, 5, 5, 0]
-
-
-@pytest.mark.parametrize("kind", ["CHF", "JSCC"])
-def test_a_fault_shows_no_code_before_its_own_was_read(kind: str) -> None:
-    """These drives keep the code of the fault before; a program that takes the code as Fault rises would log that."""
-    bench = Bench(kind, habits=Habits(keeps_fault_code=True)).running()
-    shown = []
-    for code in (4, 5):
-        bench.drives[0].trip(code)
-        bench.until(lambda: bench.shows("Fault"))
-        shown.append(bench.out("FaultCode"))
-        bench.until(lambda: bench.out("FaultCode") != 0)
-        shown.append(bench.out("FaultCode"))
-        bench.put(RunForward=False)
-        bench.drives[0].fault = 0
-        bench.stopped().running()
-    assert shown == [0, 4, 0, 5]

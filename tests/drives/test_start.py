@@ -1,36 +1,21 @@
 """A motor starts by a new edge alone, and by nothing else."""
 
 from collections.abc import Callable
-from itertools import pairwise
 
 import pytest
-from tests.drives.bench import OFF, Bench, Frame
-from tests.drives.rules import MOTIONS, sent, watched
-from tests.drives.station import FAMILIES, MADE_UP, maps
+from tests.drives.words import edge, meet, motions, sent
+from tests.second.line import OFF, Bench
+from tests.second.station import MADE_UP
 
-from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.simulator.habits import Habits
 from structured_text.engines.engine import Value
 
-MODES = [(kind, mode) for kind in (*FAMILIES, *MADE_UP) for mode in maps()[kind].serial.mode.modes]
 NAN, INFINITE = float("nan"), float("inf")
 
 
-def motions(bench: Bench, frames: list[Frame]) -> list[Frame]:
-    """Frames that may set a motor in motion."""
-    does = [each for each in MOTIONS.values() if maps()[bench.types[0]].prefix]
-    return [each for each in sent(bench, frames, *does) if each not in sent(bench, frames, "stop", "fault_reset")]
-
-
-def edge(bench: Bench, pin: str = "RunForward") -> None:
-    """A release and an edge."""
-    bench.put(**{pin: False}).scan()
-    bench.put(**{pin: True}).scan()
-
-
-@pytest.mark.parametrize(("kind", "mode"), MODES)
-def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None:
-    bench = watched(kind, ascii_=mode == "ascii").running()
+@pytest.mark.parametrize("kind", MADE_UP)
+def test_from_power_up_to_a_turning_motor_and_back(kind: str) -> None:
+    bench = Bench(kind).running()
     bench.run(300)
     assert abs(bench.drives[0].hertz - 25.0) < 0.2
     assert abs(bench.number("OutputFrequencyHz") - 25.0) < 0.2
@@ -41,20 +26,8 @@ def test_from_power_up_to_a_turning_motor_and_back(kind: str, mode: str) -> None
     assert bench.block["TheLine.Refusals"] == 0
 
 
-@pytest.mark.parametrize("kind", [each for each in (*FAMILIES, *MADE_UP) if each != "CIA"])
-def test_the_other_direction_goes_through_stop_and_a_new_edge(kind: str) -> None:
-    bench = watched(kind).running()
-    bench.put(RunForward=False, RunReverse=True)
-    assert not motions(bench, bench.run(5000))
-    assert bench.shows("StopConfirmed")
-    assert bench.reason() == "HELD"
-    edge(bench, "RunReverse")
-    bench.until(lambda: bench.shows("AtSpeed"))
-    assert bench.drives[0].hertz < -24.0
-
-
 def test_run_and_jog_go_through_stop_and_a_new_edge() -> None:
-    bench = watched("CHF").stopped().put(JogForward=True)
+    bench = Bench("CHF").stopped().put(JogForward=True)
     bench.run(1500)
     assert abs(bench.drives[0].hertz - 5.0) < 0.1
     bench.put(RunForward=True, JogForward=False)
@@ -79,12 +52,6 @@ def mend(bench: Bench) -> None:
     bench.drives[0].clear_cause()
     bench.run(5000)
     bench.drives[0].reset()
-
-
-def meet(bench: Bench) -> None:
-    while bench.block["TheLine.ForeignFrames"] != 10:
-        bench.foreign(bytes([9, 6, 0x10, 0, 0, 1]))
-        bench.run(100)
 
 
 def waiting(bench: Bench) -> None:
@@ -157,57 +124,30 @@ BEFORE = {
 """What only keeps one from starting, too."""
 
 
-@pytest.mark.parametrize("what", BEFORE)
-def test_an_edge_is_never_stored(what: str) -> None:
+@pytest.mark.parametrize(
+    ("runs", "what"), [*((False, what) for what in BEFORE), *((True, what) for what in WHILE)], ids=str
+)
+def test_what_stops_a_motor_needs_a_release_and_a_new_edge(runs: bool, what: str) -> None:
+    """Nor is an edge stored that came meanwhile."""
     begins, ends, reason = BEFORE[what]
-    bench = watched("CHF").stopped()
+    bench = Bench("CHF").running() if runs else Bench("CHF").stopped()
     begins(bench)
     bench.scan()
-    bench.put(RunForward=True)
-    frames = bench.run(60)
+    frames = bench.put(RunForward=True).run(60)
     assert bench.reason() == reason
     assert not bench.shows("Ready")
-    ends(bench)
-    frames += bench.run(5000)
-    assert not motions(bench, frames)
-    assert bench.reason() in ("HELD", reason)
-    edge(bench)
-    bench.until(lambda: bench.drives[0].hertz > 24.0)
-
-
-@pytest.mark.parametrize("what", WHILE)
-def test_what_stops_a_motor_needs_a_release_and_a_new_edge(what: str) -> None:
-    begins, ends, reason = WHILE[what]
-    bench = watched("CHF").running()
-    begins(bench)
-    bench.scan()
-    frames = bench.run(60)
-    assert bench.reason() == reason
     ends(bench)
     frames += bench.run(6000)
     assert not motions(bench, frames)
     assert bench.drives[0].mode == "standstill"
-    bench.stopped()
-    # the first request without a reply may have been that of the reference
-    assert bench.reason() in ("HELD", *["NO_REFERENCE"] * (what == "offline"))
+    # of a motor that ran, the first request without a reply may have been that of the reference
+    assert bench.reason() in ("HELD", reason, *["NO_REFERENCE"] * (what == "offline"))
     edge(bench)
     bench.until(lambda: bench.drives[0].hertz > 24.0)
-
-
-def test_an_edge_before_the_stop_is_confirmed_is_lost() -> None:
-    bench = watched("CHF").put(RunForward=True)
-    assert not motions(bench, bench.run(3000))
-    assert bench.shows("StopConfirmed")
-    edge(bench)
-    bench.until(lambda: bench.drives[0].hertz > 24.0)
-    bench.put(RunForward=False).run(100)
-    edge(bench)
-    assert bench.reason() == "NOT_STOPPED"
-    assert not motions(bench, bench.run(5000))
 
 
 def test_no_run_before_its_reference_is_acknowledged() -> None:
-    bench = watched("CHF").stopped()
+    bench = Bench("CHF").stopped()
     bench.spoil = lambda frame, reply: None if sent(bench, [frame], "reference") else reply
     edge(bench)
     frames = bench.run(3000)
@@ -218,7 +158,7 @@ def test_no_run_before_its_reference_is_acknowledged() -> None:
 
 @pytest.mark.parametrize("does", ["reference", "run_forward"])
 def test_what_a_refused_reference_and_run_say(does: str) -> None:
-    bench = watched("SN300G5").stopped()
+    bench = Bench("SN300G5").stopped()
     bench.spoil = lambda frame, reply: bytes([1, 0x90, 0x21]) if sent(bench, [frame], does) else reply
     edge(bench)
     frames = bench.run(3000)
@@ -229,7 +169,7 @@ def test_what_a_refused_reference_and_run_say(does: str) -> None:
 
 def test_a_run_that_is_obeyed_without_an_answer_runs() -> None:
     """The status says that it was heard, so it is not repeated."""
-    bench = watched("CHF").stopped()
+    bench = Bench("CHF").stopped()
     bench.spoil = lambda frame, reply: None if sent(bench, [frame], "run_forward") else reply
     edge(bench)
     assert len(motions(bench, bench.run(6000))) == 1
@@ -237,22 +177,8 @@ def test_a_run_that_is_obeyed_without_an_answer_runs() -> None:
     assert not motions(bench, bench.run(3000))
 
 
-def test_a_run_that_nobody_acknowledges_is_stopped_until_confirmed() -> None:
-    bench = watched("CHF").stopped()
-    bench.drives[0].follows = False
-    bench.spoil = lambda frame, reply: None if sent(bench, [frame], "run_forward") else reply
-    edge(bench)
-    frames = bench.run(6000)
-    assert len(motions(bench, frames)) >= 2
-    last = frames.index(motions(bench, frames)[-1])
-    assert sent(bench, frames[last:], "stop")
-    assert bench.shows("StopConfirmed")
-    assert bench.drives[0].mode == "standstill"
-    assert bench.reason() == "NO_RUN"
-
-
 def test_what_gives_the_reference_its_meaning_is_read_first() -> None:
-    bench = watched("SN300G5").stopped()
+    bench = Bench("SN300G5").stopped()
     meaning(1)(bench)
     edge(bench)
     assert not motions(bench, bench.run(2000))
@@ -263,7 +189,7 @@ def test_what_gives_the_reference_its_meaning_is_read_first() -> None:
 
 
 def test_a_setting_that_changes_while_it_runs_stops_it() -> None:
-    bench = watched("SN300G5").running()
+    bench = Bench("SN300G5").running()
     bench.drives[0].set(0x000F, 1)
     bench.run(6000)
     assert bench.shows("StopConfirmed")
@@ -272,7 +198,7 @@ def test_a_setting_that_changes_while_it_runs_stops_it() -> None:
 
 def test_settings_are_read_again_after_a_run_of_its_own() -> None:
     """A dip of the supply may have brought another setting."""
-    bench = watched("SN300G5").running()
+    bench = Bench("SN300G5").running()
     drive = bench.drives[0]
     drive.power(on=False)
     bench.run(100)
@@ -284,100 +210,9 @@ def test_settings_are_read_again_after_a_run_of_its_own() -> None:
     assert bench.reason() == "SETTING"
 
 
-def test_a_drive_that_does_not_follow_is_stopped() -> None:
-    bench = watched("JSCC").stopped()
-    bench.drives[0].follows = False
-    edge(bench)
-    frames = bench.run(6500)
-    assert motions(bench, frames)
-    assert bench.out("CommandNotFollowed")
-    assert bench.reason() == "NOT_FOLLOWED"
-    assert sent(bench, frames, "stop")
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_short_dip_of_the_supply_starts_nothing(kind: str) -> None:
-    bench = watched(kind).running()
-    bench.drives[0].power(on=False)
-    bench.run(200)
-    bench.drives[0].power(on=True)
-    before = len(bench.frames)
-    bench.until(lambda: not bench.shows("Running"))
-    noticed = len(bench.frames)
-    bench.run(8000)
-    frames = bench.frames[before:]
-    assert not motions(bench, frames)
-    assert not sent(bench, bench.frames[noticed:], "reference")
-    assert sent(bench, frames, "stop")
-    assert bench.shows("StopConfirmed")
-    assert bench.reason() == "BY_ITSELF"
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_keypad_that_starts_or_stops_is_answered_by_a_stop(kind: str) -> None:
-    bench = watched(kind).stopped()
-    bench.drives[0].keypad_run(30.0)
-    frames = bench.run(300)
-    assert sent(bench, frames, "stop")
-    bench.stopped()
-    assert bench.reason() == "BY_ITSELF"
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_run_that_ends_by_itself_is_answered_by_a_stop(kind: str) -> None:
-    for ends in (SimulatedDrive.keypad_stop, lambda drive: drive.inhibit(on=True)):
-        bench = watched(kind, habits=Habits(runs_while_stopping=False)).running()
-        ends(bench.drives[0])
-        frames = bench.run(100)
-        bench.drives[0].inhibit(on=False)
-        frames += bench.run(5000)
-        assert not motions(bench, frames)
-        assert sent(bench, frames, "stop")
-        bench.stopped()
-        assert bench.reason() == "BY_ITSELF"
-        edge(bench)
-        bench.until(lambda bench=bench: bench.drives[0].hertz > 24.0)  # type: ignore[misc]  # a default
-
-
-@pytest.mark.parametrize("kind", FAMILIES)
-def test_a_stop_of_the_keypad_is_not_undone_by_a_refresh(kind: str) -> None:
-    """The drive says that it runs until the motor is at standstill."""
-    bench = watched(kind).running()
-    bench.run(1500)
-    bench.drives[0].keypad_stop()
-    frames = bench.run(9000)
-    assert not motions(bench, frames)
-    assert bench.drives[0].mode == "standstill"
-    assert bench.shows("StopConfirmed")
-    assert bench.reason() == "BY_ITSELF"
-
-
-def test_the_reference_alone_is_refreshed_while_it_runs() -> None:
-    bench = watched("CHF").running()
-    frames = bench.run(10_000)
-    assert not sent(bench, frames, "run_forward")
-    assert 9 <= len(sent(bench, frames, "reference")) <= 11
-    bench.put(RefreshMs=OFF)
-    assert not sent(bench, bench.run(5000), "run_forward", "reference")
-    bench.put(WatchdogMs=900)
-    frames = bench.run(5000)
-    times = [each.ms for each in sent(bench, frames, "run_forward", "reference")]
-    assert max(b - a for a, b in pairwise(times)) < 450
-
-
-def test_a_reference_is_written_when_it_changes() -> None:
-    bench = watched("CHF").running().put(RefreshMs=OFF)
-    bench.run(100)
-    bench.put(SpeedReferenceHz=30.0)
-    assert [each.word for each in sent(bench, bench.run(3000), "reference")] == [6000]
-    bench.put(SpeedReferenceHz=70.0)
-    assert [each.word for each in sent(bench, bench.run(3000), "reference")] == [10000]
-    assert bench.out("ReferenceLimited")
-
-
 def test_a_path_of_states_is_walked_in_its_order() -> None:
     """The drive needs a while from each word to its state."""
-    bench = watched("CIA", habits=Habits(settle_ms=150)).stopped()
+    bench = Bench("CIA", habits=Habits(settle_ms=150)).stopped()
     edge(bench)
     bench.until(lambda: bench.drives[0].hertz > 24.0)
     assert bench.block["TheLine.Refusals"] == 0
@@ -386,7 +221,7 @@ def test_a_path_of_states_is_walked_in_its_order() -> None:
 
 
 def test_a_pulse_is_as_long_as_the_map_says() -> None:
-    bench = watched("PUL").stopped()
+    bench = Bench("PUL").stopped()
     edge(bench)
     frames = [each for each in bench.run(500) if each.address == 0x1000]
     assert [each.word for each in frames[:2]] == [1, 0]

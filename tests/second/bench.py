@@ -1,18 +1,18 @@
-"""The bench of tests/drives with the second models on its wire, and a judge that looks after every scan."""
+"""A line with the second models on its wire, and a judge that looks after every scan."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tests.drives.bench import RUNS, Bench
 from tests.second import atv312, chf, gd200a, jscc, mx2, pf4, sn300g5
 from tests.second.drive import Drive
 from tests.second.figures import CHAR_US
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
 from tests.second.judge import VALUES, Asked, Judge
+from tests.second.line import RUNS, Bench
 from tests.second.observer import Figures, Pins
 from tests.second.script import drive as model
-from tests.second.station import IN_SEEN, library, name_of
+from tests.second.station import IN_SEEN, library
 from tests.second.wire import Exchange
 
 from driveblocks.simulator.drive import SimulatedDrive
@@ -76,7 +76,6 @@ class Second(Bench):
         pins: Mapping[str, Value] | None = None,
     ) -> None:
         """Power up. `options` of the models by family; `settings` of the first; `pins` of its block."""
-        stations = stations or library()
         self.mode, self.start_pin, self.was_ms = "", "RunForward", ms
         """What the run that uses this bench is about: for events."""
         self.models: list[Drive] = []
@@ -107,15 +106,7 @@ class Second(Bench):
         self.restarts_contact = False
         """The first-scan bit goes to the contact, too, at present."""
         self._later: list[tuple[int, int, bytes]] = []
-        named = _Named(stations, name_of(types))
-        super().__init__(
-            *types,
-            stations=named,  # type: ignore[arg-type]  # a bench asks its library for an instance, and no more
-            seed=seed,
-            ms=ms,
-            ascii_=ascii_,
-            start=False,
-        )
+        super().__init__(*types, stations=stations or library(), seed=seed, ms=ms, ascii_=ascii_, start=False)
         self.pins = [Pins(each) for each in self.pins]
         for index, kind in enumerate(types):
             given = dict((options or {}).get(kind, {}))
@@ -291,9 +282,6 @@ class Second(Bench):
         return mine and self.block["Port.TxCount"] != 0 and self.block["Port.TxNumber"] != self.block["Port.TxTaken"]
 
     def _look(self) -> None:
-        more = self.block["More"]
-        assert isinstance(more, int)
-        self.seen |= more << (16 + 8 * IN_SEEN)
         self.judge.scan()
         if self.flicker:
             self.put(0, **{self.flicker: not self.pins[0].get(self.flicker, False)})
@@ -383,13 +371,3 @@ class Second(Bench):
                 return False
             self.scan()
         return True
-
-
-class _Named:
-    """A library that has one station, whatever it is asked for."""
-
-    def __init__(self, stations: Library, name: str) -> None:
-        self.stations, self.name = stations, name
-
-    def instance(self, _: str) -> Any:
-        return self.stations.instance(self.name)

@@ -282,6 +282,7 @@ class Claims:
         took = now_us - CHAR_US * (2 * length + 5 if self.bench.ascii else length + 2) - claim.armed_us
         others = [i for i in range(len(self.claims)) if i != index]
         alone = all(self.claims[i].driven_us or self.bench.shows("StopConfirmed", i) for i in others)
+        alone = alone and now_us - self.all_us > ATTEND_US and not self.bench.pins[index].get("StopAll")
         most = 1000 * int(self.bench.number("StopAloneMs" if alone else "WorstStopMs", index))
         claim.armed_us = None
         if took > most and max(*self.judge.late, 1000 * self.bench.elapsed) <= MAX_SCAN_US and not self.lies(index):

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from random import Random
 
-from tests.drives.bench import Faults
 from tests.second.bench import METER, Second
 from tests.second.drive import RUNS, STOPS, Fault
 from tests.second.figures import FOREIGN, SHARED
+from tests.second.line import Faults
 from tests.second.pf4 import alike
 
 Does = Callable[[Second, Random], None]

@@ -17,6 +17,8 @@ SEEN_US = 300_000
 """What the age of words does not say: the reply's way, and the scan in which it is shown."""
 AGE_MS = 2600
 """How old words may be on a line of three drives at most."""
+BOOT_US = 10_000_000
+"""After a restart silence is no alarm for so long, unless the drive has answered since."""
 EVERY_US = 200_000
 """How often outputs are looked at."""
 CODE_MOST = 5

@@ -14,6 +14,7 @@ from tests.second.counts import Counts
 from tests.second.figures import (
     ASTRAY,
     ATTEND_US,
+    BOOT_US,
     CALM_US,
     CODE_MOST,
     EVERY_US,
@@ -30,6 +31,7 @@ from tests.second.figures import (
     round_us,
 )
 from tests.second.observer import MOVES, RAMP_US, Figures, Observer, Seen, Truth, any_of
+from tests.second.orders import Orders
 from tests.second.pf4 import alike
 from tests.second.shown import LAG_US, Shown
 from tests.second.wire import REFUSED, SILENCE, SPEED, STATUS, Exchange, Wire
@@ -63,8 +65,6 @@ PAUSE_US = 8_000_000
 """The longest pause between probes of a drive that was dead."""
 PROBED_US = 10_500_000
 """So long may it take until the line finds that a drive answers whose user says that it has no supply."""
-BOOT_US = 10_000_000
-"""After a restart silence is no alarm for so long, unless the drive has answered since."""
 STORE_US = 60_000_000
 """At most one store of a drive in that time, by the page of VFD_Store."""
 ANSWER_US = 2_000_000
@@ -292,6 +292,7 @@ class Judge:
         self.counts = Counts(self)
         self.wire = Wire(self)
         self.shown = [Shown(self, index) for index in range(len(self.units))]
+        self.orders = [Orders(self, index) for index in range(len(self.units))]
 
     def sent(self, now_us: int, frame: bytes) -> None:
         """A frame of the master."""
@@ -347,8 +348,9 @@ class Judge:
             self._drive(index, looks=looks)
         self.counts.scan()
         self.wire.scan()
-        for each in self.shown:
-            each.scan()
+        for index in range(len(self.units)):
+            self.shown[index].scan()
+            self.orders[index].scan()
         if looks:
             self.next_us = now + EVERY_US
             self.counts.look()

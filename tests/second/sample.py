@@ -2,12 +2,11 @@
 
 from dataclasses import replace
 
-from tests.drives.station import FAMILIES
 from tests.second import pairs
 from tests.second.events import AIMED, EVENTS
 from tests.second.matrix import JOGS, MODES, STATES, Cell
 from tests.second.pf4 import VARIANTS
-from tests.second.station import NEWER
+from tests.second.station import MIXED, NEWER
 
 SIZE = 120
 """Cells of the sample."""
@@ -31,11 +30,11 @@ def aimed() -> list[tuple[Cell, int]]:
     found = [
         (Cell(family, "full control", event, state), seed)
         for event in AIMED
-        for family in FAMILIES
+        for family in MIXED
         for state, seed in (("standstill", 0), ("at speed", 2))
     ]
     found = [each for each in found if ONE_STATE.get(each[0].event, each[0].state) == each[0].state]
-    found += [(Cell(family, "full control", "a trip", "at speed"), 2) for family in FAMILIES]
+    found += [(Cell(family, "full control", "a trip", "at speed"), 2) for family in MIXED]
     found.append((Cell("PF4", "full control", "a trip", "standstill"), 4))  # one whose stop does not reset its fault
     found.append((Cell("CHF", "jog", "a stop while it is busy", "at speed"), 0))  # 5 does not end this one's jog
     found.append((Cell("CHF", "jog", "a stop is refused", "at speed"), 0))  # nor this one's
@@ -55,7 +54,7 @@ def varied(found: list[tuple[Cell, int]]) -> list[tuple[Cell, int]]:
 
 def sample() -> list[tuple[Cell, int]]:
     """Cells with their seeds: all pairs of family, mode, event and state; every second seed has a second event."""
-    options = {"event": list(EVENTS), "state": STATES, "mode": MODES, "family": FAMILIES}
+    options = {"event": list(EVENTS), "state": STATES, "mode": MODES, "family": MIXED}
     rows = pairs.rows(options)
     step = max(1, len(rows) // SIZE)
     found = [

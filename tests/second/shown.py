@@ -4,10 +4,10 @@ import re
 from collections import deque
 from typing import TYPE_CHECKING, Any
 
-from tests.drives.bench import REASON
-from tests.drives.station import FAMILIES
 from tests.second.figures import ASTRAY, ATTEND_US, AWAY
+from tests.second.line import REASON
 from tests.second.observer import MOVES, any_of
+from tests.second.station import MIXED
 
 if TYPE_CHECKING:
     from tests.second.judge import Judge
@@ -185,7 +185,7 @@ class Shown:
             name = UNIT.sub("", pin.removeprefix("Diagnosis."))
             scaled = name not in UNSCALED.get(self.kind, ())
             shown = self._out(f"{name}Valid")
-            may = fresh if self.kind in FAMILIES else knows  # others read their measures by parts
+            may = fresh if self.kind in MIXED else knows  # others read their measures by parts
             wrong = (shown and not (may and scaled)) or (fresh and scaled and not shown)
             self._once(f"{name} valid", bad=wrong, seen=(shown, age, knows))
 

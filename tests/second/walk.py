@@ -7,10 +7,10 @@ import sys
 from dataclasses import replace
 from random import Random
 
-from tests.drives.station import FAMILIES
 from tests.second.events import AIMED, EVENTS, LONG
 from tests.second.matrix import Outcome, Run, cells
 from tests.second.pf4 import VARIANTS
+from tests.second.station import MIXED
 
 from structured_text.engines.engine import Library
 
@@ -54,7 +54,7 @@ class Walk(Run):
 def walk(seed: int, stations: Library | None = None) -> Outcome:
     """Walk a seed."""
     chance = Random(f"second {seed}")
-    cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED) and each.family in FAMILIES])
+    cell = chance.choice([each for each in cells() if each.event not in (*LONG, *AIMED) and each.family in MIXED])
     if cell.family == "PF4":
         cell = replace(cell, family=("PF4", *VARIANTS)[seed % 5])
     return Walk(cell, seed, stations).go()

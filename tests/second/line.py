@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from random import Random
 
-from tests.drives.station import PINS, library, maps, name_of
 from tests.line.vline import opened, sealed
+from tests.second.station import IN_SEEN, PINS, maps, name_of, simulated
 
 from driveblocks.render.reasons import REASONS
 from driveblocks.simulator.drive import SimulatedDrive
@@ -42,6 +42,8 @@ MEMBERS = {
 """What lies in a structure of the drive block."""
 OFF = 65535
 """Off, in a setting."""
+LAST_READ = 4
+"""Function codes up to this one read."""
 PLACE = {name: 16 + place for place, name in enumerate(PINS)}
 """Bits of `Seen` for the first drive."""
 SETTINGS = {
@@ -90,11 +92,13 @@ class Frame:
     function: int
     address: int
     word: int
+    data: bytes = b""
+    """All of it, without checksum."""
 
     @property
     def read(self) -> bool:
-        """Whether it reads."""
-        return self.function in (3, 4)
+        """Whether it reads, words or bits."""
+        return self.function <= LAST_READ
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ class Bench:
     ) -> None:
         """Power up: the first scan is the PLC's first."""
         self.types: Sequence[str] = types or ("CHF",)
-        self.block = (stations or library()).instance(name_of(self.types))
+        self.block = (stations or simulated()).instance(name_of(self.types))
         self.maps = [maps()[kind] for kind in self.types]
         self.drives = self.simulated(habits or Habits(), ascii_)
         self.now, self.ms, self.rate, self.ascii = 0, ms, 19200, ascii_
@@ -244,9 +248,10 @@ class Bench:
         if ms != self.elapsed:
             self.block["ElapsedMs"] = self.elapsed = ms
         self.block.scan()
-        seen = self.block["Seen"]
+        seen, more = self.block["Seen"], self.block["More"]
         assert isinstance(seen, int)
-        self.seen = seen
+        assert isinstance(more, int)
+        self.seen = seen | more << (16 + 8 * IN_SEEN)
         if seen & 0xFFFF != self._tx:
             self._tx = seen & 0xFFFF
             self._send()
@@ -293,7 +298,8 @@ class Bench:
         end = start + self._us(count)
         meets = [each for each in self._wire if each.begins < end and each.at > start]
         place = 7 if data[1] == 16 else 4
-        frame = Frame(start // 1000, data[0], data[1], data[2] << 8 | data[3], data[place] << 8 | data[place + 1])
+        word = data[place] << 8 | data[place + 1]
+        frame = Frame(start // 1000, data[0], data[1], data[2] << 8 | data[3], word, data)
         self.frames.append(frame)
         self._free = end
         for each in meets:
@@ -343,31 +349,7 @@ class Bench:
     def _happens(self, per_1000: int) -> bool:
         return per_1000 > 0 and self.chance.randrange(1000) < per_1000
 
-    # ------------------------------------------------------------ what tests begin and end with
-
-    def heal(self) -> "Bench":
-        """All is well again: a release and a new edge run each motor, and its pin stops it."""
-        self.faults, self.deaf, self.spoil = Faults(), set(), lambda _, reply: reply
-        self.line(StopAll=False, Acknowledge=False, Restart=False)
-        self.leave("SkipLine", on=False)
-        calm = dict.fromkeys((*RUNS, "QuickStop", "CoastStop", "FaultReset", "MonitorOnly", "SpeedOnly"), False)
-        for index, drive in enumerate(self.drives):
-            self.leave(f"Skip{index}", on=False)
-            self.put(index, Enable=True, SupplyOff=False, SpeedReferenceHz=25.0, **calm)
-            drive.power(on=True)
-            drive.inhibit(on=False)
-            drive.clear_cause()
-            drive.local, drive.follows, drive.keeps_running = False, True, False
-        self.run(1200)
-        if any(self.reason(index) == "OTHER_DRIVE" for index in range(len(self.drives))):
-            self.restart()  # as its page says: a reply that nobody asked for has passed for that of its identity
-        self.until(lambda: not any(drive.motor.shaft for drive in self.drives), 9000).line(Acknowledge=True)
-        for index, drive in enumerate(self.drives):
-            drive.reset()
-            self.running("RunForward", index)
-            assert abs(drive.hertz - 25.0) < 0.2, f"turns at {drive.hertz}"
-            self.put(index, RunForward=False).stopped(index)
-        return self
+    # ------------------------------------------------------------ what tests begin with
 
     def stopped(self, drive: int = 0) -> "Bench":
         """Scan until the stop is confirmed and a start is possible."""
