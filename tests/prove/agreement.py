@@ -18,11 +18,10 @@ from typing import Any
 
 import z3
 from tests import shipped
-from tests.prove.evaluate import Program, signed
 
 from driveblocks.prove import prover, rules
 from driveblocks.prove.facts import facts
-from driveblocks.prove.model import BEFORE, Model, models
+from driveblocks.prove.model import Model, models
 from driveblocks.prove.operations import Term, arithmetic, sums
 from structured_text.engines.discovery import survey
 from structured_text.engines.embedded.engine import EmbeddedEngine
@@ -30,7 +29,7 @@ from structured_text.engines.engine import Instance, Library, ScanError, Source
 from structured_text.language.tree import Function, VarKind
 from structured_text.language.types import Elementary, Kind
 
-CALLS = 10_000
+CALLS = 1000
 SEED = 31
 MOST_REFUSED = 20
 """Refused calls for one that is compared, at most."""
@@ -88,16 +87,36 @@ def drawn(random: Random, kind: Elementary) -> Any:
     return value % (1 << kind.width) if not kind.signed else value % (1 << (kind.width - 1))
 
 
+def signed(value: int, width: int) -> int:
+    """A number of some bits as one with a sign."""
+    return value - (1 << width) if value >> (width - 1) else value
+
+
+def constant(value: Any, sort: z3.SortRef) -> Term:
+    """A value as a term."""
+    if isinstance(value, bool):
+        return z3.BoolVal(value)
+    return z3.FPVal(value, sort) if isinstance(value, float) else z3.BitVecVal(value, sort)
+
+
+def known(term: Term) -> Any:
+    """The value of a term that has one; None of one that is left free."""
+    if z3.is_fp(term):
+        bits = z3.simplify(z3.fpToIEEEBV(term))
+        return struct.unpack("<f", struct.pack("<I", bits.as_long()))[0] if z3.is_bv_value(bits) else None
+    if z3.is_bv_value(term):
+        return term.as_long()
+    return z3.is_true(term) if z3.is_true(term) or z3.is_false(term) else None
+
+
 def compared(model: Model, library: Library, calls: int) -> Score:
     """Run calls of a block both ways; every second finds what the one before has left. A function remembers nothing."""
     kinds = {path: kind for path, (_, kind) in model.scalars.items()}
     function = isinstance(model.pou, Function)
     shown = {"RESULT": kinds[model.pou.name.upper()]} if function else kinds
     bounds = [each.term for each in model.obligations if each.words.startswith("the index")]
-    after_call = dict(zip(shown, summed([model.after[path] for path in shown]), strict=True))
-    program = Program([*after_call.values(), *bounds])
-    places = {path: program.places[term.get_id()] for path, term in after_call.items()}
-    within = [program.places[each.get_id()] for each in bounds]
+    after_call = [*summed([model.after[path] for path in shown]), z3.And(bounds)]
+    whole = z3.Function("whole", *(each.sort() for each in after_call), z3.BoolSort())(*after_call)
     random, score = Random(SEED), Score()
     instance = library.instance(f"{model.pou.name}_Call" if function else model.pou.name)
     given = [path for path in kinds if not model.inputs[path].eq(model.before[path])]
@@ -106,14 +125,16 @@ def compared(model: Model, library: Library, calls: int) -> Score:
         if not function and ((score.calls + score.refused) % 2 == 0 or not state):
             state = {path: drawn(random, kind) for path, kind in kinds.items()}
         inputs = {path: drawn(random, kinds[path]) for path in given}
-        said = program.run({BEFORE + path: value for path, value in state.items()} | inputs)
-        agreed = all(said[each] for each in within)
-        after = _run(instance, inputs if function else state | inputs, shown) if agreed else None
+        names = [(model.before[path], value) for path, value in state.items()]
+        names += [(model.inputs[path], value) for path, value in inputs.items()]
+        terms = z3.simplify(z3.substitute(whole, *((name, constant(value, name.sort())) for name, value in names)))
+        *said, within = map(known, terms.children())
+        after = _run(instance, inputs if function else state | inputs, shown) if within else None
         if after is None:
             state, score.refused = state if function else {}, score.refused + 1
             continue
-        for path, kind in shown.items():
-            _compare(score, path, kind, said[places[path]], after[path])
+        for (path, kind), value in zip(shown.items(), said, strict=True):
+            _compare(score, path, kind, value, after[path])
         score.calls += 1
         state = state if function else after
     return score
