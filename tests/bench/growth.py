@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TypeVar
 
 from tests.bench.record import Rows
-from tests.bench.synthetic import synthetic
 
 from driveblocks.docs.page import documents
 from driveblocks.maps import catalog, collection, load, nodes
 from driveblocks.maps.model import Drive
+from driveblocks.maps.page import skeleton
 from driveblocks.render import library, text
 from driveblocks.testing.suite import programs
 
@@ -41,6 +41,17 @@ def measure(
     for count in whole:
         rows[f"{count} maps whole"] = whole_build(count, 400)
     return rows
+
+
+def synthetic(number: int, registers: int) -> str:
+    """A small map with parameters beside, to have this many registers; maps of different numbers differ."""
+    head, behind, tail = skeleton().replace("prefix: ACME", f"prefix: SYN{number}").partition("\nstorage:")
+    rows = (
+        f"      - {{address: {0x3000 + index:04X}H, name: Parameter {index} of {number}, range: {{min: 0, max: 9}}}}\n"
+        for index in range(registers - 5)
+    )
+    section = "  - id: parameters\n    title: {en: Parameters}\n    source: table 4\n    access: rw\n    registers:\n"
+    return f"{head}\n{section}{''.join(rows).rstrip()}{behind}{tail}"
 
 
 def blocks_of_maps(count: int, registers: int) -> dict[str, float]:

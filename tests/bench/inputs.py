@@ -3,8 +3,7 @@
 A program reads ten registers of unit 1 by function 03H and gets its reply; the drive runs forward without a fault.
 """
 
-from tests.bench.synthetic import crc16
-
+from driveblocks.reference.checksum import crc16
 from structured_text.language.tree import Function, FunctionBlock, VarDecl, VarKind
 
 Pin = bool | int | float | bytes | list[int] | dict[str, int]
@@ -12,8 +11,7 @@ Pin = bool | int | float | bytes | list[int] | dict[str, int]
 WORDS = [1000 + 17 * index for index in range(10)]
 ASKED = bytes((1, 3, 0, 0, 0, 10))
 BODY = bytes((1, 3, 20)) + b"".join(word.to_bytes(2, "big") for word in WORDS)
-ASKED_RTU = ASKED + crc16(ASKED)
-REPLY_RTU = BODY + crc16(BODY)
+ASKED_RTU, REPLY_RTU = (body + crc16(body).to_bytes(2, "little") for body in (ASKED, BODY))
 REPLY_ASCII = b":" + (BODY + bytes((-sum(BODY) % 256,))).hex().upper().encode() + b"\r\n"
 REQUEST = {"UnitAddress": 1, "FunctionCode": 3, "Address": 0, "Quantity": 10, "SubFunction": 0, "Value": 0}
 

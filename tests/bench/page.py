@@ -1,10 +1,9 @@
-"""The page `docs/measured/performance.md` and its pictures, written from the record and from nothing else."""
+"""The page `docs/measured/performance.md`, written from the record and from nothing else."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
-from tests.bench import chart
-from tests.bench.record import DOCS, Record, Rows
+from tests.bench.record import DOCS, Record
 from tests.bench.sections import blocks, checksum, drives, engines, exchange, growth, summary
 
 NAME = "performance.md"
@@ -16,22 +15,11 @@ that caches are warm; the forms of one program take turns. A run without matiec,
 keeps the figures that need them as they were.
 """
 UNKNOWN = "Not measured yet.\n"
-CHARTS: Mapping[str, Callable[[Rows], chart.Chart]] = {"crc": checksum.chart, "exchange": exchange.chart}
-"""Part -> its picture, `performance-<part>.svg`."""
-
-
-def files(record: Record) -> dict[str, str]:
-    """Name -> text of the page and of each picture whose figures are there."""
-    pictures = {
-        f"performance-{part}.svg": chart.svg(draw(record[part].rows)) for part, draw in CHARTS.items() if part in record
-    }
-    return {NAME: page(record), **pictures}
 
 
 def write(record: Record, folder: Path = DOCS) -> None:
-    """Write the page and the pictures."""
-    for name, text in files(record).items():
-        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+    """Write the page."""
+    (folder / NAME).write_text(page(record), encoding="utf-8", newline="\n")
 
 
 def page(record: Record) -> str:

@@ -1,4 +1,4 @@
-"""Record of the figures: `docs/measured/performance.json`, from which the page and its pictures are written.
+"""Record of the figures: `docs/measured/performance.json`, from which the page is written.
 
 One part for each measurement; a part that cannot be measured, for want of a tool, keeps what was measured before.
 """

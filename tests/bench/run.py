@@ -1,7 +1,7 @@
 """Every figure of the project, side by side in one run: `python -m tests.bench.run`, some minutes on two cores.
 
-Writes `performance.json` in `docs/measured`, and from it the page `performance.md` with its pictures. What cannot be
-measured here is named, and keeps the figures that it had. `--only crc,growth` measures some parts; `--page` none.
+Writes `performance.json` in `docs/measured`, and from it the page `performance.md`. What cannot be measured here is
+named, and keeps the figures that it had. `--only crc,growth` measures some parts; `--page` none.
 
 Exit status 1 if forms of the same work differ, or if a count cannot be repeated.
 """
@@ -71,7 +71,7 @@ MEASUREMENTS: dict[str, Measurement] = {
 
 
 def main() -> int:
-    """Measure, and write the record, the page and its pictures. Exit status 0, or 1 if anything is wrong."""
+    """Measure, and write the record and the page. Exit status 0, or 1 if anything is wrong."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", default=",".join(MEASUREMENTS), help=f"parts, of {', '.join(MEASUREMENTS)}")
     parser.add_argument("--page", action="store_true", help="only write the page from the record")
@@ -82,7 +82,7 @@ def main() -> int:
     found, tools = record.read(), Tools.found()
     good = [measured(name, found, tools) for name in MEASUREMENTS if name in names]
     page.write(_in_order(found))
-    print(f"{record.DOCS.parent.name}/{record.DOCS.name}/{page.NAME} and its pictures are written")
+    print(f"{record.DOCS.parent.name}/{record.DOCS.name}/{page.NAME} is written")
     return 0 if all(good) else 1
 
 

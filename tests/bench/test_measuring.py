@@ -1,7 +1,7 @@
 """What the bench measures does what it says: the forms agree, the inputs are taken; no time is judged here."""
 
 import pytest
-from tests.bench import blocks, checksums, drives, exchange, growth, speed
+from tests.bench import blocks, checksums, drives, engines, exchange, growth
 from tests.bench.forms import NATIVE, driver, texts
 from tests.bench.inputs import SPECIAL, pins
 from tests.bench.units import units
@@ -61,7 +61,7 @@ def test_build_is_measured_step_by_step() -> None:
 
 
 def test_every_step_of_the_front_end_is_measured() -> None:
-    found = speed.measure("FUNCTION F : INT\n  F := 1;\nEND_FUNCTION\n", rounds=1)
+    found = engines.steps("FUNCTION F : INT\n  F := 1;\nEND_FUNCTION\n", rounds=1)
     assert list(found) == ["lex", "parse", "check", "lint"]
     assert min(found.values()) > 0
 

@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.bench.synthetic import crc16, synthetic
 
 from driveblocks.maps import load
 from driveblocks.maps.form import Span
@@ -31,19 +30,6 @@ def test_a_good_map_loads(path: Path) -> None:
     drive = load.load(path)
     assert bool(drive.frames) != drive.prefix.startswith("PF"), "their manuals print none"
     assert drive.base or drive == load.loads(path.read_text(encoding="utf-8"), "another name")
-
-
-@pytest.mark.parametrize("registers", [120, 160, 400, 1000])
-@pytest.mark.thorough
-def test_a_synthetic_map_loads_and_has_its_size(registers: int) -> None:
-    drive = load.loads(synthetic(3, registers), "synthetic.yaml")
-    assert sum(len(row.address) for _, row in drive.registers()) == registers
-    assert drive != load.loads(synthetic(4, registers), "synthetic.yaml")
-
-
-def test_the_synthetic_maps_have_the_crc_of_the_standard() -> None:
-    """MODBUS over Serial Line V1.02, 6.2.2."""
-    assert crc16(bytes([2, 7])) == bytes([0x41, 0x12])
 
 
 def test_a_map_on_windows_is_the_same(tmp_path: Path) -> None:

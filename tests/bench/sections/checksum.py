@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from tests.bench.chart import Bar, Chart, Group
 from tests.bench.record import Rows
 from tests.bench.table import prose, short, table, times
 
@@ -19,8 +18,6 @@ FORMS = {
     "compact": "MB_Crc16Compact",
     "function": "FUNCTION with a table",
 }
-OURS = ("block", "called", "compact")
-LEGEND = {"c": "C by hand", "ours": "the library through matiec", "other": "not in the library"}
 
 
 def lines_of(rows: Rows) -> list[str]:
@@ -48,8 +45,6 @@ def section(rows: Rows) -> Iterator[str]:
         One call over a frame of 8, 64 and 256 bytes, in nanoseconds, and how much longer than the plain C table beside
         it in the same program. *Chained*: the frame begins with a byte of the result before, so that each call waits
         for the one before it, as a program waits for its checksum; otherwise a processor overlaps the calls.
-
-        ![CRC per byte](performance-crc.svg)
         """)
     for line in lines_of(rows):
         yield from (f"Through {line}, `-O2`:", "")
@@ -102,22 +97,3 @@ def spread(rows: Rows) -> str:
         if " 256 " in row
     )
     return short(100 * worst)
-
-
-def chart(rows: Rows) -> Chart:
-    """Nanoseconds per byte of each form, 8, 64 and 256 bytes, chained; of both lines of matiec the slower."""
-    groups = tuple(Group(f"{size} bytes", tuple(_bars(rows, size))) for size in SIZES)
-    return Chart("CRC-16, chained calls", "nanoseconds per byte, and times the plain C table", groups, LEGEND)
-
-
-def _bars(rows: Rows, size: int) -> Iterator[Bar]:
-    for form, name in FORMS.items():
-        kind = "ours" if form in OURS else "other" if form == "function" else "c"
-        yield _bar(rows, form, size, name, kind)
-    yield _bar(rows, "block", size, "MB_Crc16, nothing forced", "other", build="unforced")
-
-
-def _bar(rows: Rows, form: str, size: int, label: str, kind: str, *, build: str = "stock") -> Bar:
-    time = taken(rows, form, size, chained=True, build=build)
-    much = ratio(rows, form, size, chained=True, build=build)
-    return Bar(label, time / size, f"{short(time / size)} ns · {short(much)} x", kind)

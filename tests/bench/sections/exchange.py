@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from tests.bench.chart import Bar, Chart, Group
 from tests.bench.record import Rows
 from tests.bench.sections.checksum import LINES
 from tests.bench.table import prose, short, table, times
@@ -23,7 +22,6 @@ WHO = {
     "drive embedded": "a drive's blocks, embedded engine",
     "pymodbus": "pymodbus",
 }
-KINDS = {"c": "C by hand", "ours": "the library", "other": "pymodbus"}
 
 
 def by_hand(row: dict[str, float]) -> float | None:
@@ -51,8 +49,6 @@ def section(rows: Rows) -> Iterator[str]:
         `MB_ParseReply`; C written for this page with the checks that this read needs; and pymodbus called from Python,
         its framer and its PDU, without a port (it does not compare a reply with the request at this place).
         Nanoseconds, and how many times those of the C by hand.
-
-        ![a request and its reply](performance-exchange.svg)
         """)
     body = [[name, *(_cell(rows[step], who) for step in STEPS)] for who, name in WHO.items() if _known(rows, who)]
     yield from table(["who", *STEPS.values()], body)
@@ -71,24 +67,3 @@ def _cell(row: dict[str, float], who: str) -> str:
     if time is None or base is None:
         return short(time)
     return f"{short(time)} ({times(time, base)})"
-
-
-def chart(rows: Rows) -> Chart:
-    """Nanoseconds of each step by everybody, on a logarithmic scale."""
-    groups = tuple(Group(name, tuple(_bars(rows[step]))) for step, name in STEPS.items())
-    return Chart("A read of ten registers", "nanoseconds on a logarithmic scale, and times C", groups, KINDS, True)
-
-
-def _bars(row: dict[str, float]) -> Iterator[Bar]:
-    shown = {
-        "C by hand": (by_hand(row), "c"),
-        "shared blocks, matiec": (slower(row, "any"), "ours"),
-        "a drive's blocks, matiec": (slower(row, "drive"), "ours"),
-        "a drive's blocks, embedded": (row.get("drive embedded"), "ours"),
-        "pymodbus": (row.get("pymodbus"), "other"),
-    }
-    base = by_hand(row)
-    for label, (time, kind) in shown.items():
-        if time is not None:
-            ratio = f" · {times(time, base)}" if base is not None else ""
-            yield Bar(label, time, f"{short(time)} ns{ratio}", kind)
