@@ -72,7 +72,7 @@ RUNS = {
         ("tests.second.long --times {TIMES}",),
     ),
     "prove": Run(
-        "every rule for every family and made-up drive, 10^4 calls per block on the engine",
+        "every rule for every family and made-up drive, 10^3 calls per block on the engine",
         "an hour",
         ("driveblocks prove", "tests.prove.agreement", "pytest -n auto -m long tests/prove"),
     ),
