@@ -14,7 +14,7 @@ PAGES = sorted(
     [
         *(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "vendor_maps/README.md")),
         *ROOT.glob("docs/**/*.md"),
-        *ROOT.glob("blocks/*/README.md"),
+        *ROOT.glob("blocks/**/*.md"),
     ]
 )
 
