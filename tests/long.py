@@ -39,7 +39,7 @@ RUNS = {
     "traces": Run(
         "records how matiec runs the corpus (both lines of matiec)",
         "minutes",
-        ("tests.structured_text.engines.traces.record",),
+        ("tests.structured_text.engines.compare.traces",),
     ),
     "verdicts": Run(
         "records what matiec says of the accept/reject corpus",

@@ -1,7 +1,7 @@
 """Several engines through the same scans, the full state of each compared after every one."""
 
 import struct
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from math import isnan
@@ -95,10 +95,3 @@ def _compare(
             values = {run.name: each.get(path, ABSENT) for run, each in zip(runs, states, strict=True)}
             return Difference(case.name, number, path, values, stimulus.inputs, stimulus.clock)
     return None
-
-
-def states(case: Case, engine: Engine, scans: int, seed: int) -> Iterator[State]:
-    """The states of one engine after each of a number of scans."""
-    run = Run(engine, case)
-    for stimulus in islice(case.stimuli(seed), scans):
-        yield run.scan(stimulus)
