@@ -9,9 +9,9 @@ from tests.second.figures import CHAR_US
 from tests.second.frames import ascii_ as ascii_frame
 from tests.second.frames import rtu, runs
 from tests.second.judge import VALUES, Asked, Judge
+from tests.second.kinds import drive as model
 from tests.second.line import RUNS, Bench
 from tests.second.observer import Figures, Pins
-from tests.second.script import drive as model
 from tests.second.station import IN_SEEN, library
 from tests.second.wire import Exchange
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from tests.second.drive import Drive
 from tests.second.frames import rtu
-from tests.second.script import drive
+from tests.second.kinds import drive
 from tests.shipped import drives
 
 from driveblocks.simulator.drive import SimulatedDrive
