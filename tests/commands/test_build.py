@@ -108,16 +108,18 @@ def test_what_is_no_folder_or_no_file_is_in_the_way(barrier: str) -> None:
         assert f"{name}: in the way" in refused("one.yaml", "-o", "out", *force)
 
 
-def test_a_long_list_is_cut_short_and_an_older_output_explained(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(build, "SHOWN", 1)
+def test_a_long_list_is_cut_short() -> None:
+    names = [f"page{number}" for number in range(build.SHOWN + 1)]
+    plan = build.Plan([], manifest.Manifest(), {}, dict.fromkeys(names, manifest.State.FOREIGN))
+    with pytest.raises(manifest.Refused, match="\nand 1 more\n"):
+        build.write(Path("out"), plan)
+
+
+def test_an_older_output_is_explained() -> None:
     good("one.yaml", "-o", "out")
-    for name in ("README.md", manifest.NAME, "tests/page.md"):
-        Path("out", name).unlink()
-        put("out/README.md", "of an older version")
-        put("out/tests/page.md", "of an older version")
-    said = refused("one.yaml", "-o", "out")
-    assert "and 1 more\n" in said
-    assert "if an older version built out, delete what it wrote there" in said
+    Path("out", manifest.NAME).unlink()
+    put("out/README.md", "of an older version")
+    assert "if an older version built out, delete what it wrote there" in refused("one.yaml", "-o", "out")
 
 
 def test_an_older_output_with_the_same_files_is_taken_over() -> None:

@@ -7,7 +7,8 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
+from unittest.mock import MagicMock
 
 import pytest
 import yaml
@@ -115,31 +116,10 @@ def test_embedded_engine_that_does_not_work_is_a_failure(monkeypatch: pytest.Mon
     assert "gone" in result.output
 
 
-class WrongEngine:
-    """An engine whose additions are one too much."""
-
-    name = "embedded"
-
-    def build(self, _: object) -> "WrongEngine":
-        return self
-
-    def instance(self, _: str) -> "WrongEngine":
-        return self
-
-    def __setitem__(self, path: str, value: object) -> None:
-        """Take anything."""
-
-    def __getitem__(self, path: str) -> int:
-        """Give what is wrong."""
-        return 43
-
-    def scan(self, _: int) -> None:
-        """Do nothing."""
-
-
 @pytest.mark.usefixtures("bare")
 def test_embedded_engine_that_computes_wrongly_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
-    wrong = cast(Engine, WrongEngine())
+    wrong = MagicMock(Engine)
+    wrong.build.return_value.instance.return_value = MagicMock(__getitem__=lambda *_: 43)
     found = replace(survey(NOWHERE), embedded=Candidate("embedded", wrong, ""))
     monkeypatch.setattr(discovery, "survey", lambda: found)
     result = run()

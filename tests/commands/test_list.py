@@ -8,7 +8,7 @@ from click.testing import CliRunner
 from rich.cells import cell_len
 
 from driveblocks.cli import app
-from driveblocks.maps import catalog, inventory, view
+from driveblocks.maps import catalog, inventory
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
@@ -42,18 +42,6 @@ def test_maps_that_are_named_are_listed_alone(shelf: Path) -> None:
     assert (result.exit_code, "there is no drive `nobody`" in result.stderr) == (2, True)
     result = CliRunner().invoke(app, ["show", str(own)])
     assert f"driveblocksshow{own}TOPIC" in "".join(result.stdout.split())  # however it is folded
-
-
-def test_a_map_without_example_frames_is_shown_as_such(shelf: Path) -> None:
-    text = EXAMPLE.read_text(encoding="utf-8")
-    before, _, rest = text.partition("\nframes:")
-    bare = f"{before}\nframes: []\nerrata:{rest.partition('errata:')[2]}"
-    for proof in (", proof: read_voltage_reply", "[frame write_reference_request]", "[frame run_request]"):
-        bare = bare.replace(proof, "[prose]" if proof.startswith("[") else "")
-    (shelf / "example.yaml").write_text(bare, encoding="utf-8")
-    result = CliRunner().invoke(app, ["list"], env={"COLUMNS": "200"})
-    assert result.exit_code == 0
-    assert f"example: {view.UNPROVED}" in result.stdout.splitlines()
 
 
 def test_json_has_each_drive_whole_with_file_and_counts(shelf: Path) -> None:

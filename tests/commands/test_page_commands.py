@@ -7,7 +7,6 @@ not run here is in `ELSEWHERE` with its reason; `test_pages.py` holds that comma
 import os
 import re
 import shutil
-import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -42,7 +41,7 @@ ELSEWHERE = {
     r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
     r"make (?!blocks$)": "minutes to hours; tests/output/test_release.py has `make release`",
-    r"python -m tests\.(blocks\.toolchains|drives\.(seven|long)|planted)": "minutes to hours",
+    r"python -m tests\.(blocks\.toolchains|drives\.seven|planted)": "minutes to hours",
     r"python -m tests\.(line\.cline|prove\.agreement)|xml2st ": "needs a compiler from elsewhere",
     r"copy |bash ": "for another shell, or its name alone",
 }
@@ -150,23 +149,3 @@ def test_the_lines_for_a_folder_of_blocks_run_and_count_as_the_page_does(own: Pa
     page = (folder / "README.md").read_text(encoding="utf-8")
     counts = [ran(text, folder)[1].strip() for text in runnable([folder / "README.md"]) if text.startswith("grep")]
     assert f"| `CHF.st` | {' | '.join(counts)} |" in page
-
-
-@pytest.mark.thorough
-def test_a_program_runs_at_the_simulated_drives_of_another_page(own: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    serves = next(text for text in commands(ROOT / "docs/simulate.md") if "@" in text)
-    (line,) = {text for page in OWN for text in commands(page) if "--simulated" in text}
-    words = [sys.executable, "-u", "-m", *serves.split(), "--tcp", f"127.0.0.1:{port}"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as served:
-        assert served.stdout
-        assert f":{port};" in served.stdout.readline()
-        code, said = ran(line.replace("5020", str(port)), own)
-        served.terminate()
-    assert (code, "standstill read: Pump1, Pump2, Fan" in said) == (0, True), said
-
-
-def test_what_runs_elsewhere_is_on_a_page() -> None:
-    texts = {text for page in (*OWN, *COPY, *BLOCKS, *(ROOT / "generator").rglob("*.md")) for text in commands(page)}
-    assert [each for each in ELSEWHERE if not any(re.match(each, text) for text in texts)] == []

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from tests.plc.desk import EXAMPLE, ONE
+from tests.plc.desk import EXAMPLE, ONE, maps
 from tests.plc.windows import environment
 from tests.simulator.talk import MAPS
 from tests.stand.test_peer import serving
@@ -18,17 +18,18 @@ from driveblocks.commands import run as command
 from driveblocks.desk.bus import Bus
 from driveblocks.desk.keyboard import Keyboard
 from driveblocks.desk.screen import Lines
+from driveblocks.desk.words import Refused
 from driveblocks.maps import catalog
-from driveblocks.plc import demo, setup
+from driveblocks.plc import demo, probe, source
 from driveblocks.plc.controller import Controller
 from driveblocks.plc.options import Options
 from driveblocks.plc.setup import Setup
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.stand.link import TcpLink
 
-FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 NET = 600
 """Seconds that no machine needs, for what would hang."""
+FAST = ("--fast", "--for", "8s", "--script", "run.txt")
 
 
 def run(*words: str | Path) -> Result:
@@ -218,29 +219,19 @@ def test_a_lost_output_is_no_failure_of_the_program(program: Path, monkeypatch: 
     assert (result.exit_code, result.output.splitlines()[-1]) == (0, "SIMULATED  stopped, and standstill read: Motor")
 
 
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
-def test_a_pipe_is_no_program_and_no_script(program: Path) -> None:
-    os.mkfifo("pipe")
-    for words in (("pipe",), (program, "--script", "pipe")):
-        result = run(*words)
-        assert (result.exit_code, result.stderr) == (2, "pipe:1:1: cannot be read: it is no file\n")
-
-
-def test_a_first_scan_that_does_not_end_is_refused(program: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    released = threading.Event()
-    monkeypatch.setattr(setup, "FIRST_US", 10_000)
-    monkeypatch.setattr(Controller, "scan", lambda *_: released.wait(NET))
-    result = run(program, "--watchdog", "10ms")
-    released.set()
-    assert result.exit_code == 2
-    assert result.output.endswith(": the first scan has not ended within 0.01 s; nothing was sent\n")
-
-
 CALLS = "".join(
     f"FUNCTION F{number} : LREAL\nVAR_INPUT\n  X : LREAL;\nEND_VAR\n  F{number} := {body};\nEND_FUNCTION\n"
     for number, body in ((each, f"F{each - 1}(X) + F{each - 1}(X)" if each else "X") for each in range(31))
 )
 """Two to the power of thirty calls, and no loop whose turns could be counted."""
+
+
+def test_a_first_scan_that_does_not_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    released, loaded = threading.Event(), source.load("my.st", ONE, maps())
+    monkeypatch.setattr(Controller, "scan", lambda *_: released.wait(NET))
+    with pytest.raises(Refused, match=r": the first scan has not ended within 0\.01 s; nothing was sent$"):
+        probe.probed(loaded, 10_000, 10_000)
+    released.set()
 
 
 @pytest.mark.thorough

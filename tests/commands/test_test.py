@@ -12,11 +12,12 @@ from tests.testing.conftest import changed, only
 
 from driveblocks.cli import app
 from driveblocks.maps import collection
+from driveblocks.maps.page import skeleton
+from driveblocks.maps.view import UNPROVED
 from driveblocks.output import units as tested
 from driveblocks.testing.unit import Unit
 from structured_text.engines import discovery
 from structured_text.engines.embedded import EmbeddedEngine
-from structured_text.engines.engine import Source
 
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
@@ -73,6 +74,14 @@ def test_the_table_has_a_row_per_group_and_a_column_per_engine_and_no_file_is_wr
     assert lines[3].split() == ["drive", "tested", "embedded"]
     row = next(line for line in lines if "Registers" in line)
     assert re.fullmatch(r"my_drive +Registers: [\d,]+ checks +[\d.]+ ms", row)
+
+
+def test_a_drive_that_no_example_frame_backs_is_named(brief: str) -> None:
+    before, _, rest = skeleton().partition("frames:")
+    Path(brief).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")
+    lines = invoke(brief).stdout.splitlines()
+    assert f"ACME: {UNPROVED}" in lines
+    assert not [line for line in lines if "coverage" in line]
 
 
 def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
@@ -191,23 +200,7 @@ def test_an_xml_that_cannot_be_written_gives_status_2(brief: str) -> None:
     assert "no/such/folder/junit.xml: cannot be written" in result.stderr
 
 
-def test_loops_beyond_the_limit_fail_and_the_run_goes_on(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def slow(engine: object, sources: list[Source]) -> object:
-        return compiled(EmbeddedEngine(loop_limit=3), sources)
-
-    compiled = EmbeddedEngine.build
-    monkeypatch.setattr(EmbeddedEngine, "build", slow)
-    result = invoke(brief, "--time-limit", "600")
-    assert result.exit_code == 1
-    assert "loop" in result.stdout
-    assert re.search(r"^my_drive +Registers: \d+ checks +[\d.]+ ms$", result.stdout, re.MULTILINE)
-
-
 # ---------------------------------------------------------------- coverage
-
-
-def test_coverage_is_not_measured_unless_asked(brief: str) -> None:
-    assert "coverage" not in invoke(brief).stdout
 
 
 def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:

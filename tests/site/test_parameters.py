@@ -15,7 +15,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 from rich.cells import cell_len
-from tests.commands.test_page_commands import commands
 from tests.plc.desk import maps
 
 from driveblocks.cli import app
@@ -33,7 +32,6 @@ from driveblocks.site.register import rows, unread, value
 from driveblocks.site.saved import Word
 
 MAPS = {each.drive.prefix: (each.path.stem, each.drive) for each in maps()}
-PAGE = Path(__file__).parents[2] / "docs" / "save-parameters.md"
 SKELETON = Path(__file__).parents[1] / "maps" / "example.yaml"
 EXAMPLE = load(SKELETON)
 SPEECH = Speech(ascii_mode=False, character_us=1000)
@@ -397,19 +395,6 @@ def test_a_line_on_which_somebody_speaks_is_left_alone(tmp_path: Path) -> None:
         speaks.join()
     assert (got.exit_code, got.stderr) == (2, f"{place}: somebody else speaks on this line; disconnect the PLC\n")
     assert (heard, [*tmp_path.iterdir()]) == (b"", [])
-
-
-@pytest.mark.thorough
-def test_the_lines_of_the_page_run_at_simulated_drives(tmp_path: Path) -> None:
-    lines = [text for text in commands(PAGE) if " --port /dev/ttyUSB0" in text]
-    with simulated("sn300g5@3", "sn300g5@4", "--tcp", ":0") as place:
-        for text in lines:
-            words = text.replace("--port /dev/ttyUSB0", f"--tcp {place}").split()
-            done = subprocess.run(
-                [sys.executable, "-m", *words], cwd=tmp_path, capture_output=True, text=True, check=False
-            )
-            assert (done.returncode, done.stderr) == (0, ""), text
-    assert len(lines) == 3
 
 
 @pytest.mark.parametrize(
