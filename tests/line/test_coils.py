@@ -2,7 +2,7 @@
 
 import pytest
 from tests.line.drives import KINDS
-from tests.line.vline import COMMAND, PARAMETER, POLL, STOP, Bench, Config, line_sources
+from tests.line.vline import COMMAND, PARAMETER, POLL, Bench, Config, line_sources
 
 from structured_text.engines.engine import Engine, Library
 
@@ -53,14 +53,6 @@ def test_coils_of_a_parameter_are_a_word_too(engine: Engine) -> None:
     assert bench.slot(1, "ParWords[0]") == BITS & 0xF
 
 
-def test_input_registers_are_words(engine: Engine) -> None:
-    bench = coils(engine)
-    for slot in range(3):
-        bench.ask(slot, POLL, 4, 0x1000, quantity=2)
-    bench.ready()
-    assert bench.slot(1, "PollWords[1]") >= bench.drives[1].reads - 1 > 0
-
-
 @pytest.mark.parametrize(("count", "data"), [(8, b"\x01\x02"), (9, b"\x01"), (9, b"\x01\x02\x03"), (16, b"\x01" * 32)])
 def test_a_reply_with_the_bytes_of_another_count_is_not_believed(engine: Engine, count: int, data: bytes) -> None:
     bench = hold(coils(engine)).ready()
@@ -89,31 +81,6 @@ def test_the_reply_to_a_write_repeats_coil_and_value(engine: Engine, wrong: byte
     bench.ask(1, COMMAND, 5, 0x0001, word=0xFF00)
     bench.run(400)
     assert bench.answer(1, COMMAND) in ("SILENCE", "CHECKSUM")
-
-
-def test_an_echo_of_a_write_is_not_believed(engine: Engine) -> None:
-    bench = coils(engine, Config(kind=COILS, echo=True)).ready()
-    assert bench["Echo"] == 2
-    bench.drives[1].alive = False
-    bench.stop(1)
-    bench.run(200)
-    assert bench.answer(1, STOP) == "", "only the echo has answered"
-    bench.drives[1].alive = True
-    bench.run(400)
-    assert bench.answer(1, STOP) == "OK"
-
-
-@pytest.mark.parametrize("how", ["StopAll", "not called", "shared"])
-def test_the_line_stops_by_a_coil_on_its_own(engine: Engine, how: str) -> None:
-    bench = coils(engine).ready()
-    if how == "StopAll":
-        bench.set(StopAll=True)
-    elif how == "shared":
-        bench.put(1, Shared=True)
-    else:
-        bench.attended.discard(1)
-    sent = [each.pdu for each in bench.run(2000) if each.unit == 2 and not each.read]
-    assert set(sent) == {bytes([2, 5, 0, 0, 0, 0])}
 
 
 def test_the_other_stop_is_a_coil_too(engine: Engine) -> None:

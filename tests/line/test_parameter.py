@@ -153,9 +153,6 @@ class Scene(Bench):
         return [each.pdu[1:] for each in self.sent if not each.read]
 
 
-# ---------------------------------------------------------------- what passes
-
-
 # ---------------------------------------------------------------- what does not pass
 
 
@@ -284,12 +281,6 @@ def test_withdrawn_is_withdrawn_in_any_order_of_calls(block: str, within: int) -
     said = scene.result(block)
     scene.run(300)
     assert len(scene.written()) == (0 if said == "NOT_SENT" else 1)
-
-
-# ---------------------------------------------------------------- results
-
-
-# ---------------------------------------------------------------- store
 
 
 def test_the_example_of_the_page_runs_and_lints_clean() -> None:
