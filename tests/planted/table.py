@@ -35,7 +35,8 @@ class Place:
     @property
     def builds(self) -> bool:
         """Whether its judge reads `blocks/`, which the mistake alters."""
-        return not self.file.endswith(".py") and not self.judge.startswith("driveblocks ")
+        renders = ("driveblocks ", "tests.planted.programs ")
+        return not self.file.endswith(".py") and not self.judge.startswith(renders)
 
 
 def places() -> list[Place]:
