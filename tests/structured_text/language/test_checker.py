@@ -148,33 +148,19 @@ def test_every_conversion_between_elementary_types() -> None:
     ("text", "said"),
     [
         ("i := b;", "implicit-conversion: expected INT, found BYTE: write BYTE_TO_INT(...)"),
-        ("i := missing;", "undeclared-name: expected a declared variable, found missing"),
         ("i := timmer.Q;", "undeclared-name: expected a declared variable, found timmer (did you mean timer?)"),
         ("x := timer.QQ;", "undeclared-name: expected a member of TON, found QQ"),
         ("i := LIMTI(0, i, 9);", "undeclared-name: expected a function or instance, found LIMTI (did you mean LIMIT?)"),
         ("x := i;", "type-mismatch: expected BOOL, found INT"),
-        ("IF i THEN i := 1; END_IF;", "type-mismatch: expected BOOL, found INT"),
-        ("i := 3 + TRUE;", "type-mismatch: expected BOOL, found an integer literal"),
-        (
-            "i := i + r;",
-            "implicit-conversion: expected operands of one type for +, found INT and REAL: convert one explicitly",
-        ),
-        ("x := e < BUSY;", "type-mismatch: expected = or <> for values of E_State, found <"),
         ("p := a;", "type-mismatch: expected T_Pair, found ARRAY[0..9] OF INT"),
-        ("a[1, 2] := 3;", "type-mismatch: expected 1 indices, found 2"),
-        ("g[0, 0] := w;", "index-range: expected an index within 1..4, found 0"),
         ("i[1] := 3;", "type-mismatch: expected an array before [, found INT"),
         ("i.x := 3;", "type-mismatch: expected a structure or block before .x, found INT"),
-        ("timer := timer;", "not-assignable: expected a variable before :=, found the block timer"),
-        ("x := timer(IN := x);", "type-mismatch: expected a value, found the invocation of a block"),
-        ("timer(x, T#1s, TRUE);", "not-assignable: expected a variable for Q"),
-        ("i := ABS();", "call-arguments: expected an argument for IN of ABS"),
-        ("i := ABS(1, 2);", "call-arguments: expected at most 1 arguments for ABS, found more"),
-        ("w := SHL(w, w);", "implicit-conversion: expected an integer for SHL, found WORD"),
-        ("i := SHL(i, 1);", "implicit-conversion: expected a bit string for SHL, found INT: write INT_TO_WORD(...)"),
-        ("r := SQRT(i);", "implicit-conversion: expected REAL or LREAL for SQRT, found INT: write INT_TO_REAL(...)"),
-        ("i := i ** 2;", "type-mismatch: expected REAL or LREAL before **, found INT"),
         ("t := t * t2;", "type-mismatch: * is not defined for TIME and TIME"),
+        ("g[0, 0] := w;", "index-range: expected an index within 1..4, found 0"),
+        ("timer := timer;", "not-assignable: expected a variable before :=, found the block timer"),
+        ("timer(x, T#1s, TRUE);", "not-assignable: expected a variable for Q"),
+        ("i := ABS(1, 2);", "call-arguments: expected at most 1 arguments for ABS, found more"),
+        ("i := SHL(i, 1);", "implicit-conversion: expected a bit string for SHL, found INT: write INT_TO_WORD(...)"),
         (
             "FOR r := 1.0 TO 2.0 DO i := 1; END_FOR;",
             "type-mismatch: expected an integer variable to count with, found REAL",
@@ -184,11 +170,8 @@ def test_every_conversion_between_elementary_types() -> None:
             "CASE r OF 1: i := 1; END_CASE;",
             "type-mismatch: expected an integer or an enumeration after CASE, found REAL",
         ),
-        ("CASE i OF 70000: i := 1; END_CASE;", "literal-range: expected a value of INT, -32768..32767, found 70000"),
         ("CASE i OF 5..1: i := 1; END_CASE;", "literal-range: expected the lower limit first, found 5..1"),
-        ("us := 256;", "literal-range: expected a value of USINT, 0..255, found 256"),
         ("us := -1;", "literal-range: expected a value of USINT, 0..255, found -1"),
-        ("r := 1.0E39;", "literal-range: expected a value of REAL, found 1.0E39"),
         ("w := INT_TO_WORD(u);", "implicit-conversion: expected INT, found UINT: write UINT_TO_INT(...)"),
         (
             "Example();",
@@ -323,37 +306,21 @@ def test_wrong_configurations(text: str, said: str) -> None:
 @pytest.mark.parametrize(
     ("declaration", "rule"),
     [
-        ("v : ARRAY[0..2] OF INT := [1, 2, 3];", ""),
-        ("v : ARRAY[0..2] OF INT := [3(0)];", ""),
-        ("v : ARRAY[0..2] OF INT := [1, 2, 3, 4];", "literal-range"),
         ("v : ARRAY[0..2] OF INT := 1;", "type-mismatch"),
-        ("v : ARRAY[0..2] OF INT := [1.5];", "type-mismatch"),
-        ("v : T_Pair := (First := 1, Second := [1.0, 2.0]);", ""),
-        ("v : T_Pair := (Third := 1);", "undeclared-name"),
         ("v : T_Pair := (First := 1, First := 2);", "duplicate-name"),
-        ("v : T_Pair := (First := 1.5);", "type-mismatch"),
-        ("v : E_State := BUSY;", ""),
         ("v : E_State := 1;", "type-mismatch"),
-        ("v : TON := (PT := T#1s);", ""),
         ("v : TON := (XX := T#1s);", "undeclared-name"),
-        ("v : REAL := 1.5;", ""),
-        ("v : REAL := 1;", "integer-for-real"),
-        ("v : INT := -3;", ""),
         ("v : BYTE := 300;", "literal-range"),
-        ("v : STRING := 'a';", ""),
-        ("v : TIME := T#1s;", ""),
         ("v : ARRAY[5..2] OF INT;", "literal-range"),
         ("v : ARRAY[0..x] OF INT;", "type-mismatch"),
-        ("v : Example;", "recursion"),
     ],
 )
-def test_declarations(declaration: str, rule: str) -> None:
+def test_initial_values_and_bounds_that_are_wrong(declaration: str, rule: str) -> None:
+    """Those that no program of the accept/reject corpus has."""
     found = messages(
-        block(f"x := TRUE;\nEND_FUNCTION_BLOCK\nFUNCTION_BLOCK Second1\nVAR {declaration} k : INT; END_VAR\nk := 1;")
+        f"{TYPES}FUNCTION_BLOCK Second1\nVAR {declaration} k : INT; END_VAR\nk := 1;\nEND_FUNCTION_BLOCK\n"
     )
-    if rule == "recursion":
-        found = messages("FUNCTION_BLOCK Example VAR v : Example; k : INT; END_VAR k := 1; END_FUNCTION_BLOCK")
-    assert [each.split(":")[0] for each in found] == ([rule] if rule else [])
+    assert [each.split(":")[0] for each in found] == [rule]
 
 
 def test_a_function_keeps_no_blocks() -> None:
