@@ -4,7 +4,7 @@ import asyncio
 import os
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -27,7 +27,8 @@ FUNCTIONS: list[int] = []
 READS = {1, 3}
 """Functions that change nothing."""
 
-
+Carried = Callable[[bool, bytes], bytes]
+"""What becomes of bytes on a cable, of the master (True) or the server."""
 Blocks = tuple[list[SimData], list[SimData], list[SimData], list[SimData]]
 """Coils, discrete inputs, holding and input registers: in one memory each register would answer as 16 coils, too."""
 
@@ -56,8 +57,8 @@ def noted(sending: bool, pdu: ModbusPDU) -> ModbusPDU:
 
 
 @contextmanager
-def peer(where: str, device: SimDevice) -> Iterator[str]:
-    """A server in a thread of its own; its place."""
+def peer(where: str, device: SimDevice, carried: Carried = lambda _, data: data) -> Iterator[str]:
+    """A server in a thread of its own, perhaps at the end of a cable; its place."""
     begun, place = threading.Event(), [""]
     loop, over = asyncio.new_event_loop(), asyncio.Event()
 
@@ -69,7 +70,7 @@ def peer(where: str, device: SimDevice) -> Iterator[str]:
             await server.serve_forever(background=True)
             place[0] = f"127.0.0.1:{server.transport.sockets[0].getsockname()[1]}"
         else:
-            place[0], other = _cable(loop)
+            place[0], other = _cable(loop, carried)
             server = ModbusSerialServer(device, port=other, baudrate=9600, trace_pdu=noted, ignore_missing_devices=True)
             await server.serve_forever(background=True)
         begun.set()
@@ -87,7 +88,7 @@ def peer(where: str, device: SimDevice) -> Iterator[str]:
         loop.close()
 
 
-def _cable(loop: asyncio.AbstractEventLoop) -> tuple[str, str]:
+def _cable(loop: asyncio.AbstractEventLoop, carried: Carried) -> tuple[str, str]:
     """Two terminals, each of which gives what is said at the other."""
     import tty
 
@@ -95,12 +96,10 @@ def _cable(loop: asyncio.AbstractEventLoop) -> tuple[str, str]:
     for each in (here, there):
         tty.setraw(each)
     for said, heard in ((one, two), (two, one)):
-        loop.add_reader(said, _carry, said, heard)
+        loop.add_reader(
+            said, lambda said, heard: os.write(heard, carried(said == one, os.read(said, 4096))), said, heard
+        )
     return os.ttyname(here), os.ttyname(there)
-
-
-def _carry(said: int, heard: int) -> None:
-    os.write(heard, os.read(said, 4096))
 
 
 @pytest.fixture(autouse=True)

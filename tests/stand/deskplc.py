@@ -3,34 +3,27 @@
 `python -m tests.stand.deskplc SECONDS` starts and stops a motor over and over, with 1 % of the frames damaged.
 """
 
-import asyncio
-import os
 import subprocess
 import sys
 import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from csv import DictReader
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pymodbus.server import ModbusSerialServer
-from pymodbus.server.requesthandler import ServerRequestHandler
 from pymodbus.simulator import DataType, SimData, SimDevice
 from tests.plc.desk import ONE
+from tests.site.test_peer import peer
 from tests.stand.softplc import SoftPlc
 
 from driveblocks.desk.bus import Loss
 from driveblocks.render.reasons import by_name
 
 UNIT = 7
-RATE, BITS = 19200, 10
-MOST = 4096
-REQUEST = 8
-"""Bytes of each: this drive is read by 03H, and written by 06H."""
 NET = 600
 """Seconds that no machine needs, for what would hang."""
 CHF = ONE.replace("JSCC", "CHF")
@@ -79,98 +72,20 @@ class Motor:
             self.frequencies.append(min(now + STEP, wanted) if now < wanted else max(now - STEP, wanted))
 
 
-class Server(ModbusSerialServer):
-    """pymodbus's server, and the silence that ends a frame: by itself it waits for the rest of a damaged one."""
-
-    line: ServerRequestHandler
-
-    def callback_new_connection(self) -> ServerRequestHandler:
-        """It serves one line."""
-        self.line = super().callback_new_connection()  # type: ignore[no-untyped-call]  # pymodbus has no types here
-        return self.line
-
-    def silence(self) -> None:
-        """What has begun is over."""
-        self.line.recv_buffer = b""
+def device(motor: Motor) -> SimDevice:
+    """The registers that a drive block reads and writes, with a motor behind them."""
+    blocks = [(COMMAND, 2), (REFERENCE, 1), (FREQUENCY, 7), (FAULT, 2)]
+    data = [SimData(first, count=count, values=0, datatype=DataType.REGISTERS) for first, count in blocks]
+    return SimDevice(id=UNIT, simdata=data, action=motor.act)
 
 
-class Cable:
-    """Two pseudo-terminals: what a master says at one comes out of the other after its time on the wire, and back."""
+def carried(loss: Loss) -> Callable[[bool, bytes], bytes]:
+    """A cable that damages frames: a server that gets no good request hears none, a reply comes as it is."""
 
-    def __init__(self, damage: float) -> None:
-        """With this many of the frames damaged, to and fro."""
-        import tty
+    def carry(asked: bool, data: bytes) -> bytes:
+        return data if not loss.fate() else b"" if asked else loss.spoiled(data)
 
-        self.loss = Loss(damage=damage)
-        self._begun = b""
-        pairs = [os.openpty() for _ in range(2)]
-        for _, other in pairs:
-            tty.setraw(other)
-        (self._master, one), (self._server, two) = pairs
-        self._others = one, two
-        self.places = os.ttyname(one), os.ttyname(two)
-
-    def serve(self, silence: Callable[[], None]) -> None:
-        """Carry bytes, in a running loop of events; before each request there is silence."""
-        loop = asyncio.get_running_loop()
-        loop.add_reader(self._master, self._request, silence)
-        loop.add_reader(self._server, lambda: _later(self._master, os.read(self._server, MOST)))
-
-    def reply(self, sending: bool, data: bytes) -> bytes:
-        """What the server says, whole; perhaps damaged."""
-        return self.loss.spoiled(data) if sending and self.loss.fate() else data
-
-    def _request(self, silence: Callable[[], None]) -> None:
-        self._begun += os.read(self._master, MOST)  # more than one where this computer was busy
-        while len(self._begun) >= REQUEST:
-            whole, self._begun = self._begun[:REQUEST], self._begun[REQUEST:]
-            silence()
-            _later(self._server, self.loss.spoiled(whole) if self.loss.fate() else whole)
-
-    def close(self) -> None:
-        """Both are gone."""
-        for descriptor in (self._master, self._server, *self._others):
-            os.close(descriptor)
-
-
-def _later(to: int, data: bytes) -> None:
-    asyncio.get_running_loop().call_later(len(data) * BITS / RATE, os.write, to, data)
-
-
-@dataclass
-class Peer:
-    """pymodbus's server with a motor, at the end of a cable, in a thread of its own."""
-
-    damage: float = 0.0
-    motor: Motor = field(default_factory=Motor)
-
-    def __post_init__(self) -> None:
-        """Begin to serve."""
-        self.cable = Cable(self.damage)
-        self._ready, self._over = threading.Event(), asyncio.Event()
-        self._thread = threading.Thread(target=lambda: asyncio.run(self._serve()))
-        self._thread.start()
-        assert self._ready.wait(NET)
-
-    async def _serve(self) -> None:
-        self._loop = asyncio.get_running_loop()
-        blocks = [(COMMAND, 2), (REFERENCE, 1), (FREQUENCY, 7), (FAULT, 2)]
-        data = [SimData(first, count=count, values=0, datatype=DataType.REGISTERS) for first, count in blocks]
-        device = SimDevice(id=UNIT, simdata=data, action=self.motor.act)
-        server = Server(
-            device, port=self.cable.places[1], baudrate=RATE, trace_packet=self.cable.reply, ignore_missing_devices=True
-        )  # fmt: skip
-        await server.serve_forever(background=True)
-        self.cable.serve(server.silence)
-        self._ready.set()
-        await self._over.wait()
-        await server.shutdown()  # type: ignore[no-untyped-call]  # nor here
-
-    def close(self) -> None:
-        """Serve no more."""
-        self._loop.call_soon_threadsafe(self._over.set)
-        self._thread.join()
-        self.cable.close()
+    return carry
 
 
 @dataclass
@@ -258,7 +173,7 @@ def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
 class Exchange:
     """What was done, the trace of the soft PLC, and what it said."""
 
-    peer: Peer
+    motor: Motor
     figures: dict[str, float]
     rows: list[dict[str, str]] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
@@ -271,7 +186,7 @@ class Exchange:
         while not self.figures["rounds"] or time.monotonic() < end:
             self.figures["starts held"] += soft.start()
             soft.stop()
-            self.figures["lost stops"] += not self.peer.motor.stands
+            self.figures["lost stops"] += not self.motor.stands
             self.figures["rounds"] += 1
         self.figures["memory"] = soft.memory()
 
@@ -279,25 +194,25 @@ class Exchange:
         """How many values of the trace the motor did not have, or not in this order; and words that it must not get."""
         rows = [row for row in self.rows if row[f"Motor.{VALID}"] == "1"]
         valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows]
-        held = iter(self.peer.motor.frequencies)
+        held = iter(self.motor.frequencies)
         seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]
         allowed = {(COMMAND, RUN), (COMMAND, STOP), (COMMAND, JOG_STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
-        return sum(seen) + len(self.peer.motor.written - allowed)
+        return sum(seen) + len(self.motor.written - allowed)
 
 
 def exchange(seconds: float, damage: float) -> Exchange:
     """The soft PLC and pymodbus's server for so long, and the end of both."""
-    made = Exchange(Peer(damage), {"rounds": 0, "starts held": 0, "lost stops": 0})
-    with closing(made.peer), tempfile.TemporaryDirectory() as folder:
+    made, loss = Exchange(Motor(), {"rounds": 0, "starts held": 0, "lost stops": 0}), Loss(damage=damage)
+    with peer("pty", device(made.motor), carried(loss)) as place, tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.csv"
-        with plc(made.peer.cable.places[0], trace) as soft:
+        with plc(place, trace) as soft:
             made.turn(soft, seconds)
         made.lines = soft.lines
         with trace.open(encoding="utf-8") as file:
             next(file)
             made.rows = list(DictReader(file))
     made.figures |= {name: float(made.rows[-1][f"Bus.{name}"]) for name in COUNTERS}
-    made.figures |= {"damaged": made.peer.cable.loss.damaged, "wrong values": made.wrong_values()}
+    made.figures |= {"damaged": loss.damaged, "wrong values": made.wrong_values()}
     made.figures["exit status"] = soft.process.returncode
     return made
 
