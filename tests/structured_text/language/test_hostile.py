@@ -9,11 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.steps import grows_evenly
 
-from structured_text.language.checker import analyse
 from structured_text.language.lint import lint_sources
-from structured_text.language.parser import ParseError, parse
 from structured_text.language.problems import Problem
-from structured_text.language.tree import Unit
 
 HERE = Path(__file__).parent
 SAMPLES = [(HERE / name).read_text(encoding="utf-8") for name in ("clean.st", "everything.st")]
@@ -137,21 +134,3 @@ def test_any_words_raise_nothing(words: list[str]) -> None:
 @given(st.text(max_size=200))
 def test_any_text_raises_nothing(text: str) -> None:
     assert_survived(text)
-
-
-def parsed(text: str) -> Unit | None:
-    """The tree of a text, if it has one."""
-    try:
-        return parse(text, "mutated.st")
-    except ParseError:
-        return None
-
-
-def test_analyse_survives_what_parses() -> None:
-    source = random.Random(7)
-    for _ in range(30):
-        unit = parsed(mutated(SAMPLES[1], source))
-        if unit is not None:
-            checked, problems = analyse([unit])
-            assert checked.units == [unit]
-            assert all(each.path == "mutated.st" for each in problems)
