@@ -1,18 +1,98 @@
 """The ports of three platforms on the embedded engine, and how a maker's block may end with a frame.
 
-Each port is in two rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; and in its line.
+Each port is in three rigs: alone, with a frame offered whenever it takes one, as MB_ByteLine does; with the frames
+that a test gives; and in its line.
 """
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 from tests.export.stock import made
-from tests.export.test_codesys_port import COM, portable, replaced
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Instance, Library, Source
+
+PINS = (
+    "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"
+    " szBuffer : UINT;"
+)
+STAND_IN = """FUNCTION_BLOCK {name}
+VAR_INPUT
+  {pins} hCom : UINT; pBuffer : MB_LineFrame;
+END_VAR
+VAR_OUTPUT
+  xDone : BOOL; xBusy : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
+END_VAR
+VAR
+  Memory : BOOL; (* xExecute of the last call *)
+  Calls : UINT;  (* calls since the starting one *)
+  Ends : BOOL;   (* test: it ends by itself *)
+  Slow : UINT;   (* test: in which call after the starting one; 0: in that itself *)
+  Fails : BOOL;  (* test: it ends with an error *)
+END_VAR
+  Calls := Calls + 1;
+  IF xExecute AND NOT Memory THEN
+    Asked := Asked + 1;
+    Calls := 0;
+    xBusy := TRUE;
+  END_IF;
+  Memory := xExecute;
+  IF NOT xExecute OR xAbort THEN
+    xDone := FALSE;
+    xError := FALSE;
+  END_IF;
+  IF xAbort THEN
+    xBusy := FALSE;
+  ELSIF xBusy AND Ends AND (Calls >= Slow) THEN
+    xBusy := FALSE;
+    xDone := NOT Fails;
+    xError := Fails;
+    IF Fails THEN
+      eError := 5006;
+    END_IF;
+  END_IF;
+END_FUNCTION_BLOCK
+"""
+PORT = (
+    (r"COM\.CAA_Parameter_Constants\.\w+", "7"),
+    (r"COM\.PARAMETER\b", "X_Parameter"),
+    (r"COM\.(Open|Close|Read|Write)\b", r"X_\1"),
+    (r"COM\.PARITY\.EVEN", "0"),
+    (r"COM\.PARITY\.ODD", "1"),
+    (r"COM\.\w+\.ONESTOPBIT", "0"),
+    (r"COM\.\w+\.(NONE|TWOSTOPBITS)", "2"),
+    (r", pParameterList := ADR\(Settings\)", ""),
+    (r" pBuffer := ADR\(Heard\),", ""),
+    (r"ADR\(Frame\)", "Frame"),
+    (r"hCom := Opening.hCom", "hCom := 1"),
+    (r"Reading\.szSize", "Reading.Came"),
+    (r":= Heard\[", ":= Reading.Heard["),
+    (r"TIME_TO_UDINT\(TIME\(\)\)", "Clock"),
+    (r"  NowMs : UDINT;", "  Clock : UDINT; (* of the test *)\n  NowMs : UDINT;"),
+)
+"""What the text of CD_Port says by means of CODESYS, and the same in portable ST."""
+
+
+COM = ("X_Open", "X_Close", "X_Read", "X_Write")
+
+
+def replaced(blocks: Sequence[str]) -> list[Source]:
+    """Stand-ins of these names, and the structure that one of them takes."""
+    parameter = "TYPE\n  X_Parameter : STRUCT udiParameterId : UDINT; udiValue : UDINT; END_STRUCT;\nEND_TYPE\n"
+    return [Source("parameter", parameter), *(Source(each, STAND_IN.format(name=each, pins=PINS)) for each in blocks)]
+
+
+def portable() -> str:
+    """CD_Port in portable ST."""
+    text = made().adapter("codesys")[0].text
+    for old, new in PORT:
+        text, count = re.subn(old, new, text, flags=re.DOTALL)
+        assert count, old
+    return text
+
 
 SCAN_MS = 10
 HERE = Path(__file__).parent
@@ -45,6 +125,16 @@ END_VAR
   IF NOT Port.TxBusy THEN
     Offered := Offered + 1;
     Port(TxCount := 8, Rx := Rx, Tx := Tx{buffers});
+  END_IF;
+END_PROGRAM
+"""
+GIVEN = """PROGRAM X_Given
+VAR
+  Port : {port}; Send : UINT; Rx : MB_Adu; Tx : MB_LineFrame; {more}
+END_VAR
+  Port(TxCount := 0, {pins}Rx := Rx, Tx := Tx{buffers});
+  IF Send > 0 THEN
+    Port(TxCount := Send, Rx := Rx, Tx := Tx{buffers});
   END_IF;
 END_PROGRAM
 """
@@ -88,6 +178,7 @@ class Maker:
         yield from (Source(name, parts[name]) for name in (port, line))
         shared = {"buffers": self.buffers, "more": self.more}
         yield Source("X_Alone", ALONE.format(port=port, pins=self.pins, **shared))
+        yield Source("X_Given", GIVEN.format(port=port, pins=self.pins, **shared))
         yield Source("X_Lined", LINED.format(line=line, **shared))
 
 
@@ -99,11 +190,12 @@ MAKERS = [
         "TxBuffer : ComBuffer; RxBuffer : ComBuffer;",
     ),
 ]  # fmt: skip
+SIEMENS, CODESYS, TWINCAT = MAKERS
 
 
 @cache
 def library(maker: Maker) -> Library:
-    """Both rigs of a platform."""
+    """All rigs of a platform."""
     shared = [Source(part.unit.path, part.text) for part in made().parts if part.folder in ("types", "line", "modbus")]
     types = [source for source in shared if source.text.lstrip().startswith("(*") and "END_TYPE" in source.text]
     return EmbeddedEngine().build([*types, *maker.sources(), *(source for source in shared if source not in types)])

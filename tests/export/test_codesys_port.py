@@ -2,120 +2,25 @@
 here, and what they answer is set here.
 """
 
-import re
-from collections.abc import Callable, Sequence
 from functools import cache
 from itertools import pairwise
 
 import pytest
-from tests.export.test_tc6 import stock
+from tests.export.ports import CODESYS, library, replaced
+from tests.export.stock import made
 from tests.shipped import BOTH
 
-from driveblocks.render import library
+from driveblocks.render import library as render
 from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.engine import Instance, Source, Value
+from structured_text.engines.engine import Instance, Library, Source, Value
 from structured_text.language.names import reserved
 from structured_text.language.tree import Pou
 
-PINS = (
-    "xExecute : BOOL; xAbort : BOOL; iChannelIndex : INT; usiListLength : USINT; udiTimeOut : UDINT; szSize : UINT;"
-    " szBuffer : UINT;"
-)
-STAND_IN = """FUNCTION_BLOCK {name}
-VAR_INPUT
-  {pins} hCom : UINT; pBuffer : MB_LineFrame;
-END_VAR
-VAR_OUTPUT
-  xDone : BOOL; xBusy : BOOL; xError : BOOL; eError : INT; Came : UINT; Heard : MB_Adu; Asked : UINT;
-END_VAR
-VAR
-  Memory : BOOL; (* xExecute of the last call *)
-  Calls : UINT;  (* calls since the starting one *)
-  Ends : BOOL;   (* test: it ends by itself *)
-  Slow : UINT;   (* test: in which call after the starting one; 0: in that itself *)
-  Fails : BOOL;  (* test: it ends with an error *)
-END_VAR
-  Calls := Calls + 1;
-  IF xExecute AND NOT Memory THEN
-    Asked := Asked + 1;
-    Calls := 0;
-    xBusy := TRUE;
-  END_IF;
-  Memory := xExecute;
-  IF NOT xExecute OR xAbort THEN
-    xDone := FALSE;
-    xError := FALSE;
-  END_IF;
-  IF xAbort THEN
-    xBusy := FALSE;
-  ELSIF xBusy AND Ends AND (Calls >= Slow) THEN
-    xBusy := FALSE;
-    xDone := NOT Fails;
-    xError := Fails;
-    IF Fails THEN
-      eError := 5006;
-    END_IF;
-  END_IF;
-END_FUNCTION_BLOCK
-"""
-PORT = (
-    (r"COM\.CAA_Parameter_Constants\.\w+", "7"),
-    (r"COM\.PARAMETER\b", "X_Parameter"),
-    (r"COM\.(Open|Close|Read|Write)\b", r"X_\1"),
-    (r"COM\.PARITY\.EVEN", "0"),
-    (r"COM\.PARITY\.ODD", "1"),
-    (r"COM\.\w+\.ONESTOPBIT", "0"),
-    (r"COM\.\w+\.(NONE|TWOSTOPBITS)", "2"),
-    (r", pParameterList := ADR\(Settings\)", ""),
-    (r" pBuffer := ADR\(Heard\),", ""),
-    (r"ADR\(Frame\)", "Frame"),
-    (r"hCom := Opening.hCom", "hCom := 1"),
-    (r"Reading\.szSize", "Reading.Came"),
-    (r":= Heard\[", ":= Reading.Heard["),
-    (r"TIME_TO_UDINT\(TIME\(\)\)", "Clock"),
-    (r"  NowMs : UDINT;", "  Clock : UDINT; (* of the test *)\n  NowMs : UDINT;"),
-)
-"""What the text of CD_Port says by means of CODESYS, and the same in portable ST."""
 
-
-COM = ("X_Open", "X_Close", "X_Read", "X_Write")
-
-
-def replaced(blocks: Sequence[str]) -> list[Source]:
-    """Stand-ins of these names, and the structure that one of them takes."""
-    parameter = "TYPE\n  X_Parameter : STRUCT udiParameterId : UDINT; udiValue : UDINT; END_STRUCT;\nEND_TYPE\n"
-    return [Source("parameter", parameter), *(Source(each, STAND_IN.format(name=each, pins=PINS)) for each in blocks)]
-
-
-def _built(name: str, text: str, stand_ins: Sequence[str]) -> Callable[[], Instance]:
-    sources = [Source(part.unit.path, part.text) for part in stock().parts]
-    built = EmbeddedEngine().build([*sources, *replaced(stand_ins), Source(name, text)])
-    return lambda: built.instance(name)
-
-
-def portable() -> str:
-    """CD_Port in portable ST."""
-    text = next(library.adapter("codesys", BOTH)).text
-    for old, new in PORT:
-        text, count = re.subn(old, new, text, flags=re.DOTALL)
-        assert count, old
-    return text
-
-
-@cache
-def _port() -> Callable[[], Instance]:
-    text = portable()
-    rig = """PROGRAM X_Rig
-VAR
-  Port : CD_Port; Send : UINT; Rx : MB_Adu; Tx : MB_LineFrame;
-END_VAR
-  Port(TxCount := 0, BitRate := 19200, CharacterBits := 11, Parity := 2, LateMs := 60, Rx := Rx, Tx := Tx);
-  IF Send > 0 THEN
-    Port(TxCount := Send, Rx := Rx, Tx := Tx);
-  END_IF;
-END_PROGRAM
-"""
-    return _built("X_Rig", text + rig, COM)
+def _port() -> Instance:
+    rig = library(CODESYS).instance("X_Given")
+    rig["Port.Parity"] = 2
+    return rig
 
 
 def _scan(rig: Instance, at: int, **given: Value) -> None:
@@ -132,15 +37,15 @@ def _opened(rig: Instance) -> None:
 
 
 def test_a_port_opens_with_the_settings_of_its_pins() -> None:
-    rig = _port()()
+    rig = _port()
     _opened(rig)
     settings = [rig[f"Port.Settings[{number}].udiValue"] for number in (1, 2, 3, 4, 6)]
-    assert settings == [1, 19200, 0, 0, 8]
+    assert settings == [1, 9600, 0, 0, 7]
     assert (rig["Port.State"], rig["Port.TxBusy"], rig["Port.Opening.Asked"]) == (2, False, 1)
 
 
 def test_time_is_measured_and_survives_the_clock_running_over() -> None:
-    rig, found = _port()(), []
+    rig, found = _port(), []
     for at in (2**32 - 15, 2**32 - 5, 6, 6, 200_000):
         _scan(rig, at)
         found.append(rig["Port.ElapsedMs"])
@@ -148,7 +53,7 @@ def test_time_is_measured_and_survives_the_clock_running_over() -> None:
 
 
 def test_bytes_that_came_are_given_once_and_reading_goes_on() -> None:
-    rig = _port()()
+    rig = _port()
     _opened(rig)
     _scan(rig, 130)
     _scan(rig, 140, Port__Reading__Heard=[1, 3, 7], Port__Reading__Came=3, Port__Reading__xDone=True)
@@ -160,14 +65,14 @@ def test_bytes_that_came_are_given_once_and_reading_goes_on() -> None:
 
 
 def test_a_frame_is_sent_once_and_another_waits_for_its_end() -> None:
-    rig = _port()()
+    rig = _port()
     _scan(rig, 100, Send=8)
     assert rig["Port.Writing.Asked"] == 0, "sent while the port was closed"
-    rig = _port()()
+    rig = _port()
     _opened(rig)
     _scan(rig, 130, Send=2, Tx=[17, 19])
     assert [rig["Port.Frame[0]"], rig["Port.Frame[1]"], rig["Port.Writing.szSize"]] == [17, 19, 2]
-    assert rig["Port.Writing.udiTimeOut"] == 62_000
+    assert rig["Port.Writing.udiTimeOut"] == 63_000
     _scan(rig, 140, Send=2, Tx=[23, 29])
     assert (rig["Port.TxBusy"], rig["Port.Writing.Asked"], rig["Port.Frame[0]"]) == (True, 1, 17)
     _scan(rig, 150, Send=0, Port__Writing__xDone=True)
@@ -182,7 +87,7 @@ def _failing(rig: Instance, at: int, block: str, code: int = 5105) -> None:
 
 
 def test_a_port_that_cannot_be_opened_is_tried_once_a_second() -> None:
-    rig = _port()()
+    rig = _port()
     _scan(rig, 100)
     _scan(rig, 110)
     _failing(rig, 140, "Opening")
@@ -197,7 +102,7 @@ def test_a_port_that_cannot_be_opened_is_tried_once_a_second() -> None:
 
 
 def test_opening_that_does_not_end_is_reported_and_waited_for() -> None:
-    rig = _port()()
+    rig = _port()
     _scan(rig, 100)
     for at in range(200, 1100, 100):
         _scan(rig, at)
@@ -210,7 +115,7 @@ def test_opening_that_does_not_end_is_reported_and_waited_for() -> None:
 
 @pytest.mark.parametrize("block", ["Reading", "Writing"])
 def test_a_port_that_fails_again_is_closed_and_opened_again_at_once(block: str) -> None:
-    rig = _port()()
+    rig = _port()
     _opened(rig)
     for at in (2000, 2010):
         assert rig["Port.State"] == 2
@@ -234,7 +139,7 @@ def test_a_port_that_fails_again_is_closed_and_opened_again_at_once(block: str) 
 
 
 def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
-    rig = _port()()
+    rig = _port()
     _opened(rig)
     for at in (2000, 2010):
         _failing(rig, at, "Reading")
@@ -246,7 +151,7 @@ def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
 
 
 def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
-    shelf = stock()
+    shelf = made()
     parts = [
         *shelf.adapter("codesys"),
         *(one for each in shelf.drives.values() for one in shelf.programs("codesys", each)),
@@ -263,18 +168,21 @@ def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
 
 
 @cache
-def _master(prefix: str) -> Callable[[], Instance]:
-    drive = next(each for each in stock().drives.values() if each.prefix == prefix)
-    (file,) = library.programs("codesys", drive, BOTH)
-    text = file.text.replace("slave := Drive1, ", "")
-    return _built(f"{prefix}_Master", text, ["ModbusChannel"])
+def _masters() -> Library:
+    """The programs for the own master of all families."""
+    drives = [each for each in made().drives.values() if each.prefix in ("CHF", "JSCC", "SN300G5")]
+    texts = [file.text for drive in drives for file in render.programs("codesys", drive, BOTH)]
+    own = [Source("masters", text.replace("slave := Drive1, ", "")) for text in texts]
+    return EmbeddedEngine().build(
+        [*(Source(part.unit.path, part.text) for part in made().parts), *replaced(["ModbusChannel"]), *own]
+    )
 
 
 class _Slave:
     """A drive at the master: it answers, or not, and notes what was asked."""
 
     def __init__(self, prefix: str, **words: int) -> None:
-        self.program = _master(prefix)()
+        self.program = _masters().instance(f"{prefix}_Master")
         self.answers, self.asked, self.ms = True, list[tuple[int, Value]](), 0
         for name, value in words.items():
             self.program[name] = value
@@ -301,7 +209,7 @@ RUN, STOP = 1, 3
 def test_the_own_master_keeps_the_silence_that_the_drive_asks_for() -> None:
     """JSCC wants more than 10 ms between frames."""
     for prefix, least in (("JSCC", 11), ("CHF", 0)):
-        one, at, begun = _master(prefix)(), 0, list[int]()
+        one, at, begun = _masters().instance(f"{prefix}_Master"), 0, list[int]()
         for at in range(0, 400, 5):
             one["Channel.xDone"] = True
             turn = one["Turn"]

@@ -3,60 +3,17 @@
 It cannot show that Beckhoff's blocks do what their manuals say.
 """
 
-import functools
 from pathlib import Path
 
-from tests.export.stock import canon, made
+from tests.export.ports import TWINCAT, library
+from tests.export.stock import made
 from tests.export.test_openplc import written
 
 from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.engine import Instance, Library, Source
+from structured_text.engines.engine import Instance, Source
 
 TICKS = 10_000
 """Of GETCPUCOUNTER in a millisecond."""
-TRIAL = """
-FUNCTION_BLOCK Trial
-VAR
-  Port : TC_Port;
-  Rx : MB_Adu;
-  Tx : MB_LineFrame;
-  TxBuffer : ComBuffer;
-  RxBuffer : ComBuffer;
-  TxCount : UINT;
-  ControlErrorID : UINT;
-END_VAR
-  Port(ControlErrorID := ControlErrorID, TxCount := TxCount, PortLateMs := 20, Rx := Rx, Tx := Tx, TxBuffer := TxBuffer,
-    RxBuffer := RxBuffer);
-END_FUNCTION_BLOCK
-"""
-
-
-COM = (Path(__file__).parent / "com.st").read_text(encoding="utf-8")
-
-
-def engine_library(*texts: str) -> Library:
-    """Texts on the embedded engine."""
-    return EmbeddedEngine().build([Source("twincat.st", "\n".join(texts))])
-
-
-@functools.cache
-def adapter() -> list[str]:
-    """TC_Port, TC_Line8 and TC_Line32."""
-    return [part.text for part in made().adapter("twincat")]
-
-
-@functools.cache
-def trial() -> Library:
-    """The port between two buffers."""
-    return engine_library(canon()["MB_Adu"].text, canon()["MB_LineFrame"].text, COM, adapter()[0], TRIAL)
-
-
-def first_motor() -> Instance:
-    """The first motor of the CHF family, whose globals are its own variables here."""
-    text = made().motor("twincat", made().drives["invt_chf"]).text.replace("TC_Com.", "Com")
-    com = "VAR\n  ComTxBuffer : ComBuffer;\n  ComRxBuffer : ComBuffer;\n  ComErrorID : UINT;\nEND_VAR\nVAR\n"
-    port, line, _ = adapter()
-    return engine_library(written()["CHF.st"], COM, port, line, text.replace("VAR\n", com, 1)).instance("CHF_Motor")
 
 
 class Bench:
@@ -64,20 +21,20 @@ class Bench:
 
     def __init__(self) -> None:
         """At a time near the wrap of the low word."""
-        self.trial = trial().instance("Trial")
+        self.rig = library(TWINCAT).instance("X_Given")
         self.ticks = 0xFFFF_FF00
         self.pass_ms(0)
 
     def pass_ms(self, ms: float, count: int = 0) -> None:
-        """Let time pass, then call it once; `count` above 0 sends."""
+        """Let time pass, then call it; `count` above 0 sends."""
         self.ticks += int(ms * TICKS)
-        clock(self.trial, "Port", self.ticks)
-        self.trial["TxCount"] = count
-        self.trial.scan()
+        clock(self.rig, "Port", self.ticks)
+        self.rig["Send"] = count
+        self.rig.scan()
 
     def buffer(self, name: str) -> bytes:
         """What waits in a buffer."""
-        return taken(self.trial, name, keep=True)
+        return taken(self.rig, name, keep=True)
 
 
 def clock(instance: Instance, port: str, ticks: int) -> None:
@@ -101,31 +58,31 @@ def test_time_is_measured_without_losing_parts_of_a_millisecond() -> None:
     elapsed = []
     for ms in (9.6, 9.6, 9.6, 0.3, 0.3, 0.6, 70_000, 5):
         bench.pass_ms(ms)
-        elapsed.append(bench.trial["Port.ElapsedMs"])
+        elapsed.append(bench.rig["Port.ElapsedMs"])
     assert elapsed == [9, 10, 9, 1, 0, 1, 65535, 5]
 
 
 def test_bytes_that_have_come_are_handed_on_in_order_and_none_is_lost() -> None:
     bench = Bench()
-    bench.trial["RxBuffer.Buffer"], bench.trial["RxBuffer.Count"] = bytes(n % 256 for n in range(300)), 300
+    bench.rig["RxBuffer.Buffer"], bench.rig["RxBuffer.Count"] = bytes(n % 256 for n in range(300)), 300
     bench.pass_ms(10)
-    assert (bench.trial["Port.RxCount"], len(bench.buffer("RxBuffer"))) == (255, 45)
-    received = bench.trial["Rx"]
+    assert (bench.rig["Port.RxCount"], len(bench.buffer("RxBuffer"))) == (255, 45)
+    received = bench.rig["Rx"]
     assert isinstance(received, list)
     assert received[:255] == [n % 256 for n in range(255)]
     bench.pass_ms(10)
-    assert (bench.trial["Port.RxCount"], bench.trial["Rx[0]"]) == (45, 255)
+    assert (bench.rig["Port.RxCount"], bench.rig["Rx[0]"]) == (45, 255)
     bench.pass_ms(10)
-    assert bench.trial["Port.RxCount"] == 0
+    assert bench.rig["Port.RxCount"] == 0
 
 
 def test_a_frame_is_sent_once_and_the_rest_of_an_older_one_is_not() -> None:
     bench = Bench()
-    bench.trial["TxBuffer.Buffer"], bench.trial["TxBuffer.Count"] = b"old", 3
-    bench.trial["Tx"] = b"12345678"
+    bench.rig["TxBuffer.Buffer"], bench.rig["TxBuffer.Count"] = b"old", 3
+    bench.rig["Tx"] = b"12345678"
     bench.pass_ms(0, count=8)
-    assert (bench.buffer("TxBuffer"), bench.trial["Port.TxBusy"]) == (b"12345678", False)
-    taken(bench.trial, "TxBuffer")
+    assert (bench.buffer("TxBuffer"), bench.rig["Port.TxBusy"]) == (b"12345678", False)
+    taken(bench.rig, "TxBuffer")
     for _ in range(5):
         bench.pass_ms(10)
         assert bench.buffer("TxBuffer") == b""
@@ -133,38 +90,43 @@ def test_a_frame_is_sent_once_and_the_rest_of_an_older_one_is_not() -> None:
 
 def test_a_blocked_buffer_delays_a_frame_and_a_frame_whose_time_is_over_is_dropped() -> None:
     bench = Bench()
-    bench.trial["Tx"], bench.trial["TxBuffer.Blocked"] = b"12345678", True
+    bench.rig["Tx"], bench.rig["TxBuffer.Blocked"] = b"12345678", True
     bench.pass_ms(0, count=8)
-    assert (bench.buffer("TxBuffer"), bench.trial["Port.TxBusy"]) == (b"", True)
-    bench.trial["Tx"], bench.trial["TxBuffer.Blocked"] = b"abcdefgh", False  # the caller's own again
-    bench.pass_ms(20)
-    assert (bench.buffer("TxBuffer"), bench.trial["Port.TxBusy"]) == (b"12345678", False)
+    assert (bench.buffer("TxBuffer"), bench.rig["Port.TxBusy"]) == (b"", True)
+    bench.rig["Tx"], bench.rig["TxBuffer.Blocked"] = b"abcdefgh", False  # the caller's own again
+    bench.pass_ms(40)
+    assert (bench.buffer("TxBuffer"), bench.rig["Port.TxBusy"]) == (b"12345678", False)
     bench.pass_ms(1)  # nobody has emptied it
     assert bench.buffer("TxBuffer") == b""
-    bench.trial["TxBuffer.Blocked"] = True
+    bench.rig["TxBuffer.Blocked"] = True
     bench.pass_ms(0, count=8)
-    bench.pass_ms(21)
-    bench.trial["TxBuffer.Blocked"] = False
+    bench.pass_ms(41)
+    bench.rig["TxBuffer.Blocked"] = False
     bench.pass_ms(1)
-    assert (bench.buffer("TxBuffer"), bench.trial["Port.TxBusy"]) == (b"", False)
+    assert (bench.buffer("TxBuffer"), bench.rig["Port.TxBusy"]) == (b"", False)
 
 
 def test_errors_are_reported_that_of_the_terminal_too() -> None:
     bench = Bench()
-    bench.trial["ControlErrorID"] = 24
+    bench.rig["Port.ControlErrorID"] = 24
     bench.pass_ms(10)
-    assert [bench.trial[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [24, 24]
-    bench.trial["Port.Receiver.Error"] = 2
+    assert [bench.rig[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [24, 24]
+    bench.rig["Port.Receiver.Error"] = 2
     bench.pass_ms(10)
-    assert [bench.trial[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [2, 24]
-    bench.trial["ControlErrorID"], bench.trial["Port.Receiver.Error"] = 0, 0
+    assert [bench.rig[f"Port.{name}"] for name in ("ErrorID", "SendErrorID")] == [2, 24]
+    bench.rig["Port.ControlErrorID"], bench.rig["Port.Receiver.Error"] = 0, 0
     bench.pass_ms(10)
-    assert bench.trial["Port.ErrorID"] == 0
+    assert bench.rig["Port.ErrorID"] == 0
 
 
 def test_the_first_motor_speaks_to_its_drive() -> None:
     """What it does with its buttons is the same on every platform: `test_openplc.py` has it."""
-    motor, sent = first_motor(), b""
+    text = made().motor("twincat", made().drives["invt_chf"]).text.replace("TC_Com.", "Com")
+    com = "VAR\n  ComTxBuffer : ComBuffer;\n  ComRxBuffer : ComBuffer;\n  ComErrorID : UINT;\nEND_VAR\nVAR\n"
+    port, line, _ = (part.text for part in made().adapter("twincat"))
+    stand_ins = (Path(__file__).parent / "com.st").read_text(encoding="utf-8")
+    texts = written()["CHF.st"], stand_ins, port, line, text.replace("VAR\n", com, 1)  # globals are its own variables
+    motor, sent = EmbeddedEngine().build([Source("twincat.st", "\n".join(texts))]).instance("CHF_Motor"), b""
     for at in range(100):
         clock(motor, "Bus.Port", at * 10 * TICKS)
         motor.scan()
