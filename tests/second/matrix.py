@@ -140,6 +140,12 @@ def cells() -> list[Cell]:
     return [Cell(*each) for each in product(FAMILIES, MODES, events, STATES) if each[1] != "jog" or each[0] in JOGS]
 
 
+def row_of(cell: Cell, seed: int, chance: Random | None = None) -> pairs.Row:
+    """The options of a run: the first thing that is drawn."""
+    row: pairs.Row = (chance or Random(f"{cell} {seed}")).choice(rows(cell.family))
+    return row
+
+
 @dataclass
 class Outcome:
     """How a run of a cell ended."""
@@ -163,7 +169,7 @@ class Run:
         """Draw options and times by name and seed, and power up."""
         self.cell, self.seed = cell, seed
         self.chance = Random(f"{cell} {seed}")
-        self.row = row = self.chance.choice(rows(self.cell.family))
+        self.row = row = row_of(cell, seed, self.chance)
         second = self.chance.choice([each for each in EVENTS if each not in (*LONG, cell.event)])
         self.second = second if seed % 2 else ""
         self.events = [each for each in (cell.event, self.second) if each]

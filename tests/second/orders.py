@@ -62,15 +62,16 @@ class Orders:
         bench, pins = self.bench, self.bench.pins[self.index]
         sent, self.frames = bench.frames[self.frames :], len(bench.frames)
         self._acknowledge()
-        if any_of(ASTRAY, pins) or pins.get("Address") != self.index + 1 or bench.lineless:
+        if any_of(ASTRAY, pins) or bench.lineless:
             self._astray()
             return
-        self.astray_us = None
+        here = pins.get("Address") == self.index + 1 and not bench.was_slow_port
+        self.astray_us, self.back_us = None, self.back_us if here else bench.now
         asked = [name for name in MOVES if pins.get(name)]
         self._permit(asked)
         self._reset(asked)
-        for frame in sent if not bench.was_slow_port else ():
-            if frame.unit == self.index + 1 and not frame.read:
+        for frame in sent:
+            if here and frame.unit == self.index + 1 and not frame.read:
                 self._order(frame)
         self._overdue()
         self.confirmed = self._shows("StopConfirmed")
@@ -149,7 +150,7 @@ class Orders:
         self.moved = bool(pins.get("Restart")) or (
             not confirmed and (self.moved or self._shows("Running") or self.commanded)
         )
-        boots = bench.now < max(unit.restarted_us + BOOT_US, unit.back_us)
+        boots = bench.now < max(unit.restarted_us + BOOT_US, unit.back_us) or pins.get("Address") != self.index + 1
         tripped = self._shows("Fault") and self._shows("ZeroSpeed")  # its stop stays open, and is not overdue
         away = any_of(("MonitorOnly", "SpeedOnly", "SupplyOff", "Restart"), pins) or boots or tripped
         idle = self.moved and not (self.wish or confirmed or away)

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from tests.second import pairs
-from tests.second.events import AIMED, EVENTS
-from tests.second.matrix import JOGS, MODES, STATES, Cell
+from tests.second.events import AIMED, EVENTS, LONG
+from tests.second.matrix import JOGS, MODES, STATES, Cell, row_of
 from tests.second.pf4 import VARIANTS
 from tests.second.station import MIXED, NEWER
 
@@ -23,6 +23,32 @@ ONE_STATE = {
     "it is busy in its ramp": "at speed",
 }  # fmt: skip
 """Aimed events that mean nothing else in the other state."""
+
+
+SHORT_MS = 6000
+MORE = (
+    ("full control", "keypad start", "standstill"), ("full control", "it ignores runs", "standstill"),
+    ("full control", "a reset", "tripped"), ("full control", "a dead drive", "standstill"),
+    ("full control", "Enable falls", "standstill"), ("full control", "nothing", "local"),
+    ("full control", "nothing", "at speed"), ("jog", "the pin falls and rises", "at speed"),
+    ("MonitorOnly", "a trip", "at speed"), ("MonitorOnly", "nothing", "at speed"),
+    ("SpeedOnly", "nothing", "at speed"), ("SpeedOnly", "StopAll pulse", "at speed"),
+)  # fmt: skip
+"""Where else an event shows what it shows in no other state."""
+
+
+def least() -> list[tuple[Cell, int]]:
+    """The least cell of each short event: a drive by words or by a path of states, alone on its line."""
+    events = [name for name, event in EVENTS.items() if event.lasts <= SHORT_MS and name not in LONG]
+    found = [Cell(("CHF", "ATV312")[at % 2], "full control", event, "at speed") for at, event in enumerate(events)]
+    found += [Cell("CHF", *each) for each in MORE]
+    return [(cell, _quick(cell)) for cell in found]
+
+
+def _quick(cell: Cell) -> int:
+    """The first seed without a second event of a short line in usual scans."""
+    rows = ((seed, row_of(cell, seed)) for seed in range(0, 200, 2))
+    return next(seed for seed, row in rows if row["size"] == 1 and row["ms"] == 20)
 
 
 def aimed() -> list[tuple[Cell, int]]:

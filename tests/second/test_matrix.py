@@ -2,8 +2,8 @@
 
 import pytest
 from tests.second import pairs
-from tests.second.matrix import OPTIONS, STATES, Outcome, Run, cells, named, rows, run
-from tests.second.sample import aimed, sample
+from tests.second.matrix import OPTIONS, STATES, Cell, Outcome, Run, cells, named, rows, run
+from tests.second.sample import aimed, least, sample
 from tests.second.walk import walk
 
 PARTS = 8
@@ -33,6 +33,12 @@ def test_an_event_breaks_no_rule(family: str, event: str) -> None:
     for cell, seed in (each for each in aimed() if (each[0].family, each[0].event) == (family, event)):
         outcome = run(cell, seed)
         assert not outcome.rules, told(outcome)
+
+
+@pytest.mark.parametrize(("cell", "seed"), least(), ids=str)
+def test_each_event_breaks_no_rule_of_a_drive_alone(cell: Cell, seed: int) -> None:
+    outcome = run(cell, seed)
+    assert not outcome.rules, told(outcome)
 
 
 @pytest.mark.thorough
