@@ -127,20 +127,6 @@ def test_what_is_needed_is_installed_when_it_changes_and_a_venv_that_is_not_whol
     assert [words[1:4] for words in done[2:]] == [["-m", "venv", "--clear"], ["-m", "pip", "install"]]
 
 
-def test_it_is_said_what_pip_is_at(capfd: pytest.CaptureFixture[str]) -> None:
-    lines = (
-        "Obtaining file:///x", "Collecting jinja2 (from driveblocks==1.0)", "  Downloading jinja2-3.1.whl (1 kB)",
-        "Collecting click<9 (from driveblocks==1.0)", "Installing collected packages: jinja2, click, driveblocks",
-    )  # fmt: skip
-    code = f"import sys; print({chr(10).join(lines)!r}); sys.exit(3)"
-    assert bootstrap.installed([sys.executable, "-c", code]) == 3
-    said = [line.split(" s  ")[1] for line in capfd.readouterr().out.splitlines()]
-    assert said == [
-        "collecting jinja2 (1)", "downloading jinja2-3.1.whl", "collecting click<9 (2)",
-        "installing 2 packages and driveblocks",
-    ]  # fmt: skip
-
-
 # ---------------------------------------------------------------- the demo
 
 

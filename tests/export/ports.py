@@ -115,7 +115,6 @@ class End:
 GOOD = End(0)
 NEVER = End(None)
 FAILURES = [End(0, fails=True), End(1, fails=True), End(3, fails=True), NEVER]
-ENDS = [GOOD, End(1), End(3), *FAILURES]
 
 ALONE = """PROGRAM X_Alone
 VAR

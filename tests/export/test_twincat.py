@@ -8,7 +8,6 @@ from collections.abc import Iterable
 from pathlib import PurePosixPath
 
 import pytest
-from tests import shipped
 from tests.export import tc_reader
 from tests.export.stock import Canon, canon, made
 
@@ -48,11 +47,6 @@ def tasks() -> dict[str, tc_reader.Task]:
 def projects() -> dict[str, tc_reader.Project]:
     """Every project by its path."""
     return {path: tc_reader.project(text) for path, text in written().items() if path.endswith(".plcproj")}
-
-
-def names(kind: str) -> set[str]:
-    """The names of the files of a kind."""
-    return {PurePosixPath(path).stem for path in written() if path.endswith(kind)}
 
 
 def test_every_part_is_a_file_in_its_folder_and_under_its_name() -> None:
@@ -121,21 +115,14 @@ def slashed(paths: Iterable[str]) -> list[str]:
     return [each.replace("\\", "/") for each in paths]
 
 
-def test_the_library_of_all_lists_every_file_of_its_folder_once_and_nothing_else() -> None:
-    wanted = [path for path in written() if path.startswith("library/") and ".Tc" in path]
-    assert sorted(listed(f"library/{WHOLE}.plcproj")) == sorted(wanted)
-
-
-def test_the_library_of_a_family_lists_what_is_not_of_another() -> None:
-    for folder, drive in made().drives.items():
-        others = made().drives.keys() - {folder}
-        wanted = [
-            path
-            for path in written()
-            if path.startswith("library/") and ".Tc" in path and path.split("/")[1] not in others
-        ]
-        assert sorted(listed(f"library/{drive.prefix}.plcproj")) == sorted(wanted)
-        assert projects()[f"library/{drive.prefix}.plcproj"].name == drive.prefix
+def test_a_library_lists_every_file_of_its_folder_once_that_is_not_of_another_family() -> None:
+    families = {WHOLE: set[str]()}
+    families |= {drive.prefix: made().drives.keys() - {folder} for folder, drive in made().drives.items()}
+    for name, others in families.items():
+        files = [path for path in written() if path.startswith("library/") and ".Tc" in path]
+        wanted = [path for path in files if path.split("/")[1] not in others]
+        assert sorted(listed(f"library/{name}.plcproj")) == sorted(wanted)
+        assert projects()[f"library/{name}.plcproj"].name == name
 
 
 def test_a_project_to_begin_with_has_its_own_files_and_links_its_library() -> None:
@@ -168,11 +155,6 @@ def test_tasks_call_the_first_motor_and_in_front_of_it_the_terminal() -> None:
     assert len(tasks()) == 1 + len(made().drives)
 
 
-def test_projects_say_what_a_library_is_saved_by() -> None:
-    for one in projects().values():
-        assert one.title == ("DriveBlocks", one.name, f"{__version__}.0")
-
-
 def test_projects_list_parts_in_the_order_of_use_and_every_folder() -> None:
     for path, one in projects().items():
         shown = [link or each for link, each in zip(slashed(one.links), slashed(one.compiled), strict=True)]
@@ -180,15 +162,10 @@ def test_projects_list_parts_in_the_order_of_use_and_every_folder() -> None:
         library = [each.stem for each in places if each.stem in canon()]
         assert library == [name for name in canon() if name in library], path
         assert set(one.folders) == {str(each.parent) for each in places} - {"."}, path
-        assert one.libraries == ("Tc2_System", "Tc2_SerialCom"), path
-
-
-def test_names_of_beckhoff_stand_in_the_adapter_and_in_what_is_the_users_alone() -> None:
-    foreign = re.compile(r"\b(ComBuffer|SendByte|ReceiveByte|SerialLineControl|GETCPUCOUNTER|ADR|TC_\w+)\b")
-    using = {
-        str(PurePosixPath(path).parent) for path, one in objects().items() if foreign.search(one.declaration + one.body)
-    }
-    assert using == {"library/port", "motor"}
+        assert (one.title, one.libraries) == (
+            ("DriveBlocks", one.name, f"{__version__}.0"),
+            ("Tc2_System", "Tc2_SerialCom"),
+        ), path
 
 
 def test_the_page_counts_what_a_project_holds() -> None:
@@ -207,12 +184,3 @@ def test_what_the_format_cannot_say_is_refused_with_its_place() -> None:
         "types/MB_Adu.st:3:15: the character 000CH cannot be in a file of TwinCAT: leave it out",
         "types/MB_Adu.st:7:38: `]]>` ends the text in a file of TwinCAT: put a blank between the brackets",
     ]
-
-
-def test_the_page_names_every_folder_of_the_library() -> None:
-    """But for those of the families, which it names together."""
-    order = written()["README.md"].partition("in the order")[2].partition("The adapter")[0]
-    folders = {path.split("/")[1] for path in objects() if path.startswith("library/")}
-    shared = folders - {each.path.stem for each in shipped.sources()}
-    assert shared >= {"types", "device"}
-    assert [name for name in sorted(shared) if f"`{name}`" not in order] == []

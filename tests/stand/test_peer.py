@@ -89,22 +89,3 @@ def test_exchanges_are_those_that_the_manuals_print(where: str, mode: str) -> No
         master.close()
     assert len(wanted) >= 2
     assert sum(each.replied for each in bus.counts.values()) >= 1
-
-
-@pytest.mark.parametrize("function", [3, 6])
-def test_a_refusal_reaches_the_client(function: int) -> None:
-    link = TcpLink(0)
-    prefix, request, reply = next(each for each in pairs() if each[0] == "JSCC")
-    bus = Bus([prepared(prefix, request, reply)], 115200, 10)
-    with serving(bus, link):
-        master = client(link, "rtu", lambda _, data: data)
-        assert master.connect()
-        unit = bus.drives[0].unit
-        if function == 3:
-            told = master.read_holding_registers(0x9999, count=1, device_id=unit)
-        else:
-            told = master.write_register(0x2000, 1, device_id=unit)
-        master.close()
-    assert told.isError()
-    assert told.function_code == function + 0x80
-    assert (bus.counts[unit].heard, bus.counts[unit].replied, bus.counts[unit].refused) == (1, 1, 1)

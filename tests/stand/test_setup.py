@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 from tests.plc.windows import environment
-from tests.simulator.talk import MAPS, body, pairs, prepared
+from tests.simulator.talk import MAPS, pairs, prepared
 
 from driveblocks.cli import app
 from driveblocks.desk.bus import Bus, Frame
@@ -122,11 +122,8 @@ def test_what_is_lost_and_damaged_is_counted(what: str, kept: int) -> None:
     lost = loss.dropped + loss.damaged
     replies = sum(frame.reply for frame in bus.frames)
     assert counts.heard == counts.replied == replies
-    assert (
-        lost
-        == sum(bool(frame.fate) for frame in bus.frames)
-        == 100 - counts.heard + replies - heard.count(reply.correct)
-    )
+    gone = 100 - counts.heard + replies - heard.count(reply.correct)
+    assert lost == sum(bool(frame.fate) for frame in bus.frames) == gone
     assert len(heard) == len(reply.correct) * (replies if kept else heard.count(reply.correct))
     assert 0 < counts.heard < 100
     assert lost > 100 - counts.heard
@@ -205,14 +202,6 @@ def test_an_echo_is_taken_out_and_a_request_is_not() -> None:
     assert link.receive() == POLL
     line.waiting = b"reply"
     assert link.receive() == b"reply"
-
-
-def test_a_bus_answers_an_example_of_each_family() -> None:
-    for prefix, request, reply in pairs():
-        bus = Bus([prepared(prefix, request, reply)], 19200, 10, ascii_mode=request.mode == "ascii")
-        bus.send(request.correct, 0)
-        assert bus.receive(1_000_000) == reply.correct
-        assert body(reply)[0] in bus.counts
 
 
 @pytest.mark.parametrize("ascii_mode", [False, True])
