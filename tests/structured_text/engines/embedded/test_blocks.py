@@ -304,14 +304,15 @@ def test_globals_are_shared_with_inner_blocks_and_each_instance_has_its_own() ->
     text = f"""{TYPES}
 FUNCTION_BLOCK Bump VAR_EXTERNAL total : INT; END_VAR total := total + 1; END_FUNCTION_BLOCK
 PROGRAM Count
-VAR_EXTERNAL total : INT; share : Row; END_VAR VAR inner : Bump; seen : INT; END_VAR
+VAR_EXTERNAL total, own : INT; share : Row; END_VAR VAR inner : Bump; seen : INT; END_VAR
   inner();
   share[1] := share[1] + total;
-  seen := share[0] + share[1];
+  seen := share[0] + share[1] + own;
 END_PROGRAM
 CONFIGURATION Plant
 VAR_GLOBAL total : INT := 100; share : Row := [5]; END_VAR
 RESOURCE Station ON PLC
+VAR_GLOBAL own : INT := 1000; END_VAR
 TASK Slow(INTERVAL := T#30ms, PRIORITY := 2);
 PROGRAM First WITH Slow : Count;
 END_RESOURCE
@@ -321,7 +322,10 @@ END_CONFIGURATION"""
     one.scan()
     one.scan()
     two.scan()
-    assert (one["seen"], two["seen"], one["total"]) == (5 + 101 + 102, 5 + 101, 102)
+    assert (one["seen"], two["seen"], one["total"]) == (1005 + 101 + 102, 1005 + 101, 102)
+    one["total"] = 0
+    one.scan()
+    assert one["seen"] == 1005 + 101 + 102 + 1
 
 
 def test_blocks_are_listed_in_source_order() -> None:
