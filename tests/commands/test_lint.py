@@ -1,7 +1,6 @@
 """`driveblocks lint`: what it prints and how it ends."""
 
 import json
-import os
 from pathlib import Path
 
 import pytest
@@ -193,13 +192,3 @@ def test_blocks_of_a_map_that_is_named_are_known(tmp_path: Path) -> None:
     result = run("--map", own, path)
     assert (result.exit_code, result.output) == (0, "")
     assert run("--map", tmp_path / "no.yaml", path).exit_code == 2
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
-def test_a_pipe_is_no_source(tmp_path: Path) -> None:
-    os.mkfifo(tmp_path / "pipe")
-    result = run(tmp_path / "pipe")
-    assert (result.exit_code, result.stderr) == (
-        2,
-        f"{tmp_path / 'pipe'}:1:1: expected a file, found a pipe or device\n",
-    )

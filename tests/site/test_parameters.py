@@ -14,7 +14,6 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from rich.cells import cell_len
 from tests.plc.desk import maps
 
 from driveblocks.cli import app
@@ -304,32 +303,6 @@ def parameters(*words: str) -> Result:
     return CliRunner().invoke(app, ["parameters", *words], env={"COLUMNS": "80"})
 
 
-@pytest.mark.thorough
-def test_a_drive_a_file_and_a_sister_are_compared(tmp_path: Path) -> None:
-    path = tmp_path / "pump.csv"
-    with simulated("sn300g5@3", "sn300g5@4", "--tcp", ":0") as place:
-        done = parameters("save", "sn300g5@3", str(path), "--tcp", place)
-        assert (done.exit_code, done.stdout) == (0, f"SN300G5 at unit 3: 388 registers, in {path}\n")
-        assert parameters("save", "sn300g5@3", str(path), "--tcp", place).stderr == (
-            f"{path} is complete; name another file\n"
-        )
-        text = path.read_text(encoding="utf-8")
-        same = parameters("compare", str(path), "sn300g5@4", "--tcp", place)
-        assert (same.exit_code, same.stdout) == (0, "323 parameters are equal\n")
-        lines = text.splitlines()
-        (at,) = [number for number, line in enumerate(lines) if ",H5-02," in line]
-        cells = lines[at].split(",")
-        lines[at] = ",".join((*cells[:-4], "4", *cells[-3:]))
-        path.write_text("\n".join(lines), encoding="utf-8")
-        other = parameters("compare", str(path), "sn300g5@3", "--tcp", place)
-    assert other.exit_code == 1
-    told = other.stdout.splitlines()
-    assert max(map(cell_len, told)) <= 80
-    (row,) = [line.split() for line in told if line.startswith("H5-02")]
-    assert (row[1], row[-3:]) == (cells[0], ["4", "0", "3"])
-    assert told[-1] == "1 of 323 parameters differ"
-
-
 @pytest.mark.skipif(sys.platform == "win32", reason="has no pseudo-terminals")
 @pytest.mark.thorough
 def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path: Path) -> None:
@@ -350,31 +323,6 @@ def test_ctrl_c_keeps_what_was_read_and_the_same_command_reads_the_rest(tmp_path
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, f"SN300G5 at unit 1: 388 registers, in {path}\n")
     assert len(saved.read(path).words) == 388
-
-
-@pytest.mark.thorough
-def test_a_file_of_another_drive_at_the_address_is_not_continued(tmp_path: Path) -> None:
-    path, (stem, drive) = tmp_path / "pump.csv", MAPS["SN300G5"]
-    with simulated("sn300g5", "--tcp", ":0") as place:
-        assert parameters("save", "sn300g5", str(tmp_path / "all.csv"), "--tcp", place).exit_code == 0
-        whole = saved.read(tmp_path / "all.csv").words
-        begun: dict[int, Word] = dict([*whole.items()][:205])
-        changed = next(row.address for row in rows(drive) if row.set and row.address in begun)
-        saved.write(path, stem, drive, 1, begun | {changed: 12345})
-        path.write_text(path.read_text(encoding="utf-8") + "# pump 1 of hall 2\n", encoding="utf-8")
-        before = path.read_bytes()
-        got = parameters("save", "sn300g5", str(path), "--tcp", place)
-        assert (got.exit_code, got.stderr) == (
-            2,
-            f"{path} is of another drive, or it was changed since: "
-            f"{changed:04X}H was 12345 and is {whole[changed]}; name another file\n",
-        )
-        assert path.read_bytes() == before
-        saved.write(path, stem, drive, 1, begun)
-        assert parameters("save", "sn300g5", str(path), "--tcp", place).exit_code == 0
-    assert saved.read(path).words.keys() == whole.keys()
-    notes = [line for line in path.read_text(encoding="utf-8").splitlines() if line.startswith("#")]
-    assert (notes[3:], len({*notes})) == (["# read: 388 of 388", "# pump 1 of hall 2"], 5)
 
 
 def test_a_line_on_which_somebody_speaks_is_left_alone(tmp_path: Path) -> None:

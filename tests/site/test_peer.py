@@ -19,7 +19,8 @@ from tests.site.test_parameters import parameters
 
 from driveblocks.maps.form import SPACES, Span, is_bit
 from driveblocks.maps.plan import plan
-from driveblocks.site import hour, kept
+from driveblocks.site import hour, kept, saved
+from driveblocks.site.register import rows
 
 UNIT = 5
 FUNCTIONS: list[int] = []
@@ -141,11 +142,26 @@ def test_a_server_that_answers_every_address_is_of_no_family(stem: str, tmp_path
     assert set(FUNCTIONS) <= READS
 
 
-def test_the_parameters_of_a_server_are_saved_and_compared(tmp_path: Path) -> None:
+def test_the_parameters_of_a_server_are_saved_continued_and_compared(tmp_path: Path) -> None:
+    path, name = tmp_path / "pump.csv", f"jscc@{UNIT}"
     with peer("tcp", SimDevice(UNIT, words("jscc", everything=False))) as place:
         ways = "--tcp", place
-        done = parameters("save", f"jscc@{UNIT}", str(tmp_path / "pump.csv"), *ways)
+        done = parameters("save", name, str(path), *ways)
         assert (done.exit_code, done.stderr) == (0, ""), done.stdout
-        same = parameters("compare", str(tmp_path / "pump.csv"), f"jscc@{UNIT}", *ways)
-    assert (same.exit_code, same.stderr) == (0, ""), same.stdout
+        assert parameters("save", name, str(path), *ways).stderr == f"{path} is complete; name another file\n"
+        same = parameters("compare", str(path), name, *ways)
+        assert (same.exit_code, same.stderr) == (0, ""), same.stdout
+        whole = saved.read(path).words
+        begun: dict[int, saved.Word] = dict([*whole.items()][:100])
+        first = next(row.address for row in rows(MAPS["jscc"]) if row.set)
+        saved.write(path, "jscc", MAPS["jscc"], UNIT, begun | {first: 12345})
+        path.write_text(path.read_text(encoding="utf-8") + "# pump 1 of hall 2\n", encoding="utf-8")
+        before = path.read_bytes()
+        other = parameters("save", name, str(path), *ways)
+        assert (other.exit_code, "is of another drive, or it was changed since: " in other.stderr) == (2, True)
+        assert path.read_bytes() == before
+        path.write_text(before.decode().replace(",12345,", f",{whole[first]},"), encoding="utf-8")
+        assert parameters("save", name, str(path), *ways).exit_code == 0
+    assert saved.read(path).words == whole
+    assert "# pump 1 of hall 2" in path.read_text(encoding="utf-8").splitlines()
     assert set(FUNCTIONS) <= READS

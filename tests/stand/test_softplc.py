@@ -1,7 +1,6 @@
 """The Linux line in a soft PLC by matiec, over a pseudo-terminal, against the simulator. It needs iec2c."""
 
 import os
-import tempfile
 from pathlib import Path
 
 import pytest
@@ -47,27 +46,3 @@ def test_a_motor_starts_trips_is_reset_and_stops_and_both_sides_count_the_same(p
     assert counts.heard == counts.replied
     assert 0 <= open_ - seen["timeouts"] - seen["bad"] <= 20  # what has passed since it last told
     assert (seen["port"], desk.bus.strange) == (0, 0)
-
-
-def test_a_port_that_is_none_is_reported(program: Path) -> None:
-    with plc(program, "/dev/nowhere") as soft:
-        soft.until(lambda seen: seen["port"] == 2 and seen["comm"] == 0 and seen["error"] == 57)
-
-
-def test_a_port_that_vanishes_is_reported_and_opened_again_when_it_is_back(program: Path) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        device = Path(folder, "tty")
-        desk = Desk()
-        device.symlink_to(desk.link.place)
-        with plc(program, str(device)) as soft:
-            soft.until(lambda seen: seen["confirmed"] == 1)
-            desk.stop()
-            device.unlink()
-            desk.link.close()
-            soft.until(lambda seen: seen["port"] != 0 and seen["comm"] == 0)
-            soft.until(lambda seen: seen["port"] == 2)
-            again = Desk()
-            device.symlink_to(again.link.place)
-            soft.until(lambda seen: seen["port"] == 0 and seen["comm"] == 1 and seen["confirmed"] == 1)
-    again.stop()
-    again.link.close()
