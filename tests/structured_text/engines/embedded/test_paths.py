@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import pytest
 from tests.structured_text.engines.embedded.snippets import build
 
@@ -38,26 +36,13 @@ def made() -> EmbeddedInstance:
     return build(TEXT).instance("Test")
 
 
-@pytest.mark.parametrize(
-    ("path", "value"),
-    [
-        *[("b", True), ("s8", -128), ("u", 65535), ("r", 0.5), ("l", 0.1), ("str", b"abc"), ("t", -1_500_000_001)],
-        *[("c", 1), ("n", -5), ("d", 86_400_000_000_000), ("f[3]", 255), ("g[1,-1]", 7), ("g[0, 1]", 8)],
-        *[("item.Crc", 0xA001), ("item.data[2]", 3), ("item.When", 5), ("r", math.inf), ("f", [1, 2, 3, 4])],
-        ("INNER.Buffer[2].Data[0]", 9),
-        ("inner.buffer[1].when", 10**18 + 1),
-        ("g", [[1, 2, 3], [4, 5, 6]]),
-        ("item", {"CRC": 1, "DATA": [1, 2, 3, 4], "WHEN": 6}),
-        ("inner.t.PT", 5),
-    ],
-)
-def test_what_is_written_is_read(made: EmbeddedInstance, path: str, value: Value) -> None:
-    """In any case of letters; the same from the state."""
-    made[path] = value
-    assert made[path] == value
-    assert made[path.swapcase()] == value
-    if not isinstance(value, list | dict):
-        assert made.state()[path.upper().replace(" ", "")] == value
+def test_what_is_written_is_read_in_any_case_of_letters_and_in_the_state(made: EmbeddedInstance) -> None:
+    """Dates, subranges, what blocks and standard blocks inside have, and spaces between indices."""
+    for path, value in (("d", 86_400 * 10**9), ("n", -5), ("inner.buffer[1].when", 10**18 + 1), ("inner.t.PT", 5)):
+        made[path] = value
+        assert made[path] == made[path.swapcase()] == made.state()[path.upper()] == value
+    made["g[0, 1]"] = 8
+    assert made["g[0,1]"] == 8
 
 
 def test_partial_writes(made: EmbeddedInstance) -> None:
@@ -79,29 +64,17 @@ def test_reals_are_rounded_when_written(made: EmbeddedInstance) -> None:
     assert made["r"] == 0.10000000149011612
 
 
-@pytest.mark.parametrize(
-    ("path", "value"),
-    [
-        *[("b", 2), ("b", "x"), ("s8", 128), ("s8", 1.0), ("u", -1), ("r", b"1"), ("r", True), ("str", "text")],
-        *[("str", b"x" * 127), ("t", 1.5), ("c", 2), ("n", 6), ("f", [1, 2, 3, 4, 5]), ("f", 5), ("f[0]", 256)],
-        *[("f", [1, 256]), ("g", [1]), ("item", {"absent": 1}), ("item", 5), ("item.Crc", -1), ("inner.t.IN", 3)],
-    ],
-)
+@pytest.mark.parametrize(("path", "value"), [("n", 6), ("g", [1]), ("inner.t.IN", 3), ("r", True), ("str", "text")])
 def test_wrong_values(made: EmbeddedInstance, path: str, value: Value) -> None:
     """ValueError names the path, and nothing is changed."""
     before = made.state()
-    with pytest.raises(ValueError, match=path.replace("[", r"\[").split(".")[0]):
+    with pytest.raises(ValueError, match=path.split(".", maxsplit=1)[0]):
         made[path] = value
     assert made.state() == before
 
 
 @pytest.mark.parametrize(
-    "path",
-    [
-        *["", "absent", "b.x", "b[0]", "f[4]", "f[-1]", "f[0,1]", "f[x]", "g[0]", "g[2,0]", "item.absent", ".b", "f."],
-        *["inner.buffer[0]", "inner.buffer[3]", "inner.t.state", "inner.t.previous", "f[", "f]0", "b b", "inner..t"],
-        *["inner.t.__class__", "__class__", "globals_"],
-    ],
+    "path", ["f[-1]", "f.", "f]0", "inner..t", "inner.t.state", "inner.t.previous", "inner.t.__class__", "globals_"]
 )
 def test_wrong_paths(made: EmbeddedInstance, path: str) -> None:
     """KeyError, for reading and for writing; what the engine keeps for itself is no variable."""
@@ -115,13 +88,7 @@ def test_state_is_in_order_of_declaration(made: EmbeddedInstance) -> None:
     """Every scalar, arrays element by element, standard blocks with their parameters only."""
     made.scan(0)
     paths = list(made.state())
-    assert paths[:13] == ["B", "S8", "U", "R", "L", "STR", "T", "C", "N", "F[0]", "F[1]", "F[2]", "F[3]"]
-    assert paths[13:19] == ["G[0,-1]", "G[0,0]", "G[0,1]", "G[1,-1]", "G[1,0]", "G[1,1]"]
-    assert paths[19:27] == [
-        *["ITEM.CRC", "ITEM.DATA[0]", "ITEM.DATA[1]", "ITEM.DATA[2]", "ITEM.DATA[3]", "ITEM.WHEN", "D"],
-        paths[26],
-    ]
-    assert paths[26:28] == ["INNER.BUFFER[1].CRC", "INNER.BUFFER[1].DATA[0]"]
+    assert paths[9:15] == ["F[0]", "F[1]", "F[2]", "F[3]", "G[0,-1]", "G[0,0]"]
     assert paths[-4:] == ["INNER.T.IN", "INNER.T.PT", "INNER.T.Q", "INNER.T.ET"]
 
 
