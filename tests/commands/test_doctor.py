@@ -1,10 +1,6 @@
 """`driveblocks doctor`: what is there, what is missing, what that costs, where to get it."""
 
-import contextlib
 import json
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -38,13 +34,8 @@ def parts(report: dict[str, Any]) -> dict[str, str]:
     return {part["name"]: part["state"] for part in report["parts"]}
 
 
-def test_bare_machine_works_on_the_embedded_engine(bare: dict[str, str]) -> None:
+def test_bare_machine_is_told_where_to_get_what_is_missing(bare: dict[str, str]) -> None:
     result = run(**bare)
-    assert result.exit_code == 0
-    lines = {line.split()[0]: line for line in result.output.splitlines() if line and line[0] != " "}
-    assert "ok" in lines["embedded"]
-    assert "missing" in lines["matiec-beremiz"]
-    assert "missing" in lines["matiec-openplc"]
     for place in (
         "https://beremiz.org",
         "https://autonomylogic.com",
@@ -55,7 +46,7 @@ def test_bare_machine_works_on_the_embedded_engine(bare: dict[str, str]) -> None
     assert "\x1b" not in result.output
 
 
-def test_json_says_the_same(bare: dict[str, str]) -> None:
+def test_bare_machine_works_on_the_embedded_engine(bare: dict[str, str]) -> None:
     result = run("--json", **bare)
     report = json.loads(result.output)
     assert result.exit_code == 0
@@ -107,24 +98,19 @@ def test_cache_that_cannot_be_written_is_said(bare: dict[str, str], tmp_path: Pa
     assert "cannot write the build cache" in result.output
 
 
-@pytest.mark.usefixtures("bare")
-def test_embedded_engine_that_does_not_work_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = replace(survey(NOWHERE), embedded=Candidate("embedded", None, "cannot be imported: gone"))
-    monkeypatch.setattr(discovery, "survey", lambda: found)
-    result = run()
-    assert result.exit_code == 1
-    assert "gone" in result.output
+WRONG = MagicMock(Engine)
+WRONG.build.return_value.instance.return_value = MagicMock(__getitem__=lambda *_: 43)
 
 
 @pytest.mark.usefixtures("bare")
-def test_embedded_engine_that_computes_wrongly_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
-    wrong = MagicMock(Engine)
-    wrong.build.return_value.instance.return_value = MagicMock(__getitem__=lambda *_: 43)
-    found = replace(survey(NOWHERE), embedded=Candidate("embedded", wrong, ""))
+@pytest.mark.parametrize(("made", "note", "said"), [(None, "gone", "gone"), (WRONG, "", "21 + 21 gave 43")])
+def test_embedded_engine_that_does_not_work_is_a_failure(
+    made: Engine | None, note: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = replace(survey(NOWHERE), embedded=Candidate("embedded", made, note))
     monkeypatch.setattr(discovery, "survey", lambda: found)
     result = run()
-    assert result.exit_code == 1
-    assert "21 + 21 gave 43" in result.output
+    assert (result.exit_code, said in result.output) == (1, True)
 
 
 def test_libyaml_missing_is_said(bare: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -132,23 +118,3 @@ def test_libyaml_missing_is_said(bare: dict[str, str], monkeypatch: pytest.Monke
     result = run(**bare)
     assert "without libyaml" in result.output
     assert "slower" in result.output
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals of this kind")
-def test_tables_on_a_terminal(bare: dict[str, str]) -> None:
-    import pty
-
-    inner, outer = pty.openpty()
-    command = [sys.executable, "-m", "driveblocks.cli", "doctor"]
-    environment = {**os.environ, **bare, "TERM": "xterm-256color", "COLUMNS": "120"}
-    environment.pop("NO_COLOR", None)
-    with subprocess.Popen(command, stdout=outer, stderr=outer, env=environment) as child:
-        os.close(outer)
-        output = b""
-        with contextlib.suppress(OSError):  # a closed pseudo-terminal is an error on Linux
-            while chunk := os.read(inner, 65536):
-                output += chunk
-    os.close(inner)
-    assert child.returncode == 0
-    assert b"where to get it" in output
-    assert b"\x1b[32mok" in output

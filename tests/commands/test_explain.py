@@ -1,13 +1,11 @@
 """`driveblocks explain`: status, words, JSON for scripts, standard input, and pages that fit any width."""
 
 import json
-import re
-from collections import Counter
 from collections.abc import Iterator
 
 import pytest
 from click.testing import CliRunner, Result
-from rich.cells import cell_len
+from tests.commands.test_show import assert_fits, squeezed
 from tests.shipped import drives
 
 from driveblocks.cli import app
@@ -22,11 +20,6 @@ MAPS = dict(zip((path.stem for path in catalog.shipped()), drives().values(), st
 def explain(*words: str, columns: int = 80, stdin: str | bytes | None = None) -> Result:
     """Run `driveblocks explain` as if in a terminal of some width."""
     return CliRunner().invoke(app, ["explain", *words], input=stdin, env={"COLUMNS": str(columns)})
-
-
-def squeezed(text: str) -> str:
-    """A text with every run of blanks and line ends as one blank, so that folding does not matter."""
-    return " ".join(text.split())
 
 
 def examples() -> Iterator[tuple[str, ...]]:
@@ -132,11 +125,4 @@ def test_json_of_bits() -> None:
 
 @pytest.mark.parametrize("words", list(examples()), ids=lambda words: f"{words[2:3]}{words[0]}"[:40])
 def test_an_explanation_fits_any_terminal_and_folding_loses_no_character(words: tuple[str, ...]) -> None:
-    pages = {columns: explain(*words, columns=columns) for columns in (80, 120, 1000)}
-    for columns, result in pages.items():
-        assert result.exit_code in (0, 1), result.output
-        assert max(map(cell_len, result.stdout.splitlines())) <= columns
-        assert "\x1b" not in result.stdout
-        assert not re.search(r"[ \t]$", result.stdout, re.MULTILINE)
-    wide, *folded = (Counter(re.sub(r"[\s─]", "", pages[columns].stdout)) for columns in (1000, 120, 80))
-    assert folded == [wide, wide]
+    assert_fits(lambda columns: explain(*words, columns=columns))

@@ -122,10 +122,7 @@ def test_a_rate_and_a_scan_beside_a_program_try_another_line() -> None:
         (("absent.st",), ["absent.st:1:1: cannot be read: No such file or directory"]),
         (
             ("sn300g5@3", "--rate", "115200", "--ascii", "--format", "7O1"),
-            [
-                "SN300G5_3 has no 115200 bit/s; its manual names 1200, 2400, 4800, 9600",
-                "SN300G5_3 speaks no ASCII",
-            ],
+            ["SN300G5_3 has no 115200 bit/s; its manual names 1200, 2400, 4800, 9600", "SN300G5_3 speaks no ASCII"],
         ),
     ],
 )

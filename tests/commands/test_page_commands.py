@@ -139,13 +139,3 @@ def test_the_lines_for_the_project_run_and_change_nothing_that_is_current(tmp_pa
     assert faults(COPY, tmp_path) == []
     kept = [ROOT / "vendor_maps" / name for name in ("keys.md", "schema.json")]
     assert [path for path in kept if path.read_bytes() != (tmp_path / path.relative_to(ROOT)).read_bytes()] == []
-
-
-@pytest.mark.thorough
-def test_the_lines_for_a_folder_of_blocks_run_and_count_as_the_page_does(own: Path) -> None:
-    folder = shutil.copytree(ROOT / "blocks/openplc", own / "openplc")
-    shutil.copy(own / "my_drive.yaml", folder)
-    assert faults(BLOCKS, folder) == []
-    page = (folder / "README.md").read_text(encoding="utf-8")
-    counts = [ran(text, folder)[1].strip() for text in runnable([folder / "README.md"]) if text.startswith("grep")]
-    assert f"| `CHF.st` | {' | '.join(counts)} |" in page

@@ -42,13 +42,7 @@ def test_a_name_is_looked_up_once_and_its_address_is_kept(monkeypatch: pytest.Mo
 
     def slow(*words: Any, **options: Any) -> Any:
         asked.append(words)
-        dead = (
-            socket.AF_INET,
-            socket.SOCK_STREAM,
-            0,
-            "",
-            ("127.0.0.1", 1),
-        )
+        dead = (socket.AF_INET, socket.SOCK_STREAM, 0, "", ("127.0.0.1", 1))
         return [dead, *real("127.0.0.1", *words[1:], **options)]
 
     monkeypatch.setattr(socket, "getaddrinfo", slow)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from tests.plc.desk import Desk
 
 from driveblocks.desk import recorder
 from driveblocks.desk.recorder import MOST_WAITING, Recorder, Row
@@ -14,7 +13,6 @@ from driveblocks.plc.departure import Departure
 
 NET = 600
 """Seconds that no machine needs, for what would hang."""
-SECOND = 1_000_000
 
 
 class Slow:
@@ -80,20 +78,16 @@ def test_a_file_that_cannot_be_written_is_reported_and_keeps_no_scan_waiting() -
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-def test_a_trace_into_a_pipe_that_nobody_opens_or_reads_stops_no_motor_late(tmp_path: Path) -> None:
+def test_a_trace_into_a_pipe_that_nobody_opens_or_reads_keeps_no_scan_waiting(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
-    desk = Desk()
-    trace = recorder.trace(pipe, ("Elapsed",), "SIMULATED", waits=False)
-    desk.session.recorders, desk.session.recorded = [trace], ("Elapsed",)
-    result = desk.session.run(80 * SECOND)
-    assert (result.reason, result.stopped) == ("80 s are over", ("Motor",))
-    assert desk.session.pace.scans == 8000
-    assert "is not whole, since nobody takes it: 8000 rows dropped" in trace.finish(0.01)
-    assert any("rows are dropped, since nobody takes them" in line for line in desk.told())
+    made = recorder.trace(pipe, ("Elapsed",), "SIMULATED", waits=False)
+    for at in range(8000):
+        made.add(10_000 * at, {"Elapsed": 10})
+    assert "is not whole, since nobody takes it: 8000 rows dropped" in made.finish(0.01)
     with pipe.open("rb") as reader:
         assert reader.read().startswith(b"# SIMULATED\nms,Elapsed\n0,10\n")
-    assert "3000 rows dropped" in trace.finish(NET)
+    assert "3000 rows dropped" in made.finish(NET)
 
 
 # ------------------------------------------------------------ the way out

@@ -52,12 +52,7 @@ def library() -> Library:
 
 
 def test_the_pages_have_programs() -> None:
-    assert {
-        "Plant",
-        "Parameters",
-        "HardStops",
-        *(f"{prefix}_Motor" for prefix in shipped.drives()),
-    } <= PROGRAMS.keys()
+    assert {"Plant", "Parameters", "HardStops", *(f"{prefix}_Motor" for prefix in shipped.drives())} <= PROGRAMS.keys()
 
 
 @pytest.mark.parametrize("name", PROGRAMS)

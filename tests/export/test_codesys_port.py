@@ -13,8 +13,6 @@ from tests.shipped import BOTH
 from driveblocks.render import library as render
 from structured_text.engines.embedded.engine import EmbeddedEngine
 from structured_text.engines.engine import Instance, Library, Source, Value
-from structured_text.language.names import reserved
-from structured_text.language.tree import Pou
 
 
 def _port() -> Instance:
@@ -148,23 +146,6 @@ def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
     assert rig["Port.State"] == 3
     _scan(rig, 3010)
     assert rig["Port.State"] == 0
-
-
-def test_no_variable_has_a_name_that_a_compiler_keeps() -> None:
-    shelf = made()
-    parts = [
-        *shelf.adapter("codesys"),
-        *(one for each in shelf.drives.values() for one in shelf.programs("codesys", each)),
-    ]
-    names = {
-        v.name
-        for part in parts
-        if isinstance(part.element, Pou)
-        for block in part.element.blocks
-        for v in block.variables
-    }
-    assert {name: reserved(name) for name in names if reserved(name)} == {}
-    assert reserved("Reference")
 
 
 @cache

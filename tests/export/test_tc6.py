@@ -6,15 +6,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from tests.export.tc6_checks import (
-    CHECKS,
-    Made,
-    assert_declarations,
-    assert_ladders,
-    assert_names,
-    assert_room,
-    made,
-)
+from tests.export.tc6_checks import CHECKS, Made, assert_declarations, assert_ladders, assert_names, assert_room, made
 from tests.shapes import shapes
 from tests.shipped import BOTH, sources
 

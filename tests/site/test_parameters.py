@@ -85,8 +85,7 @@ class Unit:
 
 
 @pytest.mark.parametrize(
-    ("family", "ascii_mode"),
-    [("CHF", False), ("CHF", True), ("JSCC", False), ("JSCC", True), ("SN300G5", False)],
+    ("family", "ascii_mode"), [("CHF", False), ("CHF", True), ("JSCC", False), ("JSCC", True), ("SN300G5", False)]
 )
 @pytest.mark.parametrize(("drop", "damage"), [(0.0, 0.0), (0.2, 0.1)])
 def test_every_word_is_read_by_reads_alone(family: str, ascii_mode: bool, drop: float, damage: float) -> None:
