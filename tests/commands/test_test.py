@@ -19,15 +19,15 @@ from driveblocks.testing.unit import Unit
 from structured_text.engines import discovery
 from structured_text.engines.embedded import EmbeddedEngine
 
+MINE = "my_drive.yaml"
 EXAMPLE = Path(__file__).parents[1] / "maps" / "example.yaml"
 
 
-@pytest.fixture
-def my_drive(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+@pytest.fixture(autouse=True)
+def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A user's map in the folder where the user stands."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "my_drive.yaml").write_text(EXAMPLE.read_text(encoding="utf-8"), encoding="utf-8")
-    return "my_drive.yaml"
+    Path(MINE).write_text(EXAMPLE.read_text(encoding="utf-8"), encoding="utf-8")
 
 
 @functools.cache
@@ -37,24 +37,19 @@ def whole() -> Unit:
     return tested.units([collection.Source(Path("my_drive.yaml"), source.drive)], BOTH)[1]
 
 
-def give(monkeypatch: pytest.MonkeyPatch, made: Unit) -> None:
-    """Let the command find this unit instead of what the map makes."""
-    monkeypatch.setattr(tested, "units", lambda *_: [made])
-
-
 @pytest.fixture
-def brief(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> str:
-    """The map, of which two programs alone are made."""
-    give(monkeypatch, only(whole(), "Frames", "Scales"))
-    return my_drive
+def brief() -> Unit:
+    """Two programs of the map alone."""
+    return only(whole(), "Frames", "Scales")
 
 
-def invoke(*arguments: str) -> Result:
-    return CliRunner().invoke(app, ["test", *arguments])
+def invoke(made: Unit | None, *arguments: str) -> Result:
+    """Run the command, with this unit instead of what the map makes."""
+    return CliRunner().invoke(app, ["test", *arguments], obj=made and (lambda *_: [made]))
 
 
-def test_a_good_map_passes_and_nothing_is_written_but_the_xml(brief: str) -> None:
-    result = invoke(brief, "--junit", "junit.xml")
+def test_a_good_map_passes_and_nothing_is_written_but_the_xml(brief: Unit) -> None:
+    result = invoke(brief, MINE, "--junit", "junit.xml")
     assert result.exit_code == 0, result.output
     assert sorted(path.name for path in Path.cwd().iterdir()) == ["junit.xml", "my_drive.yaml"]
     last = result.stdout.splitlines()[-1]
@@ -65,8 +60,8 @@ def test_a_good_map_passes_and_nothing_is_written_but_the_xml(brief: str) -> Non
     assert "my_drive.EX100_TestFrames" in {case.attrib["classname"] for case in root.iter("testcase")}
 
 
-def test_the_table_has_a_row_per_group_and_a_column_per_engine_and_no_file_is_written(brief: str) -> None:
-    lines = invoke(brief).stdout.splitlines()
+def test_the_table_has_a_row_per_group_and_a_column_per_engine_and_no_file_is_written(brief: Unit) -> None:
+    lines = invoke(brief, MINE).stdout.splitlines()
     assert [path.name for path in Path.cwd().iterdir()] == ["my_drive.yaml"]
     assert re.search(r": all passed in [\d.]+ s$", lines[-1])
     assert lines[0] == "engine embedded: runs, part of DriveBlocks"
@@ -76,20 +71,17 @@ def test_the_table_has_a_row_per_group_and_a_column_per_engine_and_no_file_is_wr
     assert re.fullmatch(r"my_drive +Registers: [\d,]+ checks +[\d.]+ ms", row)
 
 
-def test_a_drive_that_no_example_frame_backs_is_named(brief: str) -> None:
+def test_a_drive_that_no_example_frame_backs_is_named(brief: Unit) -> None:
     before, _, rest = skeleton().partition("frames:")
-    Path(brief).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")
-    lines = invoke(brief).stdout.splitlines()
+    Path(MINE).write_text(f"{before}frames: []\nerrata:{rest.partition('errata:')[2]}", encoding="utf-8")
+    lines = invoke(brief, MINE).stdout.splitlines()
     assert f"ACME: {UNPROVED}" in lines
     assert not [line for line in lines if "coverage" in line]
 
 
-def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
-    my_drive: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_failure_is_printed_with_place_and_values_and_gives_status_1() -> None:
     wrong = changed(whole(), "EX100_DCBusVoltageV", "/ 10.0", "/ 100.0")
-    give(monkeypatch, only(wrong, "Frames", "Scales"))
-    result = invoke(my_drive, "--junit", "results.xml")
+    result = invoke(only(wrong, "Frames", "Scales"), MINE, "--junit", "results.xml")
     assert result.exit_code == 1
     place = r"tests/iec61131/my_drive/EX100_TestFrames\.st:\d+: my_drive\.EX100_TestFrames on embedded"
     assert re.search(
@@ -103,14 +95,11 @@ def test_a_failure_is_printed_with_place_and_values_and_gives_status_1(
 
 
 @pytest.mark.thorough
-def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn(
-    my_drive: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn() -> None:
     """A stop that never reaches the drive, seen from the pins alone."""
     wrong = changed(whole(), "EX100_Drive", "END_FUNCTION_BLOCK", "  QuickStop := FALSE;\nEND_FUNCTION_BLOCK")
     wrong = changed(wrong, "EX100_Drive", "END_VAR\n\n", "END_VAR\n\n  QuickStop := FALSE;\n")
-    give(monkeypatch, only(wrong, "MotorStop"))
-    result = invoke(my_drive, "--junit", "results.xml", "--picture", "pictures")
+    result = invoke(only(wrong, "MotorStop"), MINE, "--junit", "results.xml", "--picture", "pictures")
     assert result.exit_code == 1
     assert re.search(r"^my_drive +Motor: \d+ scenes, \d+ checks +\d+ failed$", result.stdout, re.MULTILINE)
     assert re.search(r"^ +ms +set +shown +Reason +Hz +motor +frame$", result.stdout, re.MULTILINE)
@@ -127,17 +116,17 @@ def test_a_scene_that_fails_is_printed_with_pins_and_frames_and_drawn(
     words = {each.text for each in drawn.iter("{http://www.w3.org/2000/svg}text")}
     assert {"QuickStop", "RunForward", "Running", "sent", "heard"} <= words
 
-    assert invoke(my_drive, "--picture", "pictures").exit_code == 1, "its own picture is replaced"
+    assert invoke(only(wrong, "MotorStop"), MINE, "--picture", "pictures").exit_code == 1, "its own picture is replaced"
     Path("pictures/EX100_TestMotorStop-embedded.svg").write_text("<svg/>", encoding="utf-8")
-    again = invoke(my_drive, "--picture", "pictures")
+    again = invoke(only(wrong, "MotorStop"), MINE, "--picture", "pictures")
     assert (again.exit_code, Path("pictures/EX100_TestMotorStop-embedded.svg").read_text("utf-8")) == (2, "<svg/>")
     assert "EX100_TestMotorStop-embedded.svg: there is a file that no `driveblocks test` has written" in again.stderr
 
 
-def test_a_bad_map_gives_status_2_and_is_reported_with_its_place(my_drive: str) -> None:
-    text = Path(my_drive).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")
+def test_a_bad_map_gives_status_2_and_is_reported_with_its_place() -> None:
+    text = Path(MINE).read_text(encoding="utf-8").replace("baud: 19200", "boud: 19200")
     Path("bad.yaml").write_text(text, encoding="utf-8")
-    result = invoke(my_drive, "bad.yaml", "--junit", "junit.xml")
+    result = invoke(None, MINE, "bad.yaml", "--junit", "junit.xml")
     assert result.exit_code == 2
     assert re.search(r"^bad\.yaml:\d+:\d+: ", result.stderr, re.MULTILINE)
     assert not Path("junit.xml").exists()
@@ -151,8 +140,8 @@ def test_a_bad_map_gives_status_2_and_is_reported_with_its_place(my_drive: str) 
         (["--engine", "codesys"], "there is no engine `codesys`; write one of embedded, matiec, all"),
     ],
 )
-def test_what_cannot_be_meant_gives_status_2(my_drive: str, arguments: list[str], said: str) -> None:
-    result = invoke(*arguments)
+def test_what_cannot_be_meant_gives_status_2(arguments: list[str], said: str) -> None:
+    result = invoke(None, *arguments)
     assert result.exit_code == 2
     assert said in result.stderr
     assert "Traceback" not in result.output
@@ -164,17 +153,15 @@ def without_matiec(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(discovery, "survey", lambda: discovery.Survey(found.embedded, None, found.cache))
 
 
-def test_an_engine_that_is_not_there_gives_status_2_and_the_reason(
-    my_drive: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_engine_that_is_not_there_gives_status_2_and_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
     without_matiec(monkeypatch)
-    result = invoke(my_drive, "--engine", "matiec")
+    result = invoke(None, MINE, "--engine", "matiec")
     assert result.exit_code == 2
     assert "engine matiec-beremiz cannot be used: no iec2c found" in result.stderr
     assert "engine matiec-openplc cannot be used: no iec2c found" in result.stderr
 
 
-def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_several_engines_stand_side_by_side(brief: Unit, monkeypatch: pytest.MonkeyPatch) -> None:
     class Second(EmbeddedEngine):
         name = "matiec-openplc"
 
@@ -185,7 +172,7 @@ def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.Monk
             return [found.embedded, discovery.Candidate("matiec-openplc", Second(), "here")]
 
     monkeypatch.setattr(discovery, "survey", lambda: Both(found.embedded, None, found.cache))
-    result = invoke(brief, "--engine", "all", "--junit", "junit.xml")
+    result = invoke(brief, MINE, "--engine", "all", "--junit", "junit.xml")
     assert result.exit_code == 0
     assert "drive     tested" in result.stdout
     assert re.search(r"^drive +tested +embedded +openplc$", result.stdout, re.MULTILINE)
@@ -194,8 +181,8 @@ def test_several_engines_stand_side_by_side(brief: str, monkeypatch: pytest.Monk
     assert {name.rpartition(" on ")[2] for name in suites} == {"embedded", "matiec-openplc"}
 
 
-def test_an_xml_that_cannot_be_written_gives_status_2(brief: str) -> None:
-    result = invoke(brief, "--junit", "no/such/folder/junit.xml")
+def test_an_xml_that_cannot_be_written_gives_status_2(brief: Unit) -> None:
+    result = invoke(brief, MINE, "--junit", "no/such/folder/junit.xml")
     assert result.exit_code == 2
     assert "no/such/folder/junit.xml: cannot be written" in result.stderr
 
@@ -203,12 +190,12 @@ def test_an_xml_that_cannot_be_written_gives_status_2(brief: str) -> None:
 # ---------------------------------------------------------------- coverage
 
 
-def test_coverage_below_what_is_required_gives_status_1(my_drive: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_coverage_below_what_is_required_gives_status_1() -> None:
     never = "  IF StandstillProven AND NOT StandstillProven THEN\n    StandstillProven := FALSE;\n  END_IF;\n"
     longer = changed(whole(), "EX100_Standstill", "END_FUNCTION_BLOCK", f"{never}END_FUNCTION_BLOCK")
-    give(monkeypatch, only(longer, "Standstill"))
-    assert invoke(my_drive, "--coverage").exit_code == 0
-    result = invoke(my_drive, "--require-coverage", "100")
+    longer = only(longer, "Standstill")
+    assert invoke(longer, MINE, "--coverage").exit_code == 0
+    result = invoke(longer, MINE, "--require-coverage", "100")
     assert result.exit_code == 1
     assert re.search(r"^  iec61131/my_drive/EX100_Standstill\.st:\d+:6: never IF TRUE$", result.stdout, re.MULTILINE)
     assert re.search(r"^library\.coverage on embedded$", result.stdout, re.MULTILINE)

@@ -75,7 +75,8 @@ def _planned(folder: Path, maps: tuple[str, ...], asked: "Wanted") -> "Plan":
     from driveblocks.output import build
 
     with _told(folder):
-        return build.plan(folder, catalog.chosen(maps), asked)
+        made = click.get_current_context().obj  # another output, as a test may want it
+        return build.plan(folder, catalog.chosen(maps), asked, made or build.files)
 
 
 def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bool) -> "Plan":

@@ -72,7 +72,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     candidates, chosen = _engines(engine)
     read = sources(maps)
-    made = units(read, languages(["en", "zh"], "utf-8"))
+    making = click.get_current_context().obj or units  # other programs, as a test may want them
+    made = making(read, languages(["en", "zh"], "utf-8"))
     engines = [each.engine for each in chosen if each.engine is not None]
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
     some = [counting(each) for each in engines] if measured else engines

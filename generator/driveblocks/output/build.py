@@ -1,7 +1,7 @@
 """Build the library and its tests: maps -> all files in memory -> what differs in a folder -> all of it or nothing."""
 
 import os
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -63,6 +63,10 @@ def _tests(sources: list[Source], languages: list[Language]) -> "Tests":
     return tests(sources, languages)
 
 
+Made = Callable[[list[Source], list[Language], Collection[str], Mapping[str, Sequence[Measured]]], dict[str, str]]
+"""What makes an output, as `files` does."""
+
+
 @dataclass(frozen=True)
 class Plan:
     """What a folder is to hold, and what of that is not so yet: path below the folder -> why."""
@@ -84,8 +88,8 @@ class Wanted:
     """By the name of a map."""
 
 
-def plan(folder: Path, named: list[Path], asked: Wanted) -> Plan:
-    """The output of the named maps for the named targets.
+def plan(folder: Path, named: list[Path], asked: Wanted, made: Made = files) -> Plan:
+    """The output of the named maps for the named targets; `made` makes it.
 
     Unless only those are wanted, also of the maps and for the targets that the folder was built from and for.
     Raises MapError, ExportError, Refused and OSError.
@@ -100,7 +104,7 @@ def plan(folder: Path, named: list[Path], asked: Wanted) -> Plan:
             there = ", ".join(map(str, others))
             error.add_note(f"{folder} was built from {there} as well; --only builds without")
         raise
-    texts = files(sources, asked.languages, targets, asked.measured)
+    texts = made(sources, asked.languages, targets, asked.measured)
     words = [_word(source.path, folder) for source in sources]
     texts[manifest.NAME] = manifest.made(words, targets, texts, folder, old).text
     return Plan(sources, old, texts, manifest.compare(folder, old, texts))
