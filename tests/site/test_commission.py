@@ -606,20 +606,14 @@ def test_a_folder_that_is_not_there_is_named_before_anything_is_sent(tmp_path: P
     assert (got.exit_code, got.stderr) == (2, f"{path}: No such file or directory\n")
 
 
-def test_what_cannot_be_written_is_shown_at_the_end(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(kept, "write", full)
-    words = hour.Words(map="jscc", label="Pump", file=tmp_path / "site.yaml")
+def test_what_cannot_be_written_is_shown_at_the_end(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    words = hour.Words(map="jscc", label="Pump", file=tmp_path / "gone" / "site.yaml")
     shelf = hour.Shelf(words.file, ABOUT)
     found = replace(FULL)
     shelf.keep(found)
     hour.told(adapter.Person(lambda _: ""), words, MAPS["jscc"], found, shelf)
     said = capsys.readouterr().out
-    assert f"{words.file} could not be written: No space left on device" in " ".join(said.split())
+    assert f"{words.file} could not be written: No such file or directory" in " ".join(said.split())
     assert kept.text(ABOUT, found) in said
 
 

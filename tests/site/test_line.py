@@ -1,4 +1,4 @@
-"""The figures of a line, typed and of a program: beside simulated drives, the page of stops, and the virtual line."""
+"""The figures of a line, typed and of a program: beside simulated drives, and the page of stops."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -6,8 +6,6 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from tests.line.refresh import TURN_MS
-from tests.line.refresh import Setup as Virtual
 from tests.plc.desk import BOX, maps
 
 from driveblocks.desk.clock import VirtualClock
@@ -133,15 +131,9 @@ def test_stops_are_those_of_the_page(tmp_path: Path, family: str, rate: int, kee
         assert figures(made, rate).worst == ms
 
 
-@pytest.mark.parametrize(("rate", "keeps"), [(9600, True), (9600, False), (19200, True), (115200, False)])
-@pytest.mark.parametrize("scan", [5, 10, 20])
-def test_rounds_are_those_of_the_virtual_line(rate: int, keeps: bool, scan: int) -> None:
-    words = asked.Words(line=("chf",) * 3, rate=rate, keeps_silence=keeps, scan=f"{scan}ms", reply=f"{TURN_MS}ms")
-    made = figures(asked.line(words), rate)
-    most = max(each.words for each in polls(MAPS["CHF"]))
-    assert made.round == Virtual(3, rate, 10, scan, 0, 0, keeps, most).formula(whole=True)
-    late = replace(made.line, port_late=2 * scan)
-    assert figures(late, rate).round == Virtual(3, rate, 10, scan, 1, 1, keeps, most).formula(whole=True)
+def test_a_port_that_is_late_makes_each_round_longer() -> None:
+    made = asked.line(asked.Words(line=("chf",) * 3, scan="10ms"))
+    assert figures(replace(made, port_late=20), 9600).round > figures(made, 9600).round
 
 
 def test_ascii_takes_twice_the_characters_and_devices_take_their_turn() -> None:

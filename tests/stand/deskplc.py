@@ -171,50 +171,40 @@ def plc(device: str, trace: Path) -> Iterator[DeskPlc]:
 
 @dataclass
 class Exchange:
-    """What was done, the trace of the soft PLC, and what it said."""
+    """What was done, in figures, and what the soft PLC said."""
 
-    motor: Motor
     figures: dict[str, float]
-    rows: list[dict[str, str]] = field(default_factory=list)
-    lines: list[str] = field(default_factory=list)
+    lines: list[str]
 
-    def turn(self, soft: DeskPlc, seconds: float) -> None:
-        """Start, turn and stop, once and then over and over for so long."""
-        soft.stop()
-        self.figures["memory at first"] = soft.memory()
-        end = time.monotonic() + seconds
-        while not self.figures["rounds"] or time.monotonic() < end:
-            self.figures["starts held"] += soft.start()
-            soft.stop()
-            self.figures["lost stops"] += not self.motor.stands
-            self.figures["rounds"] += 1
-        self.figures["memory"] = soft.memory()
 
-    def wrong_values(self) -> int:
-        """How many values of the trace the motor did not have, or not in this order; and words that it must not get."""
-        rows = [row for row in self.rows if row[f"Motor.{VALID}"] == "1"]
-        valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows]
-        held = iter(self.motor.frequencies)
-        seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]
-        allowed = {(COMMAND, RUN), (COMMAND, STOP), (COMMAND, JOG_STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
-        return sum(seen) + len(self.motor.written - allowed)
+def wrong_values(motor: Motor, rows: list[dict[str, str]]) -> int:
+    """How many values of a trace the motor did not have, or not in this order; and words that it must not get."""
+    valid = [round(100 * float(row["Motor.OutputFrequencyHz"])) for row in rows if row[f"Motor.{VALID}"] == "1"]
+    held = iter(motor.frequencies)
+    seen = [value not in held for value, before in zip(valid, [None, *valid], strict=False) if value != before]
+    allowed = {(COMMAND, RUN), (COMMAND, STOP), (COMMAND, JOG_STOP), (REFERENCE, 0), (REFERENCE, 200 * ASKED_HZ)}
+    return sum(seen) + len(motor.written - allowed)
 
 
 def exchange(seconds: float, damage: float) -> Exchange:
-    """The soft PLC and pymodbus's server for so long, and the end of both."""
-    made, loss = Exchange(Motor(), {"rounds": 0, "starts held": 0, "lost stops": 0}), Loss(damage=damage)
-    with peer("pty", device(made.motor), carried(loss)) as place, tempfile.TemporaryDirectory() as folder:
+    """The soft PLC and pymodbus's server, at least one start and stop and then so long, and the end of both."""
+    motor, loss, figures = Motor(), Loss(damage=damage), {"rounds": 0.0, "starts held": 0.0, "lost stops": 0.0}
+    with peer("pty", device(motor), carried(loss)) as place, tempfile.TemporaryDirectory() as folder:
         trace = Path(folder) / "trace.csv"
         with plc(place, trace) as soft:
-            made.turn(soft, seconds)
-        made.lines = soft.lines
-        with trace.open(encoding="utf-8") as file:
-            next(file)
-            made.rows = list(DictReader(file))
-    made.figures |= {name: float(made.rows[-1][f"Bus.{name}"]) for name in COUNTERS}
-    made.figures |= {"damaged": loss.damaged, "wrong values": made.wrong_values()}
-    made.figures["exit status"] = soft.process.returncode
-    return made
+            soft.stop()
+            figures["memory at first"] = soft.memory()
+            end = time.monotonic() + seconds
+            while not figures["rounds"] or time.monotonic() < end:
+                figures["starts held"] += soft.start()
+                soft.stop()
+                figures["lost stops"] += not motor.stands
+                figures["rounds"] += 1
+            figures["memory"] = soft.memory()
+        rows = list(DictReader(trace.read_text(encoding="utf-8").splitlines()[1:]))
+    figures |= {name: float(rows[-1][f"Bus.{name}"]) for name in COUNTERS} | {"damaged": loss.damaged}
+    figures |= {"wrong values": wrong_values(motor, rows), "exit status": soft.process.returncode}
+    return Exchange(figures, soft.lines)
 
 
 if __name__ == "__main__":

@@ -123,11 +123,17 @@ REFUSED = [
 ]
 
 
-def test_what_scl_cannot_say_is_refused_with_its_place_and_all_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Shelf, "adapter", lambda *_: ())
+class Bare(Shelf):
+    """A shelf without a port."""
+
+    def adapter(self, platform: str) -> tuple[Part, ...]:
+        return ()
+
+
+def test_what_scl_cannot_say_is_refused_with_its_place_and_all_at_once() -> None:
     texts = ["\n".join(each) for each in _elements(CANNOT)]
     with pytest.raises(ExportError) as caught:
-        library.files(Shelf(tuple(_part(text) for text in texts), {}, ()))
+        library.files(Bare(tuple(_part(text) for text in texts), {}, ()))
     assert [str(problem) for problem in caught.value.problems] == REFUSED
 
 
@@ -205,9 +211,8 @@ END_FUNCTION_BLOCK
 """
 
 
-def test_what_no_block_uses_yet_is_written_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Shelf, "adapter", lambda *_: ())
-    made = library.files(Shelf((_part(MORE.strip()),), {}, ()))["siemens/DriveBlocks.scl"].replace("\r\n", "\n")
+def test_what_no_block_uses_yet_is_written_too() -> None:
+    made = library.files(Bare((_part(MORE.strip()),), {}, ()))["siemens/DriveBlocks.scl"].replace("\r\n", "\n")
     assert made.partition("// head\n")[2].strip("\n") == SAID.strip("\n")
 
 
