@@ -104,7 +104,7 @@ class Atv312(Drive):
 
     def _refer_word(self, word: int, now_us: int) -> None:
         hz = (word - 0x10000 if word >> 15 else word) / 10  # 0.1 Hz, signed: page 19
-        if abs(hz) > self.maximum_hz + 1e-9 and self.o.over == "refused":
+        if abs(hz) > self.maximum_hz + 1e-9:
             raise Refusal("value")
         self._refer(hz, now_us)
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from tests.second.drive import Drive, Options, Refusal, Source
 
@@ -20,23 +20,12 @@ class ChfOptions(Options):
     """... and what this chapter leaves open: nearly every setting, a lost line, and all scales but that of 2000H."""
 
     two_byte_count: bool = False  # the CRC of the reply at lines 125 to 134 is that of a byte count of two bytes
-    answers_bad_crc: bool = False  # code 3 is a CRC error (line 402); whether it is ever sent is open
     stop_ends_jog: bool = True  # 0005H
     jog_stop_ends_run: bool = False  # 0008H
     jogs_from_run: bool = False  # a jog that is asked for while it runs is carried out
-    negative: Literal["reverses", "forward", "refused"] = "reverses"  # what a negative 2000H (line 332) does
-    zero_command: Literal["refused", "nothing"] = "refused"  # 0000H at 1000H
     standby_in_coast: bool = True  # 1001H says standby while the motor coasts; else running
-    monitor_milli_hz: Literal[10, 100, 1000] = 10  # a count of 3000H and 3001H
     reserved_rows: bool = True  # reserved rows can be read
-    fixed: Literal["while running", "never"] = "while running"  # parameters refuse to be changed then, with 6
-    locked: bool = False  # with 7: system locked
-    password: bool = False  # with 1: a password was not given
-    lock_covers_commands: bool = False
-    command_stores: bool = False  # writes to 1000H and 2000H wear EEPROM, too
-    maximum_at: int | None = None  # the register of P0.04, which may be 0004H
     bus_volts: int = 540
-    amperes: int = 100
 
 
 class Chf(Drive):
@@ -44,8 +33,8 @@ class Chf(Drive):
 
     o: ChfOptions
     CODES: ClassVar[dict[str, int]] = {
-        "password": 1, "function": 2, "crc": 3, "address": 4, "read only": 4, "count": 5, "value": 5, "running": 6,
-        "mode": 6, "locked": 7, "busy": 8,
+        "function": 2, "address": 4, "read only": 4, "count": 5, "value": 5, "running": 6,
+        "mode": 6, "busy": 8,
     }  # fmt: skip  # lines 400 to 407
     MOST: ClassVar[dict[int, int]] = {3: 16, 6: 1}  # lines 81, 106, 179
     IDS = ("unit", "run", "speed")
@@ -58,8 +47,6 @@ class Chf(Drive):
         o = options or ChfOptions()
         self.last_error = 0
         self.eeprom = dict.fromkeys(range(0x0200), 0)  # function codes: line 310
-        if o.maximum_at is not None:
-            self.eeprom[o.maximum_at] = round(100 * o.maximum_hz)
         super().__init__(unit, o, at_us, **settings)
 
     def _factory(self) -> dict[str, int]:
@@ -79,21 +66,15 @@ class Chf(Drive):
         self.last_error = code
         return bytes([body[0], 0x06, 0x50, 0x01, 0x00, code])
 
-    def _damaged(self, frame: bytes) -> bytes | None:
-        mine = not self.o.ascii and len(frame) > 3 and frame[0] == self.unit
-        return self._refused(frame, self.CODES["crc"]) if mine and self.o.answers_bad_crc else None
-
     def _write(self, words: dict[int, int], now_us: int) -> None:
-        (address, word), o = next(iter(words.items())), self.o
+        address, word = next(iter(words.items()))
         plain = address & ~RAM_ONLY
         parameter = plain < 0x0200
         if not parameter and address not in (0x1000, 0x2000):
             raise Refusal("read only")
-        if (o.locked or o.password) and (parameter or o.lock_covers_commands):
-            raise Refusal("locked" if o.locked else "password")
         if parameter and now_us < self.busy_us:
             raise Refusal("busy")
-        if parameter and self.output and o.fixed == "while running":
+        if parameter and self.output:
             raise Refusal("running")
         if parameter:
             self._parameter(plain, word, stored=address == plain, now_us=now_us)
@@ -105,31 +86,20 @@ class Chf(Drive):
         if stored:
             self.eeprom[address] = word
             self.store(address, word, now_us)
-        if address == self.o.maximum_at:
-            self.maximum_hz = word / 100
-            self._told(0x2000, self.ram[0x2000], now_us)
 
     def _told(self, address: int, word: int, now_us: int) -> None:
         if address == 0x2000:
             self._refer_word(word, now_us)
         elif what := COMMANDS.get(word):
             self._command(what, now_us)
-        elif word or self.o.zero_command == "refused":
+        else:
             raise Refusal("value")
         self.ram[address] = word
-        if self.o.command_stores:
-            self.store(address, word, now_us)
 
     def _refer_word(self, word: int, now_us: int) -> None:
         percent = word - 0x10000 if word & 0x8000 else word
         if abs(percent) > 10_000:
-            if self.o.over == "refused":
-                raise Refusal("value")
-            percent = 10_000 if percent > 0 else -10_000
-        if percent < 0 and self.o.negative != "reverses":
-            if self.o.negative == "refused":
-                raise Refusal("value")
-            percent = -percent
+            raise Refusal("value")
         self._refer(percent / 10_000 * self.maximum_hz, now_us)
 
     def _command(self, what: str, now_us: int) -> None:
@@ -152,15 +122,15 @@ class Chf(Drive):
 
     def _set_hz(self, _now_us: int) -> int:
         hz = self.reference_hz if self.speed_from_bus else self.o.own_hz
-        return int((hz if self.o.signed_monitors else abs(hz)) * 1000 / self.o.monitor_milli_hz + 1e-9)
+        return int((hz if self.o.signed_monitors else abs(hz)) * 100 + 1e-9)
 
     LIVE: ClassVar[dict[int, Callable[[Any, int], int]]] = {
         0x1001: _status,
-        0x3000: lambda self, now_us: self._counts(now_us, self.o.monitor_milli_hz / 1000),
+        0x3000: lambda self, now_us: self._counts(now_us, 0.01),
         0x3001: _set_hz,
         0x3002: lambda self, _: self.o.bus_volts,
         0x3003: lambda self, _: 380 * self.output,
-        0x3004: lambda self, _: self.o.amperes * self.output,
+        0x3004: lambda self, _: 100 * self.output,
         0x3005: lambda self, _: 1450 * self.output,
         0x3006: lambda self, _: 37 * self.output,
         0x5000: lambda self, _: self.code or 0,

@@ -20,6 +20,8 @@ STOPS = {"stop": "ramp", "jog_stop": "ramp", "quick": "quick", "coast": "coast"}
 """Stops by the bus, and how they stop."""
 RUNS = {"run_forward": (1, False), "run_reverse": (-1, False), "jog_forward": (1, True), "jog_reverse": (-1, True)}
 """Starts by the bus: direction, and whether it jogs."""
+STORE_US = 100_000
+"""How long a store keeps a drive busy."""
 NO_REPLY: list[tuple[int, bytes]] = []
 
 
@@ -48,9 +50,7 @@ class Options:
     reply_us: tuple[int, int] = (5000, 5000)  # from the end of a request to the start of its reply
     late_per_1000: int = 0
     late_us: int = 0  # how much later than that a late reply is
-    hears_while_owing: bool = True  # a request that comes before a late reply has left is heard
     seed: int = 0
-    boot_us: int = 0  # from power-up to the first reply
     broadcast: bool = True  # unit 0 is obeyed: SN300G5 line 78, CHF line 80; JSCC prints nothing
     # who commands
     settings_act: Literal["power cycle", "at once"] = "at once"
@@ -60,7 +60,6 @@ class Options:
     terminals_act: bool = False  # a run terminal starts and stops while the bus commands
     bus_stop_ends_others: bool = False  # a stop of the bus ends what keypad or terminals run
     not_in_command: Literal["acknowledges", "refuses"] = "acknowledges"  # a command while others command
-    local_key: bool = True  # there is a LOCAL/REMOTE key; SN300G5 O2-01 (line 811)
     resumes_remote: bool = False  # back in REMOTE, a run command that stands acts: SN300G5 B1-07 (line 532)
     ignores: frozenset[str] = frozenset()  # commands that it acknowledges and does not carry out
     # what it shows
@@ -72,9 +71,7 @@ class Options:
     trip_output: Literal["coast", "ramp"] = "coast"
     latched: bool = True  # a fault stays when its cause goes
     power_cycle_only: frozenset[Fault] = frozenset()  # faults that no reset clears
-    fault_survives_power: bool = False
     reset_needs_stop: bool = False  # no reset while a run command stands
-    reset_needs_standstill: bool = False  # ... and none while the shaft turns
     resumes_after_reset: bool = False  # a run command that stands acts after the reset
     resumes_after_inhibit: bool = False  # ... when an interlock lets go
     retry_us: int | None = None  # after that it resets itself and goes on: SN300G5 L5-01, L5-03 (lines 785 to 787)
@@ -90,9 +87,7 @@ class Options:
     # refusals
     forbidden: frozenset[int] = frozenset()  # addresses whose reading it refuses
     holes: Literal["refused", "refused alone", "zero"] = "refused"  # unlisted addresses among listed ones
-    over: Literal["refused", "limited"] = "refused"  # a value beyond the manual's, or a reference above the maximum
     busy_refuses: Literal["parameters", "writes", "all"] = "parameters"
-    store_us: int = 100_000  # how long a store keeps it busy
 
 
 class Drive:
@@ -184,7 +179,7 @@ class Drive:
         before, self.line_us = self.line_us, now_us
         if not self.powered or self.cut or now_us < self.deaf_us or not frame:
             return NO_REPLY
-        if begins < end and (now_us > at or not o.hears_while_owing):
+        if begins < end and now_us > at:
             return NO_REPLY
         if not o.ascii and begins - (max(before, end) if end <= begins else before) < o.silence_us:
             self.unheard += frame[0] in (self.unit, 0)
@@ -192,7 +187,7 @@ class Drive:
         if not o.ascii and frame[0] not in (self.unit, 0) and o.fed_by != "any":
             return NO_REPLY
         body = ascii_opened(frame) if o.ascii else opened(frame)
-        reply = self._damaged(frame) if body is None else self._reply(body, now_us)
+        reply = None if body is None else self._reply(body, now_us)
         if reply is None:
             return NO_REPLY
         least, most = o.reply_us
@@ -280,9 +275,6 @@ class Drive:
 
     def _refused(self, body: bytes, code: int) -> bytes | None:
         return bytes([body[0], body[1] | 0x80, code])
-
-    def _damaged(self, _frame: bytes) -> bytes | None:
-        return None
 
     def _write(self, words: dict[int, int], now_us: int) -> None:
         """Write words by address. Raises Refusal."""
@@ -421,7 +413,7 @@ class Drive:
             self._stop("ramp", now_us)
         elif key == "reset":
             self.reset(now_us)
-        elif key == "local" and o.local_key and not self.output:
+        elif key == "local" and not self.output:
             self.local = not self.local
             if not self.local and o.resumes_remote:
                 self._obey(now_us, itself=True)
@@ -493,10 +485,10 @@ class Drive:
         self._plan()
 
     def _power_up(self, now_us: int, *, kept: bool) -> None:
-        self.deaf_us = now_us + self.o.boot_us
+        self.deaf_us = now_us
         self.busy_us = now_us
         self.local = self.held = self.cut = self.warned = False
-        if not (self.cause or self.o.fault_survives_power):
+        if not self.cause:
             self.fault = None
         self._take_up(self.settings, now_us)
         if not kept:
@@ -535,8 +527,7 @@ class Drive:
     def reset(self, now_us: int) -> None:
         """A reset signal, from wherever."""
         blocked = not self.powered or self.cause or self.fault in self.o.power_cycle_only or not self._may_reset(now_us)
-        turns = self.o.reset_needs_standstill and self.motor.hz(now_us) != 0
-        if not (blocked or turns or (self.o.reset_needs_stop and self.commanded)):
+        if not (blocked or (self.o.reset_needs_stop and self.commanded)):
             self._clear(now_us, resumes=self.o.resumes_after_reset)
 
     def _may_reset(self, _now_us: int) -> bool:
@@ -580,4 +571,4 @@ class Drive:
     def store(self, address: int, word: int, now_us: int) -> None:
         """A write reaches EEPROM."""
         self.stores.append((now_us, address, word))
-        self.busy_us = now_us + self.o.store_us
+        self.busy_us = now_us + STORE_US

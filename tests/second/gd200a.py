@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from tests.second.drive import Drive, Options, Refusal, Source
 
@@ -27,13 +27,9 @@ class Gd200aOptions(Options):
     stop_ends_jog: bool = True  # 0005H
     jog_stop_ends_run: bool = False  # 0008H
     jogs_from_run: bool = False  # a jog that is asked for while it runs is carried out
-    zero_command: Literal["refused", "nothing"] = "refused"  # 0000H at 2000H
     coast_stopped: bool = True  # 2100H says stop while the motor coasts; else running
     reserved_rows: bool = False
     commands_readable: bool = True  # R/W of 2000H, page 139; the text below the table calls it one that is written
-    faulty: Literal["obeys stops", "refuses"] = "obeys stops"  # 01H: a slave in fault state cannot execute it, page 143
-    beyond: Literal[4, 7] = 4  # a value beyond its range: 9.5.4 prints 04H, its table says 07H
-    command_stores: bool = False
 
 
 class Gd200a(Drive):
@@ -41,7 +37,7 @@ class Gd200a(Drive):
 
     o: Gd200aOptions
     CODES: ClassVar[dict[str, int]] = {
-        "function": 1, "fault": 1, "mode": 1, "address": 2, "read only": 2, "count": 3, "busy": 7, "running": 8,
+        "function": 1, "mode": 1, "address": 2, "read only": 2, "count": 3, "value": 4, "busy": 7, "running": 8,
     }  # fmt: skip  # page 143; which of them a busy drive gives is open
     MOST: ClassVar[dict[int, int]] = {3: 16, 6: 1, 8: 1, 16: 16}  # 9.4.1.1, 9.4.1.4
     IDS = ("P14_00", "P00_01", "P00_06")
@@ -52,7 +48,6 @@ class Gd200a(Drive):
     def __init__(self, unit: int = 1, options: Gd200aOptions | None = None, at_us: int = 0, **settings: int) -> None:
         """As a drive; P00.03 is what the options give as the maximum."""
         o = options or Gd200aOptions()
-        self.CODES = {**self.CODES, "value": o.beyond}  # type: ignore[misc]  # per drive
         self.eeprom = dict.fromkeys(PARAMETERS, 0) | {0x0003: round(100 * o.maximum_hz)}
         super().__init__(unit, o, at_us, **settings)
 
@@ -104,21 +99,17 @@ class Gd200a(Drive):
             self._refer_word(word, now_us)
         elif address == CONTROL and (what := COMMANDS.get(word)):
             self._command(what, now_us)
-        elif address == CONTROL and (word or self.o.zero_command == "refused"):
+        elif address == CONTROL:
             raise Refusal("value")
         self.ram[address] = word
-        if self.o.command_stores:
-            self.store(address, word, now_us)
 
     def _refer_word(self, word: int, now_us: int) -> None:
         hz = word / 100  # 0.01 Hz, 0 to Fmax: page 139
-        if hz > self.maximum_hz and self.o.over == "refused":
+        if hz > self.maximum_hz:
             raise Refusal("value")
         self._refer(min(hz, self.maximum_hz), now_us)
 
     def _command(self, what: str, now_us: int) -> None:
-        if self.fault is not None and what != "reset" and self.o.faulty == "refuses":
-            raise Refusal("fault")
         if what == "stop" and self.jogging and not self.o.stop_ends_jog:
             return
         if what == "jog_stop" and self.by == "bus" and not self.jogging and not self.o.jog_stop_ends_run:

@@ -21,17 +21,15 @@ class JsccOptions(Options):
     commands_readable: bool = False
     stop_resets: bool = False  # a stop resets a fault
     fault_word: Literal[8, 9, 12] = 8  # 2001H in a fault: alone, with running forward, with stopped
-    parameters_store: bool = True  # a write to 00nnH is stored
-    parameters_while_running: bool = False
-    codes: tuple[int, ...] = (1, 2, 3, 4, 5, 6, 7, 8)  # lines 292 to 299: the column of numbers is empty
-    error_form: Literal["exception", "silence"] = "exception"
-    most_words: int = 12  # 25 bytes of data: line 88
 
 
 class Jscc(Drive):
     """A JSCC inverter."""
 
     o: JsccOptions
+    CODES: ClassVar[dict[str, int]] = {
+        "function": 1, "address": 2, "read only": 2, "count": 3, "value": 3, "busy": 6, "running": 7, "mode": 7,
+    }  # fmt: skip  # lines 292 to 299, where the column of numbers is empty: in their order
     MOST: ClassVar[dict[int, int]] = {3: 12, 6: 1, 16: 10}  # lines 88, 95 to 99
     IDS = ("FA_00", "F0_04", "F0_08")
     RUN_SOURCES: ClassVar[dict[int, Source]] = {1: "terminals", 2: "terminals", 3: "keypad", 4: "bus"}  # line 24
@@ -40,13 +38,8 @@ class Jscc(Drive):
 
     def __init__(self, unit: int = 1, options: JsccOptions | None = None, at_us: int = 0, **settings: int) -> None:
         """As a drive."""
-        o = options or JsccOptions()
-        function, address, value, _, _, busy, negative, _ = o.codes
-        refused = {"count": value, "value": value, "running": negative, "read only": address, "mode": negative}
-        self.CODES = refused | {"function": function, "address": address, "busy": busy}  # type: ignore[misc]  # per drive
-        self.MOST = {**type(self).MOST, 3: o.most_words}  # type: ignore[misc]  # per drive
         self.eeprom = dict.fromkeys(range(0x0100), 0)  # 00nnH, line 104
-        super().__init__(unit, o, at_us, **settings)
+        super().__init__(unit, options or JsccOptions(), at_us, **settings)
 
     def _factory(self) -> dict[str, int]:
         return {"F0_04": 4, "F0_08": 8, "FA_00": 1, "FA_01": 3, "FA_02": 2, "FA_03": 2}
@@ -68,27 +61,23 @@ class Jscc(Drive):
         if any(address in self.LIVE for address in listed):
             raise Refusal("read only")
         hz = words.get(0x1001, 0) * self.o.reference_milli_hz / 1000
-        if words.get(0x1000, 0) > 3 or (hz > self.maximum_hz and self.o.over == "refused"):
+        if words.get(0x1000, 0) > 3 or (hz > self.maximum_hz):
             raise Refusal("value")
         parameters = [address for address in listed if address < 0x0100]
         if parameters and now_us < self.busy_us:
             raise Refusal("busy")
-        if parameters and self.output and not self.o.parameters_while_running:
+        if parameters and self.output:
             raise Refusal("running")
         self.ram |= {address: words[address] for address in listed}
-        if self.o.parameters_store:
-            for address in parameters:
-                self.eeprom[address] = words[address]
-                self.store(address, words[address], now_us)
+        for address in parameters:
+            self.eeprom[address] = words[address]
+            self.store(address, words[address], now_us)
         if 0x1001 in words:
             self._refer(hz, now_us)
         if what := COMMANDS.get(words.get(0x1000, 0)):
             self._bus(what, now_us)
             if what == "stop" and self.o.stop_resets:
                 self.reset(now_us)
-
-    def _refused(self, body: bytes, code: int) -> bytes | None:
-        return super()._refused(body, code) if self.o.error_form == "exception" else None
 
     def _status(self, now_us: int) -> int:
         """2001H, lines 112 to 116."""

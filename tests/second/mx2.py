@@ -40,7 +40,6 @@ class Mx2Options(Options):
     coast_runs: bool = False  # 000FH says run while the motor coasts
     half_pairs: bool = True  # one register of two can be read alone
     volts: Literal[1, 10] = 10  # counts of the voltage at a trip in a volt: I585 page 6-31; 1 in I570 page 284
-    readable_coils: bool = True  # 0001H to 000DH
 
 
 class Mx2(Drive):
@@ -103,7 +102,7 @@ class Mx2(Drive):
     def _read_coils(self, first: int, number: int, now_us: int) -> bytes:
         if not 1 <= number <= self.MOST[1]:
             raise Refusal("count")
-        if first > COILS or (first < 0x0F and not self.o.readable_coils):
+        if first > COILS:
             raise Refusal("address")
         on = [self._is_on(each, now_us) for each in range(first, first + number)]  # beyond the list: 0
         size = (number + 7) // 8
@@ -177,7 +176,7 @@ class Mx2(Drive):
 
     def _refer_word(self, counts: int, now_us: int) -> None:
         hz = counts / 100  # 0.01 Hz, I570 page 283
-        if hz > self.maximum_hz + 1e-9 and self.o.over == "refused":
+        if hz > self.maximum_hz + 1e-9:
             raise Refusal("value")
         self._refer(min(hz, self.maximum_hz), now_us)
 

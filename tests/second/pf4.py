@@ -32,10 +32,6 @@ class Pf4Options(Options):
     stop_resets: bool = False  # a stop clears the fault
     commands_readable: bool = True  # 8192 and 8193
     comm_us: int | None = 5_000_000  # A106, 5.0 s
-    parameters_store: bool = True
-    parameters_while_running: bool = True
-    error_form: Literal["exception", "silence"] = "exception"
-    most_words: int = 1
 
 
 class Pf4(Drive):
@@ -60,6 +56,7 @@ class Pf4(Drive):
     """Bits of 8448 that a PowerFlex 4 has."""
     AWAY: ClassVar[int] = 0
     """The bit of 8192 that gives the drive to its keypad."""
+    MOST: ClassVar[dict[int, int]] = {3: 1, 6: 1}
     RUN_SOURCES: ClassVar[dict[int, Source]] = {0: "keypad", 1: "terminals", 5: "bus"}  # 0, 1: numbers of this model
     SPEED_FROM_BUS = 5
     LOW_VOLTAGE, LINE_LOST = 4, 81  # page C-5
@@ -67,7 +64,6 @@ class Pf4(Drive):
     def __init__(self, unit: int = 1, options: Pf4Options | None = None, at_us: int = 0, **settings: int) -> None:
         """As a drive; `word` is the last logic command."""
         o = options or Pf4Options()
-        self.MOST = {3: o.most_words, 6: 1}  # type: ignore[misc]  # per drive
         self.eeprom = dict.fromkeys(self.PARAMETERS, 0)
         self.word, self.way = 0, "forward"
         super().__init__(unit, o, at_us, **settings)
@@ -91,9 +87,6 @@ class Pf4(Drive):
             raise Refusal("address")
         return super()._words(first, number, now_us)
 
-    def _refused(self, body: bytes, code: int) -> bytes | None:
-        return super()._refused(body, code) if self.o.error_form == "exception" else None
-
     def _write(self, words: dict[int, int], now_us: int) -> None:
         address, word = next(iter(words.items()))
         if address in self.LIVE:
@@ -111,15 +104,13 @@ class Pf4(Drive):
     def _parameter(self, address: int, word: int, now_us: int) -> None:
         if now_us < self.busy_us:
             raise Refusal("busy")
-        if self.output and not self.o.parameters_while_running:
-            raise Refusal("running")
-        if self.o.parameters_store and address in self.eeprom:
+        if address in self.eeprom:
             self.eeprom[address] = word
             self.store(address, word, now_us)
 
     def _refer_word(self, word: int, now_us: int) -> None:
         hz = word * self.HZ
-        if hz > self.maximum_hz and self.o.over == "refused":
+        if hz > self.maximum_hz:
             raise Refusal("value")
         self._refer(hz, now_us)
 

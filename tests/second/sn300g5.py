@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal
 
 from tests.second.drive import Drive, Fault, Options, Refusal, Source
 
-Terminal = Literal["", "reset", "jog", "coast", "quick", "fault"]
+RUN, SPEED = 0, 1
 COMMANDS = (0x0000, 0x0001, 0x0006, 0x0007, 0x0008, 0x0009, 0x000F)  # table (I), lines 238 to 263
 UNUSED = (*range(0x0002, 0x0006), 0x000E, 0x0013)  # rows that say unused: lines 249, 261, 292
 READ_ONLY = (
@@ -55,19 +55,10 @@ class Sn300g5Options(Options):
     settings_act: Literal["power cycle", "at once"] = "power cycle"  # lines 46 and 873
     comm_us: int | None = 2_000_000
     holes: Literal["refused", "refused alone", "zero"] = "refused alone"  # not one of them is registered: line 860
-    unused_rows: bool = True  # rows that say unused count as registered
     key_cuts_line: bool = True  # a key pressed while the bus talks ends that until the next power-up: line 874
-    both_runs: Literal["stop", "EF", "forward"] = "EF"  # bits 0 and 1 together; EF: 2-wire input fault (line 357)
     run_needs_edge: bool = False  # a run bit acts only when it rises
-    strict_bits: bool = False  # a run word with bits 8 to F is refused with 21H
-    terminals: tuple[Terminal, ...] = ("", "", "", "", "", "")  # what bits 2 to 7 do: H1-01 to H1-06 (lines 715 to 720)
-    unit_hz: float = 0.1  # a count of frequencies while 000FH bit 0 is 1: set by O1-03 (lines 263, 807)
-    select_word: int = 0  # 000FH after power-up
-    moved: bool = False  # O2-09 (line 819): the run word is at 0001H, the reference at 0002H
     zero_speed_of: Literal["output", "shaft"] = "output"
-    enter_readable: bool = False  # FFFDH
     bus_volts: int = 589
-    amperes: int = 100
 
 
 class Sn300g5(Drive):
@@ -90,18 +81,16 @@ class Sn300g5(Drive):
         o = options or Sn300g5Options()
         self.minor: set[str] = set()
         self.at_fault = (0, 0)
-        self.run_at, self.speed_at = (1, 2) if o.moved else (0, 1)
-        rows = (*COMMANDS, self.speed_at, *READ_ONLY, *PARAMETERS, ENTER, *(UNUSED if o.unused_rows else ()))
-        self.eeprom = dict.fromkeys(rows, 0)
+        self.eeprom = dict.fromkeys((*COMMANDS, *READ_ONLY, *PARAMETERS, ENTER, *UNUSED), 0)
         super().__init__(unit, o, at_us, **settings)
 
     def _factory(self) -> dict[str, int]:
         return {"b1_01": 2, "b1_02": 2, "H5_01": 1, "H5_02": 3, "H5_03": 1, "H5_04": 1, "H5_05": 1}
 
     def _power_up(self, now_us: int, *, kept: bool) -> None:
-        words = {each: self.ram[each] for each in (self.run_at, self.speed_at)} if kept and self.ram else {}
+        words = {each: self.ram[each] for each in (RUN, SPEED)} if kept and self.ram else {}
         self.eeprom |= {address: self.settings[name] for address, (name, _) in NAMED.items()}
-        self.ram = self.eeprom | {0x000F: self.o.select_word} | words
+        self.ram = self.eeprom | {0x000F: 0} | words
         self.minor.clear()
         super()._power_up(now_us, kept=kept)
 
@@ -131,7 +120,7 @@ class Sn300g5(Drive):
         return (self.o.comm_us if self.force["H5_05"] else None), LOSS[self.force["H5_04"]], True
 
     def _words(self, first: int, number: int, now_us: int) -> Iterable[int]:
-        if first + number > ENTER and not self.o.enter_readable:
+        if first + number > ENTER:
             raise Refusal("address")
         return super()._words(first, number, now_us)
 
@@ -146,13 +135,13 @@ class Sn300g5(Drive):
             self._may_store(parameters, now_us)
         for address in listed:
             self._check(address, words[address])
-        was = self.ram[self.run_at]
-        self.ram |= {address: words[address] for address in listed if address not in UNUSED or address == self.speed_at}
+        was = self.ram[RUN]
+        self.ram |= {address: words[address] for address in listed if address not in UNUSED}
         self._settings(parameters, now_us)
-        if self.speed_at in words or 0x000F in words:
-            self._refer(self.ram[self.speed_at] * self.count_hz, now_us)
-        if self.run_at in words:
-            self._run_word(words[self.run_at], was, now_us)
+        if SPEED in words or 0x000F in words:
+            self._refer(self.ram[SPEED] * self.count_hz, now_us)
+        if RUN in words:
+            self._run_word(words[RUN], was, now_us)
 
     def _may_store(self, parameters: list[int], now_us: int) -> None:
         """Lines 863 to 865. Raises Refusal."""
@@ -166,11 +155,10 @@ class Sn300g5(Drive):
 
     def _check(self, address: int, word: int) -> None:
         """Control data or a parameter beyond its limits: line 862. Raises Refusal."""
-        above = address == self.speed_at and word * self.count_hz > self.o.maximum_hz + 1e-9
+        above = address == SPEED and word * self.count_hz > self.o.maximum_hz + 1e-9
         volts = address in (0x0007, 0x0008) and 726 < word < 0x10000 - 726  # 11 V is 726: lines 251, 252
-        spare = address == self.run_at and self.o.strict_bits and word > 0xFF
         beyond = address in NAMED and word > NAMED[address][1]
-        if (above and self.o.over == "refused") or volts or spare or beyond or (address == ENTER and word):
+        if above or volts or beyond or (address == ENTER and word):
             raise Refusal("value")
 
     def _settings(self, parameters: list[int], now_us: int) -> None:
@@ -183,21 +171,9 @@ class Sn300g5(Drive):
 
     def _run_word(self, word: int, was: int, now_us: int) -> None:
         rose = word & ~was
-        does = [what for bit, what in enumerate(self.o.terminals) if word >> bit & 4]
-        if any(what == "reset" and rose >> bit & 4 for bit, what in enumerate(self.o.terminals)):
-            self._bus("reset", now_us)
-        if "fault" in does:
-            self.trip(f"EF{3 + self.o.terminals.index('fault')}", now_us)
-        both = word & 3 == 3
-        self.warn("EF", on=both and self.o.both_runs == "EF")
-        runs = {0: "stop", 1: "run_forward", 2: "run_reverse", 3: "run_forward"}[word & 3]
-        if "coast" in does or "quick" in does:
-            self._bus("coast" if "coast" in does else "quick", now_us)
-        elif both and self.o.both_runs != "forward":
-            self._bus("stop", now_us)
-        elif runs == "stop" and "jog" in does:
-            self._bus("jog_forward", now_us)
-        elif runs == "stop" or rose & 3 or not self.o.run_needs_edge:
+        self.warn("EF", on=word & 3 == 3)  # bits 0 and 1 together are a fault of 2-wire input: line 357
+        runs = {0: "stop", 1: "run_forward", 2: "run_reverse", 3: "stop"}[word & 3]
+        if runs == "stop" or rose & 3 or not self.o.run_needs_edge:
             self._bus(runs, now_us)
 
     # ------------------------------------------------------------ reading
@@ -205,7 +181,7 @@ class Sn300g5(Drive):
     @property
     def count_hz(self) -> float:
         """Hz in a count of reference and monitors: line 263."""
-        return self.o.unit_hz if self.ram[0x000F] & 1 else 0.01
+        return 0.1 if self.ram[0x000F] & 1 else 0.01
 
     def _frequency(self, hz: float) -> int:
         return int(hz / self.count_hz + 1e-9)
@@ -217,10 +193,8 @@ class Sn300g5(Drive):
         """0010H, lines 271 to 280, and 002BH, line 392."""
         hz = self.motor.hz(now_us)
         zero = not (hz if self.output or self.o.zero_speed_of == "shaft" else 0)
-        word = self.ram[self.run_at] if "reset" in self.o.terminals else 0
-        resets = any(what == "reset" and word >> bit & 4 for bit, what in enumerate(self.o.terminals))
         agrees = self.runs and not self.stopping and hz == self._goal() != 0
-        bits = (self.runs, zero, self.reverse(now_us), resets, agrees)
+        bits = (self.runs, zero, self.reverse(now_us), False, agrees)
         ready = self.fault is None and not self.inhibited
         lights = (ready, bool(self.minor) or self.warned or self.inhibited, self.fault is not None)
         return sum(bit << place for place, bit in enumerate(bits + lights))
@@ -247,7 +221,7 @@ class Sn300g5(Drive):
         0x0019: lambda self, _: self._minor(0), 0x001A: lambda self, _: self._minor(1),
         0x0020: lambda self, _: self._frequency(self.reference_hz if self.speed_from_bus else self.o.own_hz),
         0x0021: _output,
-        0x0022: lambda self, _: self.o.amperes * self.output,
+        0x0022: lambda self, _: 100 * self.output,
         0x0026: lambda self, _: self.o.bus_volts,
         0x0027: lambda self, _: 75 * self.output,
         0x002B: _status,
