@@ -5,6 +5,7 @@ A name is the beginning of what follows `_Test`, in the programs of the drive or
 
 import sys
 
+from tests.planted.verdict import ended
 from tests.shipped import BOTH
 from tests.testing.conftest import only, run
 
@@ -18,9 +19,13 @@ def has(unit: Unit, name: str) -> bool:
     return any(one.name.partition("_Test")[2].startswith(name) for one in unit.suite.programs)
 
 
-if __name__ == "__main__":
+def found() -> bool:
+    """Whether a check fails."""
     of, *names = sys.argv[1:]
     made = units(collection.read(catalog.chosen([of])), BOTH)
     wanted = [(unit, [name for name in names if has(unit, name)]) for unit in made]
-    there = [only(unit, *those) for unit, those in wanted if those]
-    sys.exit(int(not run(*there).passed) if there else 2)
+    return not run(*(only(unit, *those) for unit, those in wanted if those)).passed
+
+
+if __name__ == "__main__":
+    sys.exit(ended(found))
