@@ -127,7 +127,7 @@ class Bare(Shelf):
     """A shelf without a port."""
 
     def adapter(self, platform: str) -> tuple[Part, ...]:
-        return ()
+        return super().adapter(platform)[:0]
 
 
 def test_what_scl_cannot_say_is_refused_with_its_place_and_all_at_once() -> None:
