@@ -30,6 +30,7 @@ END_VAR
 BODIES = {
     "arithmetic": "Result := (Number * 3 + 7) MOD 11 - Number / 2;",
     "a sign": "Kept := (Other - 5) / 3; Seen := Kept < -2;",
+    "comparisons": "Seen := (Other < 5) XOR (Other >= 7) XOR (Number <= 6) XOR (Number > 8) XOR (Number <> 9);",
     "branches": "IF Pin THEN Result := 1; ELSIF Number > 9 THEN Result := 2; ELSE Result := Result + 1; END_IF;",
     "a case": "CASE Number OF 1: Result := 5; 2..4, 9: Result := 6; ELSE Result := 0; END_CASE;",
     "an index": "Words[Number MOD 4] := UINT_TO_WORD(Number); Result := WORD_TO_UINT(Words[1]);",
@@ -61,6 +62,7 @@ def test_the_terms_say_what_the_engine_does(body: str) -> None:
     ("body", "said"),
     [
         ("Result := Number + 1;", "the result of + is a UINT"),
+        ("Result := Number - 1;", "the result of - is a UINT"),
         ("Result := 9 / Number;", "the divisor is not 0"),
         ("Words[Number] := WORD#16#0000;", "the index is within 0..3"),
         ("Result := Number * 2;", "the result of * is a UINT"),
@@ -72,8 +74,17 @@ def test_what_compilers_do_not_agree_on_is_found(body: str, said: str) -> None:
     assert found == {f"sample.st line 16: {said}": Verdict.BROKEN}
 
 
-def test_a_guard_keeps_a_result_within_its_width() -> None:
-    assert set(verdicts("IF Number < 9 THEN Result := Number + 1; END_IF;").values()) == {Verdict.PROVED}
+@pytest.mark.parametrize(
+    "body",
+    [
+        "IF Number < 65535 THEN Result := Number + 1; END_IF;",
+        "IF Number >= 5 THEN Result := Number - 5; END_IF;",
+        "IF Number <= 13107 THEN Result := 5 * Number; END_IF;",
+        "IF Other >= -32763 THEN Kept := Other - 5; END_IF;",
+    ],
+)
+def test_a_guard_keeps_a_result_within_its_width(body: str) -> None:
+    assert set(verdicts(body).values()) == {Verdict.PROVED}
 
 
 @pytest.mark.parametrize(
