@@ -122,7 +122,8 @@ def test_a_library_lists_every_file_of_its_folder_once_that_is_not_of_another_fa
         files = [path for path in written() if path.startswith("library/") and ".Tc" in path]
         wanted = [path for path in files if path.split("/")[1] not in others]
         assert sorted(listed(f"library/{name}.plcproj")) == sorted(wanted)
-        assert projects()[f"library/{name}.plcproj"].name == name
+        one = projects()[f"library/{name}.plcproj"]
+        assert (one.name, *one.title[:2]) == (name, "DriveBlocks", name)
 
 
 def test_a_project_to_begin_with_has_its_own_files_and_links_its_library() -> None:
