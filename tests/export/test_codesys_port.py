@@ -1,18 +1,11 @@
-"""The serial port and the own master for CODESYS, with stand-ins for the blocks of its libraries: what they ask is seen
+"""The serial port for CODESYS, with stand-ins for the blocks of its libraries: what they ask is seen
 here, and what they answer is set here.
 """
 
-from functools import cache
-from itertools import pairwise
-
 import pytest
-from tests.export.ports import CODESYS, library, replaced
-from tests.export.stock import made
-from tests.shipped import BOTH
+from tests.export.ports import CODESYS, library
 
-from driveblocks.render import library as render
-from structured_text.engines.embedded.engine import EmbeddedEngine
-from structured_text.engines.engine import Instance, Library, Source, Value
+from structured_text.engines.engine import Instance, Value
 
 
 def _port() -> Instance:
@@ -146,100 +139,3 @@ def test_closing_that_does_not_end_is_given_up_after_a_second() -> None:
     assert rig["Port.State"] == 3
     _scan(rig, 3010)
     assert rig["Port.State"] == 0
-
-
-@cache
-def _masters() -> Library:
-    """The programs for the own master of all families."""
-    drives = [each for each in made().drives.values() if each.prefix in ("CHF", "JSCC", "SN300G5")]
-    texts = [file.text for drive in drives for file in render.programs("codesys", drive, BOTH)]
-    own = [Source("masters", text.replace("slave := Drive1, ", "")) for text in texts]
-    return EmbeddedEngine().build(
-        [*(Source(part.unit.path, part.text) for part in made().parts), *replaced(["ModbusChannel"]), *own]
-    )
-
-
-class _Slave:
-    """A drive at the master: it answers, or not, and notes what was asked."""
-
-    def __init__(self, prefix: str, **words: int) -> None:
-        self.program = _masters().instance(f"{prefix}_Master")
-        self.answers, self.asked, self.ms = True, list[tuple[int, Value]](), 0
-        for name, value in words.items():
-            self.program[name] = value
-
-    def scans(self, count: int) -> list[tuple[int, Value]]:
-        """What is asked in some scans, which answer at once, each with the command word; pauses are passed over."""
-        self.asked.clear()
-        for _ in range(count):
-            if self.program.state().get("WAITS"):
-                self.program.scan(self.ms * 1_000_000)
-                self.ms += 20
-            self.program["Channel.xDone" if self.answers else "Channel.xError"] = True
-            turn, word = self.program["Turn"], self.program["CommandWord"]
-            assert isinstance(turn, int)
-            self.program.scan(self.ms * 1_000_000)
-            self.ms += 20
-            self.asked.append((turn, word))
-        return self.asked
-
-
-RUN, STOP = 1, 3
-
-
-def test_the_own_master_keeps_the_silence_that_the_drive_asks_for() -> None:
-    """JSCC wants more than 10 ms between frames."""
-    for prefix, least in (("JSCC", 11), ("CHF", 0)):
-        one, at, begun = _masters().instance(f"{prefix}_Master"), 0, list[int]()
-        for at in range(0, 400, 5):
-            one["Channel.xDone"] = True
-            turn = one["Turn"]
-            one.scan(at * 1_000_000)
-            begun += [at] if one["Turn"] != turn else []
-        gaps = {b - a for a, b in pairwise(begun)}
-        assert min(gaps) >= max(least, 5)
-        assert max(gaps) <= least + 10
-
-
-def test_the_own_master_reads_before_it_writes_stops_and_then_runs_by_an_edge() -> None:
-    one = _Slave("JSCC", DriveStatusWord=4, CountsPerHertz=10, StartSwitch=True, Hertz=25)
-    assert [turn for turn, _ in one.scans(5)] == [2, 0, 1, 2, 3]
-    assert one.asked[1] == (0, STOP)
-    one.scans(8)
-    assert (one.program["StopConfirmed"], one.program["ReferenceWord"]) == (True, 250)
-    assert {word for turn, word in one.asked if turn == 0} == {STOP}, "a switch that was closed starts nothing"
-    one.program["StartSwitch"] = False
-    one.scans(1)
-    one.program["StartSwitch"] = True
-    while one.program["CommandWord"] != RUN:
-        assert one.program["StopConfirmed"] is True
-        one.scans(1)
-    assert one.program["StopConfirmed"] is False, "it was sent, and may turn the motor"
-    assert (0, RUN) in one.scans(8)
-    one.program["StartSwitch"] = False
-    assert (0, STOP) in one.scans(2), "a stop does not wait for its turn"
-
-
-def test_the_own_master_stops_after_a_loss_and_asks_for_a_new_edge() -> None:
-    one = _Slave("JSCC", DriveStatusWord=4, CountsPerHertz=10, Hertz=25)
-    one.scans(8)
-    one.program["StartSwitch"] = True
-    assert (0, RUN) in one.scans(8)
-    one.answers = False
-    assert set(one.scans(12)[-4:]) == {(0, STOP)}, "nothing but the stop, again and again"
-    one.answers = True
-    one.scans(12)
-    assert {word for turn, word in one.asked if turn == 0} == {STOP}
-    one.program["StartSwitch"] = False
-    one.scans(1)
-    one.program["StartSwitch"] = True
-    assert (0, RUN) in one.scans(8)
-
-
-def test_the_own_master_runs_no_drive_whose_reference_means_something_else() -> None:
-    one = _Slave("SN300G5", DriveStatusWord=2, CommandSelectionWord=1, Hertz=25)
-    one.scans(8)
-    one.program["StartSwitch"] = True
-    assert {word for turn, word in one.scans(12) if turn == 0} == {0}
-    one.program["CommandSelectionWord"] = 0
-    assert (0, 1) in one.scans(12)

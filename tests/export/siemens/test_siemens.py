@@ -218,9 +218,9 @@ def test_what_no_block_uses_yet_is_written_too() -> None:
 
 @functools.cache
 def running() -> Library:
-    """The library, the port and the programs of the platform, with stand-ins for its instructions."""
+    """The library, the port and the first motors of the platform, with stand-ins for its instructions."""
     stock = checks.shelf()
-    programs = [part for drive in stock.drives.values() for part in stock.programs("siemens", drive)]
+    programs = [stock.motor("siemens", drive) for drive in stock.drives.values()]
     types = [part for part in stock.parts if part.folder == "types"]
     blocks = [part for part in stock.parts if part.folder != "types"]
     sources = [Source(part.unit.path, part.text) for part in types]
@@ -325,94 +325,3 @@ def test_the_first_motor_speaks_to_its_drive() -> None:
         assert motor["Bus.ElapsedMs"] == 10
         assert motor["Bus.Port.Send.Sent"]
         assert motor["Bus.Port.Send.Wire[0]"] == drive.serial.unit.min
-
-
-class Owned:
-    """A motor at a Modbus_Master, stopped and then asked to run."""
-
-    def __init__(self, prefix: str) -> None:
-        self.motor = running().instance(f"{prefix}_Master")
-        self.wrote: list[tuple[object, object]] = []
-        self.ms = 0
-        self.ended: list[int] = []
-        """When a request ended, or the next one began, ms."""
-        for name, value in {"UnitAddress": 1, "Enable": True, "SpeedReferenceHz": 25.0, "MaximumHz": 50.0}.items():
-            self.motor[name] = value
-        for name, number in {"ReferenceScale": 100.0, "FullScaleHz": 50.0}.items():
-            if name.upper() in self.motor.state():
-                self.motor[name] = number
-
-    def scan(self, scans: int, **pins: bool) -> None:
-        """Scans with some pins; keeps each register that is written with its word."""
-        for name, value in pins.items():
-            self.motor[name] = value
-        for _ in range(scans):
-            before = self.motor["Open"]
-            self.motor.scan(self.ms * 1_000_000)
-            self.ended += [self.ms] if self.motor["Open"] != before else []
-            self.ms += 5
-            if self.motor["Master.DONE"] and self.motor["Mode"]:
-                self.wrote.append((self.motor["Master.Written"], self.motor["Master.Word"]))
-
-
-@pytest.mark.parametrize("prefix", ["CHF", "JSCC", "SN300G5"])
-def test_a_master_of_the_plc_stops_first_then_gives_the_speed_and_runs(prefix: str) -> None:
-    owned = Owned(prefix)
-    command, speed = owned.motor["Command.Address"], owned.motor["Reference.Address"]
-    owned.scan(60, RunForward=False)
-    stop = owned.wrote[0][1]
-    assert owned.wrote == [(command, stop), (speed, owned.motor["Reference.Value"])]
-    owned.wrote.clear()
-    owned.scan(60, RunForward=True)
-    assert [where for where, _ in owned.wrote] == [command]
-    assert owned.wrote[0][1] != stop
-    owned.scan(20, RunForward=False)
-    assert owned.wrote[-1] == (command, stop)
-
-
-@pytest.mark.parametrize(("prefix", "least"), [("CHF", 0), ("JSCC", 11), ("SN300G5", 0)])
-def test_a_master_of_the_plc_keeps_the_silence_that_the_drive_asks_for(prefix: str, least: int) -> None:
-    """JSCC wants more than 10 ms between frames; 3.5 characters are the instruction's own."""
-    owned = Owned(prefix)
-    owned.scan(100)
-    pauses = [begin - end for end, begin in zip(owned.ended[1::2], owned.ended[2::2], strict=False)]
-    assert len(pauses) > 10
-    assert min(pauses) >= least
-    assert max(pauses) <= least + 10
-
-
-def test_a_master_of_the_plc_does_not_hold_a_stop_back_by_retries() -> None:
-    for prefix in ("CHF", "JSCC", "SN300G5"):
-        owned = Owned(prefix)
-        owned.scan(1)
-        assert owned.motor["Load.RETRIES"] == 0
-        assert owned.motor["Load.RESP_TO"] == 500
-
-
-def test_a_master_of_the_plc_believes_a_standstill_only_after_the_stop() -> None:
-    owned = Owned("CHF")
-    owned.motor["Master.Registers[1]"] = 3
-    owned.scan(40, RunForward=False)
-    assert owned.motor["StopConfirmed"]
-    owned.scan(20, RunForward=True)
-    assert not owned.motor["StopConfirmed"]
-    owned.scan(1, RunForward=False)
-    assert not owned.motor["StopConfirmed"]
-    owned.scan(40)
-    assert owned.motor["StopConfirmed"]
-
-
-def test_a_master_of_the_plc_runs_on_after_a_loss_by_a_new_edge_alone() -> None:
-    owned = Owned("CHF")
-    owned.scan(40, RunForward=False)
-    owned.scan(40, RunForward=True)
-    run = owned.wrote[-1]
-    owned.motor["Master.Silent"] = True
-    owned.scan(10)
-    assert owned.motor["Status"] == 0x80C8
-    owned.motor["Master.Silent"] = False
-    owned.scan(40)
-    assert owned.wrote[-1] != run
-    owned.scan(5, RunForward=False)
-    owned.scan(40, RunForward=True)
-    assert owned.wrote[-1] == run
