@@ -23,7 +23,6 @@ ROOT = Path(__file__).parents[2]
 TESTING = ROOT / "docs/testing.md"
 OWN = [ROOT / "README.md", ROOT / "vendor_maps/README.md", *sorted({*ROOT.glob("docs/*.md")} - {TESTING})]
 COPY = [TESTING, ROOT / "CONTRIBUTING.md", *sorted(ROOT.glob("docs/*/*.md"))]
-BLOCKS = sorted(ROOT.glob("blocks/**/*.md"))
 ELSEWHERE = {
     r"pip ": "needs a package index",
     r"python3 generator/bootstrap.py ": "makes a virtual environment from an index, or runs this suite",
@@ -37,8 +36,8 @@ ELSEWHERE = {
     r"driveblocks run my_line.st --(port|tcp 192)": "a real port",
     r"driveblocks commission .": "a real port; tests/site/test_commission.py has it",
     r"driveblocks listen .": "a real port; tests/site/test_listen.py has it",
-    r"driveblocks parameters .*--port": "a real port; tests/site/test_parameters.py has them at simulated drives",
-    r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a test of its own, at a free port",
+    r"driveblocks parameters .*--port": "a real port; tests/site/test_peer.py has one at a server of pymodbus",
+    r"driveblocks run my_line.st --tcp 127.0.0.1:5020": "a simulator beside it; tests/commands/test_run.py has one",
     r"python -m structured_text ": "tests/structured_text/test_cli.py takes these lines from their page",
     r"make (?!blocks$)": "minutes to hours; tests/output/test_release.py has `make release`",
     r"python -m tests\.(blocks\.toolchains|drives\.seven|planted)": "minutes to hours",
