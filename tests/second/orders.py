@@ -56,13 +56,23 @@ class Orders:
         self.idle_us: int | None = None
         """Since when it is to stand, and is not shown so."""
         self.frames = self.acknowledged = 0
+        self.before: tuple[int, ...] = ()
+        """What there was to be seen after the last scan."""
 
     def scan(self) -> None:
         """After each scan."""
         bench, pins = self.bench, self.bench.pins[self.index]
+        mine = bench.seen >> (16 + 8 * self.index) & 0xFF
+        now = mine, bench.changes, bench.elapsed, len(bench.frames), len(bench.acknowledged)
+        astray = any_of(ASTRAY, pins) or bench.lineless
+        if now == self.before and not astray:  # nothing has happened but time
+            self.fault_us = bench.now if self._shows("Fault") else self.fault_us
+            self._overdue()
+            return
+        self.before = now
         sent, self.frames = bench.frames[self.frames :], len(bench.frames)
         self._acknowledge()
-        if any_of(ASTRAY, pins) or bench.lineless:
+        if astray:
             self._astray()
             return
         here = pins.get("Address") == self.index + 1 and not bench.was_slow_port
@@ -87,7 +97,7 @@ class Orders:
         """Nobody calls its block alone: soon it has no run any more, and the line owes its stop."""
         now = self.bench.now
         self.astray_us = now if self.astray_us is None else self.astray_us
-        self.back_us, self.idle_us, self.reading = now, None, False
+        self.back_us, self.idle_us, self.reading, self.before = now, None, False, ()
         if now - self.astray_us > ATTEND_US:
             self.wish, self.free, self.confirmed, self.owed = "", False, False, True
 
