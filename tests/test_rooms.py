@@ -10,7 +10,7 @@ from driveblocks.maps import catalog
 
 ROOMS = (
     "structured_text", "driveblocks", "console", "modbus", "maps", "simulator", "desk", "reference", "show",
-    "explain", "render", "diff", "export", "docs", "testing", "prove", "output", "plc", "site", "stand", "commands",
+    "explain", "render", "diff", "platforms", "docs", "testing", "prove", "output", "plc", "site", "stand", "commands",
     "cli", "__main__",
 )  # fmt: skip
 """From the bottom up; `driveblocks` is the package's own file, `structured_text` a package of its own."""

@@ -65,7 +65,7 @@ def test_a_map_without_example_frames_is_good_and_told_what_its_tests_rest_on(go
     result = CliRunner().invoke(app, ["check", good])
     assert (result.exit_code, result.stderr) == (0, "")
     assert result.stdout.splitlines()[1] == f"good.yaml: note: {view.UNPROVED}"
-    assert CliRunner().invoke(app, ["build", good, "-o", "out", "--target", "openplc"]).exit_code == 0
+    assert CliRunner().invoke(app, ["build", good, "-o", "out", "--to", "openplc"]).exit_code == 0
     assert view.UNPROVED in Path("out/README.md").read_text(encoding="utf-8")
     for command in ("show", "list"):
         assert view.UNPROVED in CliRunner().invoke(app, [command, good], env={"COLUMNS": "200"}).stdout

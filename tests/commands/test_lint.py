@@ -74,7 +74,7 @@ def test_names_are_reported_for_the_targets_of_for(tmp_path: Path) -> None:
 def test_a_target_that_is_none_is_reported(loop: Path) -> None:
     result = run("--for", "step7", loop)
     assert result.exit_code == 2
-    assert result.stderr == "--for knows no target step7; write openplc, plcopen, codesys, twincat, siemens or all\n"
+    assert result.stderr == "--for knows no target step7; write openplc, beremiz, codesys, twincat, siemens or all\n"
 
 
 @pytest.mark.parametrize(

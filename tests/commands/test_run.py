@@ -104,7 +104,7 @@ def test_a_wrong_program_and_a_wrong_script_are_reported_with_their_places(progr
     ("block", "advice"),
     [
         ("ACME_Drive", "if ACME_Drive is of a map of your own, name that by --map"),
-        ("LX_Line8", "LX_Line8 is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of the folder openplc"),
+        ("LX_Line8", "LX_Line8 is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of openplc/yours"),
     ],
 )
 def test_a_block_that_is_not_there_is_reported_with_what_to_do(program: Path, block: str, advice: str) -> None:

@@ -16,8 +16,10 @@ from tests.shipped import drives, sisters
 from driveblocks.docs import timing
 from driveblocks.docs.page import Own, documents
 from driveblocks.maps.model import Drive
-from driveblocks.render.library import PLATFORMS, first_motor, generic
+from driveblocks.platforms import PLATFORMS
+from driveblocks.platforms.port import first_motor
 from driveblocks.render.library import drive as library_of
+from driveblocks.render.library import generic
 from driveblocks.render.reasons import REASONS, STATES
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
@@ -195,7 +197,7 @@ def test_the_page_says_what_a_drive_does_by_itself_and_what_the_manual_does_not_
 
 @every_family
 def test_the_ladder_of_the_page_has_the_wires_of_the_first_motor(family: str) -> None:
-    motor = first_motor("plcopen", drives()[family]).text
+    motor = first_motor("iec61131", drives()[family]).text
     drawn = [each.text for each in picture(f"{family}_Drive_ladder.svg").iter() if each.tag.endswith("text")]
     wired = re.findall(r"\w+ := ([^,()]+?)(?=[,)])", re.sub(r"\(\*.*?\*\)", "", motor, flags=re.DOTALL))
     assert len(wired) > 15
@@ -219,11 +221,11 @@ def test_every_place_that_a_user_reads_first_says_that_it_holds_no_brake() -> No
     screen = "\n".join((root / "README.md").read_text("utf-8").splitlines()[:12])
     blocks = [*(f"{family}_Drive" for family in FAMILIES), "VFD_HardStop"]
     heads = {name: SOURCES[name].text.partition("*)")[0] for name in blocks}
-    platforms = [root / f"blocks/{name}/README.md" for name in ("codesys", "openplc", "plcopen", "siemens", "twincat")]
+    platforms = [root / f"blocks/{name}/README.md" for name in ("codesys", "openplc", "beremiz", "siemens", "twincat")]
     pages = [root / "docs/line.md", root / "blocks/README.md", *FOLDER.glob("*.md"), *platforms]
     motors = [root / "examples/one_motor.st", root / "examples/three_makes.st"]
     texts = {"README.md": screen, **heads, **{str(path): path.read_text("utf-8") for path in [*pages, *motors]}}
-    assert len(pages) == 2 + len(blocks) + len(("Wiring", "Swapping")) + len(platforms)
+    assert len(pages) == 2 + len(blocks) + len(("Wiring", "Swapping", "Families", "FirstMotor")) + len(platforms)
     lost = [name for name, text in texts.items() if BRAKE not in " ".join(text.replace("> ", "").split())]
     assert lost == []
     for family in FAMILIES:

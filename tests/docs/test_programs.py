@@ -66,6 +66,6 @@ def test_a_program_of_a_page_runs(name: str, library: Library) -> None:
 def test_the_call_on_the_page_of_linux_names_pins_that_are_there() -> None:
     page = (ROOT / "docs/linux.md").read_text(encoding="utf-8")
     (call,) = re.findall(r"^Bus\((.*?)\);", page, re.MULTILINE | re.DOTALL)
-    block = (ROOT / "blocks/linux/LX_Line8.st").read_text(encoding="utf-8")
+    block = (ROOT / "blocks/openplc/shared/LX_Port.st").read_text(encoding="utf-8")
     declared = set(re.findall(r"^  (\w+) :", block, re.MULTILINE))
     assert {name for name, _ in re.findall(r"(\w+) := ([^,]+)", call)} <= declared

@@ -75,21 +75,21 @@ def test_the_table_has_a_line_for_each_drive_and_register_table(drive: Drive) ->
     assert {line.count("|") for line in lines} == {12}
 
 
-def test_the_front_table_has_a_line_for_each_drive_with_what_it_can_do(drive: Drive) -> None:
-    lines = inventory.front({CHECKOUT / "vendor_maps" / "example.yaml": drive}, CHECKOUT).splitlines()
-    assert lines[2:] == [
-        "| Example Drives | EX100 series | [`EX100_Drive`](blocks/docs/EX100_Drive.md) "
-        "| run, run in reverse, stop, coast, reset a fault, set parameters | jog, quick stop "
-        "| read, read, read | 8 | 2 |"
-    ]  # fmt: skip
-
-
-def test_the_front_table_is_in_the_order_of_makers_and_says_where_no_parameter_can_be_set(drive: Drive) -> None:
-    other = replace(drive, vendor=replace(drive.vendor, en="Another"), sections=(), areas=())
+def test_the_front_table_has_a_line_for_each_maker_with_its_drives_and_sums(drive: Drive) -> None:
     folder = CHECKOUT / "vendor_maps"
-    lines = inventory.front({folder / "example.yaml": drive, folder / "other.yaml": other}, CHECKOUT).splitlines()[2:]
-    assert [line.split(" | ")[0] for line in lines] == ["| Another", "| Example Drives"]
-    assert lines[0].split(" | ")[4] == "jog, quick stop, set parameters"
+    other = replace(drive, vendor=replace(drive.vendor, en="Another"))
+    maps = {folder / f"{name}.yaml": one for name, one in (("a", drive), ("b", other), ("c", drive))}
+    link = "[EX100 series](blocks/docs/EX100_Drive.md)"
+    assert inventory.front(maps, CHECKOUT).splitlines()[2:] == [
+        f"| Another | {link} | 8 | 2 |",
+        f"| Example Drives | {link}, {link} | 16 | 4 |",
+    ]
+
+
+def test_what_a_drive_can_be_asked_to_do_is_told_in_words(drive: Drive) -> None:
+    able = "run, run in reverse, stop, coast, reset a fault"
+    assert inventory.abilities(drive) == (f"{able}, set parameters", "jog, quick stop")
+    assert inventory.abilities(replace(drive, sections=(), areas=())) == (able, "jog, quick stop, set parameters")
 
 
 def test_links_lead_from_the_page_to_the_map(drive: Drive) -> None:

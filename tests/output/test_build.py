@@ -11,9 +11,9 @@ import pytest
 from click.testing import CliRunner
 
 from driveblocks.cli import app
-from driveblocks.export import CANONICAL, target
 from driveblocks.maps import catalog, collection, page
 from driveblocks.output import build
+from driveblocks.platforms import TARGETS
 from driveblocks.render import text
 
 ROOT = Path(__file__).parents[2]
@@ -78,7 +78,7 @@ def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -
         source = ROOT / "generator" / package
         shutil.copytree(source, tmp_path / package, ignore=shutil.ignore_patterns(*left_out))
     code = "import driveblocks.__main__ as start; print(start.__file__); start.main()"
-    words = ["build", str(EXAMPLE), "-o", "out", "--target", "all"]
+    words = ["build", str(EXAMPLE), "-o", "out", "--to", "all"]
     done = subprocess.run(
         [sys.executable, "-c", code, *words],
         cwd=tmp_path,
@@ -91,7 +91,7 @@ def test_a_wheel_carries_all_that_a_build_of_all_targets_needs(tmp_path: Path) -
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith(str(tmp_path / "driveblocks" / "__main__.py"))
     made = {path.name for path in (tmp_path / "out").iterdir()}
-    assert made >= {CANONICAL, *target.WRITERS}
+    assert made >= {*TARGETS}
 
 
 def test_without_the_canonical_text_no_page_leads_to_it() -> None:

@@ -1,77 +1,83 @@
-"""What a user downloads: an archive per platform, whole, and the same bytes whenever and wherever it is made."""
+"""What a user downloads: an archive per platform and family, whole, and the same bytes whenever it is made."""
 
 import posixpath
 import re
-import shutil
 from pathlib import Path
 from zipfile import ZipFile
 
 import pytest
+from tests.shipped import sources
 
-from driveblocks.export import TARGETS
-from driveblocks.output import manifest
 from driveblocks.output.release import DATE, release
+from driveblocks.platforms import EXPORTS, TARGETS
 
 ROOT = Path(__file__).parents[2]
+TWO = ("CHF", "SN300G5")
+LIMIT = 300_000
+OVER = {"driveblocks-0.1.0-twincat-SN300G5": 340_000}
+"""TwinCAT has a file for each block, which an archive packs one by one; that family has the most."""
 
 
-@pytest.fixture(scope="module")
-def archives(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """The archive of each target."""
-    return {path.stem.rpartition("-")[2]: path for path in release(ROOT, tmp_path_factory.mktemp("first"))}
+def made(out: Path, targets: tuple[str, ...]) -> dict[str, Path]:
+    """The archives of two families, by name."""
+    some = [one for one in sources() if one.drive.prefix in TWO]
+    return {path.stem: path for path in release(ROOT, out, some, targets)}
 
 
-def names(path: Path) -> set[str]:
+@pytest.fixture(scope="module", params=[("siemens",), pytest.param(TARGETS, marks=pytest.mark.thorough)], ids=len)
+def archives(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Those of one platform, and of all."""
+    return made(tmp_path_factory.mktemp("release"), request.param)
+
+
+def texts(path: Path) -> dict[str, str]:
     """What is in an archive, without its outer folder."""
     with ZipFile(path) as archive:
-        return {name.removeprefix(f"{path.stem}/") for name in archive.namelist()}
+        return {name.removeprefix("driveblocks/"): archive.read(name).decode() for name in archive.namelist()}
 
 
-@pytest.mark.thorough
-def test_every_target_that_is_built_has_one_with_all_its_files(archives: dict[str, Path]) -> None:
-    listed = manifest.read(ROOT / "blocks").files
-    built = [target for target in TARGETS if any(name.startswith(f"{target}/") for name in listed)]
-    assert list(archives) == built
-    for target, path in archives.items():
-        own = {f"blocks/{name}" for name in listed if name.startswith(f"{target}/")}
-        assert {"LICENSE", *own} <= names(path)
-        others = {name for name in names(path) if name.startswith("blocks/") and name.split("/")[1] in TARGETS}
-        others -= {name for name in others if name.split("/")[1] in (target, "iec61131")}
-        assert all(name.endswith("/README.md") for name in others)
+def test_each_has_its_library_a_first_motor_wiring_and_licence(archives: dict[str, Path]) -> None:
+    for name, path in archives.items():
+        there, (target, _, family) = texts(path), name.removeprefix("driveblocks-0.1.0-").partition("-")
+        assert {"LICENSE", "blocks/docs/Wiring.md", f"blocks/docs/{family or TWO[0]}_Drive.md"} <= there.keys()
+        own = "".join(text for each, text in there.items() if each.startswith(f"blocks/{target}/"))
+        assert f"{family or TWO[0]}_Drive" in own
+        if target in EXPORTS:
+            assert f"{family or TWO[0]}_Motor" in own
+        others = {each.split("/")[1] for each in there if each.startswith("blocks/")} & {*TARGETS}
+        assert others <= {target}
 
 
-def test_what_a_page_in_it_links_to_is_in_it(archives: dict[str, Path]) -> None:
+def test_the_page_of_one_family_names_that_and_no_other(archives: dict[str, Path]) -> None:
+    for name, path in archives.items():
+        target, _, family = name.removeprefix("driveblocks-0.1.0-").partition("-")
+        if family and target in EXPORTS:
+            page = texts(path)[f"blocks/{target}/README.md"]
+            assert f"{family}_Version" in page
+            assert not re.search(r"\bX(_|\b)", page)
+            assert not re.search("|".join(one for one in TWO if one != family), page)
+
+
+def test_no_link_in_it_is_dead(archives: dict[str, Path]) -> None:
     for path in archives.values():
-        inside = names(path)
-        with ZipFile(path) as archive:
-            pages = {name: archive.read(f"{path.stem}/{name}").decode() for name in inside if name.endswith(".md")}
-        assert any(name.startswith("blocks/") for name in pages)
-        target = path.stem.rpartition("-")[2]
-        theirs = tuple(f"blocks/{other}/" for other in TARGETS if other != target)
-        for name, text in pages.items():
-            if name.startswith(theirs):  # the page of another platform, which only a drive's page names
-                continue
-            links = re.findall(r"\]\((?!\w+:)([^)#\s]+)", text)
-            assert {posixpath.normpath(posixpath.join(posixpath.dirname(name), link)) for link in links} <= inside, name
+        there = texts(path)
+        for name in (each for each in there if each.endswith(".md")):
+            links = re.findall(r"\]\((?!\w+:)([^)#\s]+)", there[name])
+            led = {posixpath.normpath(posixpath.join(posixpath.dirname(name), link)) for link in links}
+            assert led <= there.keys(), name
 
 
-def test_its_files_are_those_of_the_folder_byte_by_byte_with_a_fixed_date(archives: dict[str, Path]) -> None:
-    with ZipFile(archives["twincat"]) as archive:
-        for entry in archive.infolist():
-            assert entry.date_time == DATE
-            assert archive.read(entry) == (ROOT / entry.filename.partition("/")[2]).read_bytes()
+def test_one_family_takes_300_kilobytes_at_most(archives: dict[str, Path]) -> None:
+    for name, path in archives.items():
+        if name.endswith(TWO):
+            assert path.stat().st_size <= OVER.get(name, LIMIT), name
+
+
+def test_made_twice_they_are_the_same_bytes_with_a_fixed_date(tmp_path: Path) -> None:
+    first, second = (made(tmp_path / each, ("siemens",)) for each in ("first", "second"))
+    assert {name: path.read_bytes() for name, path in first.items()} == {
+        name: path.read_bytes() for name, path in second.items()
+    }
+    with ZipFile(first["driveblocks-0.1.0-siemens"]) as archive:
+        assert {entry.date_time for entry in archive.infolist()} == {DATE}
         assert archive.namelist() == sorted(archive.namelist())
-
-
-@pytest.mark.thorough
-def test_made_twice_they_are_the_same_bytes(archives: dict[str, Path], tmp_path: Path) -> None:
-    elsewhere = tmp_path / "copy"
-    for name in ("blocks", "docs", "examples"):  # files of another age, in another order
-        shutil.copytree(ROOT / name, elsewhere / name, copy_function=shutil.copyfile)
-    shutil.copyfile(ROOT / "LICENSE", elsewhere / "LICENSE")
-    again = {path.name: path.read_bytes() for path in release(elsewhere, tmp_path / "second")}
-    assert again == {path.name: path.read_bytes() for path in archives.values()}
-
-
-def test_a_folder_without_blocks_makes_none(tmp_path: Path) -> None:
-    assert release(tmp_path, tmp_path / "dist") == []

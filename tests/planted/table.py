@@ -9,7 +9,7 @@ from tests.planted.checkout import Checkout
 from structured_text.engines.discovery import MATIEC_NAMES, survey
 
 PYTEST = "python -m pytest -x -n0 -p no:cacheprovider -o addopts= --import-mode=importlib"
-CANONICAL = "--target iec61131 --only"
+CANONICAL = "--to iec61131 --only"
 """What is built: no judge of a block reads another form of it."""
 FOUND, MISSED = "found", "NOT found"
 

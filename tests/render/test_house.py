@@ -8,6 +8,7 @@ import pytest
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.load import load, loads
 from driveblocks.output import build
+from driveblocks.platforms import PLATFORMS, port
 from driveblocks.render import library as library_of
 from driveblocks.render import text
 from structured_text.language.checker import check
@@ -55,10 +56,10 @@ def test_a_block_that_runs_a_motor_takes_a_decision_once(units: list[Unit]) -> N
     assert [str(each) for each in told] == []
 
 
-@pytest.mark.parametrize("platform", library_of.PLATFORMS)
+@pytest.mark.parametrize("platform", PLATFORMS)
 def test_adapters_and_first_motors_have_names_for_every_target(platform: str) -> None:
     drives = [load(path) for path in MAPS]
-    made = [*library_of.adapter(platform, []), *(library_of.first_motor(platform, drive) for drive in drives)]
+    made = [*port.adapter(platform, []), *(port.first_motor(platform, drive) for drive in drives)]
     readable = [
         (file.path, file.text) for file in made if "#include" not in file.text and "extern int" not in file.text
     ]

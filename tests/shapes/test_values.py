@@ -18,9 +18,9 @@ from driveblocks.maps.collection import Source
 from driveblocks.maps.load import loads
 from driveblocks.maps.model import USES, Drive
 from driveblocks.output.units import units
+from driveblocks.platforms.port import by_words
 from driveblocks.reference.command import Commands, Pins
 from driveblocks.reference.speed import SpeedReference
-from driveblocks.render.library import MASTERS, programs
 from driveblocks.render.text import languages
 from driveblocks.simulator.drive import SimulatedDrive
 from driveblocks.site.register import rows, value
@@ -167,8 +167,7 @@ def test_the_words_of_a_reference_of_32_bits(name: str, sent: int, words: tuple[
 def test_no_program_for_a_foreign_master_where_it_takes_coils_or_pairs() -> None:
     """Nor is there a command block for coils: it gives words."""
     for name, has in {"turns_signed": True, "pair_signed": False}.items():
-        english = languages(["en"], "utf-8")
-        assert [bool(list(programs(each, drives()[name], english))) for each in MASTERS] == [has, has]
+        assert by_words(drives()[name]) == has
         assert any(each.path.endswith("_Command.st") for each in built()[name].blocks) == has
 
 

@@ -476,11 +476,11 @@ def test_only_what_a_plc_takes_becomes_a_setting(old: str, new: str, wrong: str,
     assert got.stderr.startswith(f"{path}:{line}:{column}: {wrong}")
 
 
-@pytest.mark.parametrize("target", ["plcopen", "siemens"])
+@pytest.mark.parametrize("target", ["beremiz", "siemens"])
 def test_a_date_of_a_persons_own_stays_a_comment(target: str, path: Path) -> None:
     text = path.read_text(encoding="utf-8").replace("2026-11-23 10:30", "*)\\nMotorRun := TRUE; (*")
     path.write_text(text, encoding="utf-8")
-    got = CliRunner().invoke(app, ["site", str(path), "--target", target])
+    got = CliRunner().invoke(app, ["site", str(path), "--to", target])
     assert got.exit_code == 0
     begin, end = ("//", "") if target == "siemens" else ("(*", "*)")
     (line,) = [each for each in got.stdout.splitlines() if "MotorRun" in each]
@@ -493,7 +493,7 @@ def test_a_date_of_a_persons_own_stays_a_comment(target: str, path: Path) -> Non
 def test_each_label_gets_settings_of_its_own(target: str, line: str, tmp_path: Path) -> None:
     kept.write(tmp_path / "site.yaml", ABOUT, FULL)
     kept.write(tmp_path / "site.yaml", replace(ABOUT, label="Fan"), replace(FULL, measured=None, answers=[]))
-    got = CliRunner().invoke(app, ["site", str(tmp_path / "site.yaml"), "--target", target])
+    got = CliRunner().invoke(app, ["site", str(tmp_path / "site.yaml"), "--to", target])
     assert (got.exit_code, got.stderr) == (0, "")
     lines = got.stdout.splitlines()
     assert line in lines
@@ -501,7 +501,7 @@ def test_each_label_gets_settings_of_its_own(target: str, line: str, tmp_path: P
     assert not [each for each in lines if each.lstrip("#").startswith("FanSettings.")]
 
 
-@pytest.mark.parametrize("target", ["plcopen", "codesys", "twincat", "openplc"])
+@pytest.mark.parametrize("target", ["beremiz", "codesys", "twincat", "openplc"])
 def test_settings_compile_as_they_are_printed(target: str, tmp_path: Path) -> None:
     path, source = tmp_path / "site.yaml", tmp_path / "machine.st"
     answers = [
@@ -513,7 +513,7 @@ def test_settings_compile_as_they_are_printed(target: str, tmp_path: Path) -> No
     slow = replace(FULL.measured or Measured(1, 1, 1, 1, ""), longest_ms=2200)
     kept.write(path, ABOUT, replace(FULL, answers=answers, measured=slow))
     kept.write(path, replace(ABOUT, label="If"), FULL)
-    said = CliRunner().invoke(app, ["site", str(path), "--target", target]).stdout
+    said = CliRunner().invoke(app, ["site", str(path), "--to", target]).stdout
     declared, _, assigned = said.partition("\n\n")
     source.write_text(f"PROGRAM Machine\nVAR\n{declared}\nEND_VAR\n{assigned}END_PROGRAM\n", encoding="utf-8")
     got = CliRunner().invoke(app, ["lint", "--for", target, str(source)])
@@ -687,7 +687,7 @@ def test_pages_say_what_one_drive_has_shown_only_where_they_are_built_with_it(tm
     path, out = tmp_path / "site.yaml", tmp_path / "out"
     kept.write(path, replace(ABOUT, who="Anna"), replace(FULL, plate="4 <kW> | V2"))
     kept.write(path, replace(ABOUT, label="Lift", map="other"), FULL)
-    words = ["build", "jscc", "-o", str(out), "--lang", "en", "--target", "iec61131"]
+    words = ["build", "jscc", "-o", str(out), "--lang", "en", "--to", "iec61131"]
     pages = {}
     for site in ([], ["--site", str(path)]):
         got = CliRunner().invoke(app, [*words, *site])

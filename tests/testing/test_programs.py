@@ -1,16 +1,12 @@
 """The programs themselves: portable, short-named, bounded per scan, commented, the same in every run."""
 
 import re
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 from tests import shipped
 from tests.shipped import BOTH
 
 from driveblocks.maps import collection
-from driveblocks.output import transaction
 from driveblocks.render.text import languages
 from driveblocks.testing.harness import PER_SCAN
 from driveblocks.testing.script import MOST_STAGES, Program
@@ -31,61 +27,6 @@ def all_units(made: dict[str, Unit]) -> list[Unit]:
 @pytest.fixture(scope="module")
 def all_programs(all_units: list[Unit]) -> list[Program]:
     return [program for unit in all_units for program in unit.suite.programs]
-
-
-APART = """
-import sys
-from driveblocks.maps import catalog, collection
-from driveblocks.render.text import languages
-from driveblocks.testing import suite
-
-sources = collection.read([catalog.folder() / f"{name}.yaml" for name in ("jscc", "rockwell_powerflex_4")])
-both = languages(["en", "zh"], "utf-8")
-begun, whole, make = suite.tests(sources, both), suite.programs(sources, both), suite.drive_suite
-if sys.platform == "linux":
-    suite.drive_suite = None
-assert begun() == whole
-suite._send, suite.drive_suite = (lambda *given: None), make
-assert suite.tests(sources, both)() == whole
-"""
-"""Tests of drives from another process, and from one that ends without a word."""
-
-
-def test_another_process_makes_the_same_programs() -> None:
-    subprocess.run([sys.executable, "-c", APART], check=True)
-
-
-LEFT = """
-import os, signal, sys, time
-from pathlib import Path
-from driveblocks.maps import catalog, collection
-from driveblocks.output import transaction
-from driveblocks.testing import suite
-
-def wait(*given):
-    (folder / "begun").touch()
-    while not (folder / "over").exists():
-        time.sleep(0.01)
-
-folder, suite.drive_suite = Path(sys.argv[1]), wait
-with transaction.locked(folder / "blocks"):
-    begun = suite.tests(collection.read([catalog.folder() / "jscc.yaml"]), [])
-    while not (folder / "begun").exists():
-        time.sleep(0.01)
-    os.kill(os.getpid(), signal.SIGKILL)
-"""
-"""A build that is killed while the other process is at work."""
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="there is no other process elsewhere")
-def test_a_killed_build_leaves_no_lock_to_its_other_process(tmp_path: Path) -> None:
-    killed = subprocess.run([sys.executable, "-c", LEFT, str(tmp_path)], check=False)
-    assert killed.returncode == -9
-    try:
-        with transaction.locked(tmp_path / "blocks"):
-            pass
-    finally:
-        (tmp_path / "over").touch()
 
 
 def test_the_linter_finds_nothing(all_units: list[Unit]) -> None:

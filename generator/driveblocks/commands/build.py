@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from driveblocks.commands import FILE, MAPS, refuse
-from driveblocks.export import TARGETS
+from driveblocks.platforms import TARGETS
 
 if TYPE_CHECKING:
     from driveblocks.docs.page import Measured
@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", metavar="FOLDER", default="blocks", help="Folder to write to.")
 @click.option("--lang", metavar="LIST", default="en,zh", help="Languages of the texts: en, zh or en,zh.")
 @click.option("--encoding", metavar="NAME", default="utf-8", help="Bytes of Chinese texts: utf-8 or gb18030.")
-@click.option("--target", metavar="LIST", default="all", help=f"Forms to write: {', '.join(TARGETS)} or all.")
+@click.option("--to", "target", metavar="LIST", default="all", help=f"Platforms: {', '.join(TARGETS)} or all.")
+@click.option(
+    "--families", metavar="LIST", default="", help="Shipped families, such as chf,pf525, as if named as maps."
+)
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the folder is not current.")
 @click.option("--only", is_flag=True, help="Remove the blocks of drives and targets that are not named.")
 @click.option("--site", type=FILE, metavar="FILE", help="Show on the pages what `commission` found of single drives.")
@@ -33,6 +36,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     lang: str,
     encoding: str,
     target: str,
+    families: str,
     site: Path | None,
     check: bool,
     only: bool,
@@ -51,13 +55,14 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     from driveblocks.render.text import missing
 
     folder = _folder(output)
+    maps = (*maps, *(name for each in families.split(",") if (name := each.strip())))
     asked = build.Wanted(_languages(lang, encoding), _targets(target), only, _measured(site))
     plan = _planned(folder, maps, asked) if check else _carried_out(folder, maps, asked, force)
     wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
     if check and transaction.interrupted(folder):
         wrong.insert(0, f"{folder}: another build is at work, or was interrupted")
     if check and wrong:
-        options = {"-o": output, "--lang": lang, "--encoding": encoding, "--target": target, "--site": site}
+        options = {"-o": output, "--lang": lang, "--encoding": encoding, "--to": target, "--site": site}
         again = _again(options, maps, only)
         click.echo("\n  ".join(["not current:", *wrong]) + f"\nrun: driveblocks build{again}", err=True)
         sys.exit(1)
@@ -93,11 +98,11 @@ def _carried_out(folder: Path, maps: tuple[str, ...], asked: "Wanted", force: bo
 @contextlib.contextmanager
 def _told(folder: Path) -> Iterator[None]:
     """Say what is wrong with maps or folder, and end with status 2."""
-    from driveblocks.export.problem import ExportError
     from driveblocks.maps.catalog import UnknownDrive
     from driveblocks.maps.problem import MapError
     from driveblocks.output.manifest import Refused
     from driveblocks.output.transaction import interrupted
+    from driveblocks.platforms.problem import ExportError
 
     try:
         yield
@@ -129,7 +134,7 @@ def _measured(site: Path | None) -> Mapping[str, "Sequence[Measured]"]:
 
 def _again(options: "Mapping[str, str | Path | None]", maps: tuple[str, ...], only: bool) -> str:
     """The words of the command line that are not the usual ones."""
-    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--target": "all", "--site": None}
+    usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--to": "all", "--site": None}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
     return "".join(f" {word}" for word in [*maps, *given, *(["--only"] if only else ())])
 
@@ -138,8 +143,8 @@ def _targets(target: str) -> list[str]:
     names = [name.strip() for name in target.split(",") if name.strip()]
     unknown = [name for name in names if name not in (*TARGETS, "all")]
     if unknown or not names:
-        wrong = f"`{target}` is no list of targets; write {', '.join(TARGETS)} or all"
-        raise click.BadParameter(wrong, param_hint="--target")
+        wrong = f"`{target}` is no list of platforms; write {', '.join(TARGETS)} or all"
+        raise click.BadParameter(wrong, param_hint="--to")
     return list(TARGETS) if "all" in names else names
 
 

@@ -5,16 +5,16 @@ from pathlib import Path
 import click
 
 from driveblocks.commands import FILE, only_over, refuse, write
+from driveblocks.platforms import EXPORTS
 
 PAGE = only_over(rb"<!doctype html><html lang='en'><head><meta charset='utf-8'><title>Commissioning<", "site --html")
-TARGETS = ("plcopen", "codesys", "twincat", "siemens", "openplc")
 
 
 @click.command()
 @click.argument(
     "file", type=FILE, default=Path("site.yaml"), metavar="[FILE]", help="What `commission` has kept, else site.yaml."
 )
-@click.option("--target", type=click.Choice(TARGETS), default="plcopen", help="The platform of the PLC.")
+@click.option("--to", "target", type=click.Choice(EXPORTS), default="beremiz", help="The platform of the PLC.")
 @click.option("--html", type=FILE, callback=PAGE, metavar="FILE.html", help="Write a page to be printed and signed.")
 @click.option("--report", metavar="LABEL", help="Print what was found of one drive, to be sent as an issue.")
 @click.option("--map", "maps", multiple=True, metavar="MAP", help="A map of your own that a drive is of, for --html.")
@@ -24,7 +24,7 @@ def run(file: Path, target: str, html: Path | None, report: str | None, maps: tu
     Each is an initialised VFD_Settings. What was measured on one drive is for that drive alone: maps and blocks do not
     change. The exit status is 0, or 2 for bad input.
 
-    Example: driveblocks site --target siemens --html pump.html
+    Example: driveblocks site --to siemens --html pump.html
     """
     from driveblocks.maps import catalog
     from driveblocks.maps.load import load

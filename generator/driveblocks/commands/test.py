@@ -12,6 +12,7 @@ from driveblocks.commands import FILE, JUNIT, MAPS, refuse, sources
 
 if TYPE_CHECKING:
     from driveblocks.maps.collection import Source
+    from driveblocks.render.text import Language
     from driveblocks.testing.coverage import Coverage
     from driveblocks.testing.outcome import Result, Run
     from structured_text.engines.discovery import Candidate
@@ -34,6 +35,7 @@ SHOWN, PER_PROGRAM = 20, 3
     help="Processes of the embedded engine, else one per processor, 4 at most.",
 )
 @click.option("--picture", type=FILE, metavar="FOLDER", help="Draw each scene that failed there, as a timing diagram.")
+@click.option("--keep", type=FILE, metavar="FOLDER", help="Write the test programs there, for a controller to run.")
 @click.option("--coverage", is_flag=True, help="List the lines and branches of the blocks that no program has run.")
 @click.option(
     "--require-coverage",
@@ -48,6 +50,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     time_limit: float,
     jobs: int | None,
     picture: Path | None,
+    keep: Path | None,
     coverage: bool,
     require_coverage: float | None,
 ) -> None:
@@ -55,8 +58,9 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
 
     The blocks are built in memory. Test programs made from the maps check them against the manual's example frames and
     against a reference model, and play scenes: a drive block on its line, with a drive that the program simulates. Of a
-    scene that fails, pins and frames before the failure are printed; --picture draws them. The exit status is 0 if all
-    checks pass, 1 if any fails, and 2 if a map is bad or an engine cannot be used.
+    scene that fails, pins and frames before the failure are printed; --picture draws them. --keep writes the programs
+    into a new folder. The exit status is 0 if all checks pass, 1 if any fails, and 2 if a map is bad or an engine
+    cannot be used.
 
     --coverage counts lines, and outcomes of decisions (IF, CASE, loops). What no input can reach is explained, and not
     in the percentage. Too little is a failure only with --require-coverage.
@@ -73,7 +77,10 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     candidates, chosen = _engines(engine)
     read = sources(maps)
     making = click.get_current_context().obj or units  # other programs, as a test may want them
-    made = making(read, languages(["en", "zh"], "utf-8"))
+    both = languages(["en", "zh"], "utf-8")
+    made = making(read, both)
+    if keep is not None:
+        _keep(keep, read, both)
     engines = [each.engine for each in chosen if each.engine is not None]
     measured = [Coverage(each.name) for each in engines] if coverage or require_coverage is not None else []
     some = [counting(each) for each in engines] if measured else engines
@@ -93,6 +100,22 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     _cover(measured)
     _say(done, len(read), junit)
     sys.exit(0 if done.passed else 1)
+
+
+def _keep(folder: Path, read: "list[Source]", both: "list[Language]") -> None:
+    """Write the programs into a new folder. Ends with status 2 where something is there, or it cannot be written."""
+    from driveblocks.testing.suite import programs
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if any(folder.iterdir()):
+            refuse(f"{folder}: is not empty; name a new folder")
+        for name, text in programs(read, both).items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8", newline="")
+    except OSError as error:
+        refuse(f"{error.filename or folder}: cannot be written: {error.strerror}")
 
 
 def _engines(name: str) -> "tuple[list[Candidate], list[Candidate]]":

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from driveblocks.export.element import escaped
+from driveblocks.platforms.element import escaped
 
 STYLE = """text { font: 13px system-ui, sans-serif; fill: #24292f }
 .head { font-weight: 600 }

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from driveblocks.docs.canvas import Canvas
-from driveblocks.export.element import Element
+from driveblocks.platforms.element import Element
 
 Point = tuple[float, float]
 _MARGIN = 24

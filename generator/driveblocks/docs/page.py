@@ -1,6 +1,6 @@
 """The page of a drive block: values for its template, and the pictures beside it."""
 
-from collections import ChainMap
+from collections import ChainMap, Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import ceil
@@ -9,19 +9,21 @@ from typing import Any
 from driveblocks.docs import bus, chain, ladder, network, states, sto, timing
 from driveblocks.docs.members import members
 from driveblocks.docs.pins import Pin, pins
-from driveblocks.export import CANONICAL
-from driveblocks.export.ladder import diagram
-from driveblocks.export.part import Part
-from driveblocks.maps import conduct, plan, trust
+from driveblocks.maps import conduct, inventory, plan, trust
 from driveblocks.maps.form import address_text
 from driveblocks.maps.model import Absence, Drive, Erratum, Notice, Setting
 from driveblocks.maps.polls import Poll, polls, schedule, wire_ms
+from driveblocks.platforms import CANONICAL, EXPORTS, PLATFORMS
+from driveblocks.platforms.ladder import diagram
+from driveblocks.platforms.part import Part
+from driveblocks.platforms.port import adapter, first_motor
+from driveblocks.platforms.record import Platform
 from driveblocks.render import context
 from driveblocks.render.drive import MEASURES, drive_block, pin_of
 from driveblocks.render.environment import render
-from driveblocks.render.library import BYTES, File, adapter, first_motor
+from driveblocks.render.library import File
 from driveblocks.render.motor import SCAN_MS, motor
-from driveblocks.render.overview import Abilities, overview
+from driveblocks.render.overview import overview
 from driveblocks.render.reasons import REASONS
 from driveblocks.render.reasons import STATES as NAMES
 from driveblocks.render.text import ENGLISH
@@ -42,17 +44,9 @@ ABILITIES = {
     "quick_stop": "quick stop", "coast_stop": "coast stop", "fault_reset": "reset a fault",
 }  # fmt: skip
 """Command -> what a drive can do over the bus if it has it."""
-PLATFORMS = {
-    "codesys": "CODESYS and its relatives", "twincat": "TwinCAT 3", "siemens": "TIA Portal",
-    "openplc": "OpenPLC and plain text", "plcopen": "Beremiz and PLCopen XML",
-}  # fmt: skip
-"""Targets with a page -> whom it is for."""
-DRAWN = {
-    "siemens": "an FB in LAD", "twincat": "a POU in LD",
-}  # fmt: skip
-"""Targets whose texts carry no ladder -> what it is drawn in."""
 CONDUCT = ("identity", "watchdog", "commanded_by", "own_maximum", "trip_output")
 """What gaps about what a drive does by itself refer to."""
+UNSCALED = "with a scale that you find out"
 WORDS = {"at_speed": "at speed", "ready": "ready", "warning": "in a warning state"}
 Measured = tuple[str, Sequence[tuple[str, str]]]
 """What was found of one drive: its label, and what each fact is called and says."""
@@ -81,9 +75,13 @@ def documents(
     others lead to; `units` are the trees of the files, where those are there already.
     """
     checked = check(units or [parse("\n".join(file.text for file in files), "library")])
+    platforms = [PLATFORMS[one] for one in EXPORTS if one in targets]
     return {
-        "README.md": overview(files, drives, checked, abilities(drives), linked=CANONICAL in targets),
-        **pages(drives, checked, own or {}, [one for one in PLATFORMS if one in targets]),
+        "README.md": overview(
+            files, drives, checked, [(one.name, one.title) for one in platforms], linked=CANONICAL in targets
+        ),
+        **({f"{FOLDER}/Families.md": families(files, drives, checked, platforms)} if drives else {}),
+        **pages(drives, checked, own or {}, [one for one in EXPORTS if one in targets]),
     }
 
 
@@ -104,8 +102,8 @@ def pages(drives: list[Drive], checked: Checked, own: Mapping[str, Own], platfor
         found[f"{FOLDER}/{name}.md"] = _page(drive, checked, values, own.get(drive.prefix, Own()), platforms)
         found[f"{FOLDER}/{name}.svg"] = ladder.picture(name, "Motor", inputs, in_outs, outputs)
         found[f"{FOLDER}/{name}_timing.svg"] = timing.picture(drive, name)
-        found[f"{FOLDER}/{name}_ladder.svg"] = _network(BYTES, drive, blocks)
-        for platform in (one for one in DRAWN if one in platforms):
+        found[f"{FOLDER}/{name}_ladder.svg"] = _network(CANONICAL, drive, blocks)
+        for platform in (one for one in platforms if PLATFORMS[one].drawn):
             found[f"{FOLDER}/{name}_ladder_{platform}.svg"] = _network(platform, drive, blocks)
     return found
 
@@ -120,10 +118,43 @@ def _shared(drives: list[Drive], blocks: Mapping[str, FunctionBlock]) -> dict[st
         f"{FOLDER}/{HARD_STOP}.md": text,
         f"{FOLDER}/{HARD_STOP}.svg": chain.picture(HARD_STOP),
         f"{FOLDER}/Wiring.md": render("docs/Wiring.md.j2", families=[_wires(drive) for drive in drives]),
+        f"{FOLDER}/FirstMotor.md": render("docs/FirstMotor.md.j2"),
         f"{FOLDER}/bus.svg": bus.picture(),
         f"{FOLDER}/sto.svg": sto.picture(),
         f"{FOLDER}/Swapping.md": render("docs/Swapping.md.j2", drives=[_swapped(drive) for drive in drives]),
     }
+
+
+def families(files: list[File], drives: list[Drive], checked: Checked, platforms: list[Platform]) -> str:
+    """The catalogue: every family with its maker, what it can do, how far it can be trusted, what its files hold."""
+    folders = {file.folder: drive for drive in drives for file in files if file.name == f"{drive.prefix}_Drive"}
+    counted: dict[str, dict[str, Counter[str]]] = {drive.prefix: {} for drive in drives}
+    for file in (one for one in files if one.folder in folders):
+        prefix = folders[file.folder].prefix
+        kind = "functions" if file.name.upper() in checked.functions else "blocks"
+        counted[prefix].setdefault(f"X_{file.extra}" if file.extra else "X", Counter())[kind] += 1
+    rows = [
+        {
+            "prefix": drive.prefix,
+            "maker": drive.vendor.en,
+            "title": drive.family.en,
+            "able": inventory.abilities(drive)[0],
+            "rung": trust.rung(drive),
+            "reports": ", ".join(_reported(drive)),
+            "shows": ", ".join(_shown(drive, "yes")),
+            "unscaled": ", ".join(_shown(drive, UNSCALED)),
+            "counts": {file: f"{one['functions']} + {one['blocks']}" for file, one in counted[drive.prefix].items()},
+        }
+        for drive in drives
+    ]
+    names = list(dict.fromkeys(file for found in counted.values() for file in found))
+    return render(
+        "docs/Families.md.j2",
+        families=rows,
+        platforms=platforms,
+        files=names,
+        wide=any("Chinese" in name for name in names),
+    )
 
 
 def _wires(drive: Drive) -> dict[str, str]:
@@ -182,7 +213,7 @@ def _page(drive: Drive, checked: Checked, values: Mapping[str, Any], own: Own, p
         word=own.word or drive.prefix.lower(),
         measured=own.measured,
         edition=drive.manual.edition,
-        platforms=[(one, PLATFORMS[one], DRAWN.get(one)) for one in platforms],
+        platforms=[(one, PLATFORMS[one].title, PLATFORMS[one].drawn) for one in platforms],
         first=[each.what for each in open_ if "serial" in each.about or any("setting" in one for one in each.about)],
         errata=list(_errata(drive)),
         cannot=[words for does, words in ABILITIES.items() if not can(drive, does)],
@@ -225,18 +256,18 @@ def can(drive: Drive, does: str) -> bool:
     return any(one.does == does for one in drive.operation.commands)
 
 
-def abilities(drives: list[Drive]) -> Abilities:
-    """The table of what each family can over the bus: what it does, then what it shows."""
-    rows = {words: [_yes(can(drive, does)) for drive in drives] for does, words in ABILITIES.items()}
-    for shows in ("at_speed", "ready", "warning"):
-        having = [any(one.shows == shows for one in drive.operation.status) for drive in drives]
-        rows[f"report by itself that it is {WORDS[shows]}"] = [_yes(one) for one in having]
-    rows["be recognised over the bus"] = [_yes(drive.identity is not None) for drive in drives]
-    rows["report whether the bus is in command"] = [_yes(drive.operation.commanded_by is not None) for drive in drives]
-    rows["report its own maximum frequency"] = [_yes(drive.operation.own_maximum is not None) for drive in drives]
-    for shows in MEASURES:
-        rows[f"show `{pin_of(shows).pin}`"] = [_shows(drive, shows) for drive in drives]
-    return Abilities([drive.prefix for drive in drives], rows)
+def _reported(drive: Drive) -> list[str]:
+    """What a drive tells by itself over the bus, in words."""
+    operation = drive.operation
+    told = [f"that it is {WORDS[one]}" for one in WORDS if any(each.shows == one for each in operation.status)]
+    told += ["what it is"] if drive.identity is not None else []
+    told += ["whether the bus is in command"] if operation.commanded_by is not None else []
+    return told + (["its own maximum frequency"] if operation.own_maximum is not None else [])
+
+
+def _shown(drive: Drive, cell: str) -> list[str]:
+    """The pins that show a value, as it is or once its scale is found out."""
+    return [f"`{pin_of(shows).pin}`" for shows in MEASURES if _shows(drive, shows) == cell]
 
 
 def _conduct(drive: Drive) -> list[tuple[str, str]]:
@@ -258,7 +289,7 @@ def _yes(one: bool) -> str:
 
 def _shows(drive: Drive, shows: str) -> str:
     measure = drive_block(drive).showing.measures.get(shows)
-    return _yes(measure is not None) if measure is None or measure.scale else "with a scale that you find out"
+    return _yes(measure is not None) if measure is None or measure.scale else UNSCALED
 
 
 def _guessed(drive: Drive) -> bool:

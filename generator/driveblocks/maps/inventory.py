@@ -4,17 +4,14 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from driveblocks.maps import counts, trust, view
+from driveblocks.maps import counts, view
 from driveblocks.maps.counts import Counts, Tally
 from driveblocks.maps.model import Drive
 
 BEGIN, END = "<!-- drives:begin -->", "<!-- drives:end -->"
 FRONT_BEGIN, FRONT_END = "<!-- front:begin -->", "<!-- front:end -->"
 
-_FRONT = (
-    "maker", "drives", "drive block", "over the bus", "not over the bus", "commands, status, faults",
-    "misprints found", "left open by the manual",
-)  # fmt: skip
+_FRONT = ("maker", "drives, each with its page", "misprints found", "left open by the manuals")
 _WORDS = {
     "run_forward": "run",
     "run_reverse": "run in reverse",
@@ -47,21 +44,30 @@ def update(text: str, maps: Mapping[Path, Drive], folder: Path) -> str:
 
 
 def front(maps: Mapping[Path, Drive], folder: Path) -> str:
-    """One line for each drive, by maker: its page, what the bus can do with it and what not, misprints and gaps.
-
-    Between them: how far the weakest command, status and fault can be trusted.
-    """
-    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 6 + ("---:",) * 2]
+    """One line for each maker: its drives with their pages, misprints found and gaps of the manuals."""
+    makers: dict[str, list[tuple[Path, Drive]]] = {}
     for path, drive in sorted(maps.items(), key=lambda each: view.title(each[1]).casefold()):
-        page = Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs"
-        link = f"[`{drive.prefix}_Drive`]({(page / f'{drive.prefix}_Drive.md').as_posix()})"
-        able = set(_able(drive))
-        can = ", ".join(word for name, word in _WORDS.items() if name in able)
-        cannot = ", ".join(word for name, word in _WORDS.items() if name not in able)
-        held = counts.of_drive(drive)
-        names = drive.vendor.en, drive.family.en, link
-        rows.append((*names, can, cannot, trust.rung(drive), str(held.errata), str(held.absent)))
+        makers.setdefault(drive.vendor.en, []).append((path, drive))
+    rows: list[tuple[str, ...]] = [_FRONT, ("---",) * 2 + ("---:",) * 2]
+    for maker, drives in makers.items():
+        held = [counts.of_drive(drive) for _, drive in drives]
+        links = ", ".join(_link(path, drive, folder) for path, drive in drives)
+        rows.append((maker, links, str(sum(one.errata for one in held)), str(sum(one.absent for one in held))))
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def _link(path: Path, drive: Drive, folder: Path) -> str:
+    page = (
+        Path(os.path.relpath(path.resolve().parents[1], folder.resolve())) / "blocks/docs" / f"{drive.prefix}_Drive.md"
+    )
+    return f"[{drive.family.en}]({page.as_posix()})"
+
+
+def abilities(drive: Drive) -> tuple[str, str]:
+    """What a drive can be asked to do over the bus, and what it cannot."""
+    able = set(_able(drive))
+    can, cannot = ([word for name, word in _WORDS.items() if (name in able) == wanted] for wanted in (True, False))
+    return ", ".join(can), ", ".join(cannot)
 
 
 def _able(drive: Drive) -> Iterator[str]:

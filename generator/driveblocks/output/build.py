@@ -4,22 +4,20 @@ import os
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from driveblocks.docs.page import Measured, Own, documents
-from driveblocks.export import CANONICAL, TARGETS, target
-from driveblocks.export.part import shelf
 from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
 from driveblocks.output import manifest, transaction
 from driveblocks.output.manifest import Manifest, Refused, State
+from driveblocks.platforms import CANONICAL, TARGETS, writers
+from driveblocks.platforms.part import shelf
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
 
-if TYPE_CHECKING:
-    from driveblocks.testing.suite import Tests
-
+READ = 1
+"""Families whose test programs are written beside those of the shared blocks, to be read; `test` makes those of all."""
 SHOWN = 20
 """Files that a refusal names; the rest are counted."""
 
@@ -36,7 +34,6 @@ def files(
     Raises ExportError with everything that a target cannot say.
     """
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
-    tests = _tests(sources, languages) if CANONICAL in targets else dict[str, str]
     made = [*library.generic(languages)]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
@@ -53,14 +50,14 @@ def files(
     if CANONICAL in targets:
         texts |= {f"{CANONICAL}/{file.path}": file.text for file in made}
         texts[f"{CANONICAL}/order.txt"] = "".join(f"{file.path}\n" for file in made)
-        texts |= {file.path: file.text for file in library.adapter("linux", languages)}
-    return texts | tests() | target.files(stock, targets)
+        texts |= _tests(sources[:READ], languages)
+    return texts | writers.files(stock, targets)
 
 
-def _tests(sources: list[Source], languages: list[Language]) -> "Tests":
-    from driveblocks.testing.suite import tests  # which other targets do not need
+def _tests(sources: list[Source], languages: list[Language]) -> dict[str, str]:
+    from driveblocks.testing.suite import programs  # which other targets do not need
 
-    return tests(sources, languages)
+    return programs(sources, languages)
 
 
 Made = Callable[[list[Source], list[Language], Collection[str], Mapping[str, Sequence[Measured]]], dict[str, str]]

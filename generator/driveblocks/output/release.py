@@ -1,71 +1,86 @@
-"""One archive per platform: its files, its page, what that page leads to, and the licence.
+"""Archives to download: for each platform one of all families, and one of each family with a page of its own.
 
-`python -m driveblocks.output.release` makes them from blocks/ of the folder where it is run.
+`python -m driveblocks.output.release` makes them of the shipped maps, in the folder where it is run.
 """
 
 import posixpath
 import re
-from collections.abc import Iterable
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from driveblocks import __version__
-from driveblocks.export import CANONICAL, TARGETS
-from driveblocks.output import manifest
+from driveblocks.maps import catalog
+from driveblocks.maps.collection import Source, read
+from driveblocks.output.build import files
+from driveblocks.platforms import CANONICAL, TARGETS
+from driveblocks.render.text import Language, languages
 
 BLOCKS, LICENCE, OUT = "blocks", "LICENSE", "dist"
-BESIDE = {CANONICAL: ("linux",)}
-"""Target -> folders that go with its own."""
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every file: the same files make the same archive on every day."""
-_LINK = re.compile(r"\]\((?!\w+:)([^)#\s]+)")
+_LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!\w+:)([^)#\s]*)(#[^)\s]*)?\)")
 
 
-def release(root: Path, out: Path) -> list[Path]:
-    """Write the archive of each target that was built into root/blocks; the archives. Raises Refused and OSError."""
-    listed = manifest.read(root / BLOCKS).files
-    made = []
+def release(root: Path, out: Path, sources: Sequence[Source], targets: Sequence[str] = TARGETS) -> list[Path]:
+    """Write the archives of some platforms; `root` is the checkout, whose pages and licence go with them.
+
+    Raises ExportError and OSError.
+    """
+    both = languages(["en", "zh"], "utf-8")
     out.mkdir(parents=True, exist_ok=True)
-    for target in TARGETS:
-        folders = tuple(f"{folder}/" for folder in (target, *BESIDE.get(target, ())))
-        own = [f"{BLOCKS}/{name}" for name in listed if name.startswith(folders)]
-        page = f"{BLOCKS}/{target}/README.md"
-        if own:
-            foreign = tuple(f"{BLOCKS}/{other}/" for other in TARGETS if f"{other}/" not in folders)
-            reached = _reached(root, page if page in own else f"{BLOCKS}/README.md", foreign)
-            path = out / f"driveblocks-{__version__}-{target}.zip"
-            _pack(path, root, {LICENCE, *own, *reached})
+    made = []
+    for target in targets:
+        for name, some in {target: list(sources), **{f"{target}-{one.drive.prefix}": [one] for one in sources}}.items():
+            path = out / f"driveblocks-{__version__}-{name}.zip"
+            _pack(path, contents(root, some, target, both))
             made.append(path)
     return made
 
 
-def _reached(root: Path, page: str, foreign: tuple[str, ...]) -> set[str]:
-    """A page and the files that it links to, and those that these link to, as paths from the root.
-
-    The page of another platform is taken along, since the drives' pages name it, but not what that leads to.
-    """
-    found: set[str] = set()
-    waiting = [page]
-    while waiting:
-        name = waiting.pop()
-        if name in found or not (root / name).is_file():
-            continue
-        found.add(name)
-        if name.endswith(".md") and not name.startswith(foreign):
-            links = _LINK.findall((root / name).read_text(encoding="utf-8"))
-            waiting += [posixpath.normpath(posixpath.join(posixpath.dirname(name), link)) for link in links]
-    return found
+def contents(root: Path, sources: list[Source], target: str, both: list[Language]) -> dict[str, str]:
+    """The files of an archive by their paths: what is built for a platform, pages, the licence."""
+    built = {f"{BLOCKS}/{name}": text for name, text in files(sources, both, (target,)).items()}
+    own = {name: text for name, text in built.items() if name.startswith((f"{BLOCKS}/{target}/", f"{BLOCKS}/docs/"))}
+    page = f"{BLOCKS}/README.md" if target == CANONICAL else f"{BLOCKS}/{target}/README.md"
+    own[page] = built[page]
+    for link in sorted(set(_links(own))):
+        beside = root / link
+        if link.startswith("docs/") and beside.suffix == ".md" and beside.is_file():
+            own[link] = beside.read_text(encoding="utf-8")
+    pages = {name: _unlinked(name, text, own) for name, text in own.items() if name.endswith(".md")}
+    return own | pages | {LICENCE: (root / LICENCE).read_text(encoding="utf-8")}
 
 
-def _pack(path: Path, root: Path, names: Iterable[str]) -> None:
+def _links(own: Mapping[str, str]) -> Iterator[str]:
+    """Where the links of the pages lead, as paths from the root."""
+    for name, text in own.items():
+        if name.endswith(".md"):
+            yield from (_target(name, found[3]) for found in _LINK.finditer(text))
+
+
+def _target(page: str, link: str) -> str:
+    return posixpath.normpath(posixpath.join(posixpath.dirname(page), link)) if link else page
+
+
+def _unlinked(page: str, text: str, there: Mapping[str, str]) -> str:
+    """The page with its links to what is not in the archive as plain words."""
+
+    def kept(found: re.Match[str]) -> str:
+        return found[0] if _target(page, found[3]) in there else found[2]
+
+    return _LINK.sub(kept, text)
+
+
+def _pack(path: Path, texts: Mapping[str, str]) -> None:
     """Write an archive whose bytes depend on names and contents alone."""
     with ZipFile(path, "w") as archive:
-        for name in sorted(names):
-            entry = ZipInfo(f"{path.stem}/{name}", DATE)
+        for name in sorted(texts):
+            entry = ZipInfo(f"driveblocks/{name}", DATE)
             entry.create_system, entry.external_attr = 3, 0o100644 << 16
-            archive.writestr(entry, (root / name).read_bytes(), ZIP_DEFLATED, 9)
+            archive.writestr(entry, texts[name].encode(), ZIP_DEFLATED, 9)
 
 
 if __name__ == "__main__":
-    for archive in release(Path(), Path(OUT)):
+    for archive in release(Path(), Path(OUT), read(list(catalog.shipped()))):
         print(f"{archive}: {archive.stat().st_size // 1024} KiB")

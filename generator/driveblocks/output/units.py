@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from driveblocks.export import CANONICAL
 from driveblocks.maps.collection import Source
+from driveblocks.platforms import CANONICAL
 from driveblocks.render import library
 from driveblocks.render.text import Language
 from driveblocks.testing.suite import drive_suite, shared_suite

@@ -9,6 +9,7 @@ from pathlib import Path
 from driveblocks.maps import catalog, collection
 from driveblocks.maps.collection import Source as Map
 from driveblocks.maps.model import Drive
+from driveblocks.platforms import PLATFORMS
 from driveblocks.render import library
 from driveblocks.render.text import Language, languages
 from structured_text.engines.embedded import EmbeddedEngine, EmbeddedLibrary
@@ -18,7 +19,7 @@ from structured_text.language.tree import Program, Unit
 
 _WORD = re.compile(r"[A-Za-z]\w*")
 _UNKNOWN = re.compile(r"expected the name of a type, found ([A-Za-z]\w*_\w+)")
-_PORTS = {prefix for platform, (prefix, _) in library.PLATFORMS.items() if platform != library.BYTES}
+_PORTS = {one.prefix for one in PLATFORMS.values()} - {"MB"}
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ def advice(wrong: str) -> str:
         return ""
     prefix = found[1].partition("_")[0]
     if prefix in _PORTS:
-        return f"\n{found[1]} is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of the folder openplc"
+        return f"\n{found[1]} is for a platform; take MB_ByteLine8, as in ..._MotorBytes.st of openplc/yours"
     return f"\nif {found[1]} is of a map of your own, name that by --map"
 
 

@@ -26,10 +26,10 @@ _RULE = "   " + "-" * 97
 _MADE_BY = ("Made by", "DriveBlocks; written by the generator, so make changes in its template or map.")
 
 
-def strict(package: str) -> jinja2.Environment:
-    """The environment of the templates of a package. An undefined name is an error."""
+def strict(package: str, *others: jinja2.BaseLoader) -> jinja2.Environment:
+    """The environment of the templates of a package, and of others. An undefined name is an error."""
     return jinja2.Environment(
-        loader=jinja2.PackageLoader(package),
+        loader=jinja2.ChoiceLoader([jinja2.PackageLoader(package), *others]),
         bytecode_cache=_kept(),
         auto_reload=False,
         undefined=jinja2.StrictUndefined,
@@ -43,7 +43,7 @@ def strict(package: str) -> jinja2.Environment:
 @cache
 def environment() -> jinja2.Environment:
     """The environment of the templates of all blocks and pages."""
-    made = strict("driveblocks.render")
+    made = strict("driveblocks.render", jinja2.PackageLoader("driveblocks.platforms", ""))  # each in its own folder
     made.globals.update(
         head=head,
         type_head=type_head,

@@ -1,7 +1,7 @@
 """`blocks/README.md`: every block with its purpose, pins, memory and loops, and an example of use per drive."""
 
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from driveblocks.maps.model import Drive
 from driveblocks.maps.view import UNPROVED
@@ -18,16 +18,17 @@ PAGES = ("_Drive", "_HardStop")
 _PINS = {VarKind.INPUT: "in", VarKind.IN_OUT: "in-out", VarKind.OUTPUT: "out"}
 
 
-@dataclass(frozen=True)
-class Abilities:
-    """What each family can: words -> its cell for each."""
+def overview(
+    files: list[File],
+    drives: list[Drive],
+    checked: Checked,
+    platforms: Sequence[tuple[str, str]],
+    *,
+    linked: bool = True,
+) -> str:
+    """The page's text; reads names, pins and sizes from the blocks themselves.
 
-    families: list[str]
-    rows: dict[str, list[str]]
-
-
-def overview(files: list[File], drives: list[Drive], checked: Checked, can: Abilities, *, linked: bool = True) -> str:
-    """The page's text; reads names, pins and sizes from the blocks themselves. `can` is what each family can.
+    `platforms` are the folders that are built beside it, and whom each is for.
 
     `linked`: the canonical files are there, so that a name leads to its file.
     """
@@ -41,7 +42,8 @@ def overview(files: list[File], drives: list[Drive], checked: Checked, can: Abil
     known = {drive.prefix: context.identity(drive) for drive in drives}
     return render(
         "README.md.j2",
-        can=can,
+        platforms=platforms,
+        families=[drive.prefix for drive in drives],
         linked=linked,
         results=_results(files),
         groups={_heading(folder, known, files): found for folder, found in rows.items()},

@@ -5,11 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from driveblocks import __version__
 from driveblocks.maps.model import Drive
+from driveblocks.platforms import PLATFORMS
 from driveblocks.site.kept import Kept
 from driveblocks.site.steps import script
 
-MEMBER = {"siemens": "#", "plcopen": "", "codesys": "", "twincat": "", "openplc": ""}
-"""What each platform writes before a variable of a block."""
 STYLE = (
     "body{font:14px sans-serif;margin:2em;max-width:50em}table{border-collapse:collapse;width:100%;margin:.5em 0}"
     "td,th{border:1px solid #888;padding:.25em .5em;text-align:left;vertical-align:top}h2{page-break-before:always}"
@@ -30,7 +29,8 @@ def members(one: Kept) -> dict[str, str]:
 
 def initialisation(entries: Mapping[str, Kept], target: str) -> Iterator[str]:
     """Declarations and assignments of one `VFD_Settings` per drive, in a platform's form."""
-    quote, sign = ('"', "//") if target == "siemens" else ("", "")
+    platform = PLATFORMS[target]
+    quote, sign = platform.quote, platform.comment
     comment = "{} {}" if sign else "(*{} {} *)"
     yield comment.format(sign, "to be declared:")
     for label in entries:
@@ -43,7 +43,7 @@ def initialisation(entries: Mapping[str, Kept], target: str) -> Iterator[str]:
             yield comment.format(sign, "nothing was measured: all members keep their usual values")
         for name, value in members(one).items():
             real = value if "." in value or not name.endswith("Scale") else f"{value}.0"
-            yield f"{MEMBER[target]}{label}Settings.{name} := {real};"
+            yield f"{platform.member}{label}Settings.{name} := {real};"
 
 
 def page(entries: Mapping[str, Kept], drives: Mapping[str, Drive]) -> str:

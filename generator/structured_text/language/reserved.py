@@ -109,7 +109,7 @@ _SIEMENS = _words(
 
 TARGET_WORDS = {
     "openplc": _words("CONFIG0 RES0"),  # configuration and resource, by which the runtime names its C files
-    "plcopen": _words(""),
+    "beremiz": _words(""),
     "codesys": _CODESYS,
     "twincat": _CODESYS,
     "siemens": _SIEMENS,

@@ -101,7 +101,7 @@ def test_a_name_is_reported_for_the_targets_that_keep_it_alone(complete: Complet
     }
     assert found == {
         "openplc": [],
-        "plcopen": [],
+        "beremiz": [],
         "codesys": ["Adr is a word of codesys: choose another name"],
         "twincat": ["Adr is a word of twincat: choose another name"],
         "siemens": ["Label is a word of siemens: choose another name"],

@@ -1,0 +1,74 @@
+"""The page of a platform: what to take, what must be there afterwards, a first motor, and what was verified."""
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from driveblocks.platforms.part import SHARED, Part, Shelf, Volume
+from driveblocks.render.environment import ABI, render
+from driveblocks.render.library import CHINESE, FRAMES, LINE32, METER, PARAMETERS
+from driveblocks.render.motor import SCAN_MS
+from structured_text.language.tree import ArraySpec, TypeDecl
+
+_FAMILY = re.compile(r"\bX(?=_|\b)")
+"""What stands for the name of a family on a page of several."""
+KINDS = {"TYPE": "types", "FUNCTION": "functions", "FUNCTION_BLOCK": "function blocks", "PROGRAM": "programs"}
+WHAT = {
+    "": "what every drive needs",
+    LINE32: "a line of up to 32 drives",
+    PARAMETERS: "reads, writes and stores parameters of a drive",
+    METER: "a meter or a sensor on the line; needs `Parameters`",
+    FRAMES: "frames without a line, in RTU and ASCII",
+    CHINESE: "texts in Chinese",
+}
+"""What an extra is for."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """A volume of what is shared, for a table: its name, what it is for, how much there is in it."""
+
+    name: str
+    what: str
+    needed: bool
+    count: dict[str, int]
+    structures: int
+    """Types that are no arrays: those that TIA Portal shows."""
+    kilobytes: int
+    """Of text."""
+
+
+def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool = False) -> dict[str, str]:
+    """The pages, README.md first of all; none without a family. `masters`: the PLC itself may be a master."""
+    if not shelf.drives:
+        return {}
+    first, *_ = shelf.drives.values()
+    values = {
+        "rows": [_row(one) for one in volumes if not one.drive],
+        "own": [_row(one) for one in volumes if one.drive is first],
+        "kinds": list(KINDS.values())[:3],
+        "one": first.prefix,
+        "scan": SCAN_MS,
+        "master": masters,
+        "wide": any(language.suffix != "En" for language in shelf.languages),
+        "abi": ABI,
+    }
+    folder = Path(__file__).parent / platform
+    texts = {each.name[:-3]: render(f"{platform}/{each.name}", **values) for each in sorted(folder.glob("*.md.j2"))}
+    return texts if len(shelf.drives) > 1 else {name: _FAMILY.sub(first.prefix, text) for name, text in texts.items()}
+
+
+def _row(one: Volume) -> Row:
+    specs = [part.element.spec for part in one.types if isinstance(part.element, TypeDecl)]
+    structures = sum(not isinstance(spec, ArraySpec) for spec in specs)
+    size = sum(len(part.text) for part in one.parts)
+    what = WHAT[one.extra] if one.base == SHARED or one.extra else "the serial port, with a line of 8 drives"
+    return Row(one.name, what, not one.extra, census(one.parts), structures, round(size / 1000))
+
+
+def census(parts: Iterable[Part]) -> dict[str, int]:
+    """How many types, functions, blocks and programs there are."""
+    found = Counter(KINDS[getattr(part.element, "word", "TYPE")] for part in parts)
+    return {kind: found[kind] for kind in KINDS.values()}
