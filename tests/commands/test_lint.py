@@ -71,6 +71,21 @@ def test_names_are_reported_for_the_targets_of_for(tmp_path: Path) -> None:
         assert (result.exit_code, result.output) == (1, told)
 
 
+def test_a_block_with_the_name_of_a_variable_of_the_library_is_reported(tmp_path: Path) -> None:
+    """By matiec: Beremiz and OpenPLC Runtime v3 then refuse the library."""
+    path = tmp_path / "own.st"
+    path.write_text(
+        "PROGRAM Port\nVAR\n  Bus : MB_ByteLine8;  (* line *)\n  Rx : MB_Adu;  (* heard *)\n  Count : UINT;  (* sent *)\n"
+        "END_VAR\n\n  Count := Bus.TxCount;\nEND_PROGRAM\n",
+        encoding="utf-8",
+    )
+    told = "Port is also the name of a variable of the library, which matiec refuses: choose another name"
+    result = run("--select", "name-clash", path)
+    assert (result.exit_code, result.output) == (1, f"{path}:1:9: ST109 name-clash: {told}\n")
+    path.write_text(path.read_text(encoding="utf-8").replace("PROGRAM Port", "PROGRAM Pumps"), encoding="utf-8")
+    assert run("--select", "name-clash", path).exit_code == 0
+
+
 def test_a_target_that_is_none_is_reported(loop: Path) -> None:
     result = run("--for", "step7", loop)
     assert result.exit_code == 2

@@ -1,6 +1,7 @@
 """`driveblocks lint`: say what in an ST source one compiler or another refuses or compiles differently."""
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ import click
 from driveblocks.commands import FILE, refuse
 
 if TYPE_CHECKING:
+    from structured_text.language.problems import Problem
     from structured_text.language.tree import Unit
 
 
@@ -76,7 +78,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     sources, unread = read(files)
     library = _library(sources, maps)
     own = {path for path, _ in sources}
-    problems = [each for each in lint_sources([*library, *sources], selection, wanted) if each.path in own]
+    found = lint_sources([*library, *sources], selection, wanted)
+    problems = sorted({*(each for each in found if each.path in own), *_clashes(found, sources)})
     print_problems(problems, output)
     broken = dict.fromkeys(each.path for each in problems if each.rule in ("syntax", "long-expression"))
     unjudged = [*unread, *(f"{path}: not checked beyond its syntax" for path in broken)]
@@ -108,6 +111,29 @@ def _library(sources: list[tuple[str, str]], maps: tuple[str, ...]) -> list[tupl
     except (catalog.UnknownDrive, MapError) as error:
         refuse(str(error))
     return [(f"library/{file.path}", file.text) for file in files]
+
+
+def _clashes(found: "list[Problem]", sources: list[tuple[str, str]]) -> "Iterator[Problem]":
+    """What of the sources has the name of a variable inside a block of the library, at its own place."""
+    from structured_text.language.parser import ParseError, parse
+    from structured_text.language.problems import Problem
+
+    own = {path for path, _ in sources}
+    clashes = [each for each in found if each.rule == "name-clash" and each.path not in own]
+    inside = {each.text.partition(" ")[0].upper() for each in clashes}
+    for path, text in sources if inside else ():
+        try:
+            unit = parse(text, path)
+        except ParseError:
+            continue
+        for one in unit.elements:
+            name = getattr(one, "name", "")
+            if name.upper() in inside:
+                line, column = unit.place(getattr(one, "name_at", one.at))
+                told = (
+                    f"{name} is also the name of a variable of the library, which matiec refuses: choose another name"
+                )
+                yield Problem(path, line, column, told, "name-clash")
 
 
 def _split(words: tuple[str, ...]) -> list[str]:

@@ -36,7 +36,14 @@ GLOBALS = "TC_Com"
 BECKHOFF = ("Tc2_System", "Tc2_SerialCom")
 """What the port uses of Beckhoff's; the blocks use none."""
 MARK = "\ufeff"
-_IMPLICIT = ("Application", "TypeSystem", "Implicit_Task_Info", "Implicit_KindOfTask", "Implicit_Jitter_Distribution")
+_IMPLICIT = (
+    "Application",
+    "TypeSystem",
+    "Implicit_Task_Info",
+    "Implicit_KindOfTask",
+    "Implicit_Jitter_Distribution",
+    "LibraryReferences",
+)
 """Ids of what every project has without showing it, as public projects name them."""
 _UNSPEAKABLE = re.compile(r"\]\]>|[^\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """The end of a CDATA section, and what no XML can hold."""
