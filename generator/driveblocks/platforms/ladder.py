@@ -37,10 +37,13 @@ def ladder(written: Element, drawn: Element) -> Element:
     return replace(written, content=tuple(body if each.tag == "body" else each for each in written.content))
 
 
-def diagram(part: Part, blocks: Mapping[str, FunctionBlock]) -> Element:
-    """A program of calls and assignments as the element LD of TC6; `blocks` are those that it calls, by name."""
+def diagram(part: Part, blocks: Mapping[str, FunctionBlock], *, coils: bool = True) -> Element:
+    """A program of calls and assignments as the element LD of TC6; `blocks` are those that it calls, by name.
+
+    Without `coils` a BOOL is assigned as other variables are: Beremiz gives those their turn, and coils the last.
+    """
     assert isinstance(part.element, tree.Program)  # noqa: S101  (the first motor is a program)
-    return element("LD", {}, *_Drawing(part, part.element, blocks).whole())
+    return element("LD", {}, *_Drawing(part, part.element, blocks, coils).whole())
 
 
 @dataclass(frozen=True)
@@ -58,9 +61,12 @@ class _Drawing:
     part: Part
     program: tree.Program
     known: Mapping[str, FunctionBlock]
+    coils: bool = True
     y: int = 60
     last: int = 2
     turn: int = 0
+    right: int = 0
+    """Where the widest variable ends."""
     drawn: list[Element] = field(default_factory=list)
     starts: list[int] = field(default_factory=list)
     ends: list[tuple[int, Point]] = field(default_factory=list)
@@ -73,7 +79,7 @@ class _Drawing:
                 self.block(statement.call)
             elif isinstance(statement, tree.Assign):
                 self.coil(statement)
-        width = max(x for _, (x, _) in self.ends) + 60
+        width = max([self.right, *(x for _, (x, _) in self.ends)]) + 60
         yield _rail("leftPowerRail", 1, _RAIL, self.y, [_pin("Out", (3, y), rail=True) for y in self.starts])
         ends = [_pin("In", (0, y), _link(number, (width, y), (x, y))) for number, (x, y) in self.ends]
         yield _rail("rightPowerRail", 2, width, self.y, ends)
@@ -186,6 +192,11 @@ class _Drawing:
         if isinstance(value, tree.Name):
             self.move(target, value.name)
             return
+        if isinstance(value, tree.Literal) and not self.coils:
+            number, there = self.value(value.text, self.y)
+            self.out(target, number, there, None)
+            self.y += 2 * _PITCH
+            return
         if isinstance(value, tree.Literal):
             start, y = (_RAIL + 3, self.y), self.y
             self.starts.append(y)
@@ -199,14 +210,17 @@ class _Drawing:
     def rung(self, target: str, value: Expression) -> None:
         """Contacts from the left rail to a coil."""
         ends, x, below = self.network(value, [], _CONTACT, self.y)
-        number, y = self.number(), self.y
-        x = max(x, _BLOCK + 100)
+        y, x = self.y, max(x, _BLOCK + 100)
         wires = [_link(one, (x, y), *self.joint(there, x, y)) for one, there in ends]
+        self.y = below + 2 * _PITCH
+        if not self.coils:
+            self.variable(target, (x, y), wires)
+            return
+        number = self.number()
         name, sized = Element("variable", {}, text=target), {**_sized(number, 21, 15), **self.order()}
         pins = (_pin("In", (0, 8), *wires), _pin("Out", (21, 8)))
         self.drawn.append(element("coil", sized, _position(x, y - 8), *pins, name))
         self.ends.append((number, (x + 21, y)))
-        self.y = below + 2 * _PITCH
 
     def network(self, value: Expression, begin: list[Source], x: int, y: int) -> tuple[list[Source], int, int]:
         """Contacts after what they begin at, from a place on; where they end, the next place, and the lowest row."""
@@ -246,15 +260,20 @@ class _Drawing:
 
     def out(self, target: str, source: int, start: Point, pin: str | None) -> None:
         """Draw a variable at the right end of a wire."""
-        place, width = (max(start[0], _BLOCK) + 100, start[1]), 8 * len(target) + 20
-        wire = _pin("In", (0, 10), _link(source, place, start, pin=pin))
-        text = Element("expression", {}, text=target)
-        where = _position(place[0], place[1] - 10)
-        self.drawn.append(element("outVariable", _sized(self.number(), width, 20) | self.order(), where, wire, text))
+        place = (max(start[0], _BLOCK) + 100, start[1])
+        self.variable(target, place, [_link(source, place, start, pin=pin)])
+
+    def variable(self, target: str, place: Point, wires: list[Element]) -> None:
+        """Draw a variable, and what is wired to it."""
+        where, text = _position(place[0], place[1] - 10), Element("expression", {}, text=target)
+        width = 8 * len(target) + 20
+        self.right = max(self.right, place[0] + width)
+        sized = _sized(self.number(), width, 20) | self.order()
+        self.drawn.append(element("outVariable", sized, where, _pin("In", (0, 10), *wires), text))
 
     def end(self, target: str, start: Point, source: int, pin: str | None, how: Mapping[str, str]) -> None:
         """What is at the right end of a wire: a coil, or for other than BOOL a variable."""
-        if not is_bool(self.declared(target)):
+        if not (self.coils and is_bool(self.declared(target))):
             self.out(target, source, start, pin)
             return
         number, (x, y) = self.number(), (max(start[0], _BLOCK) + 100, start[1])

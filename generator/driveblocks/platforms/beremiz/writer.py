@@ -33,7 +33,7 @@ def write(shelf: Shelf) -> dict[str, str]:
     }
     blocks = {part.name: part.element for part in library if isinstance(part.element, FunctionBlock)}
     for _, drawn in motors:
-        made[drawn.name] = ladder(made[drawn.name], diagram(drawn, blocks))
+        made[drawn.name] = ladder(made[drawn.name], diagram(drawn, blocks, coils=False))
     if problems:
         raise ExportError(problems)
     first = motors[0][0].name if motors else ""
