@@ -75,7 +75,7 @@ def test_a_block_with_the_name_of_a_variable_of_the_library_is_reported(tmp_path
     """By matiec: Beremiz and OpenPLC Runtime v3 then refuse the library."""
     path = tmp_path / "own.st"
     path.write_text(
-        "PROGRAM Port\nVAR\n  Bus : MB_ByteLine8;  (* line *)\n  Rx : MB_Adu;  (* heard *)\n  Count : UINT;  (* sent *)\n"
+        "PROGRAM Port\nVAR\n  Bus : MB_ByteLine8;\n  Rx : MB_Adu;\n  Count : UINT;  (* sent *)\n"
         "END_VAR\n\n  Count := Bus.TxCount;\nEND_PROGRAM\n",
         encoding="utf-8",
     )

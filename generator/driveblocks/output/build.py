@@ -27,16 +27,18 @@ def files(
     languages: list[Language],
     targets: Collection[str] = (CANONICAL,),
     measured: Mapping[str, Sequence[Measured]] | None = None,
+    without: Collection[str] = (),
 ) -> dict[str, str]:
     """Every file of the output, path below the output folder -> text. The same input gives the same text.
 
-    `measured`: name of a map -> what was found of one drive each, for the page of its block.
+    `measured`: name of a map -> what was found of one drive each, for the page of its block; `without`: extras.
     Raises ExportError with everything that a target cannot say.
     """
     sources = [replace(source, drive=told(source.drive, languages)) for source in sources]
     made = [*library.generic(languages)]
     for source in sources:
         made.extend(library.drive(source.path.stem, source.drive, languages))
+    made = [file for file in made if file.extra not in without]
     own = {
         source.drive.prefix: Own(
             "" if catalog.is_shipped(source.path) else source.path.name, (measured or {}).get(source.path.stem, ())

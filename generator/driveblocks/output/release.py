@@ -14,6 +14,7 @@ from driveblocks.maps import catalog
 from driveblocks.maps.collection import Source, read
 from driveblocks.output.build import files
 from driveblocks.platforms import CANONICAL, TARGETS
+from driveblocks.render.library import FRAMES
 from driveblocks.render.text import Language, languages
 
 BLOCKS, LICENCE, OUT = "blocks", "LICENSE", "dist"
@@ -39,8 +40,13 @@ def release(root: Path, out: Path, sources: Sequence[Source], targets: Sequence[
 
 
 def contents(root: Path, sources: list[Source], target: str, both: list[Language]) -> dict[str, str]:
-    """The files of an archive by their paths: what is built for a platform, pages, the licence."""
-    built = {f"{BLOCKS}/{name}": text for name, text in files(sources, both, (target,)).items()}
+    """The files of an archive by their paths: what is built for a platform, pages, the licence.
+
+    That of one family leaves out the frames without a line.
+    """
+    without = () if target == CANONICAL or len(sources) > 1 else (FRAMES,)
+    made = files(sources, both, (target,), without=without)
+    built = {f"{BLOCKS}/{name}": text for name, text in made.items()}
     own = {name: text for name, text in built.items() if name.startswith((f"{BLOCKS}/{target}/", f"{BLOCKS}/docs/"))}
     page = f"{BLOCKS}/README.md" if target == CANONICAL else f"{BLOCKS}/{target}/README.md"
     own[page] = built[page]

@@ -48,6 +48,7 @@ def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool =
     values = {
         "rows": [_row(one) for one in volumes if not one.drive],
         "own": [_row(one) for one in volumes if one.drive is first],
+        "frames": any(one.extra == FRAMES for one in volumes),
         "kinds": list(KINDS.values())[:3],
         "one": first.prefix,
         "scan": SCAN_MS,

@@ -50,7 +50,11 @@ def overview(
         unproved={known[drive.prefix].family: UNPROVED for drive in drives if not drive.frames},
         types=[_type(file, types) for file in files if file.name in types],
         texts=next((file.name for file in files if file.name.startswith("MB_ResultText")), "the page above"),
-        examples=[_example(drive, known[drive.prefix], checked.blocks) for drive in drives],
+        examples=[
+            _example(drive, known[drive.prefix], checked.blocks)
+            for drive in drives
+            if f"{drive.prefix}_Request".upper() in checked.blocks
+        ],
     )
 
 
