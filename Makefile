@@ -21,6 +21,6 @@ bench:                ## every figure, side by side in one run; writes docs/meas
 long:                 ## one long run by its name, WHAT=line; without it the list
 	@$(PY) -m tests.long $(WHAT)
 
-release:              ## one archive per platform from blocks/ into dist/, the same bytes each time
+release:              ## an archive per platform and family into dist/, the same bytes each time
 	$(DB) build --check
 	$(PY) -m driveblocks.output.release

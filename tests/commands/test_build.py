@@ -187,6 +187,28 @@ def test_an_edited_file_that_is_left_over_is_removed_only_by_force() -> None:
     assert not Path("out/iec61131/one").exists()
 
 
+@pytest.mark.parametrize("own", ["siemens/yours/EX_Motor.scl", "beremiz/DriveBlocks/plc.xml"])
+def test_what_is_the_users_is_kept_as_edited_whatever_is_asked(own: str) -> None:
+    def with_own(sources: list[collection.Source], languages: list[Language], *_: object) -> dict[str, str]:
+        return few(sources, languages) | {own: f"motor of {len(sources)}\n"}
+
+    def built(*words: str) -> str:
+        result = CliRunner().invoke(app, ["build", *words, "-o", "out", "--lang", "en"], obj=with_own)
+        assert result.exit_code == 0, result.output
+        return result.output
+
+    built("one.yaml")
+    put(f"out/{own}", "mine\n")
+    for words in (["one.yaml"], ["one.yaml", "--force"], ["two.yaml"], ["two.yaml", "--only", "--check"]):
+        if "--check" in words:
+            built("two.yaml", "--only")
+        assert f"out/{own}: yours, kept as you edited it" in built(*words)
+        assert Path(f"out/{own}").read_text(encoding="utf-8") == "mine\n"
+    put(f"out/{own}", "motor of 1\n")
+    assert "kept" not in built("two.yaml")
+    assert Path(f"out/{own}").read_text(encoding="utf-8") == "motor of 1\n"
+
+
 def test_a_file_that_became_a_link_is_edited_and_never_written_through() -> None:
     good("one.yaml", "-o", "out")
     Path("out/README.md").unlink()
@@ -247,6 +269,7 @@ def test_check_names_the_command() -> None:
 def test_what_is_checked_in_is_current() -> None:
     result = CliRunner().invoke(app, ["build", "-o", str(ROOT / "blocks"), "--check"])
     assert (result.exit_code, result.stderr) == (0, "")
+    assert "kept" not in result.stdout, "a file of the checkout was edited by hand"
 
 
 # ---------------------------------------------------------------- families that join

@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 @click.option("--lang", metavar="LIST", default="en,zh", help="Languages of the texts: en, zh or en,zh.")
 @click.option("--encoding", metavar="NAME", default="utf-8", help="Bytes of Chinese texts: utf-8 or gb18030.")
 @click.option("--to", "target", metavar="LIST", default="all", help=f"Platforms: {', '.join(TARGETS)} or all.")
-@click.option(
-    "--families", metavar="LIST", default="", help="Shipped families, such as chf,pf525, as if named as maps."
-)
+@click.option("--families", metavar="LIST", help="Shipped families, such as chf,pf525, as if named as maps.")
 @click.option("--check", is_flag=True, help="Write nothing; exit 1 when the folder is not current.")
 @click.option("--only", is_flag=True, help="Remove the blocks of drives and targets that are not named.")
 @click.option("--site", type=FILE, metavar="FILE", help="Show on the pages what `commission` found of single drives.")
@@ -36,7 +34,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     lang: str,
     encoding: str,
     target: str,
-    families: str,
+    families: str | None,
     site: Path | None,
     check: bool,
     only: bool,
@@ -55,7 +53,7 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     from driveblocks.render.text import missing
 
     folder = _folder(output)
-    maps = (*maps, *(name for each in families.split(",") if (name := each.strip())))
+    maps = (*maps, *_families(families))
     asked = build.Wanted(_languages(lang, encoding), _targets(target), only, _measured(site))
     plan = _planned(folder, maps, asked) if check else _carried_out(folder, maps, asked, force)
     wrong = [f"{folder / name}: {state}" for name, state in plan.states.items()]
@@ -69,6 +67,8 @@ def run(  # noqa: PLR0913, PLR0917 - one parameter per option of the command lin
     drives = ", ".join(source.drive.prefix for source in plan.sources)
     changed = len(plan.states.keys() - {NAME})
     click.echo(f"{folder}: {len(plan.texts) - 1} files for {drives}, {changed} changed")
+    for name in plan.kept:
+        click.echo(f"{folder / name}: yours, kept as you edited it; build into another folder to see the new one")
     for note in filter(None, (missing(source.drive, asked.languages) for source in plan.sources)):
         click.echo(note)
     for stem in sorted(asked.measured.keys() - {source.path.stem for source in plan.sources}):
@@ -137,6 +137,13 @@ def _again(options: "Mapping[str, str | Path | None]", maps: tuple[str, ...], on
     usual = {"-o": "blocks", "--lang": "en,zh", "--encoding": "utf-8", "--to": "all", "--site": None}
     given = [f"{name} {value}" for name, value in options.items() if value != usual[name]]
     return "".join(f" {word}" for word in [*maps, *given, *(["--only"] if only else ())])
+
+
+def _families(families: str | None) -> list[str]:
+    names = [name for each in (families or "").split(",") if (name := each.strip())]
+    if families is not None and not names:
+        raise click.BadParameter("an empty list names no family; write chf,pf525", param_hint="--families")
+    return names
 
 
 def _targets(target: str) -> list[str]:

@@ -80,7 +80,7 @@ def displacing(path: Path, named: Iterable[Path]) -> Path:
 
 def chosen(names: Iterable[str] | None) -> list[Path]:
     """The maps of the words of a command line; all that are shipped without any. Raises UnknownDrive."""
-    return [resolve(name) for name in names] if names else list(shipped())
+    return list(dict.fromkeys(resolve(name) for name in names)) if names else list(shipped())
 
 
 def _names(path: Path) -> tuple[str, ...]:

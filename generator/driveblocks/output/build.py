@@ -11,7 +11,7 @@ from driveblocks.maps.collection import Source, read
 from driveblocks.maps.problem import MapError
 from driveblocks.output import manifest, transaction
 from driveblocks.output.manifest import Manifest, Refused, State
-from driveblocks.platforms import CANONICAL, TARGETS, writers
+from driveblocks.platforms import CANONICAL, TARGETS, is_yours, writers
 from driveblocks.platforms.part import shelf
 from driveblocks.render import library
 from driveblocks.render.text import Language, told
@@ -74,6 +74,8 @@ class Plan:
     old: Manifest
     texts: dict[str, str]
     states: dict[str, State]
+    kept: tuple[str, ...] = ()
+    """Files of the user's that were edited since: they stay as they are."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +108,9 @@ def plan(folder: Path, named: list[Path], asked: Wanted, made: Made = files) -> 
     texts = made(sources, asked.languages, targets, asked.measured)
     words = [_word(source.path, folder) for source in sources]
     texts[manifest.NAME] = manifest.made(words, targets, texts, folder, old).text
-    return Plan(sources, old, texts, manifest.compare(folder, old, texts))
+    states = manifest.compare(folder, old, texts)
+    kept = tuple(name for name, state in states.items() if state is State.EDITED and is_yours(name))
+    return Plan(sources, old, texts, {name: state for name, state in states.items() if name not in kept}, kept)
 
 
 def write(folder: Path, plan: Plan, *, force: bool = False) -> None:

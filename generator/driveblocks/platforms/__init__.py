@@ -24,3 +24,9 @@ TARGETS = tuple(one.name for one in PLATFORMS.values() if one.title)
 """Those that files are built for."""
 EXPORTS = tuple(name for name in TARGETS if name != CANONICAL)
 """Those that have a form of their own, and a page."""
+
+
+def is_yours(path: str) -> bool:
+    """Whether a file, by its path below the output folder, is the user's once it is there."""
+    platform, _, inner = path.partition("/")
+    return platform in PLATFORMS and inner.startswith(PLATFORMS[platform].yours)

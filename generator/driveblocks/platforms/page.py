@@ -26,6 +26,10 @@ WHAT = {
 """What an extra is for."""
 
 
+PORT = {"": "the serial port, with a line of 8 drives", LINE32: "32 drives at it; needs `DriveBlocks_Line32`"}
+"""What the files of a port are for."""
+
+
 @dataclass(frozen=True)
 class Row:
     """A volume of what is shared, for a table: its name, what it is for, how much there is in it."""
@@ -36,8 +40,6 @@ class Row:
     count: dict[str, int]
     structures: int
     """Types that are no arrays: those that TIA Portal shows."""
-    kilobytes: int
-    """Of text."""
 
 
 def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool = False) -> dict[str, str]:
@@ -47,7 +49,7 @@ def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool =
     first, *_ = shelf.drives.values()
     values = {
         "rows": [_row(one) for one in volumes if not one.drive],
-        "own": [_row(one) for one in volumes if one.drive is first],
+        "places": None,
         "frames": any(one.extra == FRAMES for one in volumes),
         "kinds": list(KINDS.values())[:3],
         "one": first.prefix,
@@ -64,9 +66,8 @@ def page(platform: str, shelf: Shelf, volumes: Sequence[Volume], masters: bool =
 def _row(one: Volume) -> Row:
     specs = [part.element.spec for part in one.types if isinstance(part.element, TypeDecl)]
     structures = sum(not isinstance(spec, ArraySpec) for spec in specs)
-    size = sum(len(part.text) for part in one.parts)
-    what = WHAT[one.extra] if one.base == SHARED or one.extra else "the serial port, with a line of 8 drives"
-    return Row(one.name, what, not one.extra, census(one.parts), structures, round(size / 1000))
+    what = WHAT[one.extra] if one.base == SHARED else PORT[one.extra]
+    return Row(one.name, what, not one.extra, census(one.parts), structures)
 
 
 def census(parts: Iterable[Part]) -> dict[str, int]:

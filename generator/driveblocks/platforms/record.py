@@ -25,6 +25,8 @@ class Platform:
     """Its port says when it is at work."""
     drawn: str = ""
     """What the ladder is drawn in, where the files hold none."""
+    yours: str = "yours/"
+    """The folder of what is the user's: what has been edited there is kept."""
     quote: str = ""
     """Around the name of a block."""
     member: str = ""

@@ -2,4 +2,4 @@
 
 from driveblocks.platforms.record import Platform
 
-RECORD = Platform("beremiz", 3, title="Beremiz and PLCopen XML")
+RECORD = Platform("beremiz", 3, title="Beremiz and PLCopen XML", yours="DriveBlocks/")
