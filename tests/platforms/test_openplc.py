@@ -2,6 +2,7 @@
 
 import functools
 import re
+from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 
@@ -9,6 +10,7 @@ import pytest
 from tests.blocks.toolchains import FOUND, translate
 from tests.examples.port import Port
 from tests.platforms.stock import canon, made, volumes
+from tests.shipped import drives
 
 from driveblocks.platforms.openplc.writer import write
 from driveblocks.simulator.drive import SimulatedDrive
@@ -57,20 +59,27 @@ def test_the_files_are_the_canonical_texts_each_once_and_nothing_else() -> None:
     }  # fmt: skip
 
 
-def test_a_first_motor_needs_no_extra_and_any_extra_goes_after_what_the_page_says() -> None:
+def builds(texts: Iterable[str]) -> None:
     """The embedded engine refuses a name that is not there."""
-    prefixes = [drive.prefix for drive in made().drives.values()]
-    for prefix in prefixes:
-        texts = [*library(prefix), programs(prefix, "MotorBytes")]
-        EmbeddedEngine().build([Source(str(at), text) for at, text in enumerate(texts)])
-    needs = {"Line32": (), "Parameters": (), "Meter": ("Parameters",), "Frames": (), "Chinese": ()}
-    for name, before in needs.items():
-        extras = [written()[f"shared/DriveBlocks_{each}.st"] for each in (*before, name)]
-        own = [
-            text for path, text in written().items() if path.startswith("families/") and path.endswith(f"_{name}.st")
-        ]
-        texts = [*library(*prefixes), *extras, *own]
-        EmbeddedEngine().build([Source(str(at), text) for at, text in enumerate(texts)])
+    EmbeddedEngine().build([Source(str(at), text) for at, text in enumerate(texts)])
+
+
+@pytest.mark.parametrize("family", sorted(drives()))
+def test_a_first_motor_needs_no_extra(family: str) -> None:
+    builds([*library(family), programs(family, "MotorBytes")])
+
+
+NEEDS = {"Line32": (), "Parameters": (), "Meter": ("Parameters",), "Frames": (), "Chinese": ()}
+"""Extra -> the others that go before it, as the page says."""
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.thorough) for name in NEEDS] + ["all"])
+def test_an_extra_goes_after_what_the_page_says(name: str) -> None:
+    families = ("CHF", "ATV312") if name == "all" else tuple(drives())
+    wanted = [*NEEDS] if name == "all" else [*NEEDS[name], name]
+    extras = [written()[f"shared/DriveBlocks_{each}.st"] for each in wanted]
+    own = [written().get(f"families/{each}_{one}.st", "") for each in families for one in wanted]
+    builds([*library(*families), *extras, *filter(None, own)])
 
 
 def test_a_text_has_no_mark_no_cr_and_ends_with_its_last_line() -> None:
