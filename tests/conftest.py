@@ -9,10 +9,8 @@ Properties are tried on the same examples on every machine and in every run, how
 """
 
 import functools
-import gc
 import os
 import signal
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -100,27 +98,6 @@ def pytest_runtest_teardown(item: pytest.Item, nextitem: pytest.Item | None) -> 
         for each in vars(module).values():
             if isinstance(each, functools._lru_cache_wrapper) and each.__module__ == module.__name__:
                 each.cache_clear()
-        _collect()
-
-
-GROWN = 150 << 20
-"""Bytes by which a process may grow before its garbage is looked for: trees hold each other."""
-_after = 0
-
-
-def _collect() -> None:
-    global _after  # noqa: PLW0603 - of this process alone
-    if _pages() - _after > GROWN:
-        gc.collect()
-        _after = _pages()
-
-
-def _pages() -> int:
-    """Bytes that this process has in memory; 0 where nobody says."""
-    try:
-        return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE")
-    except OSError:
-        return 0
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
