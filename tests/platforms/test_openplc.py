@@ -104,6 +104,7 @@ def test_a_first_motor_says_what_its_line_is_and_how_often_it_comes() -> None:
         linux, other = (written()[f"yours/{drive.prefix}_{form}.st"] for form in ("Motor", "MotorBytes"))
         assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", linux, re.M) == [f"{drive.prefix}_Motor"]
         assert re.findall(r"^(?:FUNCTION_BLOCK|PROGRAM) (\w+)", other, re.M) == [f"{drive.prefix}_MotorBytes"]
+        assert re.findall(r"^  Bus : (\w+);", linux + other, re.M) == ["LX_Line8", "MB_ByteLine8"]
         for text in (linux, other):
             assert text.count("INTERVAL := T#10ms") == 1
             assert re.search(r"^CONFIGURATION Config0\n  RESOURCE Res0 ON PLC\n", text, re.M)
