@@ -23,4 +23,4 @@ long:                 ## one long run by its name, WHAT=line; without it the lis
 
 release:              ## an archive per platform and family into dist/, the same bytes each time
 	$(DB) build --check
-	$(PY) -m driveblocks.output.release
+	$(PY) -m driveblocks release

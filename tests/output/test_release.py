@@ -6,8 +6,10 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import pytest
+from click.testing import CliRunner
 from tests.shipped import sources
 
+from driveblocks.cli import app
 from driveblocks.output.release import DATE, release
 from driveblocks.platforms import EXPORTS, TARGETS
 
@@ -79,3 +81,14 @@ def test_made_twice_they_are_the_same_bytes_with_a_fixed_date(archives: dict[str
         with ZipFile(path) as archive:
             assert {entry.date_time for entry in archive.infolist()} == {DATE}
             assert archive.namelist() == sorted(archive.namelist())
+
+
+def test_the_command_writes_those_that_are_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    result = CliRunner().invoke(app, ["release", "chf", "--to", "openplc", "-o", str(tmp_path / "out")])
+    assert result.exit_code == 0, result.output
+    names = {f"driveblocks-0.1.0-openplc{each}.zip" for each in ("", "-CHF")}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == names
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["release", "chf"])
+    assert (result.exit_code, "run it in a checkout" in result.stderr) == (2, True)

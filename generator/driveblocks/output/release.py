@@ -1,7 +1,4 @@
-"""Archives to download: for each platform one of all families, and one of each family with a page of its own.
-
-`python -m driveblocks.output.release` makes them of the shipped maps, in the folder where it is run.
-"""
+"""Archives to download: for each platform one of all families, and one of each family with a page of its own."""
 
 import posixpath
 import re
@@ -10,14 +7,13 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from driveblocks import __version__
-from driveblocks.maps import catalog
-from driveblocks.maps.collection import Source, read
+from driveblocks.maps.collection import Source
 from driveblocks.output.build import files
 from driveblocks.platforms import CANONICAL, TARGETS
 from driveblocks.render.library import FRAMES
 from driveblocks.render.text import Language, languages
 
-BLOCKS, LICENCE, OUT = "blocks", "LICENSE", "dist"
+BLOCKS, LICENCE = "blocks", "LICENSE"
 DATE = (1980, 1, 1, 0, 0, 0)
 """Of every file: the same files make the same archive on every day."""
 _LINK = re.compile(r"(!?)\[([^\]]*)\]\((?!\w+:)([^)#\s]*)(#[^)\s]*)?\)")
@@ -85,8 +81,3 @@ def _pack(path: Path, texts: Mapping[str, str]) -> None:
             entry = ZipInfo(f"driveblocks/{name}", DATE)
             entry.create_system, entry.external_attr = 3, 0o100644 << 16
             archive.writestr(entry, texts[name].encode(), ZIP_DEFLATED, 9)
-
-
-if __name__ == "__main__":
-    for archive in release(Path(), Path(OUT), read(list(catalog.shipped()))):
-        print(f"{archive}: {archive.stat().st_size // 1024} KiB")
