@@ -38,7 +38,7 @@ def release(root: Path, out: Path, sources: Sequence[Source], targets: Sequence[
 def contents(root: Path, sources: list[Source], target: str, both: list[Language]) -> dict[str, str]:
     """The files of an archive by their paths: what is built for a platform, pages, the licence.
 
-    That of one family leaves out the frames without a line.
+    That of one family leaves out the frames without a line, and pages that only others lead to.
     """
     without = () if target == CANONICAL or len(sources) > 1 else (FRAMES,)
     made = files(sources, both, (target,), without=without)
@@ -46,7 +46,8 @@ def contents(root: Path, sources: list[Source], target: str, both: list[Language
     own = {name: text for name, text in built.items() if name.startswith((f"{BLOCKS}/{target}/", f"{BLOCKS}/docs/"))}
     page = f"{BLOCKS}/README.md" if target == CANONICAL else f"{BLOCKS}/{target}/README.md"
     own[page] = built[page]
-    for link in sorted(set(_links(own))):
+    leading = own if not without else {name: own[name] for name in own if name.startswith(f"{BLOCKS}/{target}/")}
+    for link in sorted(set(_links(leading))):
         beside = root / link
         if link.startswith("docs/") and beside.suffix == ".md" and beside.is_file():
             own[link] = beside.read_text(encoding="utf-8")
