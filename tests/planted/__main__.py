@@ -4,7 +4,7 @@
     python -m tests.planted draw --seed N [--count M] [--kind python|template|map]
     python -m tests.planted judge --seed N [--count M] [--kind ...] --judge "COMMAND"
 
-Exit status 1 if one is not found. What `survivors.yaml` gives a reason for is told, and does not count.
+Exit status 1 if one is not found. What `survivors.yaml` has a reason for is printed with it, and does not count.
 """
 
 import argparse
