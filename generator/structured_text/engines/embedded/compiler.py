@@ -34,10 +34,11 @@ Body = Callable[[Any], None]
 class Compiler:
     """Compiles a whole build into one namespace; `messages` holds what it could not."""
 
-    def __init__(self, checked: Checked, coverage: bool = False) -> None:
-        """Compile everything; with `coverage`, so that it counts what runs."""
+    def __init__(self, checked: Checked, coverage: bool = False, strict: bool = True) -> None:
+        """Compile everything; with `coverage`, so that it counts what runs; `strict` as for the engine."""
         self.checked = checked
         self.coverage = coverage
+        self.strict = strict
         self.shapes = Shapes()
         self.shapes.instances = self.instance
         self.shapes.evaluate = self.evaluate
@@ -117,7 +118,8 @@ class Compiler:
             self.messages.append(Message(unit.path, *unit.place(pou.name_at), text))
 
     def _scope(self, pou: tree.Pou | None, pen: Pen) -> Scope:
-        return Scope(pou, self.coverage, pen, self.shapes, self.accesses, Ranges(), self.objects, TERMS, STATEMENTS)
+        how = (self.coverage, self.strict, pen, self.shapes, self.accesses, Ranges(), self.objects)
+        return Scope(pou, *how, TERMS, STATEMENTS)
 
     def _note_loops(self, pou: tree.Pou, key: tree.Function | Block) -> None:
         if loops(pou.body, self.looping):

@@ -21,14 +21,16 @@ class EmbeddedEngine:
 
     Where compilers could differ, such as an intermediate result that overflows its type, a scan raises ScanError.
     `loop_limit`: turns of loops that one scan may take (the look that ends a WHILE counts as one).
-    `coverage`: count the lines that run.
+    `coverage`: count the lines that run. `strict`: a REAL that C would compute with doubles, to another value than
+    single precision gives, is such a place too; else it is computed in single precision, as PLCs do.
     """
 
     name = "embedded"
 
-    def __init__(self, *, loop_limit: int = LOOP_LIMIT, coverage: bool = False) -> None:
+    def __init__(self, *, loop_limit: int = LOOP_LIMIT, coverage: bool = False, strict: bool = True) -> None:
         """Choose."""
         self.coverage = coverage
+        self.strict = strict
         self.loop_limit = loop_limit
 
     def build(self, sources: Sequence[Source]) -> EmbeddedLibrary:
@@ -38,7 +40,7 @@ class EmbeddedEngine:
             checked = check(units)
         except SourceError as error:
             raise BuildError([_message(each) for each in error.problems]) from error
-        compiler = Compiler(checked, self.coverage)
+        compiler = Compiler(checked, self.coverage, self.strict)
         if compiler.messages:
             raise BuildError(compiler.messages)
         return EmbeddedLibrary(compiler, self.loop_limit)

@@ -1,7 +1,7 @@
-"""REAL and LREAL expressions: rounded after every operation by the standard, only at stores by C.
+"""REAL and LREAL expressions: rounded after every operation by the standard and by PLCs, only at stores by C.
 
 A REAL literal without prefix is a double in C, and so is every operation on it until a store. Where the two readings
-are built differently, both are computed and compared.
+are built differently, both are computed and compared, if that is asked for.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ from structured_text.language.types import REAL, Elementary
 class Floats:
     """Joins REAL and LREAL terms and brings them to values."""
 
-    def __init__(self, pen: Pen) -> None:
-        """Write with `pen`."""
+    def __init__(self, pen: Pen, strict: bool) -> None:
+        """Write with `pen`; `strict`: compare with what C computes."""
         self.pen = pen
+        self.strict = strict
 
     def literal(self, value: float, kind: Elementary, typed: bool) -> Floating:
         """A literal; `typed` if it has a prefix, which makes it a single in C too."""
         if kind is not REAL:
             return Floating(self.pen.constant(value), kind, "double")
         near = single(value)
-        other = None if typed or near == value else self.pen.constant(value)
+        other = None if typed or near == value or not self.strict else self.pen.constant(value)
         return Floating(self.pen.constant(near), kind, "single" if typed else "double", other=other)
 
     def binary(self, left: Floating, operator: ast.operator, right: Floating, kind: Elementary) -> Floating:
@@ -70,8 +71,8 @@ class Floats:
         return pen.call("agree_truth", standard, c)
 
     def _differs(self, term: Floating) -> bool:
-        """Whether the standard and C use different numbers from here on."""
-        return term.other is not None or (term.pending and term.c == "double")
+        """Whether the standard and C use different numbers from here on, where that matters."""
+        return self.strict and (term.other is not None or (term.pending and term.c == "double"))
 
     def _standard(self, term: Floating) -> ast.expr:
         return self.pen.call("single", term.node) if term.pending else term.node

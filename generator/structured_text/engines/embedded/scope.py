@@ -53,6 +53,7 @@ class Scope:
 
     pou: tree.Pou | None
     coverage: bool
+    strict: bool
     pen: Pen
     shapes: Shapes
     accesses: Accesses
@@ -69,7 +70,7 @@ class Scope:
     def __post_init__(self) -> None:
         """Prepare to bring terms to values."""
         self.widths = Widths(self.pen, self.fresh)
-        self.floats = Floats(self.pen)
+        self.floats = Floats(self.pen, self.strict)
 
     def fresh(self) -> str:
         """A name for a temporary variable."""

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.structured_text.engines.embedded.snippets import FAULT, block, evaluate, fault, outcome
 
-from structured_text.engines.embedded import reals
-from structured_text.engines.engine import Value
+from structured_text.engines.embedded import EmbeddedEngine, reals
+from structured_text.engines.engine import Source, Value
 
 INPUTS = "a, b : REAL;"
 SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False)
@@ -125,3 +125,42 @@ def test_nan_compares_unequal() -> None:
     assert evaluate("a = a", "BOOL", INPUTS, a=math.nan) is False
     assert evaluate("a <> a", "BOOL", INPUTS, a=math.nan) is True
     assert evaluate("(a < 1.0) OR (a >= 1.0)", "BOOL", INPUTS, a=math.nan) is False
+
+
+# Expression, a, b, and what a C program of floats prints by "%.9g": every literal is one (27648.0f), SQRT is sqrtf.
+IN_FLOATS = [
+    ("a / 27648.0", 13824.0, 0.0, "0.5"),
+    ("a / 27648.0 * 50.0", 12345.0, 0.0, "22.325304"),
+    ("a * 0.01", 12345.0, 0.0, "123.449997"),
+    ("a * 0.1 + b * 0.2", 12345.0, 3.0, "1235.09998"),
+    ("(a * 0.1 - b) / 0.3", 12345.0, 3.0, "4105"),
+    ("(a + 1.0) - a", 16777216.0, 0.0, "0"),
+    ("a / b * 100.0 / 1.1", 12345.0, 27648.0, "40.5914612"),
+    ("-a * 0.1", 12345.0, 0.0, "-1234.5"),
+    ("a * 1.0E-3 * 1.0E-3", 12345.0, 0.0, "0.0123450011"),
+    ("0.1 + 0.2", 0.0, 0.0, "0.300000012"),
+    ("1.0 / 3.0", 0.0, 0.0, "0.333333343"),
+    ("SQRT(a * 0.1)", 2.0, 0.0, "0.44721359"),
+    ("a ** 0.1", 2.0, 0.0, "1.07177341"),
+    ("SEL(a = 0.1, 0.0, 1.0)", 0.1, 0.0, "1"),
+    ("SEL(a * 3.0 = 0.3, 0.0, 1.0)", 0.1, 0.0, "1"),
+    ("SEL(a > 0.1, 0.0, 1.0)", 0.1, 0.0, "0"),
+]
+
+
+@pytest.mark.parametrize("row", IN_FLOATS, ids=lambda row: row[0])
+def test_a_plc_computes_in_floats(row: tuple[str, float, float, str]) -> None:
+    """Where nothing is compared with C's doubles, each operation is rounded to single precision, and none fails."""
+    expression, a, b, printed = row
+    text = f"VAR_INPUT {INPUTS} END_VAR VAR_OUTPUT y : REAL; END_VAR y := {expression};"
+    source = Source("test.st", f"FUNCTION_BLOCK Test {text} END_FUNCTION_BLOCK")
+    made = EmbeddedEngine(strict=False).build([source]).instance("Test")
+    made["a"], made["b"] = a, b
+    made.scan(0)
+    assert made["y"] == packed(float(printed))
+
+
+def test_strictness_is_for_tests_and_proofs() -> None:
+    """Some of these are faults where C's doubles count, as they do unless one says otherwise."""
+    results = [outcome(row[0], "REAL", INPUTS, {"a": row[1], "b": row[2]}) for row in IN_FLOATS]
+    assert results.count(FAULT) == 6
